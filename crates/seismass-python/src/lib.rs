@@ -1,0 +1,1 @@
+//! Extension module `seismass._kernel`.

@@ -1,0 +1,225 @@
+//! What a run gives back: peaks in continuous time, residuals, events, histories, energies, statistics.
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Status {
+    /// The motion ended.
+    Completed,
+    /// A storey reached its collapse drift: the run stops there, later history is NaN.
+    Collapsed {
+        /// Storey, counted from 1.
+        storey: usize,
+        /// Time (s).
+        time: f64,
+    },
+}
+
+/// Largest absolute value over continuous time, and when it was first reached.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peak {
+    /// Absolute value (SI).
+    pub value: f64,
+    /// Time (s).
+    pub time: f64,
+}
+
+impl Peak {
+    /// Takes a value if it beats the peak.
+    #[inline]
+    pub(crate) fn take(&mut self, value: f64, time: f64) {
+        if value.abs() > self.value {
+            *self = Self { value: value.abs(), time };
+        }
+    }
+}
+
+/// Peaks in continuous time. Storeys, floors and blocks in order; index 0 is storey 1.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Peaks {
+    /// Storey drift (m).
+    pub drift: Vec<Peak>,
+    /// Slip of each block, block displacement minus floor displacement (m).
+    pub slip: Vec<Peak>,
+    /// Absolute floor acceleration; where it jumps both one-sided limits count (m/s2).
+    pub floor_acceleration: Vec<Peak>,
+    /// Storey shear: the spring force alone, without damping and P-Delta (N). Base shear is that of storey 1.
+    pub storey_shear: Vec<Peak>,
+}
+
+/// Kinds of events (`numerics`, section 5).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum EventKind {
+    /// An elastic spring element yields.
+    Yield,
+    /// The storey velocity turns and all plastic elements of the storey become elastic.
+    Unload,
+    /// A stuck block breaks away.
+    Slip,
+    /// A sliding block comes to rest on its floor.
+    Stick,
+    /// The relative velocity passes zero without sticking.
+    Reverse,
+    /// The relative velocity reaches zero and goes on as before.
+    Touch,
+    /// The contact force falls to zero.
+    Lift,
+    /// The contact force is positive again.
+    Land,
+}
+
+impl EventKind {
+    /// All kinds, in the order of [`EventCounts`].
+    pub const ALL: [Self; 8] =
+        [Self::Yield, Self::Unload, Self::Slip, Self::Stick, Self::Reverse, Self::Touch, Self::Lift, Self::Land];
+
+    /// Lower-case name as in event tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Yield => "yield",
+            Self::Unload => "unload",
+            Self::Slip => "slip",
+            Self::Stick => "stick",
+            Self::Reverse => "reverse",
+            Self::Touch => "touch",
+            Self::Lift => "lift",
+            Self::Land => "land",
+        }
+    }
+}
+
+/// One event of the log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// Time (s).
+    pub time: f64,
+    /// What happened.
+    pub kind: EventKind,
+    /// Storey for yield and unload, otherwise block; counted from 1.
+    pub number: usize,
+    /// Sign: yield, of the force; unload, of the force before; slip and reverse, of the relative velocity that
+    /// follows; stick, of the one before; touch, lift, land, of the one then (0: none).
+    pub sign: i8,
+    /// Yield: 1 or 2, first or second yield of the storey; otherwise 0.
+    pub element: u8,
+}
+
+/// How often each kind of event happened, in the order of [`EventKind::ALL`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct EventCounts(pub [usize; 8]);
+
+impl EventCounts {
+    /// Number of events of a kind.
+    pub fn of(&self, kind: EventKind) -> usize {
+        self.0[kind as usize]
+    }
+
+    /// Number of all events.
+    pub fn total(&self) -> usize {
+        self.0.iter().sum()
+    }
+
+    pub(crate) fn add(&mut self, kind: EventKind) {
+        self.0[kind as usize] += 1;
+    }
+}
+
+/// Histories at every `every`-th sample, row-major: `rows` x storeys or `rows` x blocks.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Histories {
+    /// Decimation: one row every so many samples, from sample 0.
+    pub every: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// Storey drift (m), rows x storeys.
+    pub drift: Vec<f64>,
+    /// Slip (m), rows x blocks.
+    pub slip: Vec<f64>,
+    /// Floor velocity relative to the ground (m/s), rows x storeys.
+    pub floor_velocity: Vec<f64>,
+    /// Block velocity relative to the ground (m/s), rows x blocks.
+    pub block_velocity: Vec<f64>,
+    /// Absolute floor acceleration (m/s2), rows x storeys.
+    pub floor_acceleration: Vec<f64>,
+    /// Spring force of each storey (N), rows x storeys.
+    pub storey_force: Vec<f64>,
+}
+
+/// Energies at the end of the run, relative to the moving ground (J).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Energy {
+    /// Kinetic plus elastic energy at the start.
+    pub initial: f64,
+    /// Input, -int (sum m v) a_g dt over floors and blocks.
+    pub input: f64,
+    /// Kinetic energy of floors and blocks.
+    pub kinetic: f64,
+    /// Energy stored in the springs, less the work of P-Delta.
+    pub elastic: f64,
+    /// Dissipated by viscous damping.
+    pub viscous: f64,
+    /// Dissipated by yielding.
+    pub hysteretic: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// (initial + input - all others), relative to the initial energy plus the largest input so far.
+    pub relative_residual: f64,
+}
+
+/// What a scene did not need and was left out, exactly (`numerics`, section 6).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Skipped {
+    /// Storeys that cannot yield: no spring state, no guard.
+    pub elastic_storeys: usize,
+    /// Floors without a block: no friction guard.
+    pub bare_floors: usize,
+    /// Samples at the head that are zero, with everything at rest.
+    pub head_samples: usize,
+    /// Samples at the tail not solved because no peak could be beaten there.
+    pub tail_samples: usize,
+}
+
+/// The work done. Deterministic: the same for any thread count and batch order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Statistics {
+    /// Sample intervals solved.
+    pub intervals: usize,
+    /// Steps by a regime's propagator whose guards were proved clear by bounds alone.
+    pub plain_steps: usize,
+    /// Steps for which the Taylor series was formed.
+    pub series_steps: usize,
+    /// Guards and peaks looked at with Bernstein polynomials.
+    pub guards_isolated: usize,
+    /// Events by kind.
+    pub events: EventCounts,
+    /// Different regimes entered.
+    pub regimes: usize,
+    /// Regime changes that found the regime known.
+    pub regime_hits: usize,
+    /// What was skipped.
+    pub skipped: Skipped,
+}
+
+/// The result of one run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Response {
+    /// How the run ended.
+    pub status: Status,
+    /// Time reached (s): the last sample, or the collapse.
+    pub end_time: f64,
+    /// Peaks in continuous time.
+    pub peaks: Peaks,
+    /// Drift of each storey at the end (m).
+    pub residual_drift: Vec<f64>,
+    /// Slip of each block at the end (m); a block may still be sliding.
+    pub residual_slip: Vec<f64>,
+    /// Path slipped by each block, airborne motion included (m).
+    pub slip_path: Vec<f64>,
+    /// Event log, if asked for.
+    pub events: Option<Vec<Event>>,
+    /// Histories, if asked for.
+    pub histories: Option<Histories>,
+    /// Energies, if asked for.
+    pub energy: Option<Energy>,
+    /// Work done.
+    pub statistics: Statistics,
+}

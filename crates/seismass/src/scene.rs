@@ -1,0 +1,536 @@
+//! Validated input of a run: building, blocks, scene, motion and options. What exists is valid.
+
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+
+use crate::STANDARD_GRAVITY;
+use crate::damping::{StoreyDamping, natural_frequencies};
+use crate::error::{Domain, Error, Result};
+
+/// Longest motion a run takes (samples).
+const MAX_SAMPLES: usize = 1 << 31;
+
+fn check(ok: bool, parameter: &str, owner: &str, requirement: &str, value: f64) -> Result<()> {
+    if ok { Ok(()) } else { Err(Error::invalid(Domain::Scene, parameter, owner, requirement, value)) }
+}
+
+fn check_length(parameter: &str, owner: &str, expected: usize, of: &str, got: usize) -> Result<()> {
+    if expected == got {
+        Ok(())
+    } else {
+        Err(Error::invalid(
+            Domain::Scene,
+            parameter,
+            owner,
+            format!("a list of {expected} values, one per {of}"),
+            format!("{got} values"),
+        ))
+    }
+}
+
+/// A storey's lateral spring: trilinear backbone with Masing unloading (paper, Fig. 3; `numerics`, section 3).
+///
+/// Slope `stiffness` up to `yield_shear`, `second_slope * stiffness` up to `overstrength * yield_shear`,
+/// `third_slope * stiffness` beyond.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Storey {
+    /// Initial stiffness k (N/m).
+    pub stiffness: f64,
+    /// First yield shear V_y (N); infinite: the storey stays elastic.
+    pub yield_shear: f64,
+    /// Overstrength factor Omega >= 1.
+    pub overstrength: f64,
+    /// Second slope over the first, r2.
+    pub second_slope: f64,
+    /// Third slope over the first, r3, with 0 <= r3 <= r2 <= 1.
+    pub third_slope: f64,
+}
+
+impl Storey {
+    /// Default overstrength Omega, of the paper's section 4.
+    pub const DEFAULT_OVERSTRENGTH: f64 = 2.0;
+    /// Default second slope r2: an inference, not the paper's number.
+    pub const DEFAULT_SECOND_SLOPE: f64 = 0.05;
+    /// Default third slope r3: an inference, not the paper's number.
+    pub const DEFAULT_THIRD_SLOPE: f64 = 0.0;
+
+    /// A storey that never yields.
+    pub fn elastic(stiffness: f64) -> Self {
+        Self::yielding(stiffness, f64::INFINITY)
+    }
+
+    /// A storey with the default overstrength and slopes.
+    pub fn yielding(stiffness: f64, yield_shear: f64) -> Self {
+        Self {
+            stiffness,
+            yield_shear,
+            overstrength: Self::DEFAULT_OVERSTRENGTH,
+            second_slope: Self::DEFAULT_SECOND_SLOPE,
+            third_slope: Self::DEFAULT_THIRD_SLOPE,
+        }
+    }
+
+    fn validate(&self, owner: &str) -> Result<()> {
+        let Self { stiffness: k, yield_shear: vy, overstrength: omega, second_slope: r2, third_slope: r3 } = *self;
+        check(k.is_finite() && k > 0.0, "stiffness", owner, "a positive number", k)?;
+        check(vy > 0.0, "yield_shear", owner, "positive (infinite: elastic)", vy)?;
+        check(omega.is_finite() && omega >= 1.0, "overstrength", owner, "a number of at least 1", omega)?;
+        check((0.0..=1.0).contains(&r2), "second_slope", owner, "between 0 and 1", r2)?;
+        check((0.0..=r2).contains(&r3), "third_slope", owner, &format!("between 0 and the second slope {r2}"), r3)
+    }
+}
+
+/// How the damping matrix C of the bare building is made; it stays constant through yielding and sliding.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Damping {
+    /// This ratio of critical damping in every vibration mode.
+    Modal {
+        /// Damping ratio.
+        ratio: f64,
+    },
+    /// C = a M + b K with this ratio in two modes.
+    Rayleigh {
+        /// Damping ratio in both modes.
+        ratio: f64,
+        /// The two modes, counted from 1.
+        modes: [usize; 2],
+    },
+    /// A symmetric matrix in floor coordinates (N s/m).
+    Matrix(DMatrix<f64>),
+}
+
+/// Where the P-Delta effect comes from.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum GravityEffect {
+    /// No P-Delta.
+    #[default]
+    None,
+    /// P/h of each storey (N/m), finished.
+    GeometricStiffness(Vec<f64>),
+    /// P of a storey is the gravity load of all floors above it, the weight of their blocks included.
+    Loads {
+        /// Height of each storey (m).
+        heights: Vec<f64>,
+        /// Gravity load of each floor without blocks (N).
+        floor_loads: Vec<f64>,
+    },
+}
+
+/// A shear building: lumped floor masses, storey springs, damping.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Building {
+    mass: Vec<f64>,
+    storeys: Vec<Storey>,
+    damping: Damping,
+    gravity: GravityEffect,
+    storey_damping: StoreyDamping,
+}
+
+impl Building {
+    /// A building of `mass.len()` floors.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when a list has the wrong length or a number is out of its range.
+    pub fn new(mass: Vec<f64>, storeys: Vec<Storey>, damping: Damping) -> Result<Self> {
+        if mass.is_empty() {
+            return Err(Error::invalid(Domain::Scene, "mass", "building", "a list of at least one floor mass", "none"));
+        }
+        check_length("stiffness", "building", mass.len(), "storey", storeys.len())?;
+        for (i, (&m, storey)) in mass.iter().zip(&storeys).enumerate() {
+            check(m.is_finite() && m > 0.0, "mass", &format!("floor {}", i + 1), "a positive number", m)?;
+            storey.validate(&format!("storey {}", i + 1))?;
+        }
+        let stiffness: Vec<f64> = storeys.iter().map(|s| s.stiffness).collect();
+        let storey_damping = StoreyDamping::new(&mass, &stiffness, &damping)?;
+        Ok(Self { mass, storeys, damping, gravity: GravityEffect::None, storey_damping })
+    }
+
+    /// Equal floor masses and storey stiffnesses with the given first period (s):
+    /// w_1 = 2 sqrt(k/m) sin(pi / (2 (2 n + 1))).
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when a number is out of its range.
+    pub fn uniform(storeys: usize, period: f64, mass: f64, damping: Damping) -> Result<Self> {
+        let stiffness = uniform_stiffness(storeys, period, mass)?;
+        Self::new(vec![mass; storeys], vec![Storey::elastic(stiffness); storeys], damping)
+    }
+
+    /// The same building with other springs; its damping is made again from their initial stiffness.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] as for [`Building::new`].
+    pub fn with_storeys(self, storeys: Vec<Storey>) -> Result<Self> {
+        let gravity = self.gravity;
+        Self::new(self.mass, storeys, self.damping)?.with_gravity(gravity)
+    }
+
+    /// The same building with P-Delta.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when a list has the wrong length or a number is out of its range.
+    pub fn with_gravity(mut self, gravity: GravityEffect) -> Result<Self> {
+        let n = self.mass.len();
+        match &gravity {
+            GravityEffect::None => {}
+            GravityEffect::GeometricStiffness(values) => {
+                check_length("geometric_stiffness", "building", n, "storey", values.len())?;
+                for (i, &value) in values.iter().enumerate() {
+                    let owner = format!("storey {}", i + 1);
+                    check(value.is_finite() && value >= 0.0, "geometric_stiffness", &owner, "zero or positive", value)?;
+                }
+            }
+            GravityEffect::Loads { heights, floor_loads } => {
+                check_length("heights", "building", n, "storey", heights.len())?;
+                check_length("gravity_load", "building", n, "floor", floor_loads.len())?;
+                for (i, (&height, &load)) in heights.iter().zip(floor_loads).enumerate() {
+                    let (storey, floor) = (format!("storey {}", i + 1), format!("floor {}", i + 1));
+                    check(height.is_finite() && height > 0.0, "heights", &storey, "a positive number", height)?;
+                    check(load.is_finite() && load >= 0.0, "gravity_load", &floor, "zero or positive", load)?;
+                }
+            }
+        }
+        self.gravity = gravity;
+        Ok(self)
+    }
+
+    /// Number of storeys.
+    pub fn len(&self) -> usize {
+        self.mass.len()
+    }
+
+    /// Whether the building has no storeys: never.
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// Floor masses (kg).
+    pub fn mass(&self) -> &[f64] {
+        &self.mass
+    }
+
+    /// Storey springs.
+    pub fn storeys(&self) -> &[Storey] {
+        &self.storeys
+    }
+
+    /// P-Delta as given.
+    pub fn gravity(&self) -> &GravityEffect {
+        &self.gravity
+    }
+
+    /// How damping was given.
+    pub fn damping(&self) -> &Damping {
+        &self.damping
+    }
+
+    /// The damping operator in storey coordinates.
+    pub fn storey_damping(&self) -> &StoreyDamping {
+        &self.storey_damping
+    }
+
+    /// Damping matrix C in floor coordinates (N s/m).
+    pub fn damping_matrix(&self) -> DMatrix<f64> {
+        self.storey_damping.floor_matrix(&self.mass, &self.stiffness())
+    }
+
+    /// Natural periods of the bare building (s), longest first, without P-Delta.
+    pub fn periods(&self) -> Vec<f64> {
+        let frequencies = natural_frequencies(&self.mass, &self.stiffness());
+        frequencies.iter().map(|w| 2.0 * std::f64::consts::PI / w).collect()
+    }
+
+    fn stiffness(&self) -> Vec<f64> {
+        self.storeys.iter().map(|s| s.stiffness).collect()
+    }
+}
+
+/// Storey stiffness (N/m) of a uniform building with the given first period (s) and floor mass (kg).
+///
+/// # Errors
+/// [`Error::Invalid`] when a number is out of its range.
+pub fn uniform_stiffness(storeys: usize, period: f64, mass: f64) -> Result<f64> {
+    check(storeys >= 1, "storeys", "building", "at least 1", storeys as f64)?;
+    check(period.is_finite() && period > 0.0, "period", "building", "a positive number", period)?;
+    check(mass.is_finite() && mass > 0.0, "mass", "building", "a positive number", mass)?;
+    let angle = std::f64::consts::PI / (2.0 * (2 * storeys + 1) as f64);
+    let root = std::f64::consts::PI / (period * angle.sin());
+    Ok(mass * root * root)
+}
+
+/// A rigid block that sticks to its floor or slides on it by Coulomb friction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Block {
+    /// Floor that carries it, counted from 1; 0 is the ground slab.
+    pub floor: usize,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Static friction coefficient.
+    pub mu_s: f64,
+    /// Kinetic friction coefficient, at most the static one.
+    pub mu_k: f64,
+    /// Initial velocity relative to the ground (m/s); default: its floor's.
+    pub velocity: Option<f64>,
+}
+
+impl Block {
+    /// A block with equal friction coefficients, at rest on its floor.
+    pub fn new(floor: usize, mass: f64, mu: f64) -> Self {
+        Self { floor, mass, mu_s: mu, mu_k: mu, velocity: None }
+    }
+
+    fn validate(&self, owner: &str, floors: usize) -> Result<()> {
+        let Self { floor, mass, mu_s, mu_k, velocity } = *self;
+        if floor > floors {
+            let requirement = format!("a floor of the building, 1 to {floors}, or 0 for the ground");
+            return Err(Error::invalid(Domain::Scene, "floor", owner, requirement, floor));
+        }
+        check(mass.is_finite() && mass > 0.0, "mass", owner, "a positive number", mass)?;
+        check(mu_s.is_finite() && mu_s >= 0.0, "mu_s", owner, "zero or positive", mu_s)?;
+        check(mu_k >= 0.0, "mu_k", owner, "zero or positive", mu_k)?;
+        check(mu_k <= mu_s, "mu_k", owner, &format!("at most mu_s = {mu_s}"), mu_k)?;
+        velocity.map_or(Ok(()), |v| check(v.is_finite(), "velocity", owner, "a finite number", v))
+    }
+}
+
+/// Building and blocks, with their initial state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    building: Option<Arc<Building>>,
+    blocks: Vec<Block>,
+    initial_drift: Vec<f64>,
+    initial_velocity: Vec<f64>,
+    geometric_stiffness: Vec<f64>,
+    collapse_drift: Option<Vec<f64>>,
+}
+
+impl Scene {
+    /// A scene at rest. Without a building, all blocks stand on the ground.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when there is nothing in the scene, a block is invalid, or P/h reaches a storey's stiffness.
+    pub fn new(building: Option<Arc<Building>>, blocks: Vec<Block>) -> Result<Self> {
+        let n = building.as_ref().map_or(0, |b| b.len());
+        if n == 0 && blocks.is_empty() {
+            return Err(Error::invalid(
+                Domain::Scene,
+                "blocks",
+                "scene",
+                "at least one where there is no building",
+                "none",
+            ));
+        }
+        for (j, block) in blocks.iter().enumerate() {
+            block.validate(&format!("block {}", j + 1), n)?;
+        }
+        let geometric_stiffness = building.as_ref().map_or(Ok(Vec::new()), |b| geometric_stiffness(b, &blocks))?;
+        Ok(Self {
+            building,
+            blocks,
+            initial_drift: vec![0.0; n],
+            initial_velocity: vec![0.0; n],
+            geometric_stiffness,
+            collapse_drift: None,
+        })
+    }
+
+    /// The same scene from an initial state: storey drifts (m, within the elastic range) and floor velocities
+    /// relative to the ground (m/s).
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when a list has the wrong length or a drift exceeds the first yield drift.
+    pub fn with_initial(mut self, drift: Vec<f64>, velocity: Vec<f64>) -> Result<Self> {
+        let storeys = self.building.as_ref().map_or(&[][..], |b| b.storeys());
+        check_length("drift", "initial state", storeys.len(), "storey", drift.len())?;
+        check_length("velocity", "initial state", storeys.len(), "floor", velocity.len())?;
+        for (i, ((&d, &v), storey)) in drift.iter().zip(&velocity).zip(storeys).enumerate() {
+            let owner = format!("storey {}", i + 1);
+            let limit = storey.yield_shear / storey.stiffness;
+            check(
+                d.is_finite() && d.abs() <= limit,
+                "initial drift",
+                &owner,
+                &format!("within {limit} m, its elastic range"),
+                d,
+            )?;
+            check(v.is_finite(), "initial velocity", &format!("floor {}", i + 1), "a finite number", v)?;
+        }
+        self.initial_drift = drift;
+        self.initial_velocity = velocity;
+        self.check_collapse()?;
+        Ok(self)
+    }
+
+    /// The same scene with another collapse drift per storey (m; infinite: never).
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when the list has the wrong length or a drift is not positive.
+    pub fn with_collapse_drift(mut self, collapse_drift: Vec<f64>) -> Result<Self> {
+        check_length("collapse_drift", "scene", self.storeys(), "storey", collapse_drift.len())?;
+        self.collapse_drift = Some(collapse_drift);
+        self.check_collapse()?;
+        Ok(self)
+    }
+
+    fn check_collapse(&self) -> Result<()> {
+        for (i, (&limit, &start)) in self.collapse_drift.iter().flatten().zip(&self.initial_drift).enumerate() {
+            let owner = format!("storey {}", i + 1);
+            check(limit > 0.0, "collapse_drift", &owner, "a positive number", limit)?;
+            check(start.abs() < limit, "initial drift", &owner, &format!("below the collapse drift {limit} m"), start)?;
+        }
+        Ok(())
+    }
+
+    /// Number of storeys (0 without a building).
+    pub fn storeys(&self) -> usize {
+        self.initial_drift.len()
+    }
+
+    /// The building, if any.
+    pub fn building(&self) -> Option<&Arc<Building>> {
+        self.building.as_ref()
+    }
+
+    /// The blocks, in the order given.
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    /// Initial storey drifts (m).
+    pub fn initial_drift(&self) -> &[f64] {
+        &self.initial_drift
+    }
+
+    /// Initial floor velocities relative to the ground (m/s).
+    pub fn initial_velocity(&self) -> &[f64] {
+        &self.initial_velocity
+    }
+
+    /// P/h of each storey (N/m): zero without P-Delta.
+    pub fn geometric_stiffness(&self) -> &[f64] {
+        &self.geometric_stiffness
+    }
+
+    /// Collapse drift per storey as given (m).
+    pub fn collapse_drift(&self) -> Option<&[f64]> {
+        self.collapse_drift.as_deref()
+    }
+}
+
+/// P/h of each storey (N/m): the gravity load above it over its height.
+fn geometric_stiffness(building: &Building, blocks: &[Block]) -> Result<Vec<f64>> {
+    let n = building.len();
+    let values = match building.gravity() {
+        GravityEffect::None => vec![0.0; n],
+        GravityEffect::GeometricStiffness(values) => values.clone(),
+        GravityEffect::Loads { heights, floor_loads } => {
+            let mut load = floor_loads.clone();
+            for block in blocks.iter().filter(|b| b.floor > 0) {
+                load[block.floor - 1] += block.mass * STANDARD_GRAVITY;
+            }
+            for i in (0..n - 1).rev() {
+                load[i] += load[i + 1];
+            }
+            load.iter().zip(heights).map(|(p, h)| p / h).collect()
+        }
+    };
+    for (i, (&value, storey)) in values.iter().zip(building.storeys()).enumerate() {
+        let requirement = format!("below its stiffness {} N/m", storey.stiffness);
+        check(value < storey.stiffness, "geometric stiffness P/h", &format!("storey {}", i + 1), &requirement, value)?;
+    }
+    Ok(values)
+}
+
+/// Ground acceleration, linear between samples; the first sample is at t = 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    dt: f64,
+    acceleration: Arc<[f64]>,
+    vertical: Option<Arc<[f64]>>,
+}
+
+impl Motion {
+    /// A motion of horizontal samples (m/s2) at step `dt` (s), optionally with vertical ones (up positive).
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when there is no sample, a value is not finite, `dt` is not positive, or lengths differ.
+    pub fn new(acceleration: impl Into<Arc<[f64]>>, dt: f64, vertical: Option<Arc<[f64]>>) -> Result<Self> {
+        let acceleration = acceleration.into();
+        let refuse = |parameter: &str, requirement: String, value: String| {
+            Err(Error::invalid(Domain::Motion, parameter, "motion", requirement, value))
+        };
+        if !(dt.is_finite() && dt > 0.0) {
+            return refuse("dt", "a positive number".into(), dt.to_string());
+        }
+        if acceleration.is_empty() || acceleration.len() > MAX_SAMPLES {
+            let requirement = format!("a list of 1 to {MAX_SAMPLES} samples");
+            return refuse("acceleration", requirement, format!("{} samples", acceleration.len()));
+        }
+        if let Some(i) = acceleration.iter().position(|a| !a.is_finite()) {
+            return refuse(
+                "acceleration",
+                "finite at every sample".into(),
+                format!("{} at sample {i}", acceleration[i]),
+            );
+        }
+        if let Some(vertical) = &vertical {
+            if vertical.len() != acceleration.len() {
+                let requirement = format!("as long as the horizontal one, {} samples", acceleration.len());
+                return refuse("vertical acceleration", requirement, format!("{} samples", vertical.len()));
+            }
+            if let Some(i) = vertical.iter().position(|a| !a.is_finite()) {
+                return refuse(
+                    "vertical acceleration",
+                    "finite at every sample".into(),
+                    format!("{} at sample {i}", vertical[i]),
+                );
+            }
+        }
+        Ok(Self { dt, acceleration, vertical })
+    }
+
+    /// The motion up to the sample nearest to `duration` (s): cut, or continued at zero, which it reaches over one step.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when the duration is negative, not finite or too long.
+    pub fn with_duration(&self, duration: f64) -> Result<Self> {
+        let last = (duration / self.dt).round();
+        if !(duration >= 0.0 && last < MAX_SAMPLES as f64) {
+            let requirement = format!("between 0 and {MAX_SAMPLES} samples");
+            return Err(Error::invalid(Domain::Motion, "duration", "motion", requirement, duration));
+        }
+        let length = last as usize + 1;
+        let resize = |samples: &Arc<[f64]>| -> Arc<[f64]> {
+            let mut samples = samples.to_vec();
+            samples.resize(length, 0.0);
+            samples.into()
+        };
+        Ok(Self { dt: self.dt, acceleration: resize(&self.acceleration), vertical: self.vertical.as_ref().map(resize) })
+    }
+
+    /// Time step (s).
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// Horizontal ground acceleration (m/s2).
+    pub fn acceleration(&self) -> &[f64] {
+        &self.acceleration
+    }
+
+    /// Vertical ground acceleration (m/s2), up positive.
+    pub fn vertical(&self) -> Option<&[f64]> {
+        self.vertical.as_deref()
+    }
+}
+
+/// What a run gives back beside peaks, residuals and statistics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Options {
+    /// Histories at every so many samples.
+    pub histories: Option<std::num::NonZeroUsize>,
+    /// Energies and their residual.
+    pub energy: bool,
+    /// The event log.
+    pub events: bool,
+}
