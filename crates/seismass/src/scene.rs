@@ -533,4 +533,6 @@ pub struct Options {
     pub energy: bool,
     /// The event log.
     pub events: bool,
+    /// Nothing but peaks is wanted: the run may stop when none can be beaten any more, and residuals are NaN.
+    pub peaks_only: bool,
 }

@@ -1,13 +1,321 @@
 //! The run: a scene and a motion in, a response out.
 
-use crate::error::Result;
-use crate::response::Response;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::bernstein::Polynomial;
+use crate::error::{Error, Result};
+use crate::events::{Guard, Outcome};
+use crate::friction::{BlockMotion, BlockState};
+use crate::model::Model;
+use crate::observe::Observer;
+use crate::propagator::RegimeCache;
+use crate::response::{Event, Response, Statistics, Status};
 use crate::scene::{Motion, Options, Scene};
+use crate::state::{State, interval};
+use crate::taylor::MAX_PHASE;
+
+/// Events one sample interval may have, beside [`EVENTS_PER_MACHINE`].
+const EVENTS_PER_INTERVAL: usize = 256;
+/// Events each storey and block may have within one vibration of the stiffest mode.
+const EVENTS_PER_MACHINE: usize = 64;
+/// Sample intervals between two looks at the caller's wish to stop.
+const INTERVALS_PER_POLL: usize = 1024;
 
 /// Solves one scene under one motion.
 ///
 /// # Errors
-/// [`crate::Error`] when a run has more events than it may have, or leaves the range of numbers.
-pub fn simulate(_scene: &Scene, _motion: &Motion, _options: &Options) -> Result<Response> {
-    unimplemented!()
+/// [`Error::TooManyEvents`] and [`Error::NotFinite`] when a run cannot go on.
+pub fn simulate(scene: &Scene, motion: &Motion, options: &Options) -> Result<Response> {
+    simulate_until(scene, motion, options, &AtomicBool::new(false))
+}
+
+/// Solves one scene under one motion, unless `stop` is set meanwhile.
+///
+/// # Errors
+/// As [`simulate`], and [`Error::Interrupted`].
+pub fn simulate_until(scene: &Scene, motion: &Motion, options: &Options, stop: &AtomicBool) -> Result<Response> {
+    let model = Model::new(scene);
+    run(scene, &model, motion, options, &mut RegimeCache::new(motion.dt()), stop)
+}
+
+/// Solves one scene; `cache` holds regimes of scenes with the same structure and time step.
+pub(crate) fn run(
+    scene: &Scene,
+    model: &Model,
+    motion: &Motion,
+    options: &Options,
+    cache: &mut RegimeCache,
+    stop: &AtomicBool,
+) -> Result<Response> {
+    let vertical = motion.vertical().is_some() && !model.blocks.is_empty();
+    let samples = motion.acceleration().len();
+    let every = options.histories.map(std::num::NonZeroUsize::get);
+    let mut run = Run {
+        state: State::new(scene, model, cache, vertical),
+        observer: Observer::new(model, every, samples, options.energy),
+        statistics: Statistics::default(),
+        log: Vec::new(),
+        keep_log: options.events,
+    };
+    run.begin(motion);
+    let first = run.skip_quiet_head(motion);
+    let quiet_from = motion.acceleration().iter().rposition(|&a| a != 0.0).map_or(0, |i| i + 1);
+    let mut status = Status::Completed;
+    let mut end = samples - 1;
+    for i in first..samples - 1 {
+        if i.is_multiple_of(INTERVALS_PER_POLL) && stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
+        if options.peaks_only && i >= quiet_from && run.no_peak_can_be_beaten() {
+            run.statistics.skipped.tail_samples = samples - 1 - i;
+            end = i;
+            break;
+        }
+        run.state.set_interval(interval(motion, i));
+        if vertical {
+            run.state.refresh_accelerations(0.0);
+        }
+        if let Some((storey, time)) = run.solve_interval()? {
+            status = Status::Collapsed { storey: storey + 1, time };
+            break;
+        }
+        run.observer.record(&run.state, i + 1);
+    }
+    let end_time = match status {
+        Status::Completed => end as f64 * motion.dt(),
+        Status::Collapsed { time, .. } => time,
+    };
+    Ok(run.finish(status, end_time, options.peaks_only))
+}
+
+struct Run<'a> {
+    state: State<'a>,
+    observer: Observer,
+    statistics: Statistics,
+    log: Vec<Event>,
+    keep_log: bool,
+}
+
+impl Run<'_> {
+    /// Lets every floor decide at t = 0.
+    fn begin(&mut self, motion: &Motion) {
+        let state = &mut self.state;
+        state.set_interval(interval(motion, 0));
+        let contact = (state.interval.contact, state.interval.contact_change);
+        if state.vertical && (contact.0 < 0.0 || contact.0 == 0.0 && contact.1 <= 0.0) {
+            state.airborne = true;
+            state.motions.iter_mut().for_each(|m| m.state = BlockState::Airborne);
+        }
+        state.enter_regime();
+        state.refresh_accelerations(0.0);
+        if !state.airborne {
+            state.settle_all(0.0, &mut self.log);
+            state.enter_regime();
+            state.refresh_accelerations(0.0);
+        }
+        self.count_events(0);
+        self.observer.observe_values(&self.state, 0.0);
+        self.observer.begin_energy(&self.state);
+        self.observer.record(&self.state, 0);
+        let model = self.state.model;
+        self.statistics.skipped.elastic_storeys = model.laws.iter().filter(|law| !law.can_yield()).count();
+        self.statistics.skipped.bare_floors = model.on_floor.iter().skip(1).filter(|blocks| blocks.is_empty()).count();
+    }
+
+    /// The first interval in which anything can move: before it, zeros drive a scene at rest.
+    fn skip_quiet_head(&mut self, motion: &Motion) -> usize {
+        if self.state.vertical || !self.state.is_at_rest() {
+            return 0;
+        }
+        let samples = motion.acceleration();
+        let quiet = samples.iter().position(|&a| a != 0.0).unwrap_or(samples.len());
+        let first = quiet.saturating_sub(1);
+        for sample in 1..=first {
+            self.observer.record(&self.state, sample);
+        }
+        self.statistics.skipped.head_samples = first;
+        first
+    }
+
+    /// Whether in a motionless tail the energy left bounds everything below its peak and its guard.
+    fn no_peak_can_be_beaten(&self) -> bool {
+        let state = &self.state;
+        let regime = state.regime();
+        let settled = state.motions.iter().all(BlockMotion::is_stuck)
+            && state.springs.iter().all(|s| s.plastic().is_none())
+            && regime.tangent.iter().all(|&k| k > 0.0);
+        if !settled || state.vertical || !regime.is_passive() {
+            return false;
+        }
+        let rest: Vec<f64> = (0..state.storeys())
+            .map(|i| -state.springs[i].base_load(&state.model.laws[i]) / regime.tangent[i])
+            .collect();
+        let kinetic: f64 = regime.mass.iter().zip(state.floor_velocities()).map(|(m, v)| m * v * v).sum();
+        let elastic: f64 = (0..rest.len()).map(|i| regime.tangent[i] * (state.x[i] - rest[i]).powi(2)).sum();
+        let liveliness = (kinetic + elastic).sqrt();
+        let contact = state.interval.contact;
+        (0..rest.len()).all(|i| {
+            let reach = liveliness / regime.tangent[i].sqrt();
+            let (low, high) = (rest[i] - reach, rest[i] + reach);
+            let inside = |(lower, upper): (f64, f64)| high < upper && low > lower;
+            let a = liveliness * regime.derivative_bounds[0][i];
+            inside(state.yield_bounds[i])
+                && inside(state.collapse_bounds[i])
+                && !self.observer.drift_may_peak(state, i, low, high)
+                && !self.observer.acceleration_may_peak(i, -a, a)
+                && a < state.stuck_mu[i + 1] * contact
+        })
+    }
+
+    /// Solves the present interval; returns the storey that collapsed, and when.
+    fn solve_interval(&mut self) -> Result<Option<(usize, f64)>> {
+        self.statistics.intervals += 1;
+        let state = &mut self.state;
+        if !self.observer.keeps_energy() && !state.airborne {
+            let full_damping = state.has_full_damping();
+            if state.cache.visit(state.regime, state.model, full_damping) && state.plain_step(&mut self.observer) {
+                self.statistics.plain_steps += 1;
+                return Ok(None);
+            }
+        }
+        let h = state.interval.h;
+        let vibrations = 1 + (state.regime().frequency * h) as usize;
+        let machines = state.storeys() + state.motions.len();
+        let limit = EVENTS_PER_INTERVAL + EVENTS_PER_MACHINE * machines * vibrations;
+        let mut events = 0;
+        let mut tau = 0.0;
+        while tau < h {
+            let remaining = h - tau;
+            let pieces = (self.state.regime().frequency * remaining / MAX_PHASE).ceil().max(1.0);
+            let event = self.series_step(tau, remaining / pieces)?;
+            match event {
+                None if pieces == 1.0 => tau = h,
+                None => tau += remaining / pieces,
+                Some((place, guard)) => {
+                    tau = (tau + place * remaining / pieces).min(h);
+                    events += 1;
+                    if let Outcome::Collapse(storey) = self.carry_out(guard, tau) {
+                        return Ok(Some((storey, self.state.interval.start + tau)));
+                    }
+                    if events > limit {
+                        return Err(self.too_many_events(guard, tau, limit));
+                    }
+                    continue;
+                }
+            }
+            self.state.refresh_accelerations(tau);
+            self.observer.observe_values(&self.state, self.state.interval.start + tau);
+        }
+        Ok(None)
+    }
+
+    /// Advances by a series over at most `h` from `tau`, up to the first event, which is returned with its place.
+    fn series_step(&mut self, tau: f64, h: f64) -> Result<Option<(f64, Guard)>> {
+        let state = &mut self.state;
+        state.set_drive(tau);
+        let regime = state.cache.regime(state.regime);
+        state.series.form(state.model, regime, &state.x, &state.v, &state.drive, h);
+        self.statistics.series_steps += 1;
+        let isolated = &mut self.statistics.guards_isolated;
+        let event = state.first_event(tau, isolated);
+        let end = event.map_or(1.0, |(place, _)| place);
+        self.observer.observe_series(state, tau, end, isolated);
+        self.observer.add_energy(state, tau, end);
+        state.advance(tau, end);
+        state.check_finite(tau + end * h)?;
+        Ok(event)
+    }
+
+    fn carry_out(&mut self, guard: Guard, tau: f64) -> Outcome {
+        let time = self.state.interval.start + tau;
+        self.state.refresh_accelerations(tau);
+        self.observer.observe_values(&self.state, time);
+        let logged = self.log.len();
+        let outcome = self.state.carry_out(guard, tau, &mut self.log);
+        self.count_events(logged);
+        self.observer.observe_values(&self.state, time);
+        outcome
+    }
+
+    /// Counts the events logged since entry `from`.
+    fn count_events(&mut self, from: usize) {
+        for event in &self.log[from..] {
+            self.statistics.events.add(event.kind);
+        }
+        if !self.keep_log {
+            self.log.clear();
+        }
+    }
+
+    fn too_many_events(&self, guard: Guard, tau: f64, limit: usize) -> Error {
+        let storey = |i: usize| (format!("storey {}", i + 1), self.state.springs[i].state_name());
+        let block = |j: usize| (format!("block {}", j + 1), self.state.motions[j].state_name());
+        let on = |floor: usize| self.state.model.on_floor[floor].first().copied().unwrap_or(0);
+        let (event, (element, state)) = match guard {
+            Guard::Yield { storey: i, .. } => ("yield", storey(i)),
+            Guard::Collapse { storey: i } => ("collapse", storey(i)),
+            Guard::Unload { storey: i } => ("unload", storey(i)),
+            Guard::Breakaway { floor } => ("slip", block(on(floor))),
+            Guard::Arrival { block: j } => ("stick", block(j)),
+            Guard::Contact => ("lift or land", block(0)),
+        };
+        Error::TooManyEvents { time: self.state.interval.start + tau, limit, event, element, state: state.to_string() }
+    }
+
+    fn finish(mut self, status: Status, end_time: f64, peaks_only: bool) -> Response {
+        let (n, blocks) = (self.state.storeys(), self.state.motions.len());
+        self.observer.fill_histories(n, blocks);
+        let state = &self.state;
+        (self.statistics.regimes, self.statistics.regime_hits) = state.regimes;
+        let at_end = |value: f64| if peaks_only { f64::NAN } else { value };
+        Response {
+            status,
+            end_time,
+            residual_drift: (0..n).map(|i| at_end(state.springs[i].drift(state.x[i]))).collect(),
+            residual_slip: state.motions.iter().map(|m| at_end(m.slip)).collect(),
+            slip_path: state.motions.iter().map(BlockMotion::path).collect(),
+            energy: self.observer.finish_energy(state),
+            events: self.keep_log.then_some(self.log),
+            peaks: self.observer.peaks,
+            histories: self.observer.histories,
+            statistics: self.statistics,
+        }
+    }
+}
+
+impl State<'_> {
+    /// Slip of a block since the start of the present series, which begins at `tau`.
+    pub(crate) fn slip_change(&self, block: usize, tau: f64) -> Polynomial {
+        let velocity = self.relative_velocity(block, tau);
+        let h = self.series.h();
+        let terms = velocity.coefficients().iter().enumerate().map(|(k, c)| h * c / (k + 1) as f64);
+        Polynomial::new(std::iter::once(0.0).chain(terms))
+    }
+
+    /// Moves the state to place `s` of the present series, which begins at `tau`.
+    fn advance(&mut self, tau: f64, s: f64) {
+        for j in 0..self.motions.len() {
+            if !self.motions[j].is_stuck() {
+                let change = self.slip_change(j, tau).at(s);
+                let velocity = self.relative_velocity(j, tau).at(s);
+                self.motions[j].slip += change;
+                self.motions[j].velocity = velocity;
+            }
+        }
+        self.series.drift_changes(s, &mut self.scratch);
+        self.x.iter_mut().zip(&self.scratch).for_each(|(x, change)| *x += change);
+        self.series.rate_changes(s, &mut self.scratch);
+        self.v.iter_mut().zip(&self.scratch).for_each(|(v, change)| *v += change);
+    }
+
+    fn check_finite(&self, tau: f64) -> Result<()> {
+        let storey = self.x.iter().zip(&self.v).position(|(x, v)| !(x + v).is_finite());
+        let block = self.motions.iter().position(|m| !(m.slip + m.velocity).is_finite());
+        let element = match (storey, block) {
+            (Some(i), _) => format!("storey {}", i + 1),
+            (None, Some(j)) => format!("block {}", j + 1),
+            (None, None) => return Ok(()),
+        };
+        Err(Error::NotFinite { time: self.interval.start + tau, element })
+    }
 }

@@ -1,0 +1,292 @@
+//! Roots of polynomials on [0, 1] with proof: Bernstein coefficients bound a polynomial, so no sign change means no
+//! root and one sign change means exactly one (Descartes' rule).
+
+/// Highest degree: Taylor series of a step never need more terms.
+pub(crate) const MAX_DEGREE: usize = 31;
+/// Halvings after which an interval is a point.
+const MAX_DEPTH: u32 = 60;
+
+/// A polynomial on [0, 1] by its power coefficients, lowest first.
+#[derive(Clone, Copy)]
+pub(crate) struct Polynomial {
+    coefficients: [f64; MAX_DEGREE + 1],
+    length: usize,
+}
+
+impl Polynomial {
+    /// The polynomial with these coefficients.
+    pub(crate) fn new(coefficients: impl IntoIterator<Item = f64>) -> Self {
+        let mut p = Self { coefficients: [0.0; MAX_DEGREE + 1], length: 0 };
+        for c in coefficients {
+            p.coefficients[p.length] = c;
+            p.length += 1;
+        }
+        p
+    }
+
+    /// The coefficients, lowest first.
+    pub(crate) fn coefficients(&self) -> &[f64] {
+        &self.coefficients[..self.length]
+    }
+
+    /// The coefficients, to be changed in place.
+    pub(crate) fn coefficients_mut(&mut self) -> &mut [f64] {
+        &mut self.coefficients[..self.length]
+    }
+
+    /// Sum of the absolute coefficients: a bound on [0, 1].
+    pub(crate) fn norm(&self) -> f64 {
+        self.coefficients().iter().map(|c| c.abs()).sum()
+    }
+
+    /// Value at `s`.
+    pub(crate) fn at(&self, s: f64) -> f64 {
+        self.coefficients().iter().rev().fold(0.0, |value, &c| value * s + c)
+    }
+
+    /// Value and derivative at `s`.
+    fn at_with_rate(&self, s: f64) -> (f64, f64) {
+        let mut value = 0.0;
+        let mut rate = 0.0;
+        for &c in self.coefficients().iter().rev() {
+            rate = rate * s + value;
+            value = value * s + c;
+        }
+        (value, rate)
+    }
+
+    /// The derivative.
+    pub(crate) fn derivative(&self) -> Self {
+        Self::new(self.coefficients().iter().enumerate().skip(1).map(|(k, &c)| k as f64 * c))
+    }
+
+    /// The same polynomial on [0, end], rescaled to [0, 1].
+    pub(crate) fn cut(&self, end: f64) -> Self {
+        let mut power = 1.0;
+        Self::new(self.coefficients().iter().map(|&c| {
+            let scaled = c * power;
+            power *= end;
+            scaled
+        }))
+    }
+
+    /// A lower bound on [0, 1] that costs one pass.
+    fn lower_bound(&self) -> f64 {
+        self.coefficients().iter().skip(1).fold(self.coefficients[0], |bound, &c| bound + c.min(0.0))
+    }
+
+    /// The first `s` in [0, 1] where the polynomial falls through zero to below `-tolerance`.
+    ///
+    /// Dips that stay above `-tolerance` are rounding and do not count; the place returned is the zero itself, or 0
+    /// when the polynomial starts at or below zero and never rises above it before.
+    pub(crate) fn first_fall(&self, tolerance: f64) -> Option<f64> {
+        if self.lower_bound() > -tolerance {
+            return None;
+        }
+        let mut shifted = *self;
+        shifted.coefficients[0] += tolerance;
+        if shifted.coefficients[0] <= 0.0 {
+            return Some(0.0);
+        }
+        let (left, right) = Bernstein::new(&shifted).first_sign_change(0.0, 1.0, MAX_DEPTH)?;
+        let below = shifted.refine(left, right);
+        Some(self.zero_before(below))
+    }
+
+    /// The zero of the polynomial just before `end`, where it is slightly negative; 0 if there is none.
+    fn zero_before(&self, end: f64) -> f64 {
+        let (value, rate) = self.at_with_rate(end);
+        if value >= 0.0 {
+            return end;
+        }
+        let mut back = (2.0 * value / rate).abs().max(f64::EPSILON * end);
+        loop {
+            let start = end - back;
+            if !(start > 0.0) {
+                return if self.coefficients[0] > 0.0 { self.refine(0.0, end) } else { 0.0 };
+            }
+            if self.at(start) >= 0.0 {
+                return self.refine(start, end);
+            }
+            back *= 4.0;
+        }
+    }
+
+    /// The root in [left, right], at whose ends the polynomial is positive and not positive, to rounding: Newton kept
+    /// inside the bracket by bisection.
+    fn refine(&self, mut left: f64, mut right: f64) -> f64 {
+        let falls = self.at(left) > self.at(right);
+        let mut s = 0.5 * (left + right);
+        for _ in 0..100 {
+            let (value, rate) = self.at_with_rate(s);
+            if value == 0.0 {
+                return s;
+            }
+            if (value > 0.0) == falls {
+                left = s;
+            } else {
+                right = s;
+            }
+            let newton = s - value / rate;
+            let next = if newton > left && newton < right { newton } else { 0.5 * (left + right) };
+            if (next - s).abs() <= f64::EPSILON * s.abs() || right - left <= f64::EPSILON * right {
+                return next;
+            }
+            s = next;
+        }
+        s
+    }
+
+    /// Calls `visit` with every place in (0, 1) where the polynomial changes sign, in order.
+    pub(crate) fn sign_changes(&self, visit: &mut impl FnMut(f64)) {
+        let rest: f64 = self.coefficients().iter().skip(1).map(|c| c.abs()).sum();
+        if self.length == 0 || self.coefficients[0].abs() > rest {
+            return;
+        }
+        Bernstein::new(self).all_sign_changes(0.0, 1.0, MAX_DEPTH, &mut |left, right| visit(self.refine(left, right)));
+    }
+}
+
+/// A polynomial on a part of [0, 1] by its Bernstein coefficients.
+#[derive(Clone, Copy)]
+struct Bernstein {
+    coefficients: [f64; MAX_DEGREE + 1],
+    length: usize,
+}
+
+impl Bernstein {
+    /// b_j = sum_k C(j, k) / C(n, k) c_k, formed by repeated summation of the scaled coefficients.
+    fn new(polynomial: &Polynomial) -> Self {
+        let length = polynomial.length;
+        let mut b = polynomial.coefficients;
+        let degree = length - 1;
+        let mut binomial = 1.0;
+        for k in 1..length {
+            binomial *= (degree + 1 - k) as f64 / k as f64;
+            b[k] /= binomial;
+        }
+        for pass in 1..length {
+            for j in (pass..length).rev() {
+                b[j] += b[j - 1];
+            }
+        }
+        Self { coefficients: b, length }
+    }
+
+    fn as_slice(&self) -> &[f64] {
+        &self.coefficients[..self.length]
+    }
+
+    fn sign_changes(&self) -> usize {
+        let mut changes = 0;
+        let mut last = 0.0;
+        for &b in self.as_slice() {
+            if b != 0.0 {
+                if b * last < 0.0 {
+                    changes += 1;
+                }
+                last = b.signum();
+            }
+        }
+        changes
+    }
+
+    /// De Casteljau at the middle.
+    fn split(&self) -> (Self, Self) {
+        let mut right = *self;
+        let mut left = *self;
+        for level in 1..self.length {
+            for j in 0..self.length - level {
+                right.coefficients[j] = 0.5 * (right.coefficients[j] + right.coefficients[j + 1]);
+            }
+            left.coefficients[level] = right.coefficients[0];
+        }
+        (left, right)
+    }
+
+    /// The first interval with exactly one root, a fall.
+    fn first_sign_change(&self, left: f64, right: f64, depth: u32) -> Option<(f64, f64)> {
+        match self.sign_changes() {
+            0 => None,
+            1 => Some((left, right)),
+            _ if depth == 0 => Some((left, right)),
+            _ => {
+                let middle = 0.5 * (left + right);
+                let (first, second) = self.split();
+                first
+                    .first_sign_change(left, middle, depth - 1)
+                    .or_else(|| second.first_sign_change(middle, right, depth - 1))
+            }
+        }
+    }
+
+    /// Every interval with exactly one root, in order. Two roots closer than rounding are none.
+    fn all_sign_changes(&self, left: f64, right: f64, depth: u32, visit: &mut impl FnMut(f64, f64)) {
+        match self.sign_changes() {
+            0 => {}
+            1 => visit(left, right),
+            _ if depth == 0 => {}
+            _ => {
+                let middle = 0.5 * (left + right);
+                let (first, second) = self.split();
+                first.all_sign_changes(left, middle, depth - 1, visit);
+                second.all_sign_changes(middle, right, depth - 1, visit);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn from_roots(scale: f64, roots: &[f64]) -> Polynomial {
+        let mut c = vec![scale];
+        for &root in roots {
+            c.push(0.0);
+            for k in (0..c.len()).rev() {
+                c[k] = if k > 0 { c[k - 1] } else { 0.0 } - root * c[k];
+            }
+        }
+        Polynomial::new(c)
+    }
+
+    #[test]
+    fn finds_the_first_of_several_roots() {
+        let p = from_roots(-1.0, &[0.3, 0.31, 0.7]);
+        assert!((p.first_fall(1e-15).unwrap() - 0.3).abs() < 1e-13);
+        let mut all = Vec::new();
+        p.sign_changes(&mut |s| all.push(s));
+        assert_eq!(all.len(), 3);
+        for (s, root) in all.iter().zip([0.3, 0.31, 0.7]) {
+            assert!((s - root).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_touch_is_no_fall() {
+        let p = from_roots(1.0, &[0.4, 0.4]);
+        assert_eq!(p.first_fall(1e-15), None);
+        let dips = from_roots(1.0, &[0.4, 0.4 + 1e-6]);
+        assert!((dips.first_fall(1e-15).unwrap() - 0.4).abs() < 1e-8);
+    }
+
+    #[test]
+    fn a_start_at_zero_is_judged_by_what_follows() {
+        assert_eq!(Polynomial::new([0.0, 1.0, 0.5]).first_fall(1e-15), None);
+        assert_eq!(Polynomial::new([0.0, -1.0, 0.5]).first_fall(1e-15), Some(0.0));
+        assert_eq!(Polynomial::new([0.0, 0.0, -1.0]).first_fall(1e-15), Some(0.0));
+        // Leaves zero upwards and comes back.
+        let s = Polynomial::new([0.0, 1.0, -2.0]).first_fall(1e-15).unwrap();
+        assert!((s - 0.5).abs() < 1e-15);
+        // Noise below zero at the start, then rises.
+        assert_eq!(Polynomial::new([-1e-17, -1e-17, 1.0]).first_fall(1e-15), None);
+    }
+
+    #[test]
+    fn cut_keeps_values() {
+        let p = Polynomial::new([1.0, -2.0, 0.5, 3.0]);
+        assert!((p.cut(0.25).at(0.8) - p.at(0.2)).abs() < 1e-15);
+        assert!((p.derivative().at(0.3) - (-2.0 + 0.3 + 9.0 * 0.09)).abs() < 1e-15);
+    }
+}

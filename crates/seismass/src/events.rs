@@ -1,0 +1,294 @@
+//! Guards of all state machines as polynomials, the first that falls, and what it does (`numerics`, section 5).
+
+use crate::STANDARD_GRAVITY;
+use crate::bernstein::Polynomial;
+use crate::friction::{BlockState, Cause, Transition, settle};
+use crate::response::{Event, EventKind};
+use crate::state::State;
+use crate::storey::Sign;
+
+/// A guard falls when it is below zero by more than this fraction of its terms.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Relative velocities below this fraction of their terms, on their way to zero, have arrived.
+const ARRIVED: f64 = 64.0 * f64::EPSILON;
+
+/// What happens when a guard falls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Guard {
+    /// The next element of a storey yields.
+    Yield { storey: usize, sign: Sign },
+    /// A storey reaches its collapse drift.
+    Collapse { storey: usize },
+    /// A plastic storey's velocity turns.
+    Unload { storey: usize },
+    /// A block stuck to a floor (0: the ground) breaks away.
+    Breakaway { floor: usize },
+    /// A sliding block comes to rest.
+    Arrival { block: usize },
+    /// The contact force of all blocks vanishes or returns.
+    Contact,
+}
+
+/// What an event leads to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Outcome {
+    /// The run goes on.
+    Continue,
+    /// A storey (from 0) has collapsed.
+    Collapse(usize),
+}
+
+/// Keeps the earliest fall.
+struct First {
+    place: f64,
+    guard: Option<Guard>,
+}
+
+impl First {
+    fn consider(&mut self, guard: Guard, polynomial: &Polynomial, tolerance: f64) {
+        if let Some(place) = polynomial.first_fall(tolerance)
+            && place < self.place
+        {
+            *self = Self { place, guard: Some(guard) };
+        }
+    }
+}
+
+impl State<'_> {
+    /// Relative velocity of a block over the present series, which starts at `tau`.
+    pub(crate) fn relative_velocity(&self, block: usize, tau: f64) -> Polynomial {
+        let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
+        let h = self.series.h();
+        let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
+        let contact = [self.contact_at(tau), self.interval.slope(self.interval.contact_change) * h];
+        let acceleration = self.acceleration_of(law.floor, tau);
+        let rates = acceleration.coefficients().iter().enumerate().map(|(k, a)| {
+            let friction = if k < 2 { friction * contact[k] } else { 0.0 };
+            -h * (a + friction) / (k + 1) as f64
+        });
+        Polynomial::new(std::iter::once(motion.velocity).chain(rates))
+    }
+
+    /// Absolute acceleration of a floor, or of the ground (0), over the present series, which starts at `tau`.
+    pub(crate) fn acceleration_of(&self, floor: usize, tau: f64) -> Polynomial {
+        if floor > 0 {
+            return self.series.floor_acceleration(floor - 1);
+        }
+        let slope = self.interval.slope(self.interval.ground_change);
+        Polynomial::new([self.interval.ground_at(tau), slope * self.series.h()])
+    }
+
+    /// The first guard that falls within the present series, which starts at `tau`: its place in [0, 1], and what it is.
+    ///
+    /// `isolated` counts the guards that could not be cleared by a bound.
+    pub(crate) fn first_event(&mut self, tau: f64, isolated: &mut usize) -> Option<(f64, Guard)> {
+        let mut first = First { place: f64::INFINITY, guard: None };
+        let mut sizes = std::mem::take(&mut self.scratch);
+        let h = self.series.h();
+        self.acceleration_sizes(self.contact_at(tau), &mut sizes);
+        self.storey_guards(h, &sizes, &mut first, isolated);
+        self.block_guards(tau, &sizes, &mut first, isolated);
+        self.scratch = sizes;
+        first.guard.map(|guard| (first.place, guard))
+    }
+
+    fn storey_guards(&self, h: f64, sizes: &[f64], first: &mut First, isolated: &mut usize) {
+        for i in 0..self.storeys() {
+            let (x, excursion) = (self.x[i], self.series.drift_excursion(i));
+            let mut bound = |limit: f64, sign: Sign, guard: Guard| {
+                let margin = sign.factor() * (limit - x);
+                let tolerance = ROUNDING * (limit.abs() + x.abs() + excursion);
+                if margin > excursion + tolerance {
+                    return;
+                }
+                *isolated += 1;
+                let mut p = self.series.drift(i);
+                p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign.factor());
+                p.coefficients_mut()[0] = margin;
+                first.consider(guard, &p, tolerance);
+            };
+            for ((lower, upper), collapse) in [(self.yield_bounds[i], false), (self.collapse_bounds[i], true)] {
+                for (limit, sign) in [(upper, Sign::Positive), (lower, Sign::Negative)] {
+                    if limit.is_finite() {
+                        let guard =
+                            if collapse { Guard::Collapse { storey: i } } else { Guard::Yield { storey: i, sign } };
+                        bound(limit, sign, guard);
+                    }
+                }
+            }
+            if let Some(sign) = self.springs[i].plastic() {
+                let (v, excursion) = (sign.factor() * self.v[i], self.series.rate_excursion(i));
+                let below = if i > 0 { sizes[i - 1] } else { self.drive.ground.abs() };
+                let tolerance = ROUNDING * (v.abs() + excursion + h * (sizes[i] + below));
+                if v <= excursion + tolerance {
+                    *isolated += 1;
+                    let mut p = self.series.drift_rate(i);
+                    p.coefficients_mut().iter_mut().for_each(|c| *c *= sign.factor());
+                    first.consider(Guard::Unload { storey: i }, &p, tolerance);
+                }
+            }
+        }
+    }
+
+    fn block_guards(&self, tau: f64, sizes: &[f64], first: &mut First, isolated: &mut usize) {
+        let h = self.series.h();
+        let contact = self.interval.contact_at(tau);
+        let contact_change = self.interval.slope(self.interval.contact_change) * h;
+        if !self.motions.is_empty() && (self.vertical || self.airborne) {
+            let sign = if self.airborne { -1.0 } else { 1.0 };
+            let p = Polynomial::new([sign * contact, sign * contact_change]);
+            first.consider(Guard::Contact, &p, ROUNDING * STANDARD_GRAVITY);
+        }
+        if self.airborne {
+            return;
+        }
+        for (floor, &mu) in self.stuck_mu.iter().enumerate() {
+            if !mu.is_finite() {
+                continue;
+            }
+            let (a, excursion, size) = if floor > 0 {
+                (self.a[floor - 1], self.series.acceleration_excursion(floor - 1), sizes[floor - 1])
+            } else {
+                (self.drive.ground, self.drive.ground_slope.abs() * h, self.drive.ground.abs())
+            };
+            let limit = mu * contact;
+            let excursion = excursion + (mu * contact_change).abs();
+            let tolerance = ROUNDING * (limit.abs() + size + excursion);
+            if limit - a.abs() > excursion + tolerance {
+                continue;
+            }
+            *isolated += 1;
+            for sign in [1.0, -1.0] {
+                let mut p = self.acceleration_of(floor, tau);
+                p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign);
+                p.coefficients_mut()[0] += limit;
+                p.coefficients_mut()[1] += mu * contact_change;
+                first.consider(Guard::Breakaway { floor }, &p, tolerance);
+            }
+        }
+        for (j, motion) in self.motions.iter().enumerate() {
+            let Some(sign) = motion.sliding() else { continue };
+            let mut p = self.relative_velocity(j, tau);
+            p.coefficients_mut().iter_mut().for_each(|c| *c *= sign.factor());
+            let tolerance = ROUNDING * (p.norm() + h * self.floor_size(self.model.blocks[j].floor, sizes));
+            if 2.0 * p.coefficients()[0].abs() <= p.norm() + tolerance || p.coefficients()[0] < 0.0 {
+                *isolated += 1;
+                first.consider(Guard::Arrival { block: j }, &p, tolerance);
+            }
+        }
+    }
+
+    fn floor_size(&self, floor: usize, sizes: &[f64]) -> f64 {
+        if floor > 0 { sizes[floor - 1] } else { self.drive.ground.abs() }
+    }
+
+    /// Carries out an event at `tau`, to which the state has been advanced. What happened is appended to `log`.
+    pub(crate) fn carry_out(&mut self, guard: Guard, tau: f64, log: &mut Vec<Event>) -> Outcome {
+        let time = self.interval.start + tau;
+        match guard {
+            Guard::Collapse { storey } => return Outcome::Collapse(storey),
+            Guard::Yield { storey, sign } => {
+                let kind = self.springs[storey].yield_next(&self.model.laws[storey], self.x[storey], sign);
+                self.x[storey] = 0.0;
+                let element = self.springs[storey].yielded();
+                log.push(Event { time, kind, number: storey + 1, sign: sign.as_i8(), element });
+            }
+            Guard::Unload { storey } => {
+                let sign = self.springs[storey].plastic().map_or(0, Sign::as_i8);
+                let kind = self.springs[storey].unload(&self.model.laws[storey], self.x[storey]);
+                self.x[storey] = 0.0;
+                self.v[storey] = 0.0;
+                log.push(Event { time, kind, number: storey + 1, sign, element: 0 });
+            }
+            Guard::Breakaway { floor } => {
+                let weakest = self.model.on_floor[floor]
+                    .iter()
+                    .copied()
+                    .filter(|&j| self.motions[j].is_stuck())
+                    .min_by(|&i, &j| self.model.blocks[i].mu_s.total_cmp(&self.model.blocks[j].mu_s));
+                if let Some(weakest) = weakest {
+                    self.settle_floor(floor, tau, Cause::Breakaway(weakest), log);
+                }
+            }
+            Guard::Arrival { block } => {
+                let floor = self.model.blocks[block].floor;
+                self.arrive(block);
+                self.arrive_with(block, tau);
+                self.settle_floor(floor, tau, Cause::Other, log);
+            }
+            Guard::Contact => self.change_contact(tau, log),
+        }
+        self.enter_regime();
+        self.refresh_accelerations(tau);
+        Outcome::Continue
+    }
+
+    /// Sets a block's relative velocity to exactly zero.
+    fn arrive(&mut self, block: usize) {
+        let motion = &mut self.motions[block];
+        motion.velocity = 0.0;
+        motion.turn_at(motion.slip);
+    }
+
+    /// Brings to rest the blocks that arrive at the same instant as `block`, on the same floor.
+    fn arrive_with(&mut self, block: usize, tau: f64) {
+        let floor = self.model.blocks[block].floor;
+        let contact = self.contact_at(tau);
+        let a = if floor > 0 { self.a[floor - 1] } else { self.interval.ground_at(tau) };
+        for position in 0..self.model.on_floor[floor].len() {
+            let j = self.model.on_floor[floor][position];
+            let Some(sign) = self.motions[j].sliding() else { continue };
+            let velocity = self.motions[j].velocity;
+            let slowing = sign.factor() * a + self.model.blocks[j].mu_k * contact;
+            let size = a.abs() + self.model.blocks[j].mu_k * contact;
+            if velocity != 0.0 && slowing >= 0.0 && velocity.abs() <= ARRIVED * size * self.interval.h {
+                self.arrive(j);
+            }
+        }
+    }
+
+    fn settle_floor(&mut self, floor: usize, tau: f64, cause: Cause, log: &mut Vec<Event>) {
+        let demand = self.demand(floor, tau);
+        let contact = self.contact_at(tau);
+        let mut transitions: Vec<Transition> = Vec::new();
+        let blocks = &self.model.on_floor[floor];
+        settle(demand, &self.model.blocks, &mut self.motions, blocks, contact, cause, &mut transitions);
+        let time = self.interval.start + tau;
+        log.extend(transitions.iter().map(|t| Event {
+            time,
+            kind: t.kind,
+            number: t.block + 1,
+            sign: t.sign,
+            element: 0,
+        }));
+    }
+
+    /// All blocks leave or regain contact.
+    fn change_contact(&mut self, tau: f64, log: &mut Vec<Event>) {
+        let time = self.interval.start + tau;
+        let kind = if self.airborne { EventKind::Land } else { EventKind::Lift };
+        for (j, motion) in self.motions.iter_mut().enumerate() {
+            log.push(Event { time, kind, number: j + 1, sign: motion.velocity_sign(), element: 0 });
+            motion.state = match kind {
+                EventKind::Lift => BlockState::Airborne,
+                _ if motion.velocity == 0.0 => BlockState::Stuck,
+                _ => BlockState::Sliding(Sign::of(motion.velocity)),
+            };
+        }
+        self.airborne = !self.airborne;
+        if kind == EventKind::Land {
+            // Contact has only just returned: the accelerations decide, with no friction yet.
+            self.enter_regime();
+            self.settle_all(tau, log);
+        }
+    }
+
+    /// Lets every floor decide, at the start of a run or at a landing.
+    pub(crate) fn settle_all(&mut self, tau: f64, log: &mut Vec<Event>) {
+        for floor in 0..self.model.on_floor.len() {
+            if self.model.on_floor[floor].iter().any(|&j| self.motions[j].is_stuck()) {
+                self.settle_floor(floor, tau, Cause::Other, log);
+            }
+        }
+    }
+}

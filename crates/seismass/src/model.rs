@@ -1,0 +1,112 @@
+//! A scene as the solver sees it: spring laws, block laws, damping, and which blocks stand on which floor.
+
+use std::sync::Arc;
+
+use crate::damping::StoreyDamping;
+use crate::friction::BlockLaw;
+use crate::scene::{Building, Damping, Scene};
+use crate::storey::StoreyLaw;
+
+/// The constant data of a run.
+pub(crate) struct Model {
+    pub(crate) mass: Vec<f64>,
+    /// Initial stiffness of each storey, for Rayleigh damping.
+    pub(crate) stiffness: Vec<f64>,
+    pub(crate) laws: Vec<StoreyLaw>,
+    pub(crate) blocks: Vec<BlockLaw>,
+    /// Blocks on the ground (0) and on each floor.
+    pub(crate) on_floor: Vec<Vec<usize>>,
+    building: Option<Arc<Building>>,
+    /// The damping matrix is the user's own: it need not dissipate.
+    damping_may_feed: bool,
+}
+
+impl Model {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let n = scene.storeys();
+        let storeys = scene.building().map_or(&[][..], |b| b.storeys());
+        let collapse = scene.collapse_drift();
+        let laws = (0..n)
+            .map(|i| StoreyLaw::new(&storeys[i], scene.geometric_stiffness()[i], collapse.map(|c| c[i])))
+            .collect();
+        let mut on_floor = vec![Vec::new(); n + 1];
+        for (j, block) in scene.blocks().iter().enumerate() {
+            on_floor[block.floor].push(j);
+        }
+        Self {
+            mass: scene.building().map_or_else(Vec::new, |b| b.mass().to_vec()),
+            stiffness: storeys.iter().map(|s| s.stiffness).collect(),
+            laws,
+            blocks: scene.blocks().iter().map(BlockLaw::new).collect(),
+            on_floor,
+            building: scene.building().cloned(),
+            damping_may_feed: scene.building().is_some_and(|b| matches!(b.damping(), Damping::Matrix(_))),
+        }
+    }
+
+    /// Number of storeys.
+    #[inline]
+    pub(crate) fn storeys(&self) -> usize {
+        self.mass.len()
+    }
+
+    /// Damping between drift rates and storey forces.
+    #[inline]
+    pub(crate) fn damping(&self) -> &StoreyDamping {
+        self.building.as_ref().map_or(&StoreyDamping::None, |b| b.storey_damping())
+    }
+
+    /// Whether damping may feed energy into the building.
+    pub(crate) fn damping_may_feed(&self) -> bool {
+        self.damping_may_feed
+    }
+
+    /// Everything the regimes depend on, bit for bit: scenes with equal keys share propagators.
+    pub(crate) fn structure_key(&self) -> Vec<u64> {
+        let n = self.storeys();
+        let mut key = vec![n as u64, self.blocks.len() as u64];
+        let mut push = |value: f64| key.push(value.to_bits());
+        for i in 0..n {
+            push(self.mass[i]);
+            push(self.stiffness[i]);
+            push(self.laws[i].geometric);
+            for yielded in 0..3 {
+                push(self.laws[i].tangent(yielded));
+            }
+        }
+        for block in self.blocks.iter() {
+            push(block.floor as f64);
+            push(block.mass);
+        }
+        match self.damping() {
+            StoreyDamping::None => {}
+            StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => {
+                push(*mass_factor);
+                push(*stiffness_factor);
+            }
+            StoreyDamping::Dense(d) => d.iter().for_each(|&value| push(value)),
+        }
+        key
+    }
+
+    /// Everything the response depends on, bit for bit: scenes with equal keys have equal responses.
+    pub(crate) fn content_key(&self, scene: &Scene) -> Vec<u64> {
+        let mut key = self.structure_key();
+        let mut push = |value: f64| key.push(value.to_bits());
+        for law in &self.laws {
+            push(law.collapse_drift);
+            push(law.elements().len() as f64);
+            for element in law.elements() {
+                push(element.stiffness);
+                push(element.yield_force);
+            }
+        }
+        for block in scene.blocks() {
+            push(block.mu_s);
+            push(block.mu_k);
+            push(block.velocity.unwrap_or(f64::NAN));
+        }
+        scene.initial_drift().iter().chain(scene.initial_velocity()).for_each(|&value| push(value));
+        key
+    }
+}

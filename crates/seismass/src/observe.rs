@@ -1,0 +1,261 @@
+//! What is kept of a run: peaks in continuous time, histories, energies.
+
+use crate::bernstein::Polynomial;
+use crate::friction::BlockState;
+use crate::model::Model;
+use crate::regime::viscous_power;
+use crate::response::{Energy, Histories, Peaks};
+use crate::state::State;
+
+/// Abscissae in [0, 1] and weights of the 12-point Gauss-Legendre rule: exact to degree 23.
+const GAUSS: [(f64, f64); 12] = [
+    (0.009219682876640375, 0.023587668193255914),
+    (0.04794137181476257, 0.05346966299765921),
+    (0.11504866290284765, 0.08003916427167311),
+    (0.2063410228566913, 0.10158371336153296),
+    (0.3160842505009099, 0.1167462682691774),
+    (0.43738329574426554, 0.12457352290670139),
+    (0.5626167042557345, 0.12457352290670139),
+    (0.6839157494990901, 0.1167462682691774),
+    (0.7936589771433087, 0.10158371336153296),
+    (0.8849513370971523, 0.08003916427167311),
+    (0.9520586281852375, 0.05346966299765921),
+    (0.9907803171233597, 0.023587668193255914),
+];
+
+/// Keeps peaks, histories and energies.
+pub(crate) struct Observer {
+    pub(crate) peaks: Peaks,
+    pub(crate) histories: Option<Histories>,
+    energy: Option<EnergyBalance>,
+}
+
+/// Running energy integrals.
+#[derive(Debug, Default)]
+struct EnergyBalance {
+    energy: Energy,
+    largest_input: f64,
+}
+
+impl Observer {
+    /// An observer of a scene with `storeys` and `blocks`, histories of `rows` rows every `every` samples if asked for.
+    pub(crate) fn new(model: &Model, every: Option<usize>, samples: usize, energy: bool) -> Self {
+        let (n, blocks) = (model.storeys(), model.blocks.len());
+        let histories = every.map(|every| {
+            let rows = samples.div_ceil(every);
+            let empty = |width: usize| Vec::with_capacity(rows * width);
+            Histories {
+                every,
+                rows,
+                drift: empty(n),
+                slip: empty(blocks),
+                floor_velocity: empty(n),
+                block_velocity: empty(blocks),
+                floor_acceleration: empty(n),
+                storey_force: empty(n),
+            }
+        });
+        let peaks = Peaks {
+            drift: vec![Default::default(); n],
+            slip: vec![Default::default(); blocks],
+            floor_acceleration: vec![Default::default(); n],
+            storey_shear: vec![Default::default(); n],
+        };
+        Self { peaks, histories, energy: energy.then(EnergyBalance::default) }
+    }
+
+    /// Whether energies are kept: then every step needs its series.
+    pub(crate) fn keeps_energy(&self) -> bool {
+        self.energy.is_some()
+    }
+
+    /// Whether a drift coordinate between `low` and `high` could beat a peak of storey `i`.
+    #[inline]
+    pub(crate) fn drift_may_peak(&self, state: &State, i: usize, low: f64, high: f64) -> bool {
+        let spring = &state.springs[i];
+        let drift = spring.drift(low).abs().max(spring.drift(high).abs());
+        if drift > self.peaks.drift[i].value {
+            return true;
+        }
+        let tangent = state.regime().spring_tangent[i];
+        let base = state.base_force[i];
+        (base + tangent * low).abs().max((base + tangent * high).abs()) > self.peaks.storey_shear[i].value
+    }
+
+    /// Whether an acceleration between `low` and `high` could beat the peak of floor `i`.
+    #[inline]
+    pub(crate) fn acceleration_may_peak(&self, i: usize, low: f64, high: f64) -> bool {
+        low.abs().max(high.abs()) > self.peaks.floor_acceleration[i].value
+    }
+
+    fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
+        self.peaks.drift[i].take(state.springs[i].drift(x), time);
+        self.peaks.storey_shear[i].take(state.base_force[i] + state.regime().spring_tangent[i] * x, time);
+    }
+
+    /// Takes the present values into the peaks.
+    pub(crate) fn observe_values(&mut self, state: &State, time: f64) {
+        for i in 0..state.storeys() {
+            self.take_drift(state, i, state.x[i], time);
+            self.peaks.floor_acceleration[i].take(state.a[i], time);
+        }
+        for (peak, motion) in self.peaks.slip.iter_mut().zip(&state.motions) {
+            peak.take(motion.slip, time);
+        }
+    }
+
+    /// Takes the extremes inside the present series, from `tau` to its place `end`, before the state is advanced.
+    pub(crate) fn observe_series(&mut self, state: &mut State, tau: f64, end: f64, isolated: &mut usize) {
+        let h = state.series.h();
+        let time = |s: f64| state.interval.start + tau + s * end * h;
+        for i in 0..state.storeys() {
+            let excursion = state.series.drift_excursion(i);
+            let x = state.x[i];
+            let turns = state.v[i].abs() <= state.series.rate_excursion(i);
+            if turns && self.drift_may_peak(state, i, x - excursion, x + excursion) {
+                *isolated += 1;
+                let drift = state.series.drift(i).cut(end);
+                drift.derivative().sign_changes(&mut |s| self.take_drift(state, i, drift.at(s), time(s)));
+            }
+            let (a, excursion) = (state.a[i], state.series.acceleration_excursion(i));
+            if self.acceleration_may_peak(i, a - excursion, a + excursion) {
+                *isolated += 1;
+                let acceleration = state.series.floor_acceleration(i).cut(end);
+                let peak = &mut self.peaks.floor_acceleration[i];
+                acceleration.derivative().sign_changes(&mut |s| peak.take(acceleration.at(s), time(s)));
+            }
+        }
+        if state.airborne {
+            for j in 0..state.motions.len() {
+                let velocity = state.relative_velocity(j, tau).cut(end);
+                let slip = state.slip_change(j, tau).cut(end);
+                let start = state.motions[j].slip;
+                let times = (state.interval.start + tau, end * h);
+                let (peak, motion) = (&mut self.peaks.slip[j], &mut state.motions[j]);
+                velocity.sign_changes(&mut |s| {
+                    let value = start + slip.at(s);
+                    peak.take(value, times.0 + s * times.1);
+                    motion.turn_at(value);
+                });
+            }
+        }
+    }
+
+    /// Appends a row to the histories.
+    pub(crate) fn record(&mut self, state: &State, sample: usize) {
+        let Some(histories) = &mut self.histories else { return };
+        if !sample.is_multiple_of(histories.every) {
+            return;
+        }
+        let regime = state.regime();
+        for i in 0..state.storeys() {
+            histories.drift.push(state.springs[i].drift(state.x[i]));
+            histories.floor_acceleration.push(state.a[i]);
+            histories.storey_force.push(state.base_force[i] + regime.spring_tangent[i] * state.x[i]);
+        }
+        let first = histories.floor_velocity.len();
+        histories.floor_velocity.extend(state.floor_velocities());
+        for (motion, law) in state.motions.iter().zip(&state.model.blocks) {
+            let floor = if law.floor > 0 { histories.floor_velocity[first + law.floor - 1] } else { 0.0 };
+            histories.slip.push(motion.slip);
+            histories.block_velocity.push(floor + motion.velocity);
+        }
+    }
+
+    /// Fills what a collapsed run did not reach with NaN.
+    pub(crate) fn fill_histories(&mut self, storeys: usize, blocks: usize) {
+        if let Some(h) = &mut self.histories {
+            let (n, b) = (h.rows * storeys, h.rows * blocks);
+            for (values, length) in [
+                (&mut h.drift, n),
+                (&mut h.slip, b),
+                (&mut h.floor_velocity, n),
+                (&mut h.block_velocity, b),
+                (&mut h.floor_acceleration, n),
+                (&mut h.storey_force, n),
+            ] {
+                values.resize(length, f64::NAN);
+            }
+        }
+    }
+
+    /// Notes the energy at the start.
+    pub(crate) fn begin_energy(&mut self, state: &State) {
+        if let Some(balance) = &mut self.energy {
+            balance.energy.initial = kinetic_energy(state) + elastic_energy(state);
+        }
+    }
+
+    /// Adds the energies of the present series, from `tau` to its place `end`, before the state is advanced.
+    pub(crate) fn add_energy(&mut self, state: &State, tau: f64, end: f64) {
+        let Some(balance) = &mut self.energy else { return };
+        let n = state.storeys();
+        let length = state.series.h() * end;
+        let (mut rates, mut scratch) = (vec![0.0; n], vec![0.0; n]);
+        let velocities: Vec<Option<Polynomial>> = (0..state.motions.len())
+            .map(|j| (!state.motions[j].is_stuck()).then(|| state.relative_velocity(j, tau)))
+            .collect();
+        for (node, weight) in GAUSS {
+            let s = node * end;
+            let at = tau + s * state.series.h();
+            state.series.rates(s, &mut rates);
+            let energy = &mut balance.energy;
+            energy.viscous += weight * length * viscous_power(state.model, &rates, &mut scratch);
+            let mut velocity = 0.0;
+            for i in 0..n {
+                velocity += rates[i];
+                scratch[i] = velocity;
+            }
+            let mut momentum: f64 = state.model.mass.iter().zip(&scratch).map(|(m, v)| m * v).sum();
+            for (j, law) in state.model.blocks.iter().enumerate() {
+                let relative = velocities[j].as_ref().map_or(0.0, |p| p.at(s));
+                let floor = if law.floor > 0 { scratch[law.floor - 1] } else { 0.0 };
+                momentum += law.mass * (floor + relative);
+                if let BlockState::Sliding(sign) = state.motions[j].state {
+                    let force = sign.factor() * law.mu_k * law.mass * state.contact_at(at);
+                    energy.friction += weight * length * force * relative;
+                }
+            }
+            energy.input -= weight * length * momentum * state.interval.ground_at(at);
+        }
+        let mut changes = vec![0.0; n];
+        state.series.drift_changes(end, &mut changes);
+        for (spring, change) in state.springs.iter().zip(&changes) {
+            balance.energy.hysteretic += spring.plastic_force() * change;
+        }
+        balance.largest_input = balance.largest_input.max(balance.energy.input);
+    }
+
+    /// The energies at the end, with their residual.
+    pub(crate) fn finish_energy(&self, state: &State) -> Option<Energy> {
+        let balance = self.energy.as_ref()?;
+        let mut energy = balance.energy;
+        energy.kinetic = kinetic_energy(state);
+        energy.elastic = elastic_energy(state);
+        let spent = energy.kinetic + energy.elastic + energy.viscous + energy.hysteretic + energy.friction;
+        let scale = energy.initial + balance.largest_input;
+        let residual = energy.initial + energy.input - spent;
+        energy.relative_residual = if residual == 0.0 { 0.0 } else { residual / scale };
+        Some(energy)
+    }
+}
+
+fn kinetic_energy(state: &State) -> f64 {
+    let floors: Vec<f64> = state.floor_velocities().collect();
+    let building: f64 = state.model.mass.iter().zip(&floors).map(|(m, v)| 0.5 * m * v * v).sum();
+    let blocks = state.motions.iter().zip(&state.model.blocks).map(|(motion, law)| {
+        let velocity = motion.velocity + if law.floor > 0 { floors[law.floor - 1] } else { 0.0 };
+        0.5 * law.mass * velocity * velocity
+    });
+    building + blocks.sum::<f64>()
+}
+
+fn elastic_energy(state: &State) -> f64 {
+    state
+        .springs
+        .iter()
+        .zip(&state.model.laws)
+        .zip(&state.x)
+        .map(|((spring, law), &x)| spring.elastic_energy(law, x))
+        .sum()
+}

@@ -1,0 +1,213 @@
+//! A regime: one tuple of all state machines, in which the system is linear, and what follows from it.
+//!
+//! Floor accelerations are linear in drifts x and drift rates v; two derivatives on, the loads are gone (the motion is
+//! linear between samples), so (v', v'') obeys the homogeneous equation, whose energy never grows where tangents and
+//! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
+
+use crate::damping::StoreyDamping;
+use crate::model::Model;
+use crate::propagator::Propagator;
+
+/// The linear operators of one regime.
+pub(crate) struct Regime {
+    /// Storey tangent, P-Delta subtracted (N/m).
+    pub(crate) tangent: Vec<f64>,
+    /// Spring tangent alone (N/m).
+    pub(crate) spring_tangent: Vec<f64>,
+    /// Floor mass with the blocks stuck to it (kg).
+    pub(crate) mass: Vec<f64>,
+    /// 1 / mass.
+    pub(crate) inverse_mass: Vec<f64>,
+    /// Bound on the growth of Taylor coefficients (rad/s).
+    pub(crate) frequency: f64,
+    /// Bounds on the second, third and fourth derivative of each floor acceleration, per unit of [`Regime::liveliness`].
+    pub(crate) derivative_bounds: [Vec<f64>; 3],
+    /// Exponent (1/s) with which the energy of the derivatives may grow: positive with a negative tangent.
+    growth: f64,
+    /// The step of one sample interval, once it pays.
+    pub(crate) propagator: Option<Box<Propagator>>,
+}
+
+impl Regime {
+    /// The regime with `yielded[i]` plastic elements in each storey and `stuck_mass[i]` on each floor.
+    pub(crate) fn new(model: &Model, yielded: impl Fn(usize) -> u8, stuck_mass: &[f64]) -> Self {
+        let n = model.storeys();
+        let spring_tangent: Vec<f64> = (0..n).map(|i| model.laws[i].tangent(yielded(i))).collect();
+        let tangent: Vec<f64> = (0..n).map(|i| spring_tangent[i] - model.laws[i].geometric).collect();
+        let mass: Vec<f64> = (0..n).map(|i| model.mass[i] + stuck_mass[i]).collect();
+        let inverse_mass: Vec<f64> = mass.iter().map(|m| 1.0 / m).collect();
+        let (frequency, growth) = frequency_and_growth(model, &tangent, &inverse_mass);
+        let derivative_bounds = derivative_bounds(model, &tangent, &inverse_mass);
+        Self { tangent, spring_tangent, mass, inverse_mass, frequency, derivative_bounds, growth, propagator: None }
+    }
+
+    /// Floor accelerations (absolute) from drifts, drift rates and floor loads: a_i = (S_(i+1) - S_i + load_i) / mass_i
+    /// with S the storey forces of springs, P-Delta and damping. Also serves derivatives of these.
+    #[inline]
+    pub(crate) fn accelerations(&self, model: &Model, x: &[f64], v: &[f64], load: &[f64], out: &mut [f64]) {
+        let n = out.len();
+        storey_forces(&self.tangent, model, x, v, out);
+        let mut velocity = 0.0;
+        let mass_factor = mass_factor(model);
+        for i in 0..n {
+            let above = if i + 1 < n { out[i + 1] } else { 0.0 };
+            velocity += v[i];
+            let force = above - out[i] + load[i] - mass_factor * model.mass[i] * velocity;
+            out[i] = force * self.inverse_mass[i];
+        }
+    }
+
+    /// A norm of (v', v'') at the start of a step that bounds their later values, times the growth over `h`.
+    #[inline]
+    pub(crate) fn liveliness(&self, drift_acceleration: &[f64], relative_jerk: &[f64], h: f64) -> f64 {
+        let mut square = 0.0;
+        for i in 0..self.mass.len() {
+            square += self.mass[i] * relative_jerk[i] * relative_jerk[i]
+                + self.tangent[i].abs() * drift_acceleration[i] * drift_acceleration[i];
+        }
+        if self.growth > 0.0 { square.sqrt() * (self.growth * h).exp() } else { square.sqrt() }
+    }
+
+    /// Whether energy cannot grow in this regime: no negative tangent, damping known not to feed it.
+    pub(crate) fn is_passive(&self) -> bool {
+        self.growth == 0.0
+    }
+}
+
+/// Factor of the mass matrix in Rayleigh damping (1/s), 0 otherwise.
+#[inline]
+fn mass_factor(model: &Model) -> f64 {
+    if let StoreyDamping::Rayleigh { mass_factor, .. } = model.damping() { *mass_factor } else { 0.0 }
+}
+
+/// Storey forces S_i = tangent_i x_i + (D v)_i, without the mass-proportional part of Rayleigh damping.
+#[inline]
+fn storey_forces(tangent: &[f64], model: &Model, x: &[f64], v: &[f64], out: &mut [f64]) {
+    let n = out.len();
+    for i in 0..n {
+        out[i] = tangent[i] * x[i];
+    }
+    match model.damping() {
+        StoreyDamping::None => {}
+        StoreyDamping::Rayleigh { stiffness_factor, .. } => {
+            for i in 0..n {
+                out[i] += stiffness_factor * model.stiffness[i] * v[i];
+            }
+        }
+        StoreyDamping::Dense(d) => {
+            let d = d.as_slice();
+            for (column, &rate) in d.chunks_exact(n).zip(v) {
+                for i in 0..n {
+                    out[i] += column[i] * rate;
+                }
+            }
+        }
+    }
+}
+
+/// Power dissipated by viscous damping at drift rates `v` (W).
+pub(crate) fn viscous_power(model: &Model, v: &[f64], scratch: &mut [f64]) -> f64 {
+    let n = v.len();
+    scratch.fill(0.0);
+    match model.damping() {
+        StoreyDamping::None => {}
+        StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => {
+            let mut velocity = 0.0;
+            let mut power = 0.0;
+            for i in 0..n {
+                velocity += v[i];
+                power += mass_factor * model.mass[i] * velocity * velocity
+                    + stiffness_factor * model.stiffness[i] * v[i] * v[i];
+            }
+            return power;
+        }
+        StoreyDamping::Dense(d) => {
+            for (column, &rate) in d.as_slice().chunks_exact(n).zip(v) {
+                for i in 0..n {
+                    scratch[i] += column[i] * rate;
+                }
+            }
+        }
+    }
+    scratch.iter().zip(v).map(|(force, rate)| force * rate).sum()
+}
+
+/// Calls `visit(j, |C_ij|)` for the entries of row i of the damping matrix in floor coordinates.
+fn damping_row(model: &Model, i: usize, mut visit: impl FnMut(usize, f64)) {
+    let n = model.storeys();
+    match model.damping() {
+        StoreyDamping::None => {}
+        StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => {
+            let k = |s: usize| if s < n { stiffness_factor * model.stiffness[s] } else { 0.0 };
+            if i > 0 {
+                visit(i - 1, k(i));
+            }
+            visit(i, mass_factor * model.mass[i] + k(i) + k(i + 1));
+            if i + 1 < n {
+                visit(i + 1, k(i + 1));
+            }
+        }
+        StoreyDamping::Dense(d) => {
+            let at = |r: usize, c: usize| if r < n && c < n { d[(r, c)] } else { 0.0 };
+            for j in 0..n {
+                visit(j, (at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1)).abs());
+            }
+        }
+    }
+}
+
+/// Bounds by Gershgorin on the symmetric forms M^(-1/2) K M^(-1/2) and M^(-1/2) C M^(-1/2): the frequency, and the
+/// exponent of growth.
+fn frequency_and_growth(model: &Model, tangent: &[f64], inverse_mass: &[f64]) -> (f64, f64) {
+    let n = tangent.len();
+    let (mut stiffness_bound, mut damping_bound, mut growth) = (0.0f64, 0.0f64, 0.0f64);
+    for i in 0..n {
+        let inverse_root = inverse_mass[i].sqrt();
+        let mut row = tangent[i].abs() * inverse_mass[i];
+        if i > 0 {
+            row += tangent[i].abs() * inverse_root * inverse_mass[i - 1].sqrt();
+        }
+        if i + 1 < n {
+            row += tangent[i + 1].abs() * inverse_root * (inverse_root + inverse_mass[i + 1].sqrt());
+        }
+        stiffness_bound = stiffness_bound.max(row);
+        let mut damping = 0.0;
+        damping_row(model, i, |j, c| damping += c * inverse_root * inverse_mass[j].sqrt());
+        damping_bound = damping_bound.max(damping);
+        if tangent[i] < 0.0 {
+            let below = if i > 0 { inverse_mass[i - 1].sqrt() } else { 0.0 };
+            growth += 2.0 * tangent[i].abs().sqrt() * (inverse_root + below);
+        }
+    }
+    if model.damping_may_feed() {
+        growth += damping_bound;
+    }
+    (0.5 * damping_bound + (0.25 * damping_bound * damping_bound + stiffness_bound).sqrt(), growth)
+}
+
+/// See [`Regime::derivative_bounds`]: with energy norm e, |v''| <= e / sqrt(mass) and |v'| <= e / sqrt(tangent).
+fn derivative_bounds(model: &Model, tangent: &[f64], inverse_mass: &[f64]) -> [Vec<f64>; 3] {
+    let n = tangent.len();
+    let stiffness = |i: usize| if i < n { tangent[i].abs() } else { 0.0 };
+    let mut bounds = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+    let mut jerk = vec![0.0; n];
+    for i in 0..n {
+        jerk[i] = inverse_mass[i].sqrt();
+        let mut square = 0.0;
+        damping_row(model, i, |j, c| square += c * c * inverse_mass[j]);
+        bounds[0][i] = (stiffness(i).sqrt() + stiffness(i + 1).sqrt() + square.sqrt()) * inverse_mass[i];
+    }
+    for order in 1..3 {
+        // The floor accelerations' derivative of this order comes from relative velocities two orders below.
+        let (lower, upper) = bounds.split_at_mut(order);
+        let two_below = if order == 1 { &jerk } else { &lower[0] };
+        for i in 0..n {
+            let below = if i > 0 { two_below[i - 1] } else { 0.0 };
+            let above = if i + 1 < n { two_below[i + 1] } else { 0.0 };
+            let mut sum = stiffness(i) * (two_below[i] + below) + stiffness(i + 1) * (above + two_below[i]);
+            damping_row(model, i, |j, c| sum += c * lower[order - 1][j]);
+            upper[0][i] = sum * inverse_mass[i];
+        }
+    }
+    bounds
+}
