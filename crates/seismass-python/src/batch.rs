@@ -1,0 +1,257 @@
+//! Many runs at once, and their peaks as flat columns: no Python object is made per run.
+
+use pyo3::prelude::*;
+use seismass::{Domain, Error, EventKind, Options, Peak};
+
+use crate::arrays::{Output, Table};
+use crate::errors::from_kernel;
+use crate::interrupt::run_watched;
+use crate::response::{collapsed_storey, status_name};
+use crate::scene::{Motion, Scene};
+
+/// Solves `runs`, rows of (index of scene, index of motion); with `peaks_only` residuals may be NaN. `progress` is
+/// called with runs done and runs in all.
+#[pyfunction]
+#[pyo3(signature = (scenes, motions, runs, *, peaks_only=false, threads=None, progress=None))]
+pub(crate) fn simulate_many(
+    py: Python<'_>,
+    scenes: Vec<PyRef<'_, Scene>>,
+    motions: Vec<PyRef<'_, Motion>>,
+    runs: Table<i64>,
+    peaks_only: bool,
+    threads: Option<usize>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Batch> {
+    let scenes: Vec<seismass::Scene> = scenes.iter().map(|scene| scene.0.clone()).collect();
+    let motions: Vec<seismass::Motion> = motions.iter().map(|motion| motion.0.clone()).collect();
+    let runs = pairs(&runs).map_err(|error| from_kernel(py, &error))?;
+    let total = runs.len();
+    let report = |done: usize| progress.as_ref().map_or(Ok(()), |call| call.call1((done, total)).map(drop));
+    run_watched(py, report, move |control| {
+        let options = Options { peaks_only, ..Options::default() };
+        let results = seismass::simulate_many(&scenes, &motions, &runs, &options, threads, control)?;
+        let mut batch = Batch::default();
+        for (run, result) in results.iter().enumerate() {
+            batch.push(run, result);
+        }
+        Ok(batch)
+    })
+}
+
+fn pairs(runs: &Table<i64>) -> seismass::Result<Vec<(usize, usize)>> {
+    let refuse = |value: String| {
+        let requirement = "pairs of (index of scene, index of motion)";
+        Error::invalid(Domain::Options, "pairs", "batch", requirement, value)
+    };
+    if runs.columns != 2 {
+        return Err(refuse(format!("{} x {} numbers", runs.rows, runs.columns)));
+    }
+    runs.values
+        .chunks_exact(2)
+        .map(|pair| match (usize::try_from(pair[0]), usize::try_from(pair[1])) {
+            (Ok(scene), Ok(motion)) => Ok((scene, motion)),
+            _ => Err(refuse(format!("({}, {})", pair[0], pair[1]))),
+        })
+        .collect()
+}
+
+/// Results of a batch. A list per storey (or block) of run i is the next `storeys[i]` (or `blocks[i]`) values of a
+/// flat array; a run that failed has none.
+#[pyclass(frozen, module = "seismass._kernel")]
+#[derive(Default)]
+pub(crate) struct Batch {
+    status: Vec<u8>,
+    failures: Vec<(usize, String)>,
+    end_time: Vec<f64>,
+    collapsed_storey: Vec<u32>,
+    storeys: Vec<u32>,
+    blocks: Vec<u32>,
+    peak_drift: Vec<Peak>,
+    residual_drift: Vec<f64>,
+    peak_floor_acceleration: Vec<Peak>,
+    peak_storey_shear: Vec<Peak>,
+    peak_slip: Vec<Peak>,
+    residual_slip: Vec<f64>,
+    slip_path: Vec<f64>,
+    events: Vec<u32>,
+    yields: Vec<u32>,
+    slips: Vec<u32>,
+}
+
+/// A count as it is stored; no run has 2^32 storeys, blocks or events.
+fn count(value: usize) -> u32 {
+    u32::try_from(value).unwrap_or(u32::MAX)
+}
+
+/// Index of a status in `Batch.status_names`.
+const FAILED: u8 = 2;
+const STATUS_NAMES: [&str; 3] = ["completed", "collapsed", "failed"];
+
+impl Batch {
+    fn push(&mut self, run: usize, result: &seismass::Result<seismass::Response>) {
+        let response = match result {
+            Ok(response) => response,
+            Err(error) => {
+                self.failures.push((run, error.to_string()));
+                self.status.push(FAILED);
+                self.end_time.push(f64::NAN);
+                for column in [
+                    &mut self.collapsed_storey,
+                    &mut self.storeys,
+                    &mut self.blocks,
+                    &mut self.events,
+                    &mut self.yields,
+                    &mut self.slips,
+                ] {
+                    column.push(0);
+                }
+                return;
+            }
+        };
+        self.status.push(u8::from(status_name(response.status) == STATUS_NAMES[1]));
+        self.end_time.push(response.end_time);
+        self.collapsed_storey.push(collapsed_storey(response.status).map_or(0, count));
+        self.storeys.push(count(response.peaks.drift.len()));
+        self.blocks.push(count(response.peaks.slip.len()));
+        self.peak_drift.extend(&response.peaks.drift);
+        self.residual_drift.extend(&response.residual_drift);
+        self.peak_floor_acceleration.extend(&response.peaks.floor_acceleration);
+        self.peak_storey_shear.extend(&response.peaks.storey_shear);
+        self.peak_slip.extend(&response.peaks.slip);
+        self.residual_slip.extend(&response.residual_slip);
+        self.slip_path.extend(&response.slip_path);
+        let events = &response.statistics.events;
+        self.events.push(count(events.total()));
+        self.yields.push(count(events.of(EventKind::Yield)));
+        self.slips.push(count(events.of(EventKind::Slip)));
+    }
+}
+
+fn values(peaks: &[Peak]) -> Output<f64> {
+    Output::new(peaks.iter().map(|peak| peak.value))
+}
+
+fn times(peaks: &[Peak]) -> Output<f64> {
+    Output::new(peaks.iter().map(|peak| peak.time))
+}
+
+fn column<T: Copy>(values: &[T]) -> Output<T> {
+    Output::new(values.iter().copied())
+}
+
+#[pymethods]
+impl Batch {
+    /// Status of each run, as index of `status_names`.
+    #[getter]
+    fn status(&self) -> Output<u8> {
+        column(&self.status)
+    }
+
+    /// Names of the statuses.
+    #[staticmethod]
+    fn status_names() -> Vec<&'static str> {
+        STATUS_NAMES.to_vec()
+    }
+
+    /// Runs that failed: index and reason.
+    #[getter]
+    fn failures(&self) -> Vec<(usize, String)> {
+        self.failures.clone()
+    }
+
+    /// Time reached by each run (s).
+    #[getter]
+    fn end_time(&self) -> Output<f64> {
+        column(&self.end_time)
+    }
+
+    /// Storey that collapsed in each run, counted from 1; 0: none.
+    #[getter]
+    fn collapsed_storey(&self) -> Output<u32> {
+        column(&self.collapsed_storey)
+    }
+
+    /// Number of storeys of each run.
+    #[getter]
+    fn storeys(&self) -> Output<u32> {
+        column(&self.storeys)
+    }
+
+    /// Number of blocks of each run.
+    #[getter]
+    fn blocks(&self) -> Output<u32> {
+        column(&self.blocks)
+    }
+
+    /// Peak drift (m), flat over runs and storeys.
+    #[getter]
+    fn peak_drift(&self) -> Output<f64> {
+        values(&self.peak_drift)
+    }
+
+    /// Time of the peak drift (s), flat over runs and storeys.
+    #[getter]
+    fn peak_drift_time(&self) -> Output<f64> {
+        times(&self.peak_drift)
+    }
+
+    /// Drift at the end (m), flat over runs and storeys.
+    #[getter]
+    fn residual_drift(&self) -> Output<f64> {
+        column(&self.residual_drift)
+    }
+
+    /// Peak absolute floor acceleration (m/s2), flat over runs and floors.
+    #[getter]
+    fn peak_floor_acceleration(&self) -> Output<f64> {
+        values(&self.peak_floor_acceleration)
+    }
+
+    /// Peak storey shear (N), flat over runs and storeys.
+    #[getter]
+    fn peak_storey_shear(&self) -> Output<f64> {
+        values(&self.peak_storey_shear)
+    }
+
+    /// Peak slip (m), flat over runs and blocks.
+    #[getter]
+    fn peak_slip(&self) -> Output<f64> {
+        values(&self.peak_slip)
+    }
+
+    /// Time of the peak slip (s), flat over runs and blocks.
+    #[getter]
+    fn peak_slip_time(&self) -> Output<f64> {
+        times(&self.peak_slip)
+    }
+
+    /// Slip at the end (m), flat over runs and blocks.
+    #[getter]
+    fn residual_slip(&self) -> Output<f64> {
+        column(&self.residual_slip)
+    }
+
+    /// Path slipped (m), flat over runs and blocks.
+    #[getter]
+    fn slip_path(&self) -> Output<f64> {
+        column(&self.slip_path)
+    }
+
+    /// Number of events of each run.
+    #[getter]
+    fn events(&self) -> Output<u32> {
+        column(&self.events)
+    }
+
+    /// Number of yields of each run.
+    #[getter]
+    fn yields(&self) -> Output<u32> {
+        column(&self.yields)
+    }
+
+    /// Number of breakaways of each run.
+    #[getter]
+    fn slips(&self) -> Output<u32> {
+        column(&self.slips)
+    }
+}

@@ -1,0 +1,45 @@
+//! Kernel errors as the exceptions of `seismass.errors`.
+
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyType;
+use seismass::{Domain, Error};
+
+/// An exception of `seismass.errors` with a message.
+fn exception(py: Python<'_>, cell: &'static PyOnceLock<Py<PyType>>, name: &str, message: String) -> PyErr {
+    match cell.import(py, "seismass.errors", name) {
+        Ok(class) => PyErr::from_type(class.clone(), (message,)),
+        Err(import_error) => import_error,
+    }
+}
+
+/// The exception for a kernel error.
+pub(crate) fn from_kernel(py: Python<'_>, error: &Error) -> PyErr {
+    static SCENE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    static MOTION: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    static OPTION: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    let message = error.to_string();
+    match error {
+        Error::Invalid { domain: Domain::Scene, .. } => exception(py, &SCENE, "InvalidScene", message),
+        Error::Invalid { domain: Domain::Motion, .. } => exception(py, &MOTION, "InvalidMotion", message),
+        Error::Invalid { domain: Domain::Options, .. } => exception(py, &OPTION, "InvalidOption", message),
+        Error::TooManyEvents { .. } | Error::NotFinite { .. } => simulation_error(py, message),
+        Error::Interrupted => PyKeyboardInterrupt::new_err(()),
+    }
+}
+
+/// The exception for a panic of the kernel, which is a defect of seismass and never the user's fault.
+pub(crate) fn from_panic(py: Python<'_>, payload: &(dyn std::any::Any + Send)) -> PyErr {
+    let reason = payload
+        .downcast_ref::<String>()
+        .map(String::as_str)
+        .or_else(|| payload.downcast_ref::<&str>().copied())
+        .unwrap_or("no message");
+    simulation_error(py, format!("the kernel stopped on a defect of seismass, please report it: {reason}"))
+}
+
+fn simulation_error(py: Python<'_>, message: String) -> PyErr {
+    static SIMULATION: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    exception(py, &SIMULATION, "SimulationError", message)
+}

@@ -1,0 +1,76 @@
+//! The one way in which long and short work of the kernel is run: the interpreter is released, panics and errors
+//! become exceptions, and long work is watched for Ctrl-C by the calling thread.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use seismass::Control;
+
+use crate::errors::{from_kernel, from_panic};
+
+/// How often the calling thread looks for signals and reports progress.
+const WATCH_INTERVAL: Duration = Duration::from_millis(50);
+
+type Outcome<T> = Result<seismass::Result<T>, Box<dyn Any + Send>>;
+
+fn finish<T>(py: Python<'_>, outcome: Outcome<T>) -> PyResult<T> {
+    match outcome {
+        Ok(result) => result.map_err(|error| from_kernel(py, &error)),
+        Err(payload) => Err(from_panic(py, payload.as_ref())),
+    }
+}
+
+/// Runs short work on the calling thread with the interpreter released.
+pub(crate) fn run_inline<T: Send>(py: Python<'_>, work: impl FnOnce() -> seismass::Result<T> + Send) -> PyResult<T> {
+    finish(py, py.detach(|| catch_unwind(AssertUnwindSafe(work))))
+}
+
+/// Runs long work on another thread; meanwhile this one checks signals and calls `progress` with the number of runs
+/// done. If either raises, the work is told to stop and the exception is raised once it has stopped.
+pub(crate) fn run_watched<T: Send>(
+    py: Python<'_>,
+    mut progress: impl FnMut(usize) -> PyResult<()>,
+    work: impl FnOnce(&Control) -> seismass::Result<T> + Send,
+) -> PyResult<T> {
+    let control = Control::default();
+    thread::scope(|scope| {
+        let (sender, mut receiver) = channel();
+        let control = &control;
+        scope.spawn(move || {
+            // The receiver outlives the work, so sending cannot fail.
+            let _ = sender.send(catch_unwind(AssertUnwindSafe(|| work(control))));
+        });
+        let mut raised = None;
+        loop {
+            let waiting = &mut receiver;
+            let received: Result<Outcome<T>, RecvTimeoutError> =
+                py.detach(move || waiting.recv_timeout(WATCH_INTERVAL));
+            match received {
+                Ok(outcome) => {
+                    let result = finish(py, outcome);
+                    return match raised {
+                        Some(exception) => Err(exception),
+                        None => result.and_then(|value| {
+                            progress(control.done.load(Ordering::Relaxed))?;
+                            Ok(value)
+                        }),
+                    };
+                }
+                Err(RecvTimeoutError::Timeout) if raised.is_none() => {
+                    let reported = py.check_signals().and_then(|()| progress(control.done.load(Ordering::Relaxed)));
+                    if let Err(exception) = reported {
+                        control.stop.store(true, Ordering::Relaxed);
+                        raised = Some(exception);
+                    }
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Err(from_panic(py, &"the worker thread vanished")),
+            }
+        }
+    })
+}

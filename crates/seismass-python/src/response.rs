@@ -1,0 +1,292 @@
+//! One run, and its response as arrays.
+
+use std::num::NonZeroUsize;
+
+use pyo3::prelude::*;
+use seismass::simulate::simulate_until;
+use seismass::{EventKind, Options, Peak, Status};
+
+use crate::arrays::{Named, Output};
+use crate::interrupt::{run_inline, run_watched};
+use crate::scene::{Motion, Scene};
+
+/// Bound on samples x (1 + storeys + blocks)^2 of a run that is short enough (tens of milliseconds) to need no watch
+/// for Ctrl-C; starting a thread would cost more than many such runs.
+const SHORT_RUN: usize = 4_000_000;
+
+/// Solves one scene under one motion; histories at every so many samples (0: none).
+#[pyfunction]
+#[pyo3(signature = (scene, motion, every, energy, events))]
+pub(crate) fn simulate(
+    py: Python<'_>,
+    scene: PyRef<'_, Scene>,
+    motion: PyRef<'_, Motion>,
+    every: usize,
+    energy: bool,
+    events: bool,
+) -> PyResult<Response> {
+    let options = Options { histories: NonZeroUsize::new(every), energy, events, peaks_only: false };
+    let (scene, motion) = (&scene.0, &motion.0);
+    let size = 1 + scene.storeys() + scene.blocks().len();
+    let work = motion.acceleration().len().saturating_mul(size * size);
+    let response = if work <= SHORT_RUN {
+        run_inline(py, || seismass::simulate(scene, motion, &options))
+    } else {
+        run_watched(py, |_| Ok(()), |control| simulate_until(scene, motion, &options, &control.stop))
+    }?;
+    Ok(Response(response))
+}
+
+/// The response of one run, held by the kernel; arrays are made when asked for.
+#[pyclass(frozen, module = "seismass._kernel")]
+pub(crate) struct Response(seismass::Response);
+
+/// "completed" or "collapsed".
+pub(crate) fn status_name(status: Status) -> &'static str {
+    match status {
+        Status::Completed => "completed",
+        Status::Collapsed { .. } => "collapsed",
+    }
+}
+
+/// Storey that collapsed, counted from 1.
+pub(crate) fn collapsed_storey(status: Status) -> Option<usize> {
+    match status {
+        Status::Completed => None,
+        Status::Collapsed { storey, .. } => Some(storey),
+    }
+}
+
+fn values(peaks: &[Peak]) -> Output<f64> {
+    Output::new(peaks.iter().map(|peak| peak.value))
+}
+
+fn times(peaks: &[Peak]) -> Output<f64> {
+    Output::new(peaks.iter().map(|peak| peak.time))
+}
+
+impl Response {
+    fn history(&self, of: impl Fn(&seismass::Histories) -> &Vec<f64>, columns: usize) -> Option<Output<f64>> {
+        self.0.histories.as_ref().map(|h| Output::shaped(&[h.rows, columns], of(h).clone()))
+    }
+
+    fn storeys(&self) -> usize {
+        self.0.peaks.drift.len()
+    }
+
+    fn blocks(&self) -> usize {
+        self.0.peaks.slip.len()
+    }
+
+    fn event_column<T>(&self, of: impl Fn(&seismass::Event) -> T) -> Option<Output<T>> {
+        self.0.events.as_ref().map(|events| Output::new(events.iter().map(of)))
+    }
+}
+
+#[pymethods]
+impl Response {
+    /// "completed" or "collapsed".
+    #[getter]
+    fn status(&self) -> &'static str {
+        status_name(self.0.status)
+    }
+
+    /// Time reached (s).
+    #[getter]
+    fn end_time(&self) -> f64 {
+        self.0.end_time
+    }
+
+    /// Storey that collapsed, counted from 1.
+    #[getter]
+    fn collapsed_storey(&self) -> Option<usize> {
+        collapsed_storey(self.0.status)
+    }
+
+    /// Peak storey drift (m).
+    #[getter]
+    fn peak_drift(&self) -> Output<f64> {
+        values(&self.0.peaks.drift)
+    }
+
+    /// Time of the peak drift (s).
+    #[getter]
+    fn peak_drift_time(&self) -> Output<f64> {
+        times(&self.0.peaks.drift)
+    }
+
+    /// Peak slip of each block (m).
+    #[getter]
+    fn peak_slip(&self) -> Output<f64> {
+        values(&self.0.peaks.slip)
+    }
+
+    /// Time of the peak slip (s).
+    #[getter]
+    fn peak_slip_time(&self) -> Output<f64> {
+        times(&self.0.peaks.slip)
+    }
+
+    /// Peak absolute floor acceleration (m/s2).
+    #[getter]
+    fn peak_floor_acceleration(&self) -> Output<f64> {
+        values(&self.0.peaks.floor_acceleration)
+    }
+
+    /// Time of the peak floor acceleration (s).
+    #[getter]
+    fn peak_floor_acceleration_time(&self) -> Output<f64> {
+        times(&self.0.peaks.floor_acceleration)
+    }
+
+    /// Peak storey shear, the spring force alone (N).
+    #[getter]
+    fn peak_storey_shear(&self) -> Output<f64> {
+        values(&self.0.peaks.storey_shear)
+    }
+
+    /// Time of the peak storey shear (s).
+    #[getter]
+    fn peak_storey_shear_time(&self) -> Output<f64> {
+        times(&self.0.peaks.storey_shear)
+    }
+
+    /// Drift at the end (m).
+    #[getter]
+    fn residual_drift(&self) -> Output<f64> {
+        Output::new(self.0.residual_drift.iter().copied())
+    }
+
+    /// Slip at the end (m).
+    #[getter]
+    fn residual_slip(&self) -> Output<f64> {
+        Output::new(self.0.residual_slip.iter().copied())
+    }
+
+    /// Path slipped (m).
+    #[getter]
+    fn slip_path(&self) -> Output<f64> {
+        Output::new(self.0.slip_path.iter().copied())
+    }
+
+    /// Samples per row of the histories; None without histories.
+    #[getter]
+    fn every(&self) -> Option<usize> {
+        self.0.histories.as_ref().map(|histories| histories.every)
+    }
+
+    /// Drift history (m), rows x storeys.
+    #[getter]
+    fn drift(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.drift, self.storeys())
+    }
+
+    /// Slip history (m), rows x blocks.
+    #[getter]
+    fn slip(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.slip, self.blocks())
+    }
+
+    /// Floor velocity relative to the ground (m/s), rows x storeys.
+    #[getter]
+    fn floor_velocity(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.floor_velocity, self.storeys())
+    }
+
+    /// Block velocity relative to the ground (m/s), rows x blocks.
+    #[getter]
+    fn block_velocity(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.block_velocity, self.blocks())
+    }
+
+    /// Absolute floor acceleration (m/s2), rows x storeys.
+    #[getter]
+    fn floor_acceleration(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.floor_acceleration, self.storeys())
+    }
+
+    /// Spring force (N), rows x storeys.
+    #[getter]
+    fn storey_force(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.storey_force, self.storeys())
+    }
+
+    /// Times of the events (s).
+    #[getter]
+    fn event_time(&self) -> Option<Output<f64>> {
+        self.event_column(|event| event.time)
+    }
+
+    /// Kinds of the events, as indices of `event_kinds`.
+    #[getter]
+    fn event_kind(&self) -> Option<Output<u8>> {
+        self.event_column(|event| event.kind as u8)
+    }
+
+    /// Storey or block of each event, counted from 1.
+    #[getter]
+    fn event_number(&self) -> Option<Output<u32>> {
+        self.event_column(|event| u32::try_from(event.number).unwrap_or(u32::MAX))
+    }
+
+    /// Sign of each event.
+    #[getter]
+    fn event_sign(&self) -> Option<Output<i8>> {
+        self.event_column(|event| event.sign)
+    }
+
+    /// Spring element of each yield, 1 or 2; otherwise 0.
+    #[getter]
+    fn event_element(&self) -> Option<Output<u8>> {
+        self.event_column(|event| event.element)
+    }
+
+    /// Names of the kinds of events.
+    #[staticmethod]
+    fn event_kinds() -> Vec<&'static str> {
+        EventKind::ALL.iter().map(|kind| kind.name()).collect()
+    }
+
+    /// Number of events of each kind, in the order of `event_kinds`.
+    #[getter]
+    fn event_counts(&self) -> Vec<usize> {
+        self.0.statistics.events.0.to_vec()
+    }
+
+    /// Energies (J) and their relative residual, if asked for.
+    #[getter]
+    fn energy(&self) -> Option<Named<f64, 8>> {
+        self.0.energy.map(|energy| {
+            Named([
+                ("initial", energy.initial),
+                ("input", energy.input),
+                ("kinetic", energy.kinetic),
+                ("viscous", energy.viscous),
+                ("elastic", energy.elastic),
+                ("hysteretic", energy.hysteretic),
+                ("friction", energy.friction),
+                ("relative_residual", energy.relative_residual),
+            ])
+        })
+    }
+
+    /// Work done and skipped.
+    #[getter]
+    fn statistics(&self) -> Named<usize, 11> {
+        let statistics = &self.0.statistics;
+        let skipped = &statistics.skipped;
+        Named([
+            ("intervals", statistics.intervals),
+            ("plain_steps", statistics.plain_steps),
+            ("series_steps", statistics.series_steps),
+            ("guards_isolated", statistics.guards_isolated),
+            ("events", statistics.events.total()),
+            ("regimes", statistics.regimes),
+            ("regime_hits", statistics.regime_hits),
+            ("skipped_elastic_storeys", skipped.elastic_storeys),
+            ("skipped_bare_floors", skipped.bare_floors),
+            ("skipped_head_samples", skipped.head_samples),
+            ("skipped_tail_samples", skipped.tail_samples),
+        ])
+    }
+}

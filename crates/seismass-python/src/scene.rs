@@ -1,0 +1,194 @@
+//! Building, Scene, Motion: validated input that the kernel holds for Python.
+
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use pyo3::prelude::*;
+use seismass::{Damping, Domain, Error, GravityEffect, Storey};
+
+use crate::arrays::{Output, Table, Values};
+use crate::errors::from_kernel;
+
+/// Building held by the kernel.
+#[pyclass(frozen, module = "seismass._kernel")]
+pub(crate) struct Building(pub(crate) Arc<seismass::Building>);
+
+#[pymethods]
+impl Building {
+    /// Lists have one value per storey. Damping is `damping_ratio` in every mode, or in two modes, or a matrix.
+    #[new]
+    #[pyo3(signature = (mass, stiffness, yield_shear, overstrength, second_slope, third_slope, *, damping_ratio=None,
+        rayleigh_modes=None, damping_matrix=None, heights=None, gravity_load=None, geometric_stiffness=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn new(
+        py: Python<'_>,
+        mass: Values<f64>,
+        stiffness: Values<f64>,
+        yield_shear: Values<f64>,
+        overstrength: Values<f64>,
+        second_slope: Values<f64>,
+        third_slope: Values<f64>,
+        damping_ratio: Option<f64>,
+        rayleigh_modes: Option<(usize, usize)>,
+        damping_matrix: Option<Table<f64>>,
+        heights: Option<Values<f64>>,
+        gravity_load: Option<Values<f64>>,
+        geometric_stiffness: Option<Values<f64>>,
+    ) -> PyResult<Self> {
+        let springs = [&stiffness, &yield_shear, &overstrength, &second_slope, &third_slope];
+        let damping = match (damping_ratio, rayleigh_modes, damping_matrix) {
+            (Some(ratio), None, None) => Ok(Damping::Modal { ratio }),
+            (Some(ratio), Some((first, second)), None) => Ok(Damping::Rayleigh { ratio, modes: [first, second] }),
+            (None, None, Some(matrix)) => square(&matrix).map(Damping::Matrix),
+            _ => Err(refuse("damping", "a ratio, a ratio in two modes or a matrix", "another combination")),
+        };
+        let gravity = match (heights, gravity_load, geometric_stiffness) {
+            (None, None, Some(values)) => Ok(GravityEffect::GeometricStiffness(values.0)),
+            (Some(heights), Some(loads), None) => Ok(GravityEffect::Loads { heights: heights.0, floor_loads: loads.0 }),
+            (None, None, None) => Ok(GravityEffect::None),
+            _ => Err(refuse("P-Delta", "geometric_stiffness, or heights and gravity_load", "another combination")),
+        };
+        storeys(mass.0.len(), springs)
+            .and_then(|storeys| seismass::Building::new(mass.0, storeys, damping?)?.with_gravity(gravity?))
+            .map(|building| Self(Arc::new(building)))
+            .map_err(|error| from_kernel(py, &error))
+    }
+
+    /// Natural periods of the bare building without P-Delta (s), longest first.
+    #[getter]
+    fn periods(&self) -> Output<f64> {
+        Output::new(self.0.periods())
+    }
+
+    /// Damping matrix C in floor coordinates (N s/m).
+    #[getter]
+    fn damping_matrix(&self) -> Output<f64> {
+        let matrix = self.0.damping_matrix();
+        Output::shaped(&[matrix.nrows(), matrix.ncols()], matrix.transpose().as_slice().to_vec())
+    }
+}
+
+fn refuse(parameter: &str, requirement: &str, value: &str) -> Error {
+    Error::invalid(Domain::Scene, parameter, "building", requirement, value)
+}
+
+fn square(matrix: &Table<f64>) -> seismass::Result<DMatrix<f64>> {
+    if matrix.rows != matrix.columns {
+        let shape = format!("{} x {}", matrix.rows, matrix.columns);
+        return Err(refuse("damping", "a square matrix", &shape));
+    }
+    Ok(DMatrix::from_row_slice(matrix.rows, matrix.columns, &matrix.values))
+}
+
+/// The springs, from lists that must be as long as the list of masses.
+fn storeys(count: usize, lists: [&Values<f64>; 5]) -> seismass::Result<Vec<Storey>> {
+    const NAMES: [&str; 5] = ["stiffness", "yield_shear", "overstrength", "second_slope", "third_slope"];
+    for (name, list) in NAMES.into_iter().zip(lists) {
+        if list.0.len() != count {
+            let requirement = format!("one number or a list of {count} values, one per storey");
+            return Err(refuse(name, &requirement, &format!("{} values", list.0.len())));
+        }
+    }
+    let [stiffness, yield_shear, overstrength, second_slope, third_slope] = lists;
+    Ok((0..count)
+        .map(|i| Storey {
+            stiffness: stiffness.0[i],
+            yield_shear: yield_shear.0[i],
+            overstrength: overstrength.0[i],
+            second_slope: second_slope.0[i],
+            third_slope: third_slope.0[i],
+        })
+        .collect())
+}
+
+/// Building and blocks held by the kernel.
+#[pyclass(frozen, module = "seismass._kernel")]
+pub(crate) struct Scene(pub(crate) seismass::Scene);
+
+/// Floor, mass (kg), mu_s, mu_k, initial velocity (m/s).
+type BlockTuple = (usize, f64, f64, f64, Option<f64>);
+
+#[pymethods]
+impl Scene {
+    /// Blocks are tuples of floor, mass, mu_s, mu_k and initial velocity (None: that of the floor).
+    #[new]
+    #[pyo3(signature = (building, blocks, *, initial_drift=None, initial_velocity=None, collapse_drift=None))]
+    fn new(
+        py: Python<'_>,
+        building: Option<PyRef<'_, Building>>,
+        blocks: Vec<BlockTuple>,
+        initial_drift: Option<Values<f64>>,
+        initial_velocity: Option<Values<f64>>,
+        collapse_drift: Option<Values<f64>>,
+    ) -> PyResult<Self> {
+        let blocks = blocks
+            .into_iter()
+            .map(|(floor, mass, mu_s, mu_k, velocity)| seismass::Block { floor, mass, mu_s, mu_k, velocity })
+            .collect();
+        let build = || {
+            let mut scene = seismass::Scene::new(building.map(|b| Arc::clone(&b.0)), blocks)?;
+            let at_rest = vec![0.0; scene.storeys()];
+            if initial_drift.is_some() || initial_velocity.is_some() {
+                let drift = initial_drift.map_or_else(|| at_rest.clone(), |values| values.0);
+                let velocity = initial_velocity.map_or_else(|| at_rest.clone(), |values| values.0);
+                scene = scene.with_initial(drift, velocity)?;
+            }
+            match collapse_drift {
+                Some(limits) => scene.with_collapse_drift(limits.0),
+                None => Ok(scene),
+            }
+        };
+        build().map(Self).map_err(|error| from_kernel(py, &error))
+    }
+
+    /// P/h of each storey (N/m), the weight of the blocks included; zero without P-Delta.
+    #[getter]
+    fn geometric_stiffness(&self) -> Output<f64> {
+        Output::new(self.0.geometric_stiffness().iter().copied())
+    }
+}
+
+/// Ground motion held by the kernel.
+#[pyclass(frozen, module = "seismass._kernel")]
+pub(crate) struct Motion(pub(crate) seismass::Motion);
+
+#[pymethods]
+impl Motion {
+    /// Samples in m/s2 at step dt (s); vertical samples (up positive) are as many.
+    #[new]
+    #[pyo3(signature = (acceleration, dt, vertical=None))]
+    fn new(py: Python<'_>, acceleration: Values<f64>, dt: f64, vertical: Option<Values<f64>>) -> PyResult<Self> {
+        seismass::Motion::new(acceleration.0, dt, vertical.map(|values| values.0.into()))
+            .map(Self)
+            .map_err(|error| from_kernel(py, &error))
+    }
+
+    /// The motion up to the sample nearest to `duration` (s): cut, or continued at zero.
+    fn with_duration(&self, py: Python<'_>, duration: f64) -> PyResult<Self> {
+        self.0.with_duration(duration).map(Self).map_err(|error| from_kernel(py, &error))
+    }
+
+    /// Horizontal samples (m/s2).
+    #[getter]
+    fn acceleration(&self) -> Output<f64> {
+        Output::new(self.0.acceleration().iter().copied())
+    }
+
+    /// Vertical samples (m/s2), up positive.
+    #[getter]
+    fn vertical(&self) -> Option<Output<f64>> {
+        self.0.vertical().map(|samples| Output::new(samples.iter().copied()))
+    }
+
+    /// Time step (s).
+    #[getter]
+    fn dt(&self) -> f64 {
+        self.0.dt()
+    }
+}
+
+/// Storey stiffness (N/m) of a uniform building with the given first period (s) and floor mass (kg).
+#[pyfunction]
+pub(crate) fn uniform_stiffness(py: Python<'_>, storeys: usize, period: f64, mass: f64) -> PyResult<f64> {
+    seismass::scene::uniform_stiffness(storeys, period, mass).map_err(|error| from_kernel(py, &error))
+}

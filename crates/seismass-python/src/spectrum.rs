@@ -1,0 +1,27 @@
+//! Response spectra of many motions at once.
+
+use pyo3::prelude::*;
+
+use crate::arrays::{Output, Values};
+use crate::interrupt::run_watched;
+use crate::scene::Motion;
+
+/// Peak relative displacement (m) of linear oscillators from rest: motions x damping ratios x periods.
+#[pyfunction]
+#[pyo3(signature = (motions, periods, damping, threads=None))]
+pub(crate) fn response_spectra(
+    py: Python<'_>,
+    motions: Vec<PyRef<'_, Motion>>,
+    periods: Values<f64>,
+    damping: Values<f64>,
+    threads: Option<usize>,
+) -> PyResult<Output<f64>> {
+    let motions: Vec<seismass::Motion> = motions.iter().map(|motion| motion.0.clone()).collect();
+    let shape = [motions.len(), damping.0.len(), periods.0.len()];
+    let peaks = run_watched(
+        py,
+        |_| Ok(()),
+        move |control| seismass::spectrum::response_spectra(&motions, &periods.0, &damping.0, threads, control),
+    )?;
+    Ok(Output::shaped(&shape, peaks))
+}

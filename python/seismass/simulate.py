@@ -1,0 +1,653 @@
+"""Running scenes under motions: one at a time with everything about it, or many with their peaks as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Final, Protocol, TypeAlias, runtime_checkable
+
+import numpy as np
+import polars as pl
+from numpy.typing import ArrayLike, NDArray
+
+from seismass import _kernel
+from seismass._values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.errors import InvalidMotion, InvalidOption, InvalidScene
+from seismass.scene import Scene
+from seismass.units import STANDARD_GRAVITY
+
+EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
+"""Kinds of events: what happens to a storey (yield, unload), to a block, or to all blocks (lift, land)."""
+
+
+class Motion(Value):
+    """Ground motion as the kernel takes it: acceleration, linear between samples, the first sample at t = 0.
+
+    Parameters
+    ----------
+    acceleration : array_like, shape (samples,)
+        Horizontal ground acceleration (m/s2).
+    dt : float
+        Time step (s).
+    vertical : array_like, shape (samples,), optional
+        Vertical ground acceleration (m/s2), up positive.
+
+    Raises
+    ------
+    InvalidMotion
+        No sample, a value that is not a finite number, a step that is not positive, unequal lengths.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.Motion([0.0, 1.0, -2.0, 0.0], dt=0.01)
+    Motion(4 samples x 0.01 s, PGA = 0.2039 g)
+    """
+
+    __slots__ = ("_kernel", "acceleration", "dt", "vertical")
+    _kernel: _kernel.Motion
+    acceleration: FloatArray
+    dt: float
+    vertical: FloatArray | None
+
+    def __init__(self, acceleration: ArrayLike, dt: float, vertical: ArrayLike | None = None) -> None:
+        self._set(
+            acceleration=as_array(acceleration, "acceleration", "motion", InvalidMotion),
+            dt=as_number(dt, "dt", "motion", InvalidMotion),
+            vertical=None
+            if vertical is None
+            else as_array(vertical, "vertical acceleration", "motion", InvalidMotion),
+        )
+        self._set(_kernel=_kernel.Motion(self.acceleration, self.dt, self.vertical))
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        return len(self.acceleration)
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample (s)."""
+        return (self.samples - 1) * self.dt
+
+    @property
+    def time(self) -> FloatArray:
+        """Time of each sample (s), shape (samples,)."""
+        return frozen(np.arange(self.samples) * self.dt)
+
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration, horizontal (m/s2)."""
+        return float(np.abs(self.acceleration).max())
+
+    @property
+    def pga_g(self) -> float:
+        """Peak ground acceleration over g."""
+        return self.pga / STANDARD_GRAVITY
+
+    def with_duration(self, duration: float) -> Motion:
+        """Return the motion up to the sample nearest to `duration`.
+
+        Parameters
+        ----------
+        duration : float
+            Time (s). Beyond the last sample the motion goes to zero over one step and stays there.
+
+        Raises
+        ------
+        InvalidMotion
+            The duration is negative or not finite.
+        """
+        changed = self._kernel.with_duration(as_number(duration, "duration", "motion", InvalidMotion))
+        return Motion(changed.acceleration, self.dt, changed.vertical)
+
+    def _arguments(self) -> dict[str, Any]:
+        return {"acceleration": self.acceleration, "dt": self.dt, "vertical": self.vertical}
+
+    def __repr__(self) -> str:
+        vertical = "" if self.vertical is None else ", with vertical"
+        return f"Motion({self.samples} samples x {self.dt:g} s, PGA = {self.pga_g:.4g} g{vertical})"
+
+
+@runtime_checkable
+class HasMotion(Protocol):
+    """What can be used in place of a motion, such as a Record."""
+
+    @property
+    def motion(self) -> Motion:
+        """Its samples as the kernel takes them."""
+
+
+MotionLike: TypeAlias = Motion | HasMotion
+"""A Motion, or a Record as it is."""
+
+
+class Response:
+    """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
+
+    Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
+    `simulate` was asked for them, energies and events likewise. Responses pickle, and compare by content.
+    """
+
+    __slots__ = ("_dt", "_heights", "_kernel", "_known")
+    _kernel: _kernel.Response | None
+    _known: dict[str, Any]
+
+    def __init__(self, kernel: _kernel.Response, dt: float, heights: FloatArray | None) -> None:
+        self._kernel = kernel
+        self._known = {}
+        self._dt = dt
+        self._heights = heights
+
+    def _get(self, name: str) -> Any:
+        """Return what the kernel holds under a name, converted once."""
+        if name not in self._known:
+            self._known[name] = getattr(self._kernel, name)
+        return self._known[name]
+
+    def _asked(self, name: str, option: str) -> Any:
+        value = self._get(name)
+        if value is None:
+            raise refusal(InvalidOption, option, "simulate", f"asked for, if {name} is wanted", "False")
+        return value
+
+    @property
+    def status(self) -> str:
+        """How the run ended: "completed" or "collapsed"."""
+        return str(self._get("status"))
+
+    @property
+    def end_time(self) -> float:
+        """Time reached: the last sample, or the collapse."""
+        return float(self._get("end_time"))
+
+    @property
+    def collapsed_storey(self) -> int | None:
+        """Storey that reached its collapse drift, counted from 1; None if none did."""
+        storey: int | None = self._get("collapsed_storey")
+        return storey
+
+    @property
+    def peak_drift(self) -> FloatArray:
+        """Largest absolute drift of each storey (m), shape (storeys,)."""
+        return self._array("peak_drift")
+
+    @property
+    def peak_drift_time(self) -> FloatArray:
+        """When it was first reached, shape (storeys,)."""
+        return self._array("peak_drift_time")
+
+    @property
+    def peak_drift_ratio(self) -> FloatArray | None:
+        """Peak drift over storey height, shape (storeys,); None where heights are not known."""
+        return None if self._heights is None else frozen(self.peak_drift / self._heights)
+
+    @property
+    def residual_drift(self) -> FloatArray:
+        """Drift of each storey at the end (m), shape (storeys,)."""
+        return self._array("residual_drift")
+
+    @property
+    def residual_drift_ratio(self) -> FloatArray | None:
+        """Residual drift over storey height, shape (storeys,); None where heights are not known."""
+        return None if self._heights is None else frozen(self.residual_drift / self._heights)
+
+    @property
+    def peak_floor_acceleration(self) -> FloatArray:
+        """Largest absolute acceleration of each floor, relative to no one (m/s2), shape (storeys,)."""
+        return self._array("peak_floor_acceleration")
+
+    @property
+    def peak_floor_acceleration_time(self) -> FloatArray:
+        """When it was first reached, shape (storeys,)."""
+        return self._array("peak_floor_acceleration_time")
+
+    @property
+    def peak_storey_shear(self) -> FloatArray:
+        """Largest absolute spring force of each storey, without damping and P-Delta (N), shape (storeys,)."""
+        return self._array("peak_storey_shear")
+
+    @property
+    def peak_storey_shear_time(self) -> FloatArray:
+        """When it was first reached, shape (storeys,)."""
+        return self._array("peak_storey_shear_time")
+
+    @property
+    def peak_base_shear(self) -> float:
+        """Peak shear of storey 1 (N); NaN without a building."""
+        shear = self.peak_storey_shear
+        return float(shear[0]) if len(shear) else float("nan")
+
+    @property
+    def peak_slip(self) -> FloatArray:
+        """Largest absolute slip of each block (m), shape (blocks,)."""
+        return self._array("peak_slip")
+
+    @property
+    def peak_slip_time(self) -> FloatArray:
+        """When it was first reached, shape (blocks,)."""
+        return self._array("peak_slip_time")
+
+    @property
+    def residual_slip(self) -> FloatArray:
+        """Slip of each block at the end (m), where it may still slide, shape (blocks,)."""
+        return self._array("residual_slip")
+
+    @property
+    def slip_path(self) -> FloatArray:
+        """Path slipped by each block, airborne motion included (m), shape (blocks,)."""
+        return self._array("slip_path")
+
+    @property
+    def time(self) -> FloatArray:
+        """Times of the rows of the histories, shape (rows,)."""
+        if "time" not in self._known:
+            every = self._asked("every", "histories")
+            self._known["time"] = frozen(np.arange(len(self.drift)) * (every * self._dt))
+        return self._array("time")
+
+    @property
+    def drift(self) -> FloatArray:
+        """Storey drift (m), shape (rows, storeys); NaN after a collapse, as in every history."""
+        return self._history("drift")
+
+    @property
+    def drift_ratio(self) -> FloatArray | None:
+        """Storey drift over storey height, shape (rows, storeys); None where heights are not known."""
+        return None if self._heights is None else frozen(self.drift / self._heights)
+
+    @property
+    def slip(self) -> FloatArray:
+        """Slip, block displacement minus floor displacement (m), shape (rows, blocks)."""
+        return self._history("slip")
+
+    @property
+    def floor_velocity(self) -> FloatArray:
+        """Floor velocity relative to the ground (m/s), shape (rows, storeys)."""
+        return self._history("floor_velocity")
+
+    @property
+    def block_velocity(self) -> FloatArray:
+        """Block velocity relative to the ground (m/s), shape (rows, blocks)."""
+        return self._history("block_velocity")
+
+    @property
+    def floor_acceleration(self) -> FloatArray:
+        """Absolute floor acceleration (m/s2), shape (rows, storeys)."""
+        return self._history("floor_acceleration")
+
+    @property
+    def storey_force(self) -> FloatArray:
+        """Spring force of each storey (N), shape (rows, storeys)."""
+        return self._history("storey_force")
+
+    @property
+    def events(self) -> pl.DataFrame:
+        """Event log in order of time.
+
+        Columns: `time` (s); `kind` (one of `EVENT_KINDS`); `number`, the storey for yield and unload, otherwise the
+        block, counted from 1; `sign` (yield: of the force; unload: of the force before; slip, reverse: of the
+        relative velocity that follows; stick: of the one before; touch, lift, land: of the one then, 0: none);
+        `element` (yield: 1 or 2, first or second yield of the storey; otherwise null).
+        """
+        if "events" not in self._known:
+            time = self._asked("event_time", "events")
+            kinds = np.array(EVENT_KINDS)[self._get("event_kind")]
+            element = pl.Series("element", self._get("event_element"))
+            self._known["events"] = pl.DataFrame(
+                {
+                    "time": pl.Series(time, dtype=pl.Float64),
+                    "kind": pl.Series(kinds.tolist(), dtype=pl.String),
+                    "number": pl.Series(self._get("event_number")),
+                    "sign": pl.Series(self._get("event_sign")),
+                    "element": element.replace(0, None),
+                }
+            )
+        log: pl.DataFrame = self._known["events"]
+        return log
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of events of each kind."""
+        return dict(zip(EVENT_KINDS, self._get("event_counts"), strict=True))
+
+    @property
+    def energy(self) -> dict[str, float]:
+        """Energies at the end, relative to the moving ground (J).
+
+        Keys: `initial`, `input`, `kinetic`, `viscous`, `elastic` (the work of P-Delta, which is negative, included),
+        `hysteretic`, `friction`; and `relative_residual`, what is missing in the balance over the initial energy
+        plus the largest input.
+        """
+        return dict(self._asked("energy", "energy"))
+
+    @property
+    def statistics(self) -> dict[str, int]:
+        """Work done by the kernel (intervals, steps, events, regimes, cache hits) and what was skipped."""
+        return dict(self._get("statistics"))
+
+    def _array(self, name: str) -> FloatArray:
+        array: FloatArray = self._get(name)
+        return array
+
+    def _history(self, name: str) -> FloatArray:
+        array: FloatArray = self._asked(name, "histories")
+        return array
+
+    def _everything(self) -> dict[str, Any]:
+        return {name: self._get(name) for name in _KERNEL_VALUES}
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Response):
+            return NotImplemented
+        mine, theirs = self._everything(), other._everything()
+        return self._dt == other._dt and all(_same(mine[name], theirs[name]) for name in _KERNEL_VALUES)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"known": self._everything(), "dt": self._dt, "heights": self._heights}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._kernel = None
+        self._known = state["known"]
+        for value in self._known.values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        self._dt = state["dt"]
+        self._heights = state["heights"]
+
+    def __repr__(self) -> str:
+        collapsed = f", storey {self.collapsed_storey}" if self.collapsed_storey is not None else ""
+        drift = f", peak drift {_in_mm(self.peak_drift)} mm" if len(self.peak_drift) else ""
+        slip = f", peak slip {_in_mm(self.peak_slip)} mm" if len(self.peak_slip) else ""
+        return f"Response({self.status}{collapsed} at {self.end_time:g} s{drift}{slip})"
+
+
+_KERNEL_VALUES: Final = tuple(
+    name for name, member in vars(_kernel.Response).items() if not name.startswith("_") and not callable(member)
+    and not isinstance(member, staticmethod)
+)
+
+
+def simulate(
+    scene: Scene,
+    motion: MotionLike,
+    *,
+    histories: bool | int = False,
+    events: bool = True,
+    energy: bool = False,
+    duration: float | None = None,
+) -> Response:
+    """Solve one scene under one motion, exactly: every event is located, every regime is solved in closed form.
+
+    Parameters
+    ----------
+    scene : Scene
+        Building and blocks.
+    motion : Motion or Record
+        Ground motion.
+    histories : bool or int, default False
+        True keeps histories at every sample, a number at every so many samples from the first.
+    events : bool, default True
+        Keep the event log.
+    energy : bool, default False
+        Compute the energy balance.
+    duration : float, optional
+        End at the sample nearest to this time (s), before the last sample or after it.
+
+    Returns
+    -------
+    Response
+        Peaks, residuals, and what else was asked for. A collapse is a result, not an error.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption
+        An argument is not what it must be.
+    SimulationError
+        The run could not be carried to its end.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> scene = sm.Scene(None, [sm.Block(0, mass=100.0, mu=0.1)])
+    >>> response = sm.simulate(scene, sm.Motion([2.0, 2.0, 0.0, 0.0], dt=0.1), histories=True)
+    >>> response.counts["slip"]
+    1
+    """
+    if not isinstance(scene, Scene):
+        raise refusal(InvalidScene, "scene", "simulate", "a Scene", brief(scene))
+    chosen = as_motion(motion, "motion", "simulate")
+    if duration is not None:
+        chosen = chosen.with_duration(duration)
+    every = int(histories) if isinstance(histories, bool) else as_count(
+        histories, "histories", "simulate", InvalidOption, least=1
+    )
+    kernel = _kernel.simulate(scene._kernel, chosen._kernel, every, bool(energy), bool(events))
+    return Response(kernel, chosen.dt, None if scene.building is None else scene.building.heights)
+
+
+def simulate_many(
+    scenes: Scene | Sequence[Scene],
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    pairs: ArrayLike | None = None,
+    peaks_only: bool = False,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> pl.DataFrame:
+    """Solve many scenes under many motions, in parallel; the result does not depend on the number of threads.
+
+    Parameters
+    ----------
+    scenes : Scene or sequence of Scene
+        The scenes.
+    motions : Motion, Record or iterable of them
+        The motions.
+    pairs : array_like of int, shape (runs, 2), optional
+        Rows of (index of scene, index of motion), from 0. By default every scene under every motion, the motion
+        changing fastest. Equal runs are solved once.
+    peaks_only : bool, default False
+        A run may end once no peak can be beaten any more, with the same peaks; residuals are then null.
+    threads : int, optional
+        Number of threads; by default all cores.
+    progress : callable, optional
+        Called with (runs done, runs in all) about twenty times a second, and at the end.
+
+    Returns
+    -------
+    polars.DataFrame
+        One row per run, in the order asked for: `scene`, `motion` (indices); `status` ("completed", "collapsed",
+        "failed"), `reason` (of a failure, else null), `end_time` (s), `collapsed_storey` (from 1, or null); lists
+        per storey `peak_drift`, `peak_drift_time`, `peak_drift_ratio` (null without heights), `residual_drift`,
+        `peak_floor_acceleration`, `peak_storey_shear`; `peak_base_shear`; lists per block `peak_slip`,
+        `peak_slip_time`, `residual_slip`, `slip_path`; numbers of `events`, `yields`, `slips`. SI units.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption
+        An argument is not what it must be. A run that fails raises nothing: it is a row with a reason.
+    KeyboardInterrupt
+        Ctrl-C was pressed; the batch stops at once.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> scenes = [sm.Scene(None, [sm.Block(0, mass=100.0, mu=mu)]) for mu in (0.1, 0.3)]
+    >>> table = sm.simulate_many(scenes, sm.Motion([2.0, 2.0, 0.0, 0.0], dt=0.1))
+    >>> table["slips"].to_list()
+    [1, 0]
+    """
+    listed = _listed_scenes(scenes)
+    given = [motions] if isinstance(motions, Motion | HasMotion) else list(_iterated(motions))
+    chosen = [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(given)]
+    runs = _pairs(pairs, len(listed), len(chosen))
+    if progress is not None and not callable(progress):
+        raise refusal(InvalidOption, "progress", "batch", "a callable of two numbers", brief(progress))
+    batch = _kernel.simulate_many(
+        [scene._kernel for scene in listed],
+        [motion._kernel for motion in chosen],
+        runs,
+        peaks_only=bool(peaks_only),
+        threads=None if threads is None else as_count(threads, "threads", "batch", InvalidOption, least=1),
+        progress=progress,
+    )
+    return _table(batch, runs, listed)
+
+
+def as_motion(motion: Any, parameter: str, owner: str) -> Motion:
+    """Return a motion, or that of a record."""
+    found = motion if isinstance(motion, Motion) else getattr(motion, "motion", None)
+    if not isinstance(found, Motion):
+        raise refusal(InvalidMotion, parameter, owner, "a Motion or a Record", brief(motion))
+    return found
+
+
+def _iterated(values: Any) -> Iterable[Any]:
+    if not isinstance(values, Iterable):
+        raise refusal(InvalidMotion, "motions", "batch", "a list of Motions or Records", brief(values))
+    return values
+
+
+def _listed_scenes(scenes: Any) -> list[Scene]:
+    if not isinstance(scenes, Scene | Iterable):
+        raise refusal(InvalidScene, "scenes", "batch", "a list of Scenes", brief(scenes))
+    listed = [scenes] if isinstance(scenes, Scene) else list(scenes)
+    for number, scene in enumerate(listed):
+        if not isinstance(scene, Scene):
+            raise refusal(InvalidScene, f"scene {number}", "batch", "a Scene", brief(scene))
+    return listed
+
+
+def _pairs(pairs: ArrayLike | None, scenes: int, motions: int) -> NDArray[np.int64]:
+    """Runs as rows of (scene, motion)."""
+    if pairs is None:
+        product = np.indices((scenes, motions), dtype=np.int64).reshape(2, -1)
+        return np.ascontiguousarray(product.T)
+    requirement = "rows of (index of scene, index of motion)"
+    try:
+        rows = np.asarray(pairs)
+    except ValueError:
+        raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs)) from None
+    if rows.size == 0:
+        return np.empty((0, 2), dtype=np.int64)
+    if rows.dtype.kind not in "iu" or rows.ndim != 2 or rows.shape[1] != 2:
+        raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs))
+    for column, (name, size) in enumerate((("scene", scenes), ("motion", motions))):
+        wrong = np.flatnonzero((rows[:, column] < 0) | (rows[:, column] >= size))
+        if len(wrong):
+            limits = f"an index of a {name}, 0 to {size - 1}"
+            got = f"{rows[wrong[0], column]} in pair {wrong[0]}"
+            raise refusal(InvalidOption, "pairs", "batch", limits, got)
+    return np.ascontiguousarray(rows, dtype=np.int64)
+
+
+def _table(batch: _kernel.Batch, runs: NDArray[np.int64], scenes: list[Scene]) -> pl.DataFrame:
+    """The flat columns of a batch as a frame, without a Python object per run."""
+    failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
+    storeys, blocks = batch.storeys, batch.blocks
+    per_storey = {
+        "peak_drift": batch.peak_drift,
+        "peak_drift_time": batch.peak_drift_time,
+        "peak_drift_ratio": batch.peak_drift / _heights(runs[:, 0], storeys, scenes),
+        "residual_drift": batch.residual_drift,
+        "peak_floor_acceleration": batch.peak_floor_acceleration,
+        "peak_storey_shear": batch.peak_storey_shear,
+    }
+    per_block = {
+        "peak_slip": batch.peak_slip,
+        "peak_slip_time": batch.peak_slip_time,
+        "residual_slip": batch.residual_slip,
+        "slip_path": batch.slip_path,
+    }
+    reasons = pl.DataFrame(batch.failures, schema={"run": pl.UInt32, "reason": pl.String}, orient="row")
+    unknown = pl.element().is_nan().all()
+    table = (
+        pl.DataFrame(
+            {
+                "run": np.arange(len(runs), dtype=np.uint32),
+                "scene": runs[:, 0].astype(np.uint32),
+                "motion": runs[:, 1].astype(np.uint32),
+                "status": pl.Series(_kernel.Batch.status_names(), dtype=pl.String).gather(batch.status),
+                "end_time": pl.Series(batch.end_time).fill_nan(None),
+                "collapsed_storey": pl.Series(batch.collapsed_storey).replace(0, None),
+                **_lists(per_storey, storeys, failed),
+                **_lists(per_block, blocks, failed),
+                "events": batch.events,
+                "yields": batch.yields,
+                "slips": batch.slips,
+            }
+        )
+        .join(reasons, on="run", how="left", maintain_order="left")
+        .with_columns(
+            pl.col("peak_storey_shear").list.first().alias("peak_base_shear"),
+            # A run that ended early has no residual.
+            pl.col("residual_drift", "residual_slip").list.eval(pl.element().fill_nan(None)),
+            pl.when(pl.col("peak_drift_ratio").list.eval(unknown).list.first().not_())
+            .then("peak_drift_ratio")
+            .alias("peak_drift_ratio"),
+            pl.when(pl.col("status") != "failed").then(pl.col("events", "yields", "slips")),
+        )
+    )
+    return table.select(_COLUMNS)
+
+
+_COLUMNS: Final = (
+    "scene",
+    "motion",
+    "status",
+    "reason",
+    "end_time",
+    "collapsed_storey",
+    "peak_drift",
+    "peak_drift_time",
+    "peak_drift_ratio",
+    "residual_drift",
+    "peak_floor_acceleration",
+    "peak_storey_shear",
+    "peak_base_shear",
+    "peak_slip",
+    "peak_slip_time",
+    "residual_slip",
+    "slip_path",
+    "events",
+    "yields",
+    "slips",
+)
+
+
+def _heights(scene: NDArray[np.int64], storeys: NDArray[np.uint32], scenes: list[Scene]) -> FloatArray:
+    """Height of each storey of each run, flat; NaN where not known."""
+    per_scene = [
+        np.full(s.storeys, np.nan) if s.building is None or s.building.heights is None else s.building.heights
+        for s in scenes
+    ]
+    if not per_scene:
+        return np.empty(0)
+    starts = np.concatenate([[0], np.cumsum([len(heights) for heights in per_scene])[:-1]])
+    within = np.arange(storeys.sum()) - np.repeat(np.cumsum(storeys) - storeys, storeys)
+    heights: FloatArray = np.concatenate(per_scene)[np.repeat(starts[scene], storeys) + within.astype(np.int64)]
+    return heights
+
+
+def _lists(columns: dict[str, FloatArray], lengths: NDArray[np.uint32], failed: pl.Series) -> dict[str, pl.Series]:
+    """Flat values as list columns, `lengths[i]` values in row i; null in failed rows."""
+    rows = pl.DataFrame({"run": np.arange(len(lengths), dtype=np.uint32), "empty": lengths == 0, "failed": failed})
+    owners = np.repeat(rows["run"].to_numpy(), lengths)
+    lists = pl.DataFrame({"run": owners, **columns}).group_by("run", maintain_order=True).agg(pl.all())
+    nothing = pl.lit([], dtype=pl.List(pl.Float64))
+    filled = rows.join(lists, on="run", how="left", maintain_order="left").select(
+        pl.when(pl.col("empty") & ~pl.col("failed")).then(nothing).otherwise(pl.col(name)).alias(name)
+        for name in columns
+    )
+    return {name: filled[name] for name in columns}
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+    return bool(one == other)
+
+
+def _in_mm(values: FloatArray) -> str:
+    return " ".join(f"{1000.0 * value:.4g}" for value in values)
