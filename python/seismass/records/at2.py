@@ -1,0 +1,147 @@
+"""PEER .AT2 files: four header lines of any vintage, then accelerations in any number per line.
+
+Headers round the step to four decimals ("DT= .0039" may be 1/256 s); the caller may give the exact one.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from seismass.errors import RecordFormatError
+from seismass.records.numbers import is_cut_off, is_number, parse_numbers, to_float
+from seismass.records.record import Record
+from seismass.units import ACCELERATION_UNITS, stated_unit
+
+HEADER_LINES: Final = 10
+"""The counts stand in line 4; a file may have blank or further lines before them."""
+
+HEADER_ROUNDING: Final = 0.500001e-4
+"""Half the fourth decimal (s), to which headers round the step however many decimals they write."""
+
+_COUNTS = (
+    re.compile(r"NPTS\s*[=:]?\s*(?P<points>\d+)[.,;\s]*DT\s*[=:]?\s*(?P<step>[\d.]+(?:E[+-]?\d+)?)", re.IGNORECASE),
+    re.compile(r"^\s*(?P<points>\d+)[,\s]+(?P<step>[\d.]+(?:E[+-]?\d+)?)[,\s]+NPTS\s*,?\s*DT", re.IGNORECASE),
+)
+_OTHER_QUANTITY = re.compile(r"\b(VELOCITY|DISPLACEMENT)\b", re.IGNORECASE)
+_SYNTHETIC = re.compile(r"\bSYNTHETIC\b", re.IGNORECASE)
+
+
+def looks_like_at2(text: str) -> bool:
+    """Whether a line with NPTS and DT stands where the header of an .AT2 file has it."""
+    return _find_counts(text.splitlines()) is not None
+
+
+def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | None = None) -> Record:
+    """Read the text of an .AT2 file.
+
+    Parameters
+    ----------
+    text : str
+        The whole file.
+    source : Path
+        Where it came from: gives the name, and is named in errors.
+    dt : float, optional
+        The exact step (s), where the header has rounded it; must agree with the header to its last digit.
+    unit : str, optional
+        Must agree with the header where that states one; g where neither does.
+
+    Raises
+    ------
+    RecordFormatError
+        No counts in the header, other counts than points, a damaged number, or a contradiction with `dt` or `unit`.
+    """
+    file = source.name
+    lines = text.splitlines()
+    counts = _find_counts(lines)
+    if counts is None:
+        raise RecordFormatError(
+            f"header of {file} must give NPTS and DT in its first {HEADER_LINES} lines, as .AT2 files do; "
+            f"got {lines[min(3, len(lines) - 1)].strip()[:60]!r}"
+        )
+    line_of_counts, points, step = counts
+    titles = [line.strip() for line in lines[:line_of_counts]]
+    header = " ".join(titles)
+    quantity = _OTHER_QUANTITY.search(titles[-1] if titles else "")
+    if quantity:
+        raise RecordFormatError(f"quantity of {file} must be acceleration; got {quantity.group().lower()}")
+    remarks: list[str] = []
+    exact_dt = _agreed_step(step, dt, file, remarks)
+    unit = _agreed_unit(stated_unit(header), unit, file)
+
+    numbered = enumerate(lines[line_of_counts + 1 :], start=line_of_counts + 2)
+    tokens, values = parse_numbers(numbered, file)
+    if len(values) < points:
+        hint = f", and its last number {tokens[-1]!r} looks cut off" if tokens and is_cut_off(tokens) else ""
+        raise RecordFormatError(
+            f"points of {file} must be {points}, as its header says; got {len(values)}: the file is cut off{hint}"
+        )
+    if len(values) > points:
+        if np.any(values[points:] != 0.0):
+            raise RecordFormatError(f"points of {file} must be {points}, as its header says; got {len(values)}")
+        remarks.append(f"{len(values) - points} zeros beyond the {points} points of the header left out")
+        tokens, values = tokens[:points], values[:points]
+    if points == 0:
+        raise RecordFormatError(f"points of {file} must be at least 1; got 0")
+    if is_cut_off(tokens):
+        raise RecordFormatError(
+            f"last number of {file} must be written as the others are; got {tokens[-1]!r}: the file is cut off"
+        )
+    event, station, component = _titles(titles)
+    return Record(
+        acceleration=values * ACCELERATION_UNITS[unit],
+        dt=exact_dt,
+        name=source.stem,
+        event=event,
+        station=station,
+        component=component,
+        source=source,
+        unit=unit,
+        synthetic=bool(_SYNTHETIC.search(header)),
+        remarks=tuple(remarks),
+    )
+
+
+def _find_counts(lines: list[str]) -> tuple[int, int, str] | None:
+    """Return the index of the line with the counts, the points and the step as written."""
+    for index, line in enumerate(lines[:HEADER_LINES]):
+        for pattern in _COUNTS:
+            match = pattern.search(line)
+            if match and is_number(match["step"]):
+                return index, int(match["points"]), match["step"]
+    return None
+
+
+def _agreed_step(written: str, dt: float | None, file: str, remarks: list[str]) -> float:
+    step = to_float(written)
+    if not step > 0.0:
+        raise RecordFormatError(f"DT of {file} must be positive; got {written}")
+    if dt is None:
+        binary = 2 ** round(-math.log2(step))  # digital recorders sampled 128, 200 or 256 times a second
+        if 0.0 < abs(1.0 / binary - step) <= HEADER_ROUNDING:
+            remarks.append(f"step {written} s taken as written; it may be 1/{binary} s rounded, which dt= would give")
+        return step
+    if abs(dt - step) > HEADER_ROUNDING:
+        raise RecordFormatError(f"dt of {file} must agree with its header, {written} s; got {dt:g} s")
+    if dt != step:
+        remarks.append(f"step {dt!r} s given instead of the header's rounded {written} s")
+    return dt
+
+
+def _agreed_unit(stated: str | None, unit: str | None, file: str) -> str:
+    if stated and unit and stated != unit:
+        raise RecordFormatError(f"unit of {file} must be that of its header, {stated}; got {unit}")
+    return unit or stated or "g"
+
+
+def _titles(titles: list[str]) -> tuple[str, str, str]:
+    """Return event, station and component of "event, date, station, component" or of what there is of it."""
+    title = titles[1] if len(titles) > 1 else ""
+    parts = [part.strip() for part in title.split(",")]
+    if len(parts) < 3:
+        return title, "", ""
+    return ", ".join(parts[:-2]), parts[-2], parts[-1]

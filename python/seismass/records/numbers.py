@@ -1,0 +1,96 @@
+"""Numbers as record files write them: Fortran fields that touch, and the marks of a file that was cut off."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seismass.errors import RecordFormatError
+
+NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][+-]?\d+)?"
+
+_FIELD = re.compile(r"[+-]?\d*\.\d+(?:[EeDd][+-]\d\d)?")
+_PARTS = re.compile(r"[+-]?\d*\.?(?P<decimals>\d*)(?:[EeDd][+-]?(?P<exponent>\d*))?")
+_NUMBER = re.compile(NUMBER)
+
+FEWEST_TO_JUDGE_BY: Final = 50
+"""Below so many numbers the last one may be shorter than all others by chance."""
+
+
+def is_number(token: str) -> bool:
+    """Whether the token is one finite decimal number, Fortran's D exponent included."""
+    return _NUMBER.fullmatch(token) is not None
+
+
+def to_float(token: str) -> float:
+    """Return the value of a token for which `is_number` holds."""
+    return float(token.replace("D", "E").replace("d", "e"))
+
+
+def split_touching(token: str) -> list[str] | None:
+    """Return the fields of fixed width that touch in `token` ("-.24E-03-.23E-03"), or None if it is not such a run.
+
+    Two fields that touch can be told apart where the second has a sign or the first an exponent, which Fortran
+    writes with a sign and two digits; any other run is ambiguous and refused.
+    """
+    fields: list[str] = []
+    end = 0
+    while end < len(token):
+        match = _FIELD.match(token, end)
+        if match is None or (end and token[end] not in "+-" and not re.search("[EeDd]", fields[-1])):
+            return None
+        fields.append(match.group())
+        end = match.end()
+    return fields
+
+
+def parse_numbers(lines: Iterable[tuple[int, str]], file: str) -> tuple[list[str], NDArray[np.float64]]:
+    """Read all numbers of numbered lines.
+
+    Returns
+    -------
+    tokens : list of str
+        As written, one per number.
+    values : ndarray, shape (len(tokens),)
+
+    Raises
+    ------
+    RecordFormatError
+        Something that is not a number, with its line.
+    """
+    tokens: list[str] = []
+    for number, line in lines:
+        for token in line.split():
+            if is_number(token):
+                tokens.append(token)
+                continue
+            fields = split_touching(token)
+            if not fields:
+                raise RecordFormatError(f"line {number} of {file} must be numbers; got {token[:40]!r}")
+            tokens.extend(fields)
+    values = np.array([to_float(token) for token in tokens], dtype=np.float64)
+    wrong = np.flatnonzero(~np.isfinite(values))
+    if len(wrong):
+        raise RecordFormatError(f"numbers of {file} must be finite; got {tokens[wrong[0]]!r}")
+    return tokens, values
+
+
+def is_cut_off(tokens: Sequence[str]) -> bool:
+    """Whether the last number looks cut off: fewer decimals or exponent digits than any other number of the file.
+
+    The first half of "0.4751E-01" is a clean number and a false peak.
+    """
+    if len(tokens) <= FEWEST_TO_JUDGE_BY or to_float(tokens[-1]) == 0.0:
+        return False
+    (last_decimals, last_exponent) = _shape(tokens[-1])
+    shapes = [_shape(token) for token in tokens[:-1]]
+    return last_decimals < min(d for d, _ in shapes) or last_exponent < min(e for _, e in shapes)
+
+
+def _shape(token: str) -> tuple[int, int]:
+    match = _PARTS.fullmatch(token)
+    return (len(match["decimals"]), len(match["exponent"] or "")) if match else (0, 0)

@@ -1,0 +1,172 @@
+"""One component of ground motion: accelerations in m/s2 at a fixed step, and what its source says about them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seismass.errors import InvalidMotion
+from seismass.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from seismass.simulate import Motion
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Record:
+    """Accelerations at a fixed time step, never changed in place: scaling makes a new record.
+
+    Parameters
+    ----------
+    acceleration : array_like, shape (samples,)
+        Ground acceleration (m/s2), first sample at t = 0; kept as a read-only copy.
+    dt : float
+        Time step (s).
+    name : str
+        Short name, for a file its name without the suffix.
+    event, station, component : str
+        What the source calls them; empty where it does not say.
+    source : Path, optional
+        The file it was read from.
+    unit : str
+        Unit of the accelerations in that file: "g", "m/s2" or "cm/s2". The samples here are in m/s2 whatever it is.
+    synthetic : bool
+        True for a made motion that no instrument recorded.
+    vertical : array_like, shape (samples,), optional
+        Vertical ground acceleration (m/s2, up positive) at the same instants.
+    remarks : tuple of str
+        What a reader had to interpret or leave out.
+
+    Raises
+    ------
+    InvalidMotion
+        No sample, a value that is not finite, a step that is not positive, components of different length.
+    """
+
+    acceleration: NDArray[np.float64]
+    dt: float
+    name: str = ""
+    event: str = ""
+    station: str = ""
+    component: str = ""
+    source: Path | None = None
+    unit: str = "m/s2"
+    synthetic: bool = False
+    vertical: NDArray[np.float64] | None = None
+    remarks: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        what = f"record {self.name}" if self.name else "record"
+        object.__setattr__(self, "dt", _positive("dt", self.dt, what))
+        object.__setattr__(self, "acceleration", _samples("acceleration", self.acceleration, what))
+        if self.vertical is not None:
+            vertical = _samples("vertical", self.vertical, what)
+            if len(vertical) != self.samples:
+                raise InvalidMotion(
+                    f"vertical of {what} must be as long as the horizontal, {self.samples} samples; "
+                    f"got {len(vertical)} samples"
+                )
+            object.__setattr__(self, "vertical", vertical)
+
+    def __repr__(self) -> str:
+        made = ", synthetic" if self.synthetic else ""
+        return f"<Record {self.name or '(unnamed)'}: {self.samples} x {self.dt:g} s, PGA {self.pga_g:.4f} g{made}>"
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        return len(self.acceleration)
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample (s); the first is at zero."""
+        return (self.samples - 1) * self.dt
+
+    @property
+    def pga(self) -> float:
+        """Largest absolute ground acceleration (m/s2)."""
+        return float(np.max(np.abs(self.acceleration)))
+
+    @property
+    def pga_g(self) -> float:
+        """Largest absolute ground acceleration, as a fraction of g."""
+        return self.pga / STANDARD_GRAVITY
+
+    @property
+    def motion(self) -> Motion:
+        """The samples as the kernel takes them."""
+        from seismass.simulate import Motion  # reading records needs no kernel
+
+        return Motion(self.acceleration, self.dt, self.vertical)
+
+    def scaled(self, factor: float) -> Record:
+        """Return the record with both components multiplied by `factor`, a finite number."""
+        number = _number("factor", factor, "scaled record", "a finite number")
+        vertical = None if self.vertical is None else self.vertical * number
+        return replace(self, acceleration=self.acceleration * number, vertical=vertical)
+
+    def time_scaled(self, factor: float) -> Record:
+        """Return the record with its time step multiplied by `factor` > 0, as for a model at reduced scale."""
+        return replace(self, dt=self.dt * _positive("factor", factor, "time-scaled record"))
+
+    def with_vertical(self, vertical: Record) -> Record:
+        """Return the record with the accelerations of `vertical` beside its own, both cut to the shorter.
+
+        Raises
+        ------
+        InvalidMotion
+            The two have different time steps.
+        """
+        if not math.isclose(vertical.dt, self.dt, rel_tol=1e-9):
+            raise InvalidMotion(
+                f"dt of vertical record {vertical.name} must be that of the horizontal, {self.dt:g} s; "
+                f"got {vertical.dt:g} s"
+            )
+        samples = min(self.samples, vertical.samples)
+        remarks = self.remarks
+        if self.samples != vertical.samples:
+            remarks += (f"cut to {samples} samples: {self.samples} horizontal, {vertical.samples} vertical",)
+        return replace(
+            self,
+            acceleration=self.acceleration[:samples],
+            vertical=vertical.acceleration[:samples],
+            remarks=remarks,
+        )
+
+
+def _number(parameter: str, value: Any, what: str, must_be: str) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise InvalidMotion(f"{parameter} of {what} must be {must_be}; got {value!r}")
+    return number
+
+
+def _positive(parameter: str, value: Any, what: str) -> float:
+    number = _number(parameter, value, what, "a positive number")
+    if number <= 0.0:
+        raise InvalidMotion(f"{parameter} of {what} must be a positive number; got {value!r}")
+    return number
+
+
+def _samples(parameter: str, values: ArrayLike, what: str) -> NDArray[np.float64]:
+    try:
+        samples = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidMotion(f"{parameter} of {what} must be a list of numbers; got {values!r:.60}") from error
+    if samples.ndim != 1 or len(samples) == 0:
+        raise InvalidMotion(f"{parameter} of {what} must be a list of at least one sample; got shape {samples.shape}")
+    wrong = np.flatnonzero(~np.isfinite(samples))
+    if len(wrong):
+        raise InvalidMotion(
+            f"{parameter} of {what} must be finite at every sample; got {samples[wrong[0]]} at sample {wrong[0]}"
+        )
+    samples.setflags(write=False)
+    return samples

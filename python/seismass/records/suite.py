@@ -1,0 +1,200 @@
+"""Suites of records: a directory of .AT2 files or a CSV that lists files, with what was taken and what was left out."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import polars as pl
+
+from seismass.errors import RecordFormatError
+from seismass.records.read import read_record, read_text
+from seismass.records.record import Record
+
+_VERTICAL_WORDS = {"UP", "VER", "VERT", "VERTICAL", "DOWN", "DWN", "UD"}
+_VERTICAL_NAME = re.compile(
+    r"[-_.](?:UP|VERT?|VERTICAL|DWN|UD)(?![A-Z0-9])"  # a word of the name: BRA-UP, ERZ-UP__copy
+    r"|[-_.][VZ]$"  # a letter at its end: 1059-V
+    r"|(?:UP|VERT?|DWN|[BH][NH]Z)\.?$",  # joined to a station code: HECVER, TCUUP.
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True)
+class Excluded:
+    """A file that is no part of a suite, and why."""
+
+    file: Path
+    reason: str
+
+
+@dataclass(frozen=True)
+class Suite:
+    """Records in a fixed order, with the files that were left out.
+
+    Parameters
+    ----------
+    name : str
+        Name of the directory or list.
+    records : tuple of Record
+        What was taken, in order.
+    excluded : tuple of Excluded
+        What was left out.
+    """
+
+    name: str
+    records: tuple[Record, ...]
+    excluded: tuple[Excluded, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.records)
+
+    def __iter__(self) -> Iterator[Record]:
+        return iter(self.records)
+
+    def __getitem__(self, index: int) -> Record:
+        return self.records[index]
+
+    def table(self) -> pl.DataFrame:
+        """Return one row per file, those taken first, in order, then those left out with the reason."""
+        schema = {
+            "taken": pl.Boolean,
+            "name": pl.String,
+            "event": pl.String,
+            "station": pl.String,
+            "component": pl.String,
+            "synthetic": pl.Boolean,
+            "samples": pl.UInt32,
+            "dt": pl.Float64,
+            "pga_g": pl.Float64,
+            "file": pl.String,
+            "remarks": pl.String,
+        }
+        taken = [
+            {
+                "taken": True,
+                "name": record.name,
+                "event": record.event,
+                "station": record.station,
+                "component": record.component,
+                "synthetic": record.synthetic,
+                "samples": record.samples,
+                "dt": record.dt,
+                "pga_g": record.pga_g,
+                "file": None if record.source is None else str(record.source),
+                "remarks": "; ".join(record.remarks),
+            }
+            for record in self.records
+        ]
+        left_out = [
+            {"taken": False, "name": item.file.stem, "file": str(item.file), "remarks": item.reason}
+            for item in self.excluded
+        ]
+        return pl.DataFrame([*taken, *left_out], schema=schema)
+
+
+def read_suite(path: str | os.PathLike[str]) -> Suite:
+    """Read a suite of horizontal records.
+
+    Parameters
+    ----------
+    path : path-like
+        A directory: every .AT2 file in it and below (any case of the suffix), sorted by path; vertical components are
+        left out by file name (-UP, VER, -V, ...) and by header. Or a CSV with a column `file`, relative to the CSV, one
+        row per record in the order to keep; its columns `name`, `event`, `station`, `component` replace what the files
+        say, `dt` and `unit` are passed to `read_record`, `note` is added to the remarks, others are ignored.
+
+    Raises
+    ------
+    RecordFormatError
+        A missing path, no record in it, a CSV without the column or that lists a file twice or a vertical component,
+        or any file that cannot be read: none is dropped silently.
+    """
+    source = Path(path)
+    if source.is_dir():
+        return _read_directory(source)
+    if source.suffix.lower() == ".csv":
+        return _read_list(source)
+    raise RecordFormatError(f"suite of records must be a directory or a .csv file; got {source}")
+
+
+def _read_directory(directory: Path) -> Suite:
+    files = sorted(
+        (file for file in directory.rglob("*") if file.suffix.lower() == ".at2" and file.is_file()),
+        key=lambda file: file.relative_to(directory).as_posix(),
+    )
+    records: list[Record] = []
+    excluded: list[Excluded] = []
+    for file in files:
+        record = read_record(file)
+        reason = _vertical_reason(record)
+        if reason:
+            excluded.append(Excluded(file, reason))
+        else:
+            records.append(record)
+    if not records:
+        raise RecordFormatError(
+            f"records of directory {directory} must be at least one horizontal .AT2 file; "
+            f"got {len(files)} .AT2 files, {len(excluded)} of them vertical"
+        )
+    return Suite(directory.resolve().name, tuple(records), tuple(excluded))
+
+
+def _read_list(source: Path) -> Suite:
+    rows = list(csv.DictReader(io.StringIO(read_text(source)), skipinitialspace=True, restkey="", restval=""))
+    columns = list(rows[0]) if rows else []
+    if "file" not in columns:
+        raise RecordFormatError(
+            f"columns of {source.name} must include `file`, with at least one row; got {', '.join(columns) or 'no row'}"
+        )
+    records: list[Record] = []
+    seen: dict[Path, int] = {}
+    for number, row in enumerate(rows, start=1):
+        cells = {column: cell.strip() for column, cell in row.items() if column}
+        if not cells["file"]:
+            raise RecordFormatError(f"file of {source.name}, row {number}, must be a path; got an empty cell")
+        file = source.parent / cells["file"]
+        first = seen.setdefault(file.resolve(), number)
+        if first != number:
+            raise RecordFormatError(
+                f"file of {source.name}, row {number}, must be listed once; got {cells['file']}, also in row {first}"
+            )
+        record = read_record(file, dt=_cell_number(cells, "dt", source, number), unit=cells.get("unit") or None)
+        if _is_vertical_component(record.component):
+            raise RecordFormatError(
+                f"file of {source.name}, row {number}, must be a horizontal component; "
+                f"got {cells['file']}, component {record.component}"
+            )
+        labels = {key: cells[key] for key in ("name", "event", "station", "component") if cells.get(key)}
+        remarks = (*record.remarks, cells["note"]) if cells.get("note") else record.remarks
+        records.append(replace(record, remarks=remarks, **labels))  # type: ignore[arg-type]  # the labels are strings
+    return Suite(source.stem, tuple(records))
+
+
+def _cell_number(cells: dict[str, str], column: str, source: Path, row: int) -> float | None:
+    cell = cells.get(column)
+    if not cell:
+        return None
+    try:
+        return float(cell)
+    except ValueError as error:
+        raise RecordFormatError(f"{column} of {source.name}, row {row}, must be a number; got {cell!r}") from error
+
+
+def _vertical_reason(record: Record) -> str | None:
+    """Return why a record is a vertical component, or None."""
+    if _is_vertical_component(record.component):
+        return f"vertical component by its header: {record.component}"
+    if _VERTICAL_NAME.search(record.name):
+        return f"vertical component by its name: {record.name}"
+    return None
+
+
+def _is_vertical_component(component: str) -> bool:
+    words = re.findall(r"[A-Z0-9]+", component.upper())
+    return bool(words) and (words[0] in {"V", "Z", "U"} or bool(_VERTICAL_WORDS.intersection(words)))

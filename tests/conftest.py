@@ -1,0 +1,18 @@
+"""Fixtures of all tests."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """The folder of reference results and recordings that are not part of the project."""
+    folder = os.environ.get("SEISMASS_SHARED")
+    if not folder:
+        pytest.skip("SEISMASS_SHARED is not set: no reference results, no recordings")
+    path = Path(folder)
+    if not path.is_dir():
+        pytest.fail(f"SEISMASS_SHARED must be a directory; got {folder}")
+    return path

@@ -1,0 +1,196 @@
+"""Wrong records: each is refused by a named exception whose message says what of what must be what, and what it was."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from seismass.errors import InvalidMotion, RecordFormatError, SeismassError
+from seismass.records import Record, read_record, read_suite
+
+HEADER = "PEER NGA STRONG MOTION DATABASE RECORD\nQuake, 1/1/2000, Town, 90\nACCELERATION TIME SERIES IN UNITS OF G\n"
+FIVE = "  -.1000000E-03   .2000000E-03   .3000000E-03  -.4000000E-03   .5000000E-03\n"
+GOOD = HEADER + "NPTS=     60, DT=   .0100 SEC\n" + 12 * FIVE
+CUT = GOOD[:-5] + "\n"
+COLUMN = "".join(f"{0.01 * (-1) ** i * (1 + i % 7):.4f}\n" for i in range(60))
+TABLE = "".join(f"{0.01 * i:.2f} 0.1\n" for i in range(60))
+
+# file name, its content, arguments of read_record, message
+FILES: list[tuple[str, str | bytes, dict[str, object], str]] = [
+    ("a.AT2", "", {}, r"content of a.AT2 must be a record; got an empty file"),
+    ("a.AT2", " \n\n", {}, r"content of a.AT2 must be a record; got an empty file"),
+    ("a.AT2", b"\x89PNG\0\0", {}, r"content of a.AT2 must be text; got binary data"),
+    ("a.AT2", HEADER + 12 * FIVE, {}, r"header of a.AT2 must give NPTS and DT .*; got '-.1000000E-03"),
+    (
+        "a.AT2",
+        GOOD.replace("     60", "     65"),
+        {},
+        r"points of a.AT2 must be 65, as its header says; got 60: .*cut off",
+    ),
+    ("a.AT2", GOOD.replace("     60", "     59"), {}, r"points of a.AT2 must be 59, as its header says; got 60"),
+    ("a.AT2", GOOD.replace("     60", "     65")[:-8], {}, r"got 60: .* its last number '.5000' looks cut off"),
+    ("a.AT2", CUT, {}, r"last number of a.AT2 must be written as the others are; got '.5000000'"),
+    ("a.AT2", HEADER + "NPTS= 0, DT= .01 SEC\n", {}, r"points of a.AT2 must be at least 1; got 0"),
+    ("a.AT2", GOOD.replace(".0100 SEC", ".0000 SEC"), {}, r"DT of a.AT2 must be positive; got .0000"),
+    ("a.AT2", GOOD.replace(".3000000E-03", "******* "), {}, r"line 5 of a.AT2 must be numbers; got '\*+'"),
+    ("a.AT2", GOOD.replace(".3000000E-03", "nan "), {}, r"line 5 of a.AT2 must be numbers; got 'nan'"),
+    (
+        "a.AT2",
+        GOOD.replace(".3000000E-03", ".3000000E+999"),
+        {},
+        r"numbers of a.AT2 must be finite; got '.3000000E\+999'",
+    ),
+    ("a.AT2", GOOD.replace("ACCELERATION", "VELOCITY"), {}, r"quantity of a.AT2 must be acceleration; got velocity"),
+    ("a.AT2", GOOD, {"unit": "m/s2"}, r"unit of a.AT2 must be that of its header, g; got m/s2"),
+    ("a.AT2", GOOD, {"unit": "ft/s2"}, r"unit of a.AT2 must be one of g, m/s2, cm/s2; got 'ft/s2'"),
+    ("a.AT2", GOOD, {"dt": 0.02}, r"dt of a.AT2 must agree with its header, .0100 s; got 0.02 s"),
+    ("a.AT2", GOOD, {"dt": -0.01}, r"dt of a.AT2 must be a positive number; got -0.01"),
+    ("a.AT2", GOOD, {"dt": "fast"}, r"dt of a.AT2 must be a positive number; got 'fast'"),
+    ("a.AT2", GOOD, {"skip": 2}, r"skip of a.AT2 must be left out for an .AT2 file; got 2"),
+    ("a.AT2", GOOD, {"format": "v2"}, r"format of a.AT2 must be at2 or columns; got 'v2'"),
+    ("a.txt", COLUMN, {"unit": "g"}, r"dt of a.txt must be given, .*; got none"),
+    ("a.txt", COLUMN, {"dt": 0.01}, r"unit of a.txt must be given .*; got none"),
+    (
+        "a.txt",
+        "dt=0.01\n" + COLUMN,
+        {"dt": 0.02, "unit": "g"},
+        r"dt of a.txt must agree .* its header, 0.01 s; got 0.02 s",
+    ),
+    (
+        "a.txt",
+        "(cm/s2)\n" + COLUMN,
+        {"dt": 0.02, "unit": "g"},
+        r"unit of a.txt must be that of its header, cm/s2; got g",
+    ),
+    (
+        "a.txt",
+        "9.81\n0.01\n" + COLUMN,
+        {"unit": "g"},
+        r"first numbers of a.txt must be samples, or .*; got 9.81 and 0.01",
+    ),
+    (
+        "a.txt",
+        "1\n0.01\n" + COLUMN,
+        {"unit": "g", "dt": 0.02},
+        r"dt of a.txt must agree .* first numbers, 0.01 s; got 0.02",
+    ),
+    ("a.txt", COLUMN, {"unit": "g", "dt": 0.02, "skip": 60}, r"skip of a.txt must be between 0 and 59; got 60"),
+    ("a.txt", COLUMN + "oops\n", {"unit": "g", "dt": 0.02}, r"line 61 of a.txt must be numbers; got 'oops'"),
+    ("a.txt", COLUMN + "1e999\n", {"unit": "g", "dt": 0.02}, r"line 61 of a.txt must be finite; got infinity"),
+    (
+        "a.txt",
+        COLUMN + "0.2",
+        {"unit": "g", "dt": 0.02},
+        r"last number of a.txt must be written as the others are; got '0.2'",
+    ),
+    (
+        "a.txt",
+        "Dear reader,\nno data\n",
+        {},
+        r"content of a.txt must be lines of one or two numbers; got 'Dear reader,'",
+    ),
+    ("a.txt", "0.1 0.2 0.3\n" * 9, {"unit": "g"}, r"line 1 of a.txt must be one or two numbers; got 3"),
+    ("a.txt", TABLE + "0.1\n", {"unit": "g"}, r"line 1 of a.txt must be 1 number, as the last line is; got 2"),
+    (
+        "a.txt",
+        TABLE.replace("0.30 ", "0.31 "),
+        {"unit": "g"},
+        r"times of a.txt must be uniform, .*; got 0.31 s in line 31",
+    ),
+    ("a.txt", TABLE.replace("0.30 0.1\n", ""), {"unit": "g"}, r"times of a.txt must be uniform"),
+    ("a.txt", "0.0 0.1\n0.0 0.1\n0.0 0.1\n", {"unit": "g"}, r"times of a.txt must increase; got 0 s first, 0 s last"),
+    (
+        "a.txt",
+        TABLE,
+        {"unit": "g", "dt": 0.02},
+        r"dt of a.txt must agree with the step of its times, 0.01 s; got 0.02 s",
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "content", "arguments", "message"), FILES)
+def test_file_is_refused(
+    tmp_path: Path, name: str, content: str | bytes, arguments: dict[str, object], message: str
+) -> None:
+    file = tmp_path / name
+    file.write_bytes(content.encode() if isinstance(content, str) else content)
+    with pytest.raises(RecordFormatError, match=message):
+        read_record(file, **arguments)
+
+
+def a_list(text: str) -> Callable[[Path], object]:
+    def read(folder: Path) -> object:
+        (folder / "a.AT2").write_text(GOOD)
+        (folder / "up.AT2").write_text(GOOD.replace("Town, 90", "Town, UP"))
+        (folder / "list.csv").write_text(text)
+        return read_suite(folder / "list.csv")
+
+    return read
+
+
+def only_verticals(folder: Path) -> object:
+    (folder / "6.AT2").write_text(GOOD.replace("Town, 90", "Town, UP"))
+    return read_suite(folder)
+
+
+def a_damaged_file(folder: Path) -> object:
+    (folder / "a.AT2").write_text(GOOD)
+    (folder / "b.AT2").write_text(CUT)
+    return read_suite(folder)
+
+
+# what is done in an empty folder, exception, message
+CALLS: list[tuple[Callable[[Path], object], type[SeismassError], str]] = [
+    (lambda folder: read_record(folder / "no.AT2"), RecordFormatError, r"record file must be a file .*; got .*no.AT2"),
+    (lambda folder: read_record(folder), RecordFormatError, r"record file must be a file that can be read; got"),
+    (lambda folder: read_suite(folder), RecordFormatError, r"must be at least one horizontal .AT2 file; got 0"),
+    (lambda folder: read_suite(folder / "no"), RecordFormatError, r"must be a directory or a .csv file; got .*no"),
+    (lambda folder: read_suite(folder / "no.csv"), RecordFormatError, r"must be a file that can be read; got .*no.csv"),
+    (only_verticals, RecordFormatError, r"must be at least one horizontal .AT2 file; got 1 .AT2 files, 1 of them"),
+    (a_damaged_file, RecordFormatError, r"last number of b.AT2 must be written as the others are"),
+    (a_list("path\na.AT2\n"), RecordFormatError, r"columns of list.csv must include `file`, .*; got path"),
+    (
+        a_list("file\n"),
+        RecordFormatError,
+        r"columns of list.csv must include `file`, with at least one row; got no row",
+    ),
+    (a_list("file,number\n,1\n"), RecordFormatError, r"file of list.csv, row 1, must be a path; got an empty cell"),
+    (a_list("file\na.AT2\n./a.AT2\n"), RecordFormatError, r"file of list.csv, row 2, must be listed once; got ./a.AT2"),
+    (a_list("file\nup.AT2\n"), RecordFormatError, r"row 1, must be a horizontal component; got up.AT2, component UP"),
+    (a_list("file\nb.AT2\n"), RecordFormatError, r"record file must be a file that can be read; got .*b.AT2"),
+    (a_list("file,dt\na.AT2,soon\n"), RecordFormatError, r"dt of list.csv, row 1, must be a number; got 'soon'"),
+    (lambda _: Record([], 0.01), InvalidMotion, r"acceleration of record must be a list of at least one sample; got"),
+    (lambda _: Record([[0.0]], 0.01), InvalidMotion, r"must be a list of at least one sample; got shape \(1, 1\)"),
+    (
+        lambda _: Record([0.0, float("nan")], 0.01),
+        InvalidMotion,
+        r"must be finite at every sample; got nan at sample 1",
+    ),
+    (lambda _: Record(["a"], 0.01), InvalidMotion, r"acceleration of record must be a list of numbers; got \['a'\]"),
+    (lambda _: Record([0.0], 0.0, name="x"), InvalidMotion, r"dt of record x must be a positive number; got 0.0"),
+    (lambda _: Record([0.0], float("inf")), InvalidMotion, r"dt of record must be a positive number; got inf"),
+    (lambda _: Record([0.0], 0.01, vertical=[0.0, 1.0]), InvalidMotion, r"vertical of record must be as long as"),
+    (lambda _: Record([0.0], 0.01).scaled(float("nan")), InvalidMotion, r"factor of scaled record must be a finite"),
+    (lambda _: Record([0.0], 0.01).time_scaled(-1), InvalidMotion, r"factor of time-scaled record must be a positive"),
+]
+
+
+@pytest.mark.parametrize(("call", "exception", "message"), CALLS)
+def test_call_is_refused(
+    tmp_path: Path, call: Callable[[Path], object], exception: type[SeismassError], message: str
+) -> None:
+    with pytest.raises(exception, match=message):
+        call(tmp_path)
+
+
+def test_formats_that_are_not_read_are_refused(shared: Path) -> None:
+    files = [f for d in ("cosmos", "csmip", "knet", "smc") for f in sorted((shared / "record_formats" / d).iterdir())]
+    assert len(files) == 7
+    for file in files:
+        with pytest.raises(RecordFormatError, match=r"must be"):
+            read_record(file, unit="g", dt=0.01)
+
+
+def test_truncated_recording_is_refused(shared: Path) -> None:
+    with pytest.raises(RecordFormatError, match=r"must be 4531, .* got 1621: .* last number '0.4751' looks cut off"):
+        read_record(shared / "record_formats/at2_variants/truncated_files/43.AT2")

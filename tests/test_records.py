@@ -1,0 +1,299 @@
+"""Reading records: every header vintage, columns of text, suites. Recordings where SEISMASS_SHARED has them."""
+
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from seismass.errors import InvalidMotion
+from seismass.records import Record, read_record, read_suite
+from seismass.records.numbers import is_cut_off, split_touching
+from seismass.units import STANDARD_GRAVITY, stated_unit
+
+VALUES_G = [0.001, -0.25, 0.125, 1.5e-4, -3.0e-3, 0.0, 0.0625]
+FIELDS = "".join(f"{value:15.7E}" for value in VALUES_G)
+
+
+def at2(
+    counts: str = "NPTS=      7, DT=   .0100 SEC", body: str = FIELDS, title: str = "Quake, 1/1/2000, Town, 90"
+) -> str:
+    first, third = "PEER NGA STRONG MOTION DATABASE RECORD", "ACCELERATION TIME SERIES IN UNITS OF G"
+    return f"{first}\n{title}\n{third}\n{counts}\n{body}\n"
+
+
+@pytest.mark.parametrize(
+    "counts",
+    [
+        "NPTS=      7, DT=   .0100 SEC",
+        "NPTS=      7  DT=   .0100 SEC,     ",
+        "NPTS=  7, DT= 0.0100",
+        "NPTS=  7, dt=   .0100 SEC",
+        "npts = 7 , dt = 1.0E-02 sec",
+        "NPTS=   7, DT=   .01000 SEC,  -5 POLE @      .06000 HZ,   0 POLE @      .00000",
+        "    7    0.0100    NPTS, DT",
+        "NPTS=7,DT=.01SEC",
+    ],
+)
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_every_style_of_counts(tmp_path: Path, counts: str, end: str) -> None:
+    file = tmp_path / "a.AT2"
+    file.write_bytes(at2(counts).replace("\n", end).encode())
+    record = read_record(file)
+    assert record.dt == 0.01
+    np.testing.assert_allclose(record.acceleration, np.array(VALUES_G) * STANDARD_GRAVITY, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "\n".join(f"{value:.7E}" for value in VALUES_G),
+        "".join(f"{value:+.7E}" for value in VALUES_G),  # fields touch at their signs
+        "".join(f"{value:.7E}" for value in VALUES_G),  # and where there is no sign, at their exponents
+        " ".join(f"{value:.7E}".replace("E", "D") for value in VALUES_G),
+        FIELDS + "\n" + f"{0:15.7E}" * 3,  # zeros that fill the last line
+        FIELDS + "\n\n\x1a"[:2],
+    ],
+)
+def test_every_layout_of_numbers(tmp_path: Path, body: str) -> None:
+    file = tmp_path / "a.at2"
+    file.write_text(at2(body=body))
+    np.testing.assert_allclose(read_record(file).acceleration, np.array(VALUES_G) * STANDARD_GRAVITY, rtol=1e-15)
+
+
+def test_header_labels(tmp_path: Path) -> None:
+    file = tmp_path / "RSN1_QUAKE_TWN090.AT2"
+    file.write_text(at2())
+    record = read_record(file)
+    assert (record.name, record.event, record.station, record.component) == (
+        "RSN1_QUAKE_TWN090",
+        "Quake, 1/1/2000",
+        "Town",
+        "90",
+    )
+    assert (record.source, record.unit, record.synthetic, record.remarks) == (file, "g", False, ())
+    assert record.duration == pytest.approx(0.06)
+    assert record.pga_g == pytest.approx(0.25, rel=1e-15)
+
+
+def test_rounded_step_is_remarked_and_can_be_given(tmp_path: Path) -> None:
+    file = tmp_path / "a.AT2"
+    file.write_text(at2("NPTS=      7, DT=   .0039 SEC"))
+    as_written = read_record(file)
+    assert as_written.dt == 0.0039
+    assert "1/256" in as_written.remarks[0]
+    assert read_record(file, dt=1 / 256).dt == 1 / 256
+
+
+@given(st.lists(st.floats(-9.0, 9.0).filter(lambda x: x == 0.0 or abs(x) > 1e-98), min_size=1, max_size=8))
+def test_touching_fields_come_apart(values: list[float]) -> None:
+    fields = [f"{value:.7E}" for value in values]
+    assert split_touching("".join(fields)) == fields
+
+
+@pytest.mark.parametrize("token", ["0.1234560.234567", "1.0-", "2020-11-12", "--1.0", "1.2.3", "nan", "0x1p3"])
+def test_ambiguous_runs_are_not_split(token: str) -> None:
+    assert split_touching(token) is None
+
+
+def test_cut_off_is_seen_in_fixed_formats_only() -> None:
+    fixed = [f"{math.sin(i):.6E}" for i in range(100)]
+    assert not is_cut_off(fixed)
+    assert all(is_cut_off([*fixed, fixed[1][:-n]]) for n in (1, 4, 5, 9))
+    free = [repr(math.sin(i)) for i in range(100)] + ["0.5"]
+    assert not is_cut_off([*free, "0.25"])
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [
+        ("ACCELERATION TIME SERIES IN UNITS OF G", "g"),
+        ("# Time (s),Acceleration (g's)", "g"),
+        ("UNITS: cm/s^2", "cm/s2"),
+        ("acceleration, cm/sec/sec", "cm/s2"),
+        ("acc (gal)", "cm/s2"),
+        ("acceleration (m/s2)", "m/s2"),
+        ("a in m/s**2", "m/s2"),
+        ("ground motion at Big Gorge", None),
+        ("(g) or (m/s2)", None),
+    ],
+)
+def test_unit_stated_in_a_header(text: str, unit: str | None) -> None:
+    assert stated_unit(text) == unit
+
+
+TWO_COLUMNS = "0.00 0.1\n0.02 -0.3\n0.04 0.2\n0.06 0.0\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "dt", "samples"),
+    [
+        ("0.1\n-0.3\n0.2\n0.0\n", {"dt": 0.02, "unit": "m/s2"}, 0.02, [0.1, -0.3, 0.2, 0.0]),
+        ("# dt = 0.02\n# units: m/s2\n0.1\n-0.3\n0.2\n0.0\n", {}, 0.02, [0.1, -0.3, 0.2, 0.0]),
+        (TWO_COLUMNS, {"unit": "m/s2"}, 0.02, [0.1, -0.3, 0.2, 0.0]),
+        (TWO_COLUMNS, {"unit": "m/s2", "dt": 0.02}, 0.02, [0.1, -0.3, 0.2, 0.0]),
+        (TWO_COLUMNS.replace(" ", ","), {"unit": "cm/s2"}, 0.02, [0.001, -0.003, 0.002, 0.0]),
+        ("t;a (m/s2)\n" + TWO_COLUMNS.replace(" ", ";"), {}, 0.02, [0.1, -0.3, 0.2, 0.0]),
+        ("4 0.02\n" + TWO_COLUMNS, {"unit": "m/s2"}, 0.02, [0.1, -0.3, 0.2, 0.0]),  # count and step
+        ("4 0.02\n0.1\n-0.3\n0.2\n0.0\n", {"unit": "m/s2"}, 0.02, [0.1, -0.3, 0.2, 0.0]),
+        ("1\n0.02\n0.1\n-0.3\n0.2\n0.0\n", {"unit": "m/s2"}, 0.02, [0.1, -0.3, 0.2, 0.0]),  # scale and step
+        ("4\n0.02\n0.1\n-0.3\n0.2\n0.0\n", {"unit": "m/s2", "dt": 0.02}, 0.02, [0.1, -0.3, 0.2, 0.0]),
+        ("9.81\n0.02\n0.1\n-0.3\n0.2\n0.0\n", {"unit": "m/s2", "dt": 0.02, "skip": 2}, 0.02, [0.1, -0.3, 0.2, 0.0]),
+        ("1\n0.02\n0.1\n-0.3\n", {"unit": "m/s2", "dt": 0.05, "skip": 0}, 0.05, [1.0, 0.02, 0.1, -0.3]),
+        ("0.3\n0.02\n0.1\n-0.3\n0.2\n0.0\n", {"unit": "m/s2", "dt": 0.1}, 0.1, [0.3, 0.02, 0.1, -0.3, 0.2, 0.0]),
+    ],
+)
+def test_columns(tmp_path: Path, text: str, arguments: dict[str, object], dt: float, samples: list[float]) -> None:
+    file = tmp_path / "motion.txt"
+    file.write_text(text)
+    record = read_record(file, **arguments)
+    assert record.dt == dt
+    np.testing.assert_allclose(record.acceleration, samples, rtol=1e-15)
+
+
+@pytest.mark.parametrize("dt", [0.01, 0.005, 1 / 256, 0.0025, 1 / 3])
+def test_step_from_printed_times_is_the_short_decimal(tmp_path: Path, dt: float) -> None:
+    file = tmp_path / "motion.csv"
+    file.write_text("".join(f"{i * dt:.10f}, {math.sin(i):.6f}\n" for i in range(3000)))
+    assert read_record(file, unit="g").dt == pytest.approx(dt, rel=1e-12 if dt < 0.3 else 1e-9)
+
+
+def test_record_is_immutable_and_scaling_makes_new_ones() -> None:
+    samples = np.array([0.0, 1.0, -2.0])
+    record = Record(samples, 0.01, vertical=[0.0, 0.5, 0.0])
+    samples[0] = 9.0
+    assert record.acceleration[0] == 0.0
+    with pytest.raises(ValueError, match="read-only"):
+        record.acceleration[0] = 1.0
+    scaled = record.scaled(-3.0)
+    assert scaled.acceleration.tolist() == [0.0, -3.0, 6.0]
+    assert scaled.vertical is not None
+    assert scaled.vertical.tolist() == [0.0, -1.5, 0.0]
+    assert record.time_scaled(0.5).dt == 0.005
+    assert (record.pga, record.samples, record.dt) == (2.0, 3, 0.01)
+
+
+def test_vertical_cuts_both_to_the_shorter() -> None:
+    record = Record([1.0, 2.0, 3.0], 0.01).with_vertical(Record([4.0, 5.0], 0.01))
+    assert record.acceleration.tolist() == [1.0, 2.0]
+    assert record.vertical is not None
+    assert record.vertical.tolist() == [4.0, 5.0]
+    assert "3 horizontal, 2 vertical" in record.remarks[0]
+    with pytest.raises(InvalidMotion, match="dt of vertical record"):
+        Record([1.0], 0.01).with_vertical(Record([1.0], 0.02))
+
+
+def test_directory_takes_horizontals_and_lists_the_rest(tmp_path: Path) -> None:
+    horizontal = ["b/RSN2_B_STA000.AT2", "a_STA090.at2", "b/c/RIVERSIDE-E.At2", "RSN6_I-ELC180-hor1.AT2"]
+    by_name = ["a_STA-UP.AT2", "a_STAUP.AT2", "a_HECVER.at2", "b/1059-V.AT2", "b/ERZ-UP__copy.AT2", "b/X_VERT.AT2"]
+    by_header = {"6.AT2": "UP", "7.AT2": "VER", "8.AT2": "VERTICAL COMP", "9.AT2": "V", "10.AT2": "up (CDMG STATION 1)"}
+    for name in (*horizontal, *by_name, *by_header, "notes.txt"):
+        file = tmp_path / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(at2(title=f"Quake, 1/1/2000, Town, {by_header.get(name, '90')}"))
+    suite = read_suite(tmp_path)
+    taken = [record.source.relative_to(tmp_path).as_posix() for record in suite if record.source]
+    assert taken == sorted(horizontal)
+    assert sorted(item.file.relative_to(tmp_path).as_posix() for item in suite.excluded) == sorted(
+        [*by_name, *by_header]
+    )
+    assert all("vertical component by its" in item.reason for item in suite.excluded)
+    table = suite.table()
+    assert table["taken"].sum() == len(horizontal) == len(suite)
+    assert table.height == len(horizontal) + len(by_name) + len(by_header)
+
+
+def test_list_of_files_keeps_order_and_labels(tmp_path: Path) -> None:
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "a.AT2").write_text(at2())
+    (tmp_path / "b.txt").write_text("0.1\n0.2\n")
+    (tmp_path / "list.csv").write_text(
+        "\ufeffnumber,file,station,dt,unit,note\n2,b.txt,Here,0.02,m/s2,\n1,in/a.AT2,,,,a substitute\n",
+        encoding="utf-8",
+    )
+    suite = read_suite(tmp_path / "list.csv")
+    assert [record.name for record in suite] == ["b", "a"]
+    assert [record.station for record in suite] == ["Here", "Town"]
+    assert (suite[0].dt, suite[0].pga, suite[1].remarks) == (0.02, 0.2, ("a substitute",))
+
+
+# What the sources of the recordings say: file, step (s), points, PGA (g) to five decimals.
+RECORDINGS = [
+    ("01_Hector_Mine_1999_Hector/RSN1787_HECTOR_HEC000.AT2", 0.01, 4531, 0.26547),
+    ("01_Hector_Mine_1999_Hector/RSN1787_HECTOR_HEC090.AT2", 0.01, 4531, 0.32819),
+    ("02_Loma_Prieta_1989_Gilroy_Array_3/RSN767_LOMAP_G03000.AT2", 0.005, 7997, 0.55912),
+    ("02_Loma_Prieta_1989_Gilroy_Array_3/RSN767_LOMAP_G03090.AT2", 0.005, 7998, 0.36823),
+    ("03_Imperial_Valley_1979_Brawley_Airport/RSN161_IMPVALL.H_H-BRA225.AT2", 0.005, 7576, 0.16261),
+    ("03_Imperial_Valley_1979_Brawley_Airport/RSN161_IMPVALL.H_H-BRA315.AT2", 0.005, 7575, 0.21952),
+    ("04_Duzce_1999_Lamont_1059/RSN1612_DUZCE_1059-E.AT2", 0.01, 4067, 0.13665),
+    ("04_Duzce_1999_Lamont_1059/RSN1612_DUZCE_1059-N.AT2", 0.01, 4067, 0.15235),
+    ("05_Erzincan_1992_Erzincan/RSN821_ERZINCAN_ERZ-EW__was_NearWithPulse_11.AT2", 0.005, 4156, 0.49618),
+    ("05_Erzincan_1992_Erzincan/RSN821_ERZINCAN_ERZ-NS__was_NearWithPulse_12.AT2", 0.005, 4262, 0.38671),
+    ("06_Imperial_Valley_1940_El_Centro_Array_9/RSN6_IMPVALL.I_I-ELC180-hor1.AT2", 0.01, 5372, 0.28080),
+    ("06_Imperial_Valley_1940_El_Centro_Array_9/RSN6_IMPVALL.I_I-ELC270-hor2.AT2", 0.01, 5346, 0.21074),
+]
+
+
+@pytest.mark.parametrize(("file", "dt", "points", "pga_g"), RECORDINGS)
+def test_recordings(shared: Path, file: str, dt: float, points: int, pga_g: float) -> None:
+    record = read_record(shared / "records" / file)
+    assert (record.dt, record.samples) == (dt, points)
+    assert record.pga_g == pytest.approx(pga_g, abs=0.51e-5)  # the table rounds to five decimals
+
+
+def test_all_recordings_are_a_suite(shared: Path) -> None:
+    suite = read_suite(shared / "records")
+    files = [file for file in (shared / "records").rglob("*.AT2") if file.is_file()]
+    assert len(suite) + len(suite.excluded) == len(files)
+    assert len(suite.excluded) == 6  # one vertical for each of the paper's records 1 to 6
+    assert not any(record.synthetic for record in suite)
+
+
+def test_peaks_agree_with_the_flatfile(shared: Path) -> None:
+    """RotD50 is a median over directions, so it lies between the components as recorded, or close to them."""
+    with (shared / "records/reference/nga_w2_selected.csv").open(encoding="utf-8", errors="replace") as file:
+        rotd50 = {row["Record Sequence Number"]: float(row["PGA (g)"]) for row in csv.DictReader(file)}
+    peaks: dict[str, list[float]] = {}
+    for record in read_suite(shared / "records"):
+        peaks.setdefault(record.name.partition("_")[0].removeprefix("RSN"), []).append(record.pga_g)
+    pairs = {number: pair for number, pair in peaks.items() if len(pair) == 2 and number in rotd50}
+    assert len(pairs) >= 12
+    for number, pair in pairs.items():
+        # A polarised motion |cos| has its median direction 0.707 of the largest; noise can only bring them closer.
+        assert 0.7 * max(pair) < rotd50[number] < 1.05 * math.hypot(*pair), number
+
+
+@pytest.mark.parametrize(
+    ("file", "dt", "points"),
+    [
+        ("crlf/RSN1616_DUZCE_362-E.AT2", 0.01, 4316),
+        ("crlf_and_missing_comma/RSN6953_DARFIELD_PRPCS.AT2", 0.005, 10800),
+        ("lower_case_dt/PBFEAS.AT2", 0.01, 2364),
+        ("no_SEC_in_header/42.AT2", 0.02, 2676),
+        ("old_header_pacific_engineering/ALH360.AT2", 0.02, 3000),
+        ("one_value_per_line/GM11.AT2", 0.005, 8000),
+    ],
+)
+def test_header_vintages_of_real_files(shared: Path, file: str, dt: float, points: int) -> None:
+    record = read_record(shared / "record_formats/at2_variants" / file)
+    assert (record.dt, record.samples) == (dt, points)
+    assert record.event and record.station and record.component
+
+
+def test_real_columns(shared: Path) -> None:
+    formats = shared / "record_formats"
+    hector = read_record(formats / "single_column/4_HECTOR000.txt", unit="g")
+    assert (hector.dt, hector.samples) == (0.01, 4531)
+    column = np.loadtxt(formats / "single_column/4_HECTOR000.txt")
+    np.testing.assert_array_equal(hector.acceleration, column[2:] * STANDARD_GRAVITY)
+    assert "not as samples" in hector.remarks[0]
+    el_centro = read_record(formats / "single_column/el_centro.th", unit="g", dt=0.02)
+    assert (el_centro.samples, el_centro.remarks) == (1560, ())
+    assert el_centro.pga_g == pytest.approx(0.3188, abs=1e-4)  # El Centro 1940 NS as widely used
+    chi_chi = read_record(formats / "two_column/ChiChi.txt", unit="g")
+    assert (chi_chi.dt, chi_chi.samples) == (0.005, 11800)
+    duzce = read_record(formats / "two_column/Duzce_1999_375-090.csv")  # its header says g
+    assert (duzce.dt, duzce.samples) == (0.01, 3077)
