@@ -1,0 +1,63 @@
+# Everything from a fresh clone: each target sets up .venv and builds the kernel into it as far as that is not done.
+# Nothing is installed outside this directory. Needs Python >= 3.11 and a Rust toolchain; says so where they are missing.
+
+VENV := .venv
+PYTHON := $(VENV)/bin/python
+RUST_SOURCES := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
+DATA := $(shell find data -type f)
+
+export PATH := $(PATH):$(HOME)/.cargo/bin
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export PIP_NO_INPUT := 1
+export MPLBACKEND := Agg
+
+.PHONY: study test bench docs clean build test-rust test-python lint
+
+study: build
+	$(VENV)/bin/seismass study --out out/study
+
+test: lint test-rust test-python docs
+
+bench: build
+	cargo bench --locked -p seismass
+	$(PYTHON) benchmarks/study.py
+
+lint: build
+	cargo fmt --all --check
+	cargo clippy --locked --workspace --all-targets -- -D warnings
+	$(PYTHON) -m ruff check .
+	$(PYTHON) -m ruff format --check .
+	$(PYTHON) -m mypy
+	$(PYTHON) -m mypy.stubtest seismass._kernel --mypy-config-file pyproject.toml
+
+# The extension crate is left out: it links against the Python that loads it and is tested from there.
+test-rust:
+	cargo test --locked --workspace --exclude seismass-python
+
+test-python: build
+	$(PYTHON) -m pytest
+
+docs:
+	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
+
+clean:
+	cargo clean
+	rm -rf $(VENV) out dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -f python/seismass/_kernel*.so python/seismass/_kernel*.pyd
+	find python tests -name __pycache__ -type d -prune -exec rm -rf {} +
+
+build: $(VENV)/built
+
+$(VENV)/created: tools/find-python
+	@python=$$(sh tools/find-python) && echo "using $$($$python --version), $$python" && $$python -m venv --clear $(VENV)
+	@touch $@
+
+$(VENV)/installed: $(VENV)/created pyproject.toml
+	$(PYTHON) -m pip install --quiet --upgrade 'pip>=25.1'
+	$(PYTHON) -m pip install --quiet --group dev
+	@touch $@
+
+# Python sources are used in place (an editable install), so that only Rust, the metadata or the data need a new build.
+$(VENV)/built: $(VENV)/installed $(RUST_SOURCES) $(DATA) README.md
+	env -u CONDA_PREFIX VIRTUAL_ENV=$(abspath $(VENV)) $(PYTHON) -m maturin develop --release --locked
+	@touch $@
