@@ -42,7 +42,7 @@ docs:
 
 clean:
 	cargo clean
-	rm -rf $(VENV) out dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) out dist python/seismass/data .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	rm -f python/seismass/_kernel*.so python/seismass/_kernel*.pyd
 	find python tests -name __pycache__ -type d -prune -exec rm -rf {} +
 

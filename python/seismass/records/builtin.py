@@ -11,11 +11,12 @@ from seismass.records.suite import Suite, read_suite
 def data_directory() -> Path:
     """Return the folder of the stored data: inside an installed package, or at the top of a source tree."""
     package = Path(__file__).parents[1]
-    places = (package / "data", package.parents[1] / "data")
-    for place in places:
-        if (place / "synthetic" / "suite.csv").is_file():
-            return place
-    raise RecordFormatError(f"built-in suite must be in {places[0]} or {places[1]}; got neither")
+    tree = package.parents[1]
+    # In a source tree a development build leaves a copy in the package, which the files themselves outdate.
+    place = (tree if (tree / "pyproject.toml").is_file() else package) / "data"
+    if not (place / "synthetic" / "suite.csv").is_file():
+        raise RecordFormatError(f"built-in suite must be in {place}, as it was installed; got no suite.csv there")
+    return place
 
 
 def builtin_suite() -> Suite:
