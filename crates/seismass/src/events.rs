@@ -21,8 +21,8 @@ pub(crate) enum Guard {
     Collapse { storey: usize },
     /// A plastic storey's velocity turns.
     Unload { storey: usize },
-    /// A block stuck to a floor (0: the ground) breaks away.
-    Breakaway { floor: usize },
+    /// A block stuck to a floor (0: the ground) breaks away, with this sign of the floor acceleration.
+    Breakaway { floor: usize, sign: Sign },
     /// A sliding block comes to rest.
     Arrival { block: usize },
     /// The contact force of all blocks vanishes or returns.
@@ -158,12 +158,12 @@ impl State<'_> {
                 continue;
             }
             *isolated += 1;
-            for sign in [1.0, -1.0] {
+            for sign in [Sign::Positive, Sign::Negative] {
                 let mut p = self.acceleration_of(floor, tau);
-                p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign);
+                p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign.factor());
                 p.coefficients_mut()[0] += limit;
                 p.coefficients_mut()[1] += mu * contact_change;
-                first.consider(Guard::Breakaway { floor }, &p, tolerance);
+                first.consider(Guard::Breakaway { floor, sign }, &p, tolerance);
             }
         }
         for (j, motion) in self.motions.iter().enumerate() {
@@ -200,14 +200,14 @@ impl State<'_> {
                 self.v[storey] = 0.0;
                 log.push(Event { time, kind, number: storey + 1, sign, element: 0 });
             }
-            Guard::Breakaway { floor } => {
+            Guard::Breakaway { floor, sign } => {
                 let weakest = self.model.on_floor[floor]
                     .iter()
                     .copied()
                     .filter(|&j| self.motions[j].is_stuck())
                     .min_by(|&i, &j| self.model.blocks[i].mu_s.total_cmp(&self.model.blocks[j].mu_s));
                 if let Some(weakest) = weakest {
-                    self.settle_floor(floor, tau, Cause::Breakaway(weakest), log);
+                    self.settle_floor(floor, tau, Cause::Breakaway(weakest, sign), log);
                 }
             }
             Guard::Arrival { block } => {

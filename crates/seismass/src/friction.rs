@@ -131,8 +131,8 @@ pub(crate) struct Transition {
 /// Why a floor decides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Cause {
-    /// A stuck block has reached its limit.
-    Breakaway(usize),
+    /// This stuck block has reached its limit, with this sign of the floor acceleration.
+    Breakaway(usize, Sign),
     /// Something else: a block has arrived or landed, or the run starts.
     Other,
 }
@@ -178,7 +178,11 @@ pub(crate) fn settle(
             }
         }
         let (acceleration, size) = demand.acceleration(stuck_mass, friction, friction_size);
-        let direction = Sign::of(acceleration).opposite();
+        let direction = match cause {
+            // Without friction a block breaks away where the acceleration is zero still.
+            Cause::Breakaway(_, sign) if acceleration.abs() <= ROUNDING * size => sign.opposite(),
+            _ => Sign::of(acceleration).opposite(),
+        };
         let mut released = false;
         for &j in blocks {
             if !motions[j].is_stuck() {
@@ -187,7 +191,7 @@ pub(crate) fn settle(
             let limit = laws[j].mu_s * contact;
             let rounding = ROUNDING * (size + limit);
             let exceeds = match breakaway {
-                Cause::Breakaway(fired) => j == fired || acceleration.abs() >= limit - rounding,
+                Cause::Breakaway(fired, _) => j == fired || acceleration.abs() >= limit - rounding,
                 Cause::Other => acceleration.abs() > limit + rounding,
             };
             if exceeds {
@@ -283,7 +287,7 @@ mod tests {
         let force = 0.3 * G * 6.0;
         let demand = Demand::Floor { force, size: force, mass: 3.0 };
         let mut log = Vec::new();
-        settle(demand, &laws, &mut motions, &[0, 1], G, Cause::Breakaway(1), &mut log);
+        settle(demand, &laws, &mut motions, &[0, 1], G, Cause::Breakaway(1, Sign::Positive), &mut log);
         assert!(motions.iter().all(|m| m.sliding() == Some(Sign::Negative)));
         assert_eq!(log.len(), 2);
     }

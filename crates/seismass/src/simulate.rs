@@ -255,7 +255,7 @@ impl Run<'_> {
             Guard::Yield { storey: i, .. } => ("yield", storey(i)),
             Guard::Collapse { storey: i } => ("collapse", storey(i)),
             Guard::Unload { storey: i } => ("unload", storey(i)),
-            Guard::Breakaway { floor } => ("slip", block(on(floor))),
+            Guard::Breakaway { floor, .. } => ("slip", block(on(floor))),
             Guard::Arrival { block: j } => ("stick", block(j)),
             Guard::Contact => ("lift or land", block(0)),
         };
