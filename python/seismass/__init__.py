@@ -1,6 +1,6 @@
 """How much of a building's live load acts as mass in an earthquake: exact sliding-block shear-building simulation."""
 
-from seismass._kernel import VERSION as __version__
+from seismass import _kernel
 from seismass.errors import (
     InvalidMotion,
     InvalidOption,
@@ -15,6 +15,8 @@ from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
 from seismass.scene_file import SceneFile, read_scene
 from seismass.simulate import Motion, Response, simulate, simulate_many
 from seismass.units import STANDARD_GRAVITY
+
+__version__ = _kernel.VERSION
 
 __all__ = [
     "STANDARD_GRAVITY",

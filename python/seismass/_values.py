@@ -5,7 +5,6 @@ Arguments are only converted here (their kind and shape); their ranges are judge
 
 from __future__ import annotations
 
-import math
 import numbers
 from collections.abc import Hashable
 from typing import Any, Self, TypeAlias, TypeVar
@@ -102,7 +101,7 @@ def as_number(value: Any, parameter: str, owner: str, kind: type[SeismassError])
     try:
         return float(value)
     except OverflowError:
-        return math.inf if value > 0 else -math.inf
+        raise refusal(kind, parameter, owner, "a number that a double can hold", brief(value)) from None
 
 
 def as_count(value: Any, parameter: str, owner: str, kind: type[SeismassError], *, least: int = 0) -> int:

@@ -142,7 +142,9 @@ class Building(Value):
         geometric_stiffness: ArrayLike | None = None,
     ) -> None:
         if gravity_load is not None and geometric_stiffness is not None:
-            raise refusal(InvalidScene, "geometric_stiffness", "building", "left out where gravity_load is given", "both")
+            raise refusal(
+                InvalidScene, "geometric_stiffness", "building", "left out where gravity_load is given", "both"
+            )
         if gravity_load is not None and heights is None:
             raise refusal(InvalidScene, "heights", "building", "given where gravity_load is", "none")
         springs = _per_storey(
@@ -226,9 +228,7 @@ class Building(Value):
         """
         count = as_count(storeys, "storeys", "building", InvalidScene, least=1)
         floor_mass = as_number(mass, "mass", "building", InvalidScene)
-        stiffness = _kernel.uniform_stiffness(
-            count, as_number(period, "period", "building", InvalidScene), floor_mass
-        )
+        stiffness = _kernel.uniform_stiffness(count, as_number(period, "period", "building", InvalidScene), floor_mass)
         if yield_shear_over_weight is not None:
             if yield_shear is not None:
                 raise refusal(
@@ -296,9 +296,7 @@ class Building(Value):
         damping = "matrix" if isinstance(self.damping, np.ndarray) else self.damping
         p_delta = ", P-Delta" if self.gravity_load is not None or self.geometric_stiffness is not None else ""
         noun = "storey" if self.storeys == 1 else "storeys"
-        return (
-            f"Building({self.storeys} {noun}, T1 = {self.periods[0]:.4g} s, {springs}, damping = {damping}{p_delta})"
-        )
+        return f"Building({self.storeys} {noun}, T1 = {self.periods[0]:.4g} s, {springs}, damping = {damping}{p_delta})"
 
 
 class Block(Value):
@@ -609,7 +607,7 @@ def _damping(damping: Any) -> float | Rayleigh | FloatArray:
 
 def _damping_arguments(damping: float | Rayleigh | FloatArray) -> dict[str, Any]:
     if isinstance(damping, Rayleigh):
-        modes = damping.modes
+        modes: Any = damping.modes
         if not (isinstance(modes, Sequence) and len(modes) == 2):
             raise refusal(InvalidScene, "modes", "Rayleigh damping", "two mode numbers", brief(modes))
         first, second = (as_count(mode, "modes", "Rayleigh damping", InvalidScene, least=1) for mode in modes)

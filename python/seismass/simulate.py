@@ -53,9 +53,7 @@ class Motion(Value):
         self._set(
             acceleration=as_array(acceleration, "acceleration", "motion", InvalidMotion),
             dt=as_number(dt, "dt", "motion", InvalidMotion),
-            vertical=None
-            if vertical is None
-            else as_array(vertical, "vertical acceleration", "motion", InvalidMotion),
+            vertical=None if vertical is None else as_array(vertical, "vertical acceleration", "motion", InvalidMotion),
         )
         self._set(_kernel=_kernel.Motion(self.acceleration, self.dt, self.vertical))
 
@@ -128,12 +126,12 @@ class Response:
     `simulate` was asked for them, energies and events likewise. Responses pickle, and compare by content.
     """
 
-    __slots__ = ("_dt", "_heights", "_kernel", "_known")
-    _kernel: _kernel.Response | None
+    __slots__ = ("_dt", "_heights", "_known", "_run")
+    _run: _kernel.Response | None
     _known: dict[str, Any]
 
-    def __init__(self, kernel: _kernel.Response, dt: float, heights: FloatArray | None) -> None:
-        self._kernel = kernel
+    def __init__(self, run: _kernel.Response, dt: float, heights: FloatArray | None) -> None:
+        self._run = run
         self._known = {}
         self._dt = dt
         self._heights = heights
@@ -141,7 +139,7 @@ class Response:
     def _get(self, name: str) -> Any:
         """Return what the kernel holds under a name, converted once."""
         if name not in self._known:
-            self._known[name] = getattr(self._kernel, name)
+            self._known[name] = getattr(self._run, name)
         return self._known[name]
 
     def _asked(self, name: str, option: str) -> Any:
@@ -348,7 +346,7 @@ class Response:
         return {"known": self._everything(), "dt": self._dt, "heights": self._heights}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self._kernel = None
+        self._run = None
         self._known = state["known"]
         for value in self._known.values():
             if isinstance(value, np.ndarray):
@@ -364,8 +362,9 @@ class Response:
 
 
 _KERNEL_VALUES: Final = tuple(
-    name for name, member in vars(_kernel.Response).items() if not name.startswith("_") and not callable(member)
-    and not isinstance(member, staticmethod)
+    name
+    for name, member in vars(_kernel.Response).items()
+    if not name.startswith("_") and not callable(member) and not isinstance(member, staticmethod)
 )
 
 
@@ -420,11 +419,13 @@ def simulate(
     chosen = as_motion(motion, "motion", "simulate")
     if duration is not None:
         chosen = chosen.with_duration(duration)
-    every = int(histories) if isinstance(histories, bool) else as_count(
-        histories, "histories", "simulate", InvalidOption, least=1
+    every = (
+        int(histories)
+        if isinstance(histories, bool)
+        else as_count(histories, "histories", "simulate", InvalidOption, least=1)
     )
-    kernel = _kernel.simulate(scene._kernel, chosen._kernel, every, bool(energy), bool(events))
-    return Response(kernel, chosen.dt, None if scene.building is None else scene.building.heights)
+    run = _kernel.simulate(scene._kernel, chosen._kernel, every, bool(energy), bool(events))
+    return Response(run, chosen.dt, None if scene.building is None else scene.building.heights)
 
 
 def simulate_many(

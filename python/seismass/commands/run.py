@@ -1,0 +1,240 @@
+"""`seismass run SCENE`: one scene file, its response in short, or as JSON, or with its histories."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+import polars as pl
+
+from seismass.errors import InvalidOption, SeismassError, SimulationError
+from seismass.files import written_whole
+from seismass.scene import Building, Rayleigh, Scene
+from seismass.scene_file import SceneFile, read_scene
+from seismass.simulate import Response, simulate
+from seismass.units import STANDARD_GRAVITY
+
+_HISTORY_SUFFIXES = (".parquet", ".csv")
+_EPILOG = """examples:
+  seismass run scene.toml
+  seismass run scene.json --json > response.json
+  seismass run scene.toml --histories response.parquet
+
+exit codes: 0 solved (a collapse is a result), 1 the run failed, 2 bad input"""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the subcommand to those of the `seismass` command."""
+    parser = subparsers.add_parser(
+        "run",
+        help="solve one scene file",
+        description="Solve a scene file (TOML or JSON: building, blocks, motion) and print its peaks.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("scene", type=Path, metavar="SCENE", help="scene file, .toml or .json")
+    parser.add_argument("--json", action="store_true", help="print peaks, residuals, counts, events and energy as JSON")
+    parser.add_argument(
+        "--histories",
+        type=Path,
+        metavar="FILE",
+        help="write time, drift of every storey and slip of every block at every sample (.parquet or .csv)",
+    )
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Solve the scene and print it; return the exit code."""
+    try:
+        if args.histories is not None and args.histories.suffix.lower() not in _HISTORY_SUFFIXES:
+            suffixes = " or ".join(_HISTORY_SUFFIXES)
+            raise InvalidOption(f"suffix of --histories must be {suffixes}; got {args.histories.suffix!r}")
+        file = read_scene(args.scene)
+        response = simulate(file.scene, file.motion, histories=args.histories is not None, energy=True)
+        if args.histories is not None:
+            _write_histories(response, args.histories)
+    except SimulationError as error:
+        print(f"seismass run: {error}", file=sys.stderr)
+        return 1
+    except (SeismassError, OSError) as error:
+        print(f"seismass run: {args.scene}: {error}", file=sys.stderr)
+        return 2
+    print(json.dumps(as_json(file, response), indent=2, allow_nan=False) if args.json else summary(file, response))
+    return 0
+
+
+def _write_histories(response: Response, path: Path) -> None:
+    columns: dict[str, Any] = {"time": response.time}
+    for name, history in (("drift", response.drift), ("slip", response.slip)):
+        columns |= {f"{name}_{number}": history[:, number - 1] for number in range(1, history.shape[1] + 1)}
+    frame = pl.DataFrame(columns)
+    with written_whole(path) as temporary:
+        if path.suffix.lower() == ".csv":
+            frame.write_csv(temporary)
+        else:
+            frame.write_parquet(temporary)
+
+
+def as_json(file: SceneFile, response: Response) -> dict[str, Any]:
+    """Return what `--json` prints: SI units, null for what is not a finite number."""
+    lists = (
+        "peak_drift",
+        "peak_drift_time",
+        "peak_slip",
+        "peak_slip_time",
+        "peak_floor_acceleration",
+        "peak_floor_acceleration_time",
+        "peak_storey_shear",
+        "peak_storey_shear_time",
+        "residual_drift",
+        "residual_slip",
+        "slip_path",
+    )
+    result: dict[str, Any] = {
+        "name": file.name,
+        "status": response.status,
+        "collapsed_storey": response.collapsed_storey,
+        "end_time": response.end_time,
+        "dt": file.motion.dt,
+        **{name: getattr(response, name).tolist() for name in lists},
+        "peak_base_shear": response.peak_base_shear,
+    }
+    if response.peak_drift_ratio is not None and response.residual_drift_ratio is not None:
+        result["peak_drift_ratio"] = response.peak_drift_ratio.tolist()
+        result["residual_drift_ratio"] = response.residual_drift_ratio.tolist()
+    result["counts"] = {kind: count for kind, count in response.counts.items() if count}
+    result["events"] = [
+        {key: value for key, value in event.items() if value is not None}
+        for event in response.events.iter_rows(named=True)
+    ]
+    result["energy"] = response.energy
+    if file.scene.building is not None:
+        result["damping_matrix"] = file.scene.building.damping_matrix.tolist()
+    result["statistics"] = response.statistics
+    finite: dict[str, Any] = _finite(result)
+    return finite
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def summary(file: SceneFile, response: Response) -> str:
+    """Return the readable summary that `seismass run` prints."""
+    scene, motion = file.scene, file.motion
+    lines = [file.name or file.path.stem]
+    if file.note:
+        lines.append(f"  {file.note}")
+    lines += [f"  {line}" for line in ([] if scene.building is None else _building_lines(scene.building, scene))]
+    vertical = "" if motion.vertical is None else f", vertical {max(abs(motion.vertical)) / STANDARD_GRAVITY:.3f} g"
+    source = "".join(f"{record.name}, " for record in file.records[:1])
+    lines.append(
+        f"  motion    {source}{motion.samples} samples at {motion.dt:g} s ({motion.duration:g} s), "
+        f"PGA {motion.pga_g:.3f} g{vertical}"
+    )
+    if scene.building is not None:
+        lines += ["", *_aligned(_storey_table(response))]
+    if scene.blocks:
+        lines += ["", *_aligned(_block_table(scene, response))]
+    counts = ", ".join(f"{count} {kind}" for kind, count in response.counts.items() if count) or "none"
+    end = f"{response.status} at {response.end_time:g} s"
+    if response.collapsed_storey is not None:
+        end += f": storey {response.collapsed_storey} reached its collapse drift; peaks are those until then"
+    return "\n".join(
+        [
+            *lines,
+            "",
+            f"  events    {counts}",
+            f"  energy    residual {response.energy['relative_residual']:.1e} of the input",
+            f"  status    {end}",
+        ]
+    )
+
+
+def _building_lines(building: Building, scene: Scene) -> list[str]:
+    noun = "storey" if building.storeys == 1 else "storeys"
+    periods = ", ".join(f"{period:.3f}" for period in building.periods[:3])
+    more = ", ..." if building.storeys > 3 else ""
+    lines = [
+        f"building  {building.storeys} {noun}, periods {periods}{more} s, weight {building.weight / 1000.0:.5g} kN, "
+        f"damping {_damping_text(building)}"
+    ]
+    if math.isinf(building.yield_shear.min()):
+        return [*lines, "springs   elastic"]
+    parameters = ", ".join(
+        f"{symbol} {_listed(values)}"
+        for symbol, values in (
+            ("V_y/W", building.yield_shear / building.weight),
+            ("Omega", building.overstrength),
+            ("r2", building.second_slope),
+            ("r3", building.third_slope),
+        )
+    )
+    lines.append(f"springs   {parameters}")
+    if scene.geometric_stiffness.any():
+        lines.append(f"P-Delta   P/(h k) {_listed(scene.geometric_stiffness / building.stiffness)}")
+    return lines
+
+
+def _damping_text(building: Building) -> str:
+    damping = building.damping
+    if isinstance(damping, Rayleigh):
+        return f"{100.0 * damping.ratio:g} % in modes {damping.modes[0]} and {damping.modes[1]} (Rayleigh)"
+    return f"{100.0 * damping:g} % in every mode" if isinstance(damping, float) else "by a given matrix"
+
+
+def _listed(values: Any) -> str:
+    numbers = [f"{value:.4g}" for value in values]
+    return numbers[0] if len(set(numbers)) == 1 else " ".join(numbers)
+
+
+def _storey_table(response: Response) -> list[list[str]]:
+    header = ["storey", "peak drift mm", "at s", "residual mm", "peak shear kN", "floor acceleration g"]
+    ratios = response.peak_drift_ratio
+    if ratios is not None:
+        header.insert(2, "of height %")
+    rows = []
+    for i in range(len(response.peak_drift)):
+        row = [
+            str(i + 1),
+            f"{1000.0 * response.peak_drift[i]:.3f}",
+            f"{response.peak_drift_time[i]:.3f}",
+            f"{1000.0 * response.residual_drift[i]:.3f}",
+            f"{response.peak_storey_shear[i] / 1000.0:.4g}",
+            f"{response.peak_floor_acceleration[i] / STANDARD_GRAVITY:.4f}",
+        ]
+        if ratios is not None:
+            row.insert(2, f"{100.0 * ratios[i]:.3f}")
+        rows.append(row)
+    return [header, *rows]
+
+
+def _block_table(scene: Scene, response: Response) -> list[list[str]]:
+    header = ["block", "floor", "mass kg", "mu", "peak slip mm", "at s", "residual mm", "slip path mm"]
+    rows = [
+        [
+            str(j + 1),
+            str(block.floor) if block.floor else "ground",
+            f"{mass:.5g}",
+            f"{block.mu_s:g}" if block.mu_s == block.mu_k else f"{block.mu_s:g}/{block.mu_k:g}",
+            f"{1000.0 * response.peak_slip[j]:.3f}",
+            f"{response.peak_slip_time[j]:.3f}",
+            f"{1000.0 * response.residual_slip[j]:.3f}",
+            f"{1000.0 * response.slip_path[j]:.3f}",
+        ]
+        for j, (block, mass) in enumerate(zip(scene.blocks, scene.block_mass, strict=True))
+    ]
+    return [header, *rows]
+
+
+def _aligned(rows: list[list[str]]) -> list[str]:
+    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
+    return ["  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
