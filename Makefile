@@ -11,12 +11,12 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 
-.PHONY: study test bench docs clean build test-rust test-python lint
+.PHONY: study test bench docs clean build lint test-rust test-python test-wheel
 
 study: build
 	$(VENV)/bin/seismass study --out out/study
 
-test: lint test-rust test-python docs
+test: lint docs test-wheel test-rust test-python
 
 bench: build
 	cargo bench --locked -p seismass
@@ -36,6 +36,9 @@ test-rust:
 
 test-python: build
 	$(PYTHON) -m pytest
+
+test-wheel: build
+	sh tools/check-wheel $(PYTHON)
 
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
