@@ -160,7 +160,11 @@ CALLS: list[tuple[Callable[[Path], object], type[SeismassError], str]] = [
     (a_list("file\nb.AT2\n"), RecordFormatError, r"record file must be a file that can be read; got .*b.AT2"),
     (a_list("file,dt\na.AT2,soon\n"), RecordFormatError, r"dt of list.csv, row 1, must be a number; got 'soon'"),
     (lambda _: Record([], 0.01), InvalidMotion, r"acceleration of record must be a list of at least one sample; got"),
-    (lambda _: Record([[0.0]], 0.01), InvalidMotion, r"must be a list of at least one sample; got shape \(1, 1\)"),
+    (
+        lambda _: Record([[0.0]], 0.01),
+        InvalidMotion,
+        r"acceleration of record must be a list of numbers; got an array of shape \(1, 1\)",
+    ),
     (
         lambda _: Record([0.0, float("nan")], 0.01),
         InvalidMotion,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seismass._values import as_array, as_number, brief, refusal
 from seismass.errors import InvalidMotion
 from seismass.units import STANDARD_GRAVITY
 
@@ -62,7 +63,7 @@ class Record:
 
     def __post_init__(self) -> None:
         what = f"record {self.name}" if self.name else "record"
-        object.__setattr__(self, "dt", _positive("dt", self.dt, what))
+        object.__setattr__(self, "dt", _number("dt", self.dt, what, positive=True))
         object.__setattr__(self, "acceleration", _samples("acceleration", self.acceleration, what))
         if self.vertical is not None:
             vertical = _samples("vertical", self.vertical, what)
@@ -106,13 +107,13 @@ class Record:
 
     def scaled(self, factor: float) -> Record:
         """Return the record with both components multiplied by `factor`, a finite number."""
-        number = _number("factor", factor, "scaled record", "a finite number")
+        number = _number("factor", factor, "scaled record", positive=False)
         vertical = None if self.vertical is None else self.vertical * number
         return replace(self, acceleration=self.acceleration * number, vertical=vertical)
 
     def time_scaled(self, factor: float) -> Record:
         """Return the record with its time step multiplied by `factor` > 0, as for a model at reduced scale."""
-        return replace(self, dt=self.dt * _positive("factor", factor, "time-scaled record"))
+        return replace(self, dt=self.dt * _number("factor", factor, "time-scaled record", positive=True))
 
     def with_vertical(self, vertical: Record) -> Record:
         """Return the record with the accelerations of `vertical` beside its own, both cut to the shorter.
@@ -139,34 +140,20 @@ class Record:
         )
 
 
-def _number(parameter: str, value: Any, what: str, must_be: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = math.nan
-    if not math.isfinite(number):
-        raise InvalidMotion(f"{parameter} of {what} must be {must_be}; got {value!r}")
-    return number
-
-
-def _positive(parameter: str, value: Any, what: str) -> float:
-    number = _number(parameter, value, what, "a positive number")
-    if number <= 0.0:
-        raise InvalidMotion(f"{parameter} of {what} must be a positive number; got {value!r}")
+def _number(parameter: str, value: Any, what: str, *, positive: bool) -> float:
+    number = as_number(value, parameter, what, InvalidMotion)
+    if not math.isfinite(number) or (positive and number <= 0.0):
+        requirement = "a positive number" if positive else "a finite number"
+        raise refusal(InvalidMotion, parameter, what, requirement, brief(value))
     return number
 
 
 def _samples(parameter: str, values: ArrayLike, what: str) -> NDArray[np.float64]:
-    try:
-        samples = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidMotion(f"{parameter} of {what} must be a list of numbers; got {values!r:.60}") from error
-    if samples.ndim != 1 or len(samples) == 0:
-        raise InvalidMotion(f"{parameter} of {what} must be a list of at least one sample; got shape {samples.shape}")
+    samples = as_array(values, parameter, what, InvalidMotion)
+    if len(samples) == 0:
+        raise refusal(InvalidMotion, parameter, what, "a list of at least one sample", "none")
     wrong = np.flatnonzero(~np.isfinite(samples))
     if len(wrong):
-        raise InvalidMotion(
-            f"{parameter} of {what} must be finite at every sample; got {samples[wrong[0]]} at sample {wrong[0]}"
-        )
-    samples.setflags(write=False)
+        got = f"{samples[wrong[0]]} at sample {wrong[0]}"
+        raise refusal(InvalidMotion, parameter, what, "finite at every sample", got)
     return samples
