@@ -28,6 +28,7 @@ lint: build
 	$(PYTHON) -m ruff check .
 	$(PYTHON) -m ruff format --check .
 	$(PYTHON) -m mypy
+	$(PYTHON) tools/make_stubs.py --check
 	$(PYTHON) -m mypy.stubtest seismass._kernel --mypy-config-file pyproject.toml
 
 # The extension crate is left out: it links against the Python that loads it and is tested from there.

@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 from typing import Literal
 
+from seismass._values import as_number, brief
 from seismass.errors import RecordFormatError
 from seismass.records.at2 import looks_like_at2, parse_at2
 from seismass.records.columns import parse_columns
@@ -54,8 +55,10 @@ def read_record(
     <Record ramp: 3 x 0.01 s, PGA 0.1020 g>
     """
     source = Path(path)
-    if dt is not None and not (isinstance(dt, int | float) and math.isfinite(dt) and dt > 0.0):
-        raise RecordFormatError(f"dt of {source.name} must be a positive number; got {dt!r}")
+    if dt is not None:
+        step = as_number(dt, "dt", source.name, RecordFormatError)
+        if not (math.isfinite(step) and step > 0.0):
+            raise RecordFormatError(f"dt of {source.name} must be a positive number; got {brief(dt)}")
     if unit is not None and unit not in ACCELERATION_UNITS:
         raise RecordFormatError(f"unit of {source.name} must be one of {', '.join(ACCELERATION_UNITS)}; got {unit!r}")
     if format not in (None, "at2", "columns"):
