@@ -533,6 +533,7 @@ pub struct Options {
     pub energy: bool,
     /// The event log.
     pub events: bool,
-    /// Nothing but peaks is wanted: the run may stop when none can be beaten any more, and residuals are NaN.
+    /// Nothing but peaks is wanted: the run may stop when none can be beaten any more, and residuals are NaN. Without
+    /// effect where histories or energies are asked for.
     pub peaks_only: bool,
 }

@@ -50,6 +50,7 @@ pub(crate) fn run(
     let vertical = motion.vertical().is_some() && !model.blocks.is_empty();
     let samples = motion.acceleration().len();
     let every = options.histories.map(std::num::NonZeroUsize::get);
+    let peaks_only = options.peaks_only && every.is_none() && !options.energy;
     let mut run = Run {
         state: State::new(scene, model, cache, vertical),
         observer: Observer::new(model, every, samples, options.energy),
@@ -66,7 +67,7 @@ pub(crate) fn run(
         if i.is_multiple_of(INTERVALS_PER_POLL) && stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        if options.peaks_only && i >= quiet_from && run.no_peak_can_be_beaten() {
+        if peaks_only && i >= quiet_from && run.no_peak_can_be_beaten() {
             run.statistics.skipped.tail_samples = samples - 1 - i;
             end = i;
             break;
@@ -85,7 +86,7 @@ pub(crate) fn run(
         Status::Completed => end as f64 * motion.dt(),
         Status::Collapsed { time, .. } => time,
     };
-    Ok(run.finish(status, end_time, options.peaks_only))
+    Ok(run.finish(status, end_time, peaks_only))
 }
 
 struct Run<'a> {

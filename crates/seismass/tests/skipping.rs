@@ -1,0 +1,85 @@
+//! Skipping what a scene does not need never changes a digit that is reported, and is reported itself.
+
+use std::sync::Arc;
+
+use seismass::{
+    Block, Building, Control, Damping, Error, Motion, Options, Scene, Storey, batch::count_distinct, simulate,
+    simulate_many, simulate_until,
+};
+
+fn building() -> Arc<Building> {
+    let storeys = vec![Storey::yielding(5.5e5, 7000.0), Storey::yielding(5.5e5, 4000.0), Storey::elastic(5.5e5)];
+    Arc::new(Building::new(vec![1000.0; 3], storeys, Damping::Modal { ratio: 0.05 }).unwrap())
+}
+
+fn scene(mu: f64) -> Scene {
+    Scene::new(Some(building()), vec![Block::new(1, 1000.0, mu)]).unwrap()
+}
+
+/// Shaking for 8 s between quiet stretches.
+fn motion(head: usize, tail: usize) -> Motion {
+    let shaking = (0..800).map(|i| 4.0 * (0.06 * f64::from(i)).sin() * (0.004 * f64::from(i)).sin());
+    let samples: Vec<f64> =
+        std::iter::repeat_n(0.0, head).chain(shaking).chain(std::iter::repeat_n(0.0, tail)).collect();
+    Motion::new(samples, 0.01, None).unwrap()
+}
+
+#[test]
+fn a_quiet_tail_is_left_out_when_only_peaks_are_wanted() {
+    let motion = motion(0, 5000);
+    let whole = simulate(&scene(0.2), &motion, &Options::default()).unwrap();
+    let short = simulate(&scene(0.2), &motion, &Options { peaks_only: true, ..Options::default() }).unwrap();
+    assert_eq!(whole.peaks, short.peaks);
+    assert_eq!(whole.statistics.events, short.statistics.events);
+    assert!(short.statistics.skipped.tail_samples > 4000, "{:?}", short.statistics.skipped);
+    assert!(short.residual_drift.iter().all(|d| d.is_nan()));
+    assert_eq!(whole.statistics.skipped.tail_samples, 0);
+}
+
+#[test]
+fn a_quiet_head_is_left_out() {
+    let (with, without) = (motion(1000, 0), motion(0, 0));
+    let a = simulate(&scene(0.2), &with, &Options::default()).unwrap();
+    let b = simulate(&scene(0.2), &without, &Options::default()).unwrap();
+    assert_eq!(a.statistics.skipped.head_samples, 1000);
+    assert_eq!(a.residual_drift, b.residual_drift);
+    assert_eq!(a.residual_slip, b.residual_slip);
+    assert_eq!(a.statistics.intervals, b.statistics.intervals);
+}
+
+#[test]
+fn what_does_not_exist_is_counted_as_skipped() {
+    let response = simulate(&scene(0.2), &motion(0, 0), &Options::default()).unwrap();
+    assert_eq!((response.statistics.skipped.elastic_storeys, response.statistics.skipped.bare_floors), (1, 2));
+    let bare = simulate(&Scene::new(Some(building()), vec![]).unwrap(), &motion(0, 0), &Options::default()).unwrap();
+    assert_eq!(bare.statistics.skipped.bare_floors, 3);
+}
+
+#[test]
+fn equal_runs_of_a_batch_are_solved_once() {
+    let scenes = [scene(0.2), scene(0.3), scene(0.2)];
+    let motions = [motion(0, 0), motion(0, 0)];
+    let runs: Vec<_> = (0..3).flat_map(|s| [(s, 0), (s, 1)]).collect();
+    assert_eq!(count_distinct(&scenes, &motions, &runs), 2);
+    let control = Control::default();
+    let responses = simulate_many(&scenes, &motions, &runs, &Options::default(), None, &control).unwrap();
+    assert_eq!(control.done.into_inner(), 6);
+    assert_eq!(responses[0], responses[5]);
+    assert_ne!(responses[0], responses[2]);
+}
+
+#[test]
+fn a_batch_can_be_stopped() {
+    let control = Control::default();
+    control.stop.store(true, std::sync::atomic::Ordering::Relaxed);
+    let runs = [(0, 0)];
+    let stopped = simulate_many(&[scene(0.2)], &[motion(0, 0)], &runs, &Options::default(), None, &control);
+    assert_eq!(stopped.unwrap_err(), Error::Interrupted);
+    let long = Motion::new(vec![0.1; 5000], 0.01, None).unwrap();
+    assert_eq!(simulate_until(&scene(0.2), &long, &Options::default(), &control.stop).unwrap_err(), Error::Interrupted);
+    let wrong =
+        simulate_many(&[scene(0.2)], &[motion(0, 0)], &[(0, 3)], &Options::default(), None, &Control::default());
+    assert!(
+        wrong.unwrap_err().to_string().contains("motion index of run 1 must be below the number of them, 1; got 3")
+    );
+}
