@@ -102,7 +102,7 @@ impl Polynomial {
         let mut back = (2.0 * value / rate).abs().max(f64::EPSILON * end);
         loop {
             let start = end - back;
-            if !(start > 0.0) {
+            if start.is_nan() || start <= 0.0 {
                 return if self.coefficients[0] > 0.0 { self.refine(0.0, end) } else { 0.0 };
             }
             if self.at(start) >= 0.0 {

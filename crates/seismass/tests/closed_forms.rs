@@ -4,6 +4,10 @@
 //! coefficients are scaled to the kernel's g. A sine or a jump is not piecewise linear: tests show the table's digits
 //! at a fine step and second-order convergence to the closed form.
 
+#![allow(clippy::unwrap_used)]
+// Tables hold what they hold.
+#![allow(clippy::approx_constant)]
+
 use std::f64::consts::{PI, TAU};
 use std::num::NonZeroUsize;
 use std::sync::Arc;

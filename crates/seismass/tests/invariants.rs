@@ -1,5 +1,7 @@
 //! What must hold for every valid scene (specification, section 8), on random scenes.
 
+#![allow(clippy::unwrap_used)]
+
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 

@@ -1,5 +1,7 @@
 //! Every reference scene, solved by an independent 64-bit-mantissa solver: histories, peaks, events, energies.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use std::num::NonZeroUsize;
