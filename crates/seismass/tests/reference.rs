@@ -109,8 +109,8 @@ fn reference_scenes() {
             let drift = worst(&h.drift, &rows(&result["drift"]), &peak_drift);
             let slip = worst(&h.slip, &rows(&result["slip"]), &peak_slip);
             let of = |peaks: &[seismass::Peak]| peaks.iter().map(|p| p.value).collect::<Vec<_>>();
-            let peaks = worst(&of(&response.peaks.drift), &[peak_drift.clone()], &peak_drift)
-                .max(worst(&of(&response.peaks.slip), &[peak_slip.clone()], &peak_slip))
+            let peaks = worst(&of(&response.peaks.drift), std::slice::from_ref(&peak_drift), &peak_drift)
+                .max(worst(&of(&response.peaks.slip), std::slice::from_ref(&peak_slip), &peak_slip))
                 .max(worst(&response.residual_drift, &[floats(&result["residual_drift"])], &peak_drift))
                 .max(worst(&response.residual_slip, &[floats(&result["residual_slip"])], &peak_slip));
             let events = compare_events(response.events.as_ref().unwrap(), result["events"].as_array().unwrap());
