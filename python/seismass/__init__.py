@@ -11,9 +11,11 @@ from seismass.errors import (
     SimulationError,
 )
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
+from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
 from seismass.scene_file import SceneFile, read_scene
 from seismass.simulate import Motion, Response, simulate, simulate_many
+from seismass.spectra import TargetSpectrum, response_spectrum
 from seismass.units import STANDARD_GRAVITY
 
 __version__ = _kernel.VERSION
@@ -31,17 +33,21 @@ __all__ = [
     "Record",
     "RecordFormatError",
     "Response",
+    "ScalingResult",
     "Scene",
     "SceneFile",
     "SeismassError",
     "SimulationError",
     "Suite",
+    "TargetSpectrum",
     "__version__",
     "blocks_on_floors",
     "builtin_suite",
     "read_record",
     "read_scene",
     "read_suite",
+    "response_spectrum",
+    "scale_asce7_10",
     "simulate",
     "simulate_many",
 ]

@@ -1,0 +1,51 @@
+"""The `seismass` command: finds the subcommand, runs it, and turns what goes wrong into one line and an exit code."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+
+from seismass import __version__
+from seismass.commands import run, scale, spectrum, study
+from seismass.errors import SeismassError
+
+COMMANDS = (study, run, spectrum, scale)
+
+INTERRUPTED = 130
+"""Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return the exit code: 0 done, 1 a run failed, 2 bad input, 130 interrupted.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Without the name of the program; default those of the process.
+    """
+    parser = argparse.ArgumentParser(
+        prog="seismass",
+        description="How much of a building's live load acts as mass in an earthquake.",
+        epilog="exit codes: 0 done, 1 a run failed, 2 bad input, 130 interrupted",
+    )
+    parser.add_argument("--version", action="version", version=f"seismass {__version__}")
+    subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for command in COMMANDS:
+        command.add_parser(subparsers)
+    args = parser.parse_args(arguments)
+    try:
+        code: int = args.run(args)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader has gone, as with `| head`; nothing more can be printed, not even by the interpreter at its end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except (SeismassError, OSError) as error:
+        print(f"seismass: error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("seismass: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    return code

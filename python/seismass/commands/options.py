@@ -1,0 +1,77 @@
+"""Options that several subcommands share: the motions and the target spectrum that they are scaled to."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from seismass.records import Suite
+    from seismass.spectra import TargetSpectrum
+
+
+def add_motion_options(parser: argparse.ArgumentParser) -> None:
+    """Add --records, --target, --sds, --sd1, --tl and --period."""
+    motions = parser.add_argument_group("motions")
+    motions.add_argument(
+        "--records",
+        type=Path,
+        metavar="PATH",
+        help="folder of .AT2 files, or a CSV with a column `file` (default: the built-in synthetic suite)",
+    )
+    motions.add_argument("--target", type=Path, metavar="CSV", help="target spectrum: period (s), Sa (g)")
+    motions.add_argument("--sds", type=float, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
+    motions.add_argument("--sd1", type=float, metavar="G", help="S_D1, g (0.61)")
+    motions.add_argument(
+        "--tl",
+        type=float,
+        metavar="S",
+        help="T_L, s (8); the three defaults stand in for the Port of Long Beach and are not its published spectrum",
+    )
+    motions.add_argument(
+        "--period", type=float, default=1.0, metavar="T", help="motions are scaled from 0.2 T to 1.5 T (1 s)"
+    )
+
+
+def read_motions(args: argparse.Namespace) -> Suite:
+    """Return the suite that the options name."""
+    from seismass.records import builtin_suite, read_suite
+
+    return replace(builtin_suite(), name="built-in suite") if args.records is None else read_suite(args.records)
+
+
+def read_target(args: argparse.Namespace) -> TargetSpectrum:
+    """Return the target spectrum that the options describe.
+
+    Raises
+    ------
+    InvalidOption
+        A CSV is given together with a number of the ASCE 7 shape, or a number is out of its range.
+    """
+    from seismass.errors import InvalidOption
+    from seismass.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
+
+    given = {"sds": args.sds, "sd1": args.sd1, "tl": args.tl}
+    if args.target is not None:
+        for name, value in given.items():
+            if value is not None:
+                raise InvalidOption(
+                    f"{name} of target spectrum must be left out where --target is given; got {value:g}"
+                )
+        return TargetSpectrum.from_csv(args.target)
+    defaults = {"sds": DEFAULT_SDS_G, "sd1": DEFAULT_SD1_G, "tl": DEFAULT_TL}
+    sds, sd1, tl = (defaults[name] if value is None else value for name, value in given.items())
+    return TargetSpectrum.asce7(sds, sd1, tl)
+
+
+def count_option(text: str) -> int:
+    """Return a whole number of at least one."""
+    try:
+        number = int(text)
+    except ValueError:
+        number = 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"must be a whole number of at least 1; got {text!r}")
+    return number

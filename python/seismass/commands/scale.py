@@ -1,0 +1,59 @@
+"""`seismass scale`: factors of a suite by the amplitude scaling of ASCE/SEI 7-10."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from seismass.commands.options import add_motion_options, read_motions, read_target
+
+_EPILOG = """examples:
+  seismass scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6
+  seismass scale --records records/ --target uniform_hazard.csv --json
+
+exit codes: 0 done, 2 bad input"""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the subcommand to those of the `seismass` command."""
+    parser = subparsers.add_parser(
+        "scale",
+        help="scale a suite to a target spectrum (ASCE 7-10)",
+        description="Factors by which the mean spectrum of a suite is not below the target from 0.2 T to 1.5 T.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add_motion_options(parser)
+    parser.add_argument("--json", action="store_true", help="print factors and spectra as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the factors; return the exit code."""
+    from seismass.scaling import scale_asce7_10
+
+    target = read_target(args)
+    suite = read_motions(args)
+    scaling = scale_asce7_10(suite, target, args.period)
+    if args.json:
+        document = {
+            "suite": suite.name,
+            "target": target.label,
+            "common_factor": scaling.common,
+            "governing_period": scaling.governing_period,
+            "motions": scaling.table().to_dicts(),
+            "spectrum": scaling.spectrum_table().to_dict(as_series=False),
+        }
+        print(json.dumps(document, indent=2))
+        return 0
+    print(f"suite   {suite.name}: {len(suite)} motions")
+    print(f"target  {target.label}")
+    print(
+        f"range   {scaling.periods[0]:g} to {scaling.periods[-1]:g} s; the mean touches the target at "
+        f"{scaling.governing_period:.4g} s; SF2 = {scaling.common:.6f}\n"
+    )
+    print("     SF1       SF       record")
+    for row in scaling.table().iter_rows(named=True):
+        print(f"{row['motion']:>3}  {row['individual_factor']:<8.5f}  {row['factor']:<8.5f} {row['record']}")
+    return 0

@@ -1,0 +1,1 @@
+"""What a study is shown as: findings, figures, and the files that hold them."""
