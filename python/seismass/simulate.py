@@ -240,7 +240,7 @@ class Response:
         """Times of the rows of the histories, shape (rows,)."""
         if "time" not in self._known:
             every = self._asked("every", "histories")
-            self._known["time"] = frozen(np.arange(len(self.drift)) * (every * self._dt))
+            self._known["time"] = frozen(np.arange(len(self.drift)) * every * self._dt)
         return self._array("time")
 
     @property

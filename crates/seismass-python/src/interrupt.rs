@@ -3,6 +3,7 @@
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
@@ -31,46 +32,34 @@ pub(crate) fn run_inline<T: Send>(py: Python<'_>, work: impl FnOnce() -> seismas
 }
 
 /// Runs long work on another thread; meanwhile this one checks signals and calls `progress` with the number of runs
-/// done. If either raises, the work is told to stop and the exception is raised once it has stopped.
-pub(crate) fn run_watched<T: Send>(
+/// done. If either raises, the exception is raised at once, and the work, which owns all it needs, is told to stop and
+/// left to wind down by itself.
+pub(crate) fn run_watched<T: Send + 'static>(
     py: Python<'_>,
     mut progress: impl FnMut(usize) -> PyResult<()>,
-    work: impl FnOnce(&Control) -> seismass::Result<T> + Send,
+    work: impl FnOnce(&Control) -> seismass::Result<T> + Send + 'static,
 ) -> PyResult<T> {
-    let control = Control::default();
-    thread::scope(|scope| {
-        let (sender, mut receiver) = channel();
-        let control = &control;
-        scope.spawn(move || {
-            // The receiver outlives the work, so sending cannot fail.
-            let _ = sender.send(catch_unwind(AssertUnwindSafe(|| work(control))));
-        });
-        let mut raised = None;
-        loop {
-            let waiting = &mut receiver;
-            let received: Result<Outcome<T>, RecvTimeoutError> =
-                py.detach(move || waiting.recv_timeout(WATCH_INTERVAL));
-            match received {
-                Ok(outcome) => {
-                    let result = finish(py, outcome);
-                    return match raised {
-                        Some(exception) => Err(exception),
-                        None => result.and_then(|value| {
-                            progress(control.done.load(Ordering::Relaxed))?;
-                            Ok(value)
-                        }),
-                    };
-                }
-                Err(RecvTimeoutError::Timeout) if raised.is_none() => {
-                    let reported = py.check_signals().and_then(|()| progress(control.done.load(Ordering::Relaxed)));
-                    if let Err(exception) = reported {
-                        control.stop.store(true, Ordering::Relaxed);
-                        raised = Some(exception);
-                    }
-                }
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => return Err(from_panic(py, &"the worker thread vanished")),
+    let control = Arc::new(Control::default());
+    let (sender, mut receiver) = channel();
+    let shared = Arc::clone(&control);
+    thread::spawn(move || {
+        // Nobody receives what an interrupted worker sends.
+        let _ = sender.send(catch_unwind(AssertUnwindSafe(|| work(&shared))));
+    });
+    loop {
+        let waiting = &mut receiver;
+        let received: Result<Outcome<T>, RecvTimeoutError> = py.detach(move || waiting.recv_timeout(WATCH_INTERVAL));
+        let mut report = || py.check_signals().and_then(|()| progress(control.done.load(Ordering::Relaxed)));
+        match received {
+            Ok(outcome) => {
+                let value = finish(py, outcome)?;
+                report()?;
+                return Ok(value);
             }
+            Err(RecvTimeoutError::Timeout) => {
+                report().inspect_err(|_| control.stop.store(true, Ordering::Relaxed))?;
+            }
+            Err(RecvTimeoutError::Disconnected) => return Err(from_panic(py, &"the worker thread vanished")),
         }
-    })
+    }
 }

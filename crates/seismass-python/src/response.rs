@@ -32,7 +32,8 @@ pub(crate) fn simulate(
     let response = if work <= SHORT_RUN {
         run_inline(py, || seismass::simulate(scene, motion, &options))
     } else {
-        run_watched(py, |_| Ok(()), |control| simulate_until(scene, motion, &options, &control.stop))
+        let (scene, motion) = (scene.clone(), motion.clone());
+        run_watched(py, |_| Ok(()), move |control| simulate_until(&scene, &motion, &options, &control.stop))
     }?;
     Ok(Response(response))
 }
