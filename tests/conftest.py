@@ -4,6 +4,11 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# A shared machine may be slow; a failure prints what reproduces it.
+settings.register_profile("seismass", deadline=None, print_blob=True)
+settings.load_profile("seismass")
 
 
 @pytest.fixture(scope="session")

@@ -4,9 +4,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from seismass.errors import InvalidMotion, RecordFormatError, SeismassError
 from seismass.records import Record, read_record, read_suite
+from seismass.records.at2 import parse_at2
+from seismass.records.columns import parse_columns
 
 HEADER = "PEER NGA STRONG MOTION DATABASE RECORD\nQuake, 1/1/2000, Town, 90\nACCELERATION TIME SERIES IN UNITS OF G\n"
 FIVE = "  -.1000000E-03   .2000000E-03   .3000000E-03  -.4000000E-03   .5000000E-03\n"
@@ -31,7 +35,7 @@ FILES: list[tuple[str, str | bytes, dict[str, object], str]] = [
     ("a.AT2", GOOD.replace("     60", "     65")[:-8], {}, r"got 60: .* its last number '.5000' looks cut off"),
     ("a.AT2", CUT, {}, r"last number of a.AT2 must be written as the others are; got '.5000000'"),
     ("a.AT2", HEADER + "NPTS= 0, DT= .01 SEC\n", {}, r"points of a.AT2 must be at least 1; got 0"),
-    ("a.AT2", GOOD.replace(".0100 SEC", ".0000 SEC"), {}, r"DT of a.AT2 must be positive; got .0000"),
+    ("a.AT2", GOOD.replace(".0100 SEC", ".0000 SEC"), {}, r"DT of a.AT2 must be a step between .* s; got .0000"),
     ("a.AT2", GOOD.replace(".3000000E-03", "******* "), {}, r"line 5 of a.AT2 must be numbers; got '\*+'"),
     ("a.AT2", GOOD.replace(".3000000E-03", "nan "), {}, r"line 5 of a.AT2 must be numbers; got 'nan'"),
     (
@@ -185,6 +189,37 @@ def test_call_is_refused(
 ) -> None:
     with pytest.raises(exception, match=message):
         call(tmp_path)
+
+
+PIECES = [
+    "NPTS=",
+    "DT=",
+    " 3",
+    ", ",
+    " .01",
+    "\n",
+    " 1",
+    "-.5E-03",
+    "0.02",
+    "\t",
+    "#",
+    "nan",
+    "9e999",
+    "dt=0",
+    "E",
+    "(g)",
+]
+
+
+@given(st.one_of(st.text(), st.lists(st.sampled_from(PIECES)).map("".join)))
+def test_any_text_is_a_record_or_a_format_error(text: str) -> None:
+    for parse in (parse_at2, parse_columns):
+        for arguments in ({}, {"unit": "g", "dt": 0.01}):
+            try:
+                record = parse(text, Path("a.txt"), **arguments)
+            except RecordFormatError:
+                continue
+            assert record.samples > 0
 
 
 def test_formats_that_are_not_read_are_refused(shared: Path) -> None:

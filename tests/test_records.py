@@ -55,7 +55,7 @@ def test_every_style_of_counts(tmp_path: Path, counts: str, end: str) -> None:
         "".join(f"{value:.7E}" for value in VALUES_G),  # and where there is no sign, at their exponents
         " ".join(f"{value:.7E}".replace("E", "D") for value in VALUES_G),
         FIELDS + "\n" + f"{0:15.7E}" * 3,  # zeros that fill the last line
-        FIELDS + "\n\n\x1a"[:2],
+        FIELDS + "\n\n\x1a",
     ],
 )
 def test_every_layout_of_numbers(tmp_path: Path, body: str) -> None:

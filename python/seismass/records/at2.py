@@ -23,9 +23,13 @@ HEADER_LINES: Final = 10
 HEADER_ROUNDING: Final = 0.500001e-4
 """Half the fourth decimal (s), to which headers round the step however many decimals they write."""
 
+SHORTEST_STEP: Final = 1e-5
+LONGEST_STEP: Final = 1.0
+"""Steps (s) outside these are no sampling of a ground motion but a damaged header."""
+
 _COUNTS = (
-    re.compile(r"NPTS\s*[=:]?\s*(?P<points>\d+)[.,;\s]*DT\s*[=:]?\s*(?P<step>[\d.]+(?:E[+-]?\d+)?)", re.IGNORECASE),
-    re.compile(r"^\s*(?P<points>\d+)[,\s]+(?P<step>[\d.]+(?:E[+-]?\d+)?)[,\s]+NPTS\s*,?\s*DT", re.IGNORECASE),
+    re.compile(r"NPTS\s*[=:]?\s*(?P<points>\d{1,9})[.,;\s]*DT\s*[=:]?\s*(?P<step>[\d.]+(?:E[+-]?\d+)?)", re.IGNORECASE),
+    re.compile(r"^\s*(?P<points>\d{1,9})[,\s]+(?P<step>[\d.]+(?:E[+-]?\d+)?)[,\s]+NPTS\s*,?\s*DT", re.IGNORECASE),
 )
 _OTHER_QUANTITY = re.compile(r"\b(VELOCITY|DISPLACEMENT)\b", re.IGNORECASE)
 _SYNTHETIC = re.compile(r"\bSYNTHETIC\b", re.IGNORECASE)
@@ -59,9 +63,9 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
     lines = text.splitlines()
     counts = _find_counts(lines)
     if counts is None:
+        got = "".join(lines[3:4] or lines[:1]).strip()[:60]
         raise RecordFormatError(
-            f"header of {file} must give NPTS and DT in its first {HEADER_LINES} lines, as .AT2 files do; "
-            f"got {lines[min(3, len(lines) - 1)].strip()[:60]!r}"
+            f"header of {file} must give NPTS and DT in its first {HEADER_LINES} lines, as .AT2 files do; got {got!r}"
         )
     line_of_counts, points, step = counts
     titles = [line.strip() for line in lines[:line_of_counts]]
@@ -118,8 +122,10 @@ def _find_counts(lines: list[str]) -> tuple[int, int, str] | None:
 
 def _agreed_step(written: str, dt: float | None, file: str, remarks: list[str]) -> float:
     step = to_float(written)
-    if not step > 0.0:
-        raise RecordFormatError(f"DT of {file} must be positive; got {written}")
+    if not SHORTEST_STEP <= step <= LONGEST_STEP:
+        raise RecordFormatError(
+            f"DT of {file} must be a step between {SHORTEST_STEP:g} and {LONGEST_STEP:g} s; got {written}"
+        )
     if dt is None:
         binary = 2 ** round(-math.log2(step))  # digital recorders sampled 128, 200 or 256 times a second
         if 0.0 < abs(1.0 / binary - step) <= HEADER_ROUNDING:

@@ -108,7 +108,7 @@ def _read_table(text: str, file: str) -> _Table:
     rows: list[list[str]] = []
     line_numbers: list[int] = []
     for number, line in enumerate(text.splitlines(), start=1):
-        stripped = line.strip().strip("\x1a")
+        stripped = line.strip()
         if not stripped:
             continue
         tokens = [token for token in _SEPARATORS.split(stripped) if token]
@@ -206,7 +206,7 @@ def _step(table: _Table, steps: dict[str, float | None], samples: int) -> float:
     if not given:
         raise RecordFormatError(f"dt of {table.file} must be given, the file has no times and states no step; got none")
     (name, step), *others = given.items()
-    if not step > 0.0:
+    if not 0.0 < step < np.inf:
         raise RecordFormatError(f"{name} of {table.file} must give a positive step; got {step:g} s")
     for other_name, other in others:
         # Agreement: the two put the last sample at the same place to a tenth of a step, or differ by rounding.

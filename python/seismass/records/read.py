@@ -85,6 +85,7 @@ def read_text(source: Path) -> str:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
         text = content.decode("latin-1")
-    if not text.strip():
+    text = text.rstrip("\x1a\r\n\t ")  # DOS ended files with a control character
+    if not text:
         raise RecordFormatError(f"content of {source.name} must be a record; got an empty file")
     return text
