@@ -173,7 +173,9 @@ def test_peaks_only_keeps_every_peak() -> None:
 
 def test_progress_is_reported_to_the_end() -> None:
     seen: list[tuple[int, int]] = []
-    sm.simulate_many([scene(mu=mu) for mu in (0.1, 0.2)], shaking(), progress=lambda done, total: seen.append((done, total)))
+    sm.simulate_many(
+        [scene(mu=mu) for mu in (0.1, 0.2)], shaking(), progress=lambda done, total: seen.append((done, total))
+    )
     assert seen[-1] == (2, 2)
     assert seen == sorted(seen)
 

@@ -35,10 +35,23 @@ class Rayleigh:
         Ratio of critical damping in both modes.
     modes : tuple of int
         The two modes, counted from 1.
+
+    Raises
+    ------
+    InvalidScene
+        The modes are not two whole numbers from 1, or the ratio is not a number.
     """
 
     ratio: float
     modes: tuple[int, int] = (1, 2)
+
+    def __post_init__(self) -> None:
+        modes: Any = self.modes
+        if not (isinstance(modes, Sequence) and len(modes) == 2) or isinstance(modes, str):
+            raise refusal(InvalidScene, "modes", "Rayleigh damping", "two mode numbers", brief(modes))
+        checked = tuple(as_count(mode, "modes", "Rayleigh damping", InvalidScene, least=1) for mode in modes)
+        object.__setattr__(self, "modes", checked)
+        object.__setattr__(self, "ratio", as_number(self.ratio, "ratio", "Rayleigh damping", InvalidScene))
 
 
 Damping: TypeAlias = float | Rayleigh | ArrayLike
@@ -607,12 +620,7 @@ def _damping(damping: Any) -> float | Rayleigh | FloatArray:
 
 def _damping_arguments(damping: float | Rayleigh | FloatArray) -> dict[str, Any]:
     if isinstance(damping, Rayleigh):
-        modes: Any = damping.modes
-        if not (isinstance(modes, Sequence) and len(modes) == 2):
-            raise refusal(InvalidScene, "modes", "Rayleigh damping", "two mode numbers", brief(modes))
-        first, second = (as_count(mode, "modes", "Rayleigh damping", InvalidScene, least=1) for mode in modes)
-        ratio = as_number(damping.ratio, "ratio", "Rayleigh damping", InvalidScene)
-        return {"damping_ratio": ratio, "rayleigh_modes": (first, second)}
+        return {"damping_ratio": damping.ratio, "rayleigh_modes": damping.modes}
     if isinstance(damping, np.ndarray):
         return {"damping_matrix": damping}
     return {"damping_ratio": damping}

@@ -11,7 +11,7 @@ from typing import Any
 
 import polars as pl
 
-from seismass.errors import InvalidOption, SeismassError, SimulationError
+from seismass.errors import InvalidOption, SimulationError
 from seismass.files import written_whole
 from seismass.scene import Building, Rayleigh, Scene
 from seismass.scene_file import SceneFile, read_scene
@@ -48,21 +48,18 @@ def add_parser(subparsers: Any) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Solve the scene and print it; return the exit code."""
+    """Solve the scene and print it; return the exit code: 1 if the run failed. Bad input is raised."""
+    if args.histories is not None and args.histories.suffix.lower() not in _HISTORY_SUFFIXES:
+        suffixes = " or ".join(_HISTORY_SUFFIXES)
+        raise InvalidOption(f"suffix of --histories must be {suffixes}; got {args.histories.suffix!r}")
+    file = read_scene(args.scene)
     try:
-        if args.histories is not None and args.histories.suffix.lower() not in _HISTORY_SUFFIXES:
-            suffixes = " or ".join(_HISTORY_SUFFIXES)
-            raise InvalidOption(f"suffix of --histories must be {suffixes}; got {args.histories.suffix!r}")
-        file = read_scene(args.scene)
         response = simulate(file.scene, file.motion, histories=args.histories is not None, energy=True)
-        if args.histories is not None:
-            _write_histories(response, args.histories)
     except SimulationError as error:
-        print(f"seismass run: {error}", file=sys.stderr)
+        print(f"seismass: run failed: {error}", file=sys.stderr)
         return 1
-    except (SeismassError, OSError) as error:
-        print(f"seismass run: {args.scene}: {error}", file=sys.stderr)
-        return 2
+    if args.histories is not None:
+        _write_histories(response, args.histories)
     print(json.dumps(as_json(file, response), indent=2, allow_nan=False) if args.json else summary(file, response))
     return 0
 
