@@ -293,7 +293,8 @@ def _named_columns(header: list[str], file: str) -> tuple[int, int]:
     for names in (("period", "t"), ("sa",)):
         columns = [index for index, cell in enumerate(words) if cell and cell[0] in names]
         if len(columns) != 1:
-            raise refusal(RecordFormatError, "columns", file, f"one {' or '.join(names)} and one sa", ", ".join(header))
+            requirement = "one period or T and one Sa"
+            raise refusal(RecordFormatError, "columns", file, requirement, ", ".join(header))
         found.append(columns[0])
     unit = [word.strip("()[]") for word in words[found[1]][1:]]
     if unit and unit != ["g"]:

@@ -1,0 +1,396 @@
+"""The parametric study: its counts, its tables against the kernel, its files, and its command."""
+
+import itertools
+import json
+import re
+import signal
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+
+import seismass as sm
+from seismass import cli
+from seismass.report import write
+from seismass.report.findings import findings, findings_text
+from seismass.spectra import mean_spectrum
+from seismass.study import StudyParameters, StudyResult, run_study
+
+TARGET = sm.TargetSpectrum.asce7()
+SMALL = StudyParameters(buildings=((2, 0.38), (3, 0.47)), response_modification=(1.0, 4.0), mass_ratios=(1.0,))
+
+
+@pytest.fixture(scope="module")
+def full() -> StudyResult:
+    return run_study(sm.builtin_suite(), TARGET)
+
+
+@pytest.fixture(scope="module")
+def small() -> StudyResult:
+    return run_study(sm.builtin_suite(), TARGET, SMALL)
+
+
+def test_equal_runs_are_solved_once(full: StudyResult) -> None:
+    counts = full.metadata["counts"]
+    # 72 buildings x 2 models x 7 motions; 63 + 36 + 12 different scenes.
+    assert (counts["buildings"], counts["analyses"], counts["distinct"]) == (72, 1008, 777)
+    assert counts["completed"] == 777
+    assert full.responses["run"].n_unique() == 777
+
+
+def test_yielding_at_r1_makes_840_distinct_runs() -> None:
+    counts = run_study(sm.builtin_suite(), TARGET, StudyParameters(yield_at_r1=True)).metadata["counts"]
+    assert (counts["analyses"], counts["distinct"]) == (1008, 840)
+
+
+def test_two_equal_motions_count_once() -> None:
+    records = list(sm.builtin_suite())
+    suite = sm.Suite("twice", (*records[:2], records[0], records[0]))
+    counts = run_study(suite, TARGET, SMALL).metadata["counts"]
+    # Of 8 buildings the real scenes are 2 (R = 1) + 4, the ASCE scenes 4 + 4; 2 of 4 motions differ.
+    assert (counts["analyses"], counts["distinct"]) == (8 * 2 * 4, 14 * 2)
+
+
+def test_tables_have_a_row_per_building_model_motion_and_storey(full: StudyResult) -> None:
+    storeys = 24 * (2 + 3 + 4)
+    assert full.responses.height == storeys * 2 * 7
+    assert full.summary.height == full.designs.height == storeys
+    keys = ["building", "model", "motion", "storey"]
+    assert full.responses.select(keys).is_duplicated().sum() == 0
+    assert full.responses.select(pl.col("peak_drift").is_finite().all()).item()
+
+
+def test_rows_are_what_the_kernel_gives_for_the_scene_built_by_hand(full: StudyResult) -> None:
+    suite = sm.builtin_suite()
+    factors = full.scaling.factors
+    bare = sm.Building.uniform(3, 0.47)
+    share = np.array([0.25 * 1.5, 0.25 * 1.5, 0.0])
+    design = full.designs.filter(occupancy="storage", storeys=3, R=4.0, alpha=1.5).sort("storey")
+    strength = design["yield_shear_over_weight"].to_numpy() * bare.weight
+    ratios = [1.5, 1.5, 0.0]
+    yielding = bare.replace(yield_shear=strength, overstrength=2.0, second_slope=0.05, third_slope=0.0, damping=0.05)
+    scenes = {
+        "real": sm.Scene(yielding, sm.blocks_on_floors(ratios, 0.4)),
+        "asce": sm.Scene(yielding.replace(mass=bare.mass + share)),
+    }
+    for model, scene in scenes.items():
+        rows = full.responses.filter(occupancy="storage", storeys=3, R=4.0, alpha=1.5, model=model, motion=2)
+        response = sm.simulate(scene, suite[1].scaled(factors[1]))
+        # The strengths went through a division by the weight and back.
+        np.testing.assert_allclose(rows.sort("storey")["peak_drift"], response.peak_drift, rtol=1e-9)
+        slips = rows.sort("storey")["peak_slip"].to_list()
+        if model == "real":
+            assert slips[:2] == pytest.approx(response.peak_slip, rel=1e-9)
+            assert slips[2] is None
+        else:
+            assert slips == [None, None, None]
+
+
+def test_strength_is_the_elastic_shear_over_r(full: StudyResult) -> None:
+    designs = full.designs.filter(pl.col("R") > 1.0)
+    np.testing.assert_allclose(
+        designs["yield_shear_over_weight"], designs["elastic_shear_over_weight"] / designs["R"], rtol=1e-14
+    )
+    assert full.designs.filter(R=1.0)["yield_shear_over_weight"].null_count() == 2 * 3 * 9
+    # Spectral acceleration is evaluated at the period of the design model, here the last mode of each building.
+    row = designs.filter(occupancy="storage", storeys=4, alpha=1.5, R=2.0).sort("storey")
+    suite = list(sm.builtin_suite())
+    expected = mean_spectrum(suite, full.scaling.factors, row["design_period"])
+    np.testing.assert_allclose(row["spectral_acceleration"], expected, rtol=1e-14)
+    assert row["design_period"][0] == pytest.approx(0.6286, abs=0.5e-4)  # lambda alpha = 0.375
+    assert row["design_mass_ratio"].to_list() == [1.375, 1.375, 1.375, 1.0]
+
+
+def test_commercial_asce_model_does_not_depend_on_alpha(full: StudyResult) -> None:
+    rows = full.summary.filter(occupancy="commercial").group_by("storeys", "R", "storey")
+    assert rows.agg(pl.col("mean_peak_drift_asce").n_unique())["mean_peak_drift_asce"].max() == 1
+
+
+def test_summary_holds_means_over_motions_and_their_ratio(full: StudyResult) -> None:
+    row = full.summary.filter(occupancy="commercial", storeys=2, R=6.0, alpha=0.5, storey=1).row(0, named=True)
+    rows = full.responses.filter(occupancy="commercial", storeys=2, R=6.0, alpha=0.5, storey=1)
+    real, asce = (rows.filter(model=model)["peak_drift"].to_numpy().mean() for model in ("real", "asce"))
+    assert row["mean_peak_drift_real"] == pytest.approx(real, rel=1e-14)
+    assert row["mean_peak_drift_asce"] == pytest.approx(asce, rel=1e-14)
+    assert row["underestimation_percent"] == pytest.approx(100.0 * (real - asce) / asce, rel=1e-12)
+    assert row["motions"] == 7
+
+
+def test_no_friction_is_the_commercial_rule() -> None:
+    """mu = 0: the blocks are not there for the building, so real and ASCE model with lambda = 0 agree."""
+    result = run_study(
+        sm.builtin_suite(), TARGET, StudyParameters(buildings=((2, 0.38),), occupancies=(("commercial", 0.0),), mu=0.0)
+    )
+    np.testing.assert_allclose(result.summary["underestimation_percent"], 0.0, atol=1e-9)
+
+
+def test_lambda_of_one_is_the_real_model_where_nothing_slides() -> None:
+    """mu too large to slide and lambda = 1: both models carry the whole block, damping aside, which alpha changes."""
+    chosen = StudyParameters(
+        buildings=((2, 0.38),), occupancies=(("all", 1.0),), mass_ratios=(1e-6,), mu=1e3, response_modification=(2.0,)
+    )
+    result = run_study(sm.builtin_suite(), TARGET, chosen)
+    np.testing.assert_allclose(result.summary["ratio"], 1.0, atol=1e-4)
+    assert result.summary["mean_peak_slip"].drop_nulls().to_list() == [0.0]
+
+
+def test_threads_change_no_digit(small: StudyResult) -> None:
+    again = run_study(sm.builtin_suite(), TARGET, SMALL, threads=1)
+    assert again.responses.equals(small.responses)
+    assert again.summary.equals(small.summary)
+    assert again.metadata == small.metadata
+
+
+def test_digest_depends_on_motions_target_and_parameters(small: StudyResult) -> None:
+    records = list(sm.builtin_suite())
+    others = [
+        run_study(sm.Suite("less", tuple(records[:6])), TARGET, SMALL),
+        run_study(sm.builtin_suite(), sm.TargetSpectrum.asce7(1.0), SMALL),
+        run_study(sm.builtin_suite(), TARGET, StudyParameters(**{**vars(SMALL), "second_slope": 0.1})),
+    ]
+    digests = [result.metadata["inputs_sha256"] for result in (small, *others)]
+    assert all(a != b for a, b in itertools.combinations(digests, 2))
+
+
+def test_a_failed_run_gives_no_mean(small: StudyResult, monkeypatch: pytest.MonkeyPatch) -> None:
+    from seismass import study
+
+    def failing(*args, **kwargs) -> pl.DataFrame:
+        table = sm.simulate_many(*args, **kwargs)
+        lists = ["peak_drift", "peak_drift_time", "residual_drift", "peak_floor_acceleration", "peak_storey_shear"]
+        first = pl.int_range(pl.len()) == 0
+        return table.with_columns(
+            pl.when(first).then(pl.lit("failed")).otherwise("status").alias("status"),
+            *(pl.when(~first).then(name).alias(name) for name in [*lists, "peak_slip", "residual_slip", "slip_path"]),
+        )
+
+    monkeypatch.setattr(study, "simulate_many", failing)
+    result = run_study(sm.builtin_suite(), TARGET, SMALL)
+    assert result.metadata["counts"]["failed"] == 1
+    # Run 0 is the elastic real model under motion 1, which storage and commercial share.
+    missing = result.summary.filter(pl.col("ratio").is_null())
+    assert missing.select("occupancy", "R", "storeys").unique().sort("occupancy").rows() == [
+        ("commercial", 1.0, 2),
+        ("storage", 1.0, 2),
+    ]
+    assert findings(result.summary)[0]["storeys_without_result"] == 2
+
+
+def test_findings_are_counted_from_the_summary() -> None:
+    rows = [
+        # storeys, R, alpha, storey, underestimation
+        (2, 2.0, 0.5, 1, 10.0),
+        (2, 2.0, 1.0, 1, 30.0),
+        (2, 4.0, 0.5, 1, 20.0),
+        (2, 4.0, 1.0, 1, 25.0),
+        (2, 2.0, 0.5, 2, -5.0),
+        (2, 2.0, 1.0, 2, -10.0),
+        (2, 4.0, 0.5, 2, 1.0),
+        (2, 4.0, 1.0, 2, -50.0),
+    ]
+    names = ["storeys", "R", "alpha", "storey", "underestimation_percent"]
+    summary = pl.DataFrame(rows, schema=names, orient="row").with_columns(
+        pl.lit("storage").alias("occupancy"), pl.lit(0.25).alias("lambda")
+    )
+    (entry,) = findings(summary)
+    assert (entry["storeys_compared"], entry["asce_gives_more"], entry["asce_gives_more_top"]) == (8, 3, 3)
+    assert entry["largest"]["underestimation_percent"] == 30.0
+    assert entry["smallest"]["underestimation_percent"] == -50.0
+    assert entry["growth"] == {
+        "alpha": {"pairs": 4, "grows": 2},
+        "R": {"pairs": 4, "grows": 2},
+        "alpha_first_storey": {"pairs": 2, "grows": 2},
+        "R_first_storey": {"pairs": 2, "grows": 1},
+    }
+    assert "+30 % (storey 1 of 2, R = 2, alpha = 1)" in findings_text([entry])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"mu": -0.1}, "mu of study must be zero or positive; got -0.1"),
+        ({"mu": np.nan}, "mu of study must be zero or positive; got nan"),
+        ({"mu": "0.4"}, "mu of study must be a number; got '0.4'"),
+        ({"overstrength": 0.9}, "overstrength of study must be a number of at least 1; got 0.9"),
+        ({"overstrength": np.inf}, "overstrength of study must be a number of at least 1; got inf"),
+        ({"second_slope": 1.1}, "second_slope of study must be between 0 and 1; got 1.1"),
+        ({"third_slope": 0.1}, "third_slope of study must be between 0 and the second slope; got 0.1"),
+        ({"damping": 0.0}, "damping of study must be above 0 and below 1; got 0"),
+        ({"scaling_period": 0.0}, "scaling_period of study must be a positive number; got 0"),
+        ({"combination": "sum"}, "combination of study must be srss or cqc; got 'sum'"),
+        ({"response_modification": (0.5,)}, "response_modification of study must be at least 1; got 0.5"),
+        ({"response_modification": [1.0]}, "response_modification of study must be a tuple of at least one value"),
+        ({"mass_ratios": (0.0,)}, "mass_ratios of study must be positive; got 0"),
+        ({"mass_ratios": (1.0, 1.0)}, "mass_ratios of study must be a tuple of at least one value, none twice"),
+        ({"buildings": ()}, "buildings of study must be a tuple of at least one value"),
+        ({"buildings": ((0, 1.0),)}, "storeys of study must be a whole number of at least 1; got 0"),
+        ({"buildings": ((1, -1.0),)}, "period of study must be a positive number; got -1"),
+        ({"occupancies": (("all", 1.5),)}, "lambda of study must be between 0 and 1; got 1.5"),
+    ],
+)
+def test_bad_parameters_are_refused(arguments: dict, message: str) -> None:
+    with pytest.raises(sm.InvalidOption, match=re.escape(message)):
+        StudyParameters(**arguments)
+
+
+def test_a_suite_is_asked_for() -> None:
+    with pytest.raises(sm.InvalidMotion, match="suite of study must be a Suite of records; got 3"):
+        run_study(3, TARGET)  # type: ignore[arg-type]
+
+
+def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -> None:
+    out = tmp_path / "deep" / "study"
+    files = write.write_study(small, out)
+    assert sorted(files) == sorted(out.iterdir())
+    for name, table in (("responses", small.responses), ("summary", small.summary), ("designs", small.designs)):
+        assert pl.read_parquet(out / f"{name}.parquet").equals(table)
+        assert pl.read_csv(out / f"{name}.csv").height == table.height
+    document = json.loads((out / "study.json").read_text())
+    assert document["schema_version"] == 1
+    assert document["package_version"] == sm.__version__
+    assert document["parameters"]["second_slope"] == 0.05
+    assert document["suite"]["synthetic"] is True
+    for name in ("spectrum", "underestimation", "drift_R1", "drift_R4"):
+        assert (out / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+        assert (out / f"{name}.svg").read_text().startswith("<?xml")
+    assert "synthetic motions" in (out / "drift_R4.svg").read_text()
+    before = {file.name: file.read_bytes() for file in files}
+    write.write_study(small, out)
+    assert {file.name: file.read_bytes() for file in out.iterdir()} == before
+
+
+def test_schema_of_the_tables_is_documented(small: StudyResult) -> None:
+    text = (Path(__file__).parents[1] / "docs" / "study_schema.md").read_text()
+    for table in (small.responses, small.summary, small.designs, small.scaling.table()):
+        for column in table.columns:
+            assert f"`{column}`" in text, column
+
+
+@pytest.mark.parametrize("error", [OSError("disk full"), KeyboardInterrupt()])
+def test_nothing_is_left_when_writing_stops(
+    small: StudyResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException
+) -> None:
+    def failing(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr("seismass.report.figures.save_figure", failing)
+    with pytest.raises(type(error)):
+        write.write_study(small, tmp_path / "out")
+    assert list((tmp_path / "out").iterdir()) == []
+
+
+def command(*arguments: object) -> int:
+    return cli.main([str(argument) for argument in arguments])
+
+
+def test_command_writes_tables_and_says_what_they_say(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert command("study", "--out", tmp_path / "out", "--no-figures", "--jobs", 1) == 0
+    text = capsys.readouterr()
+    assert "1008 analyses, 777 distinct" in text.out
+    assert "ASCE model gives more" in text.out
+    assert text.err == ""
+    assert (tmp_path / "out" / "summary.csv").is_file()
+    assert not list((tmp_path / "out").glob("*.png"))
+
+
+def test_command_prints_json_and_takes_options(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    target = tmp_path / "uhs.csv"
+    target.write_text("period,sa\n0.01,0.4\n0.2,1.0\n0.6,1.0\n3.0,0.2\n")
+    arguments = [
+        "--target",
+        target,
+        "--second-slope",
+        0.1,
+        "--overstrength",
+        1.5,
+        "--combination",
+        "cqc",
+        "--period",
+        0.8,
+    ]
+    assert command("study", "--out", tmp_path / "out", "--no-figures", "--yield-at-R1", "--json", *arguments) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["counts"]["distinct"] == 840
+    assert document["parameters"]["second_slope"] == 0.1
+    assert document["parameters"]["combination"] == "cqc"
+    assert document["scaling"]["periods"] == pytest.approx([0.16, 1.2, 100])
+    assert document == json.loads((tmp_path / "out" / "study.json").read_text())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--records", "nowhere"], "suite of records must be a directory or a .csv file; got nowhere"),
+        (
+            ["--target", "nowhere.csv"],
+            "path of target spectrum must be a file of text that can be read; got nowhere.csv",
+        ),
+        (["--target", "x.csv", "--sds", "1"], "sds of target spectrum must be left out where --target is given; got 1"),
+        (["--sds", "-1"], "sds_g of target spectrum must be a positive number; got -1"),
+        (["--mu", "nan"], "mu of study must be zero or positive; got nan"),
+        (["--third-slope", "0.2"], "third_slope of study must be between 0 and the second slope; got 0.2"),
+        (["--period", "0"], "scaling_period of study must be a positive number; got 0"),
+        (["--out", __file__], "out of study must be a folder that can be written to"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(
+    arguments: list[str],
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert command("study", *arguments) == 2
+    text = capsys.readouterr()
+    assert text.err.startswith("seismass: error: ")
+    assert message in text.err
+    assert text.err.count("\n") == 1
+    assert text.out == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("arguments", [["study", "--jobs", "0"], ["study", "--mu", "x"], ["nothing"], []])
+def test_command_line_that_cannot_be_read_exits_with_2(arguments: list[str]) -> None:
+    with pytest.raises(SystemExit) as exit_:
+        command(*arguments)
+    assert exit_.value.code == 2
+
+
+def test_failed_runs_give_exit_code_1(small: StudyResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    counts = small.metadata["counts"] | {"failed": 1}
+    failed = StudyResult(**{**vars(small), "metadata": small.metadata | {"counts": counts}})
+    monkeypatch.setattr("seismass.study.run_study", lambda *_, **__: failed)
+    assert command("study", "--out", tmp_path / "out", "--no-figures") == 1
+
+
+def test_interrupt_exits_with_130_and_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("seismass.study.simulate_many", lambda *_, **__: signal.raise_signal(signal.SIGINT))
+    assert command("study", "--out", tmp_path / "out") == 130
+    assert "interrupted" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_version_spectrum_and_scale_commands(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    with pytest.raises(SystemExit) as exit_:
+        command("--version")
+    assert exit_.value.code == 0
+    assert capsys.readouterr().out == f"seismass {sm.__version__}\n"
+
+    record = tmp_path / "step.txt"
+    record.write_text("time (s), acceleration (m/s2)\n" + "".join(f"{0.01 * i:.2f}, 2.0\n" for i in range(300)))
+    assert command("spectrum", record, "--periods", 0.5, 1.0, "--damping", 0.0, "--kind", "sd") == 0
+    table = pl.read_csv(capsys.readouterr().out.encode())
+    assert table.columns == ["record", "damping", "period", "sd"]
+    w = 2.0 * np.pi / np.array([0.5, 1.0])
+    np.testing.assert_allclose(table["sd"], 4.0 / w**2, rtol=1e-12)
+
+    assert command("scale", "--json") == 0
+    document = json.loads(capsys.readouterr().out)
+    expected = sm.scale_asce7_10(sm.builtin_suite(), TARGET)
+    assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
+    assert command("scale") == 0
+    assert "synthetic-1" in capsys.readouterr().out
