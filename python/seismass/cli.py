@@ -46,6 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"seismass: error: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("seismass: interrupted", file=sys.stderr)
+        # On a terminal a progress bar, or the ^C itself, has begun the line.
+        print("\n" * sys.stderr.isatty() + "seismass: interrupted", file=sys.stderr)
         return INTERRUPTED
     return code

@@ -171,7 +171,7 @@ def _drift_profile(axes: Axes, storeys: pl.DataFrame) -> None:
     )
     axes.plot(real, level, color=BLUE, linewidth=1.8, marker="o", markersize=4.0)
     for height, percent in zip(level, storeys["underestimation_percent"], strict=True):
-        text = "" if percent is None else f"{percent:+.0f}".replace("-", "\N{MINUS SIGN}")
+        text = "" if percent is None else f"{round(percent):+d}".replace("-", "\N{MINUS SIGN}").replace("+0", "0")
         axes.text(0.98, height, text, transform=axes.get_yaxis_transform(), ha="right", va="center", fontsize=7.5)
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     axes.locator_params(axis="x", nbins=4)
