@@ -80,12 +80,13 @@ impl Polynomial {
     /// Dips that stay above `-tolerance` are rounding and do not count; the place returned is the zero itself, or 0
     /// when the polynomial starts at or below zero and never rises above it before.
     pub(crate) fn first_fall(&self, tolerance: f64) -> Option<f64> {
-        if self.lower_bound() > -tolerance {
+        if self.lower_bound() >= -tolerance {
             return None;
         }
         let mut shifted = *self;
         shifted.coefficients[0] += tolerance;
-        if shifted.coefficients[0] <= 0.0 {
+        // A start at exactly zero, without tolerance, is judged by the first derivative that is not.
+        if shifted.coefficients().iter().find(|&&c| c != 0.0).is_none_or(|&c| c < 0.0) {
             return Some(0.0);
         }
         let (left, right) = Bernstein::new(&shifted).first_sign_change(0.0, 1.0, MAX_DEPTH)?;
@@ -276,6 +277,9 @@ mod tests {
         assert_eq!(Polynomial::new([0.0, 1.0, 0.5]).first_fall(1e-15), None);
         assert_eq!(Polynomial::new([0.0, -1.0, 0.5]).first_fall(1e-15), Some(0.0));
         assert_eq!(Polynomial::new([0.0, 0.0, -1.0]).first_fall(1e-15), Some(0.0));
+        assert_eq!(Polynomial::new([0.0, 0.0, -1.0]).first_fall(0.0), Some(0.0));
+        assert_eq!(Polynomial::new([0.0, 0.0, 0.0]).first_fall(0.0), None);
+        assert_eq!(Polynomial::new([0.0, 0.0, 1.0]).first_fall(0.0), None);
         // Leaves zero upwards and comes back.
         let s = Polynomial::new([0.0, 1.0, -2.0]).first_fall(1e-15).unwrap();
         assert!((s - 0.5).abs() < 1e-15);

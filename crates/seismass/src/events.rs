@@ -89,15 +89,31 @@ impl State<'_> {
         self.storey_guards(h, &sizes, &mut first, isolated);
         self.block_guards(tau, &sizes, &mut first, isolated);
         self.scratch = sizes;
+        // A block whose floor's acceleration is below rounding lifts off stuck.
+        if let Some(Guard::Breakaway { .. }) = first.guard
+            && self.vertical
+            && let Some(lift) = self.contact_guard(tau).first_fall(ROUNDING * STANDARD_GRAVITY)
+            && self.interval.contact_at(tau + first.place * h) <= ROUNDING * STANDARD_GRAVITY
+        {
+            return Some((lift, Guard::Contact));
+        }
         first.guard.map(|guard| (first.place, guard))
+    }
+
+    /// The contact force per unit mass while there is contact, its negative while there is none.
+    fn contact_guard(&self, tau: f64) -> Polynomial {
+        let sign = if self.airborne { -1.0 } else { 1.0 };
+        let change = self.interval.slope(self.interval.contact_change) * self.series.h();
+        Polynomial::new([sign * self.interval.contact_at(tau), sign * change])
     }
 
     fn storey_guards(&self, h: f64, sizes: &[f64], first: &mut First, isolated: &mut usize) {
         for i in 0..self.storeys() {
             let (x, excursion) = (self.x[i], self.series.drift_excursion(i));
+            let size = self.model.laws[i].elastic_range();
             let mut bound = |limit: f64, sign: Sign, guard: Guard| {
                 let margin = sign.factor() * (limit - x);
-                let tolerance = ROUNDING * (limit.abs() + x.abs() + excursion);
+                let tolerance = ROUNDING * (limit.abs() + x.abs() + excursion + size);
                 if margin > excursion + tolerance {
                     return;
                 }
@@ -135,9 +151,7 @@ impl State<'_> {
         let contact = self.interval.contact_at(tau);
         let contact_change = self.interval.slope(self.interval.contact_change) * h;
         if !self.motions.is_empty() && (self.vertical || self.airborne) {
-            let sign = if self.airborne { -1.0 } else { 1.0 };
-            let p = Polynomial::new([sign * contact, sign * contact_change]);
-            first.consider(Guard::Contact, &p, ROUNDING * STANDARD_GRAVITY);
+            first.consider(Guard::Contact, &self.contact_guard(tau), ROUNDING * STANDARD_GRAVITY);
         }
         if self.airborne {
             return;
@@ -151,9 +165,9 @@ impl State<'_> {
             } else {
                 (self.drive.ground, self.drive.ground_slope.abs() * h, self.drive.ground.abs())
             };
-            let limit = mu * contact;
+            let limit = mu * contact.max(0.0);
             let excursion = excursion + (mu * contact_change).abs();
-            let tolerance = ROUNDING * (limit.abs() + size + excursion);
+            let tolerance = ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size + excursion);
             if limit - a.abs() > excursion + tolerance {
                 continue;
             }
@@ -170,7 +184,9 @@ impl State<'_> {
             let Some(sign) = motion.sliding() else { continue };
             let mut p = self.relative_velocity(j, tau);
             p.coefficients_mut().iter_mut().for_each(|c| *c *= sign.factor());
-            let tolerance = ROUNDING * (p.norm() + h * self.floor_size(self.model.blocks[j].floor, sizes));
+            let law = &self.model.blocks[j];
+            let size = self.floor_size(law.floor, sizes) + law.mu_k * STANDARD_GRAVITY;
+            let tolerance = ROUNDING * (p.norm() + h * size);
             if 2.0 * p.coefficients()[0].abs() <= p.norm() + tolerance || p.coefficients()[0] < 0.0 {
                 *isolated += 1;
                 first.consider(Guard::Arrival { block: j }, &p, tolerance);
@@ -240,7 +256,7 @@ impl State<'_> {
             let Some(sign) = self.motions[j].sliding() else { continue };
             let velocity = self.motions[j].velocity;
             let slowing = sign.factor() * a + self.model.blocks[j].mu_k * contact;
-            let size = a.abs() + self.model.blocks[j].mu_k * contact;
+            let size = a.abs() + self.model.blocks[j].mu_k * contact.max(STANDARD_GRAVITY);
             if velocity != 0.0 && slowing >= 0.0 && velocity.abs() <= ARRIVED * size * self.interval.h {
                 self.arrive(j);
             }

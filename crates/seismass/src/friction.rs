@@ -3,6 +3,7 @@
 //! The mass matrix is diagonal, so a floor's acceleration depends on the rest of the building only through drifts and
 //! velocities, which are continuous: each floor decides alone.
 
+use crate::STANDARD_GRAVITY;
 use crate::response::EventKind;
 use crate::scene::Block;
 use crate::storey::Sign;
@@ -189,7 +190,8 @@ pub(crate) fn settle(
                 continue;
             }
             let limit = laws[j].mu_s * contact;
-            let rounding = ROUNDING * (size + limit);
+            // Near N = 0 the limit carries the rounding of mu g.
+            let rounding = ROUNDING * (size + limit.max(laws[j].mu_s * STANDARD_GRAVITY));
             let exceeds = match breakaway {
                 Cause::Breakaway(fired, _) => j == fired || acceleration.abs() >= limit - rounding,
                 Cause::Other => acceleration.abs() > limit + rounding,

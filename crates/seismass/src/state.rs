@@ -224,7 +224,7 @@ impl<'a> State<'a> {
     /// Contact force per unit mass as the blocks feel it: zero while airborne.
     #[inline]
     pub(crate) fn contact_at(&self, tau: f64) -> f64 {
-        if self.airborne { 0.0 } else { self.interval.contact_at(tau) }
+        if self.airborne { 0.0 } else { self.interval.contact_at(tau).max(0.0) }
     }
 
     /// Sets the drive of a series that starts at `tau`.

@@ -118,6 +118,12 @@ impl StoreyLaw {
         &self.elements[..self.count as usize]
     }
 
+    /// Largest drift to first yield of an element: the size of the numbers that elastic drifts come from; 0 if none
+    /// yields.
+    pub(crate) fn elastic_range(&self) -> f64 {
+        self.elements().iter().map(|e| e.yield_force / e.stiffness).fold(0.0, f64::max)
+    }
+
     /// Whether the storey can yield at all.
     pub(crate) fn can_yield(&self) -> bool {
         self.count > 0
