@@ -1,5 +1,7 @@
 //! Response spectra against numbers made in 40 digits, closed forms and invariants.
 
+#![allow(clippy::unwrap_used)]
+
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::Ordering;
 
@@ -60,7 +62,7 @@ fn jagged() -> Motion {
 }
 
 fn spectrum(motion: &Motion, period: f64, damping: f64) -> f64 {
-    response_spectra(&[motion.clone()], &[period], &[damping], None, &Control::default()).unwrap()[0]
+    response_spectra(std::slice::from_ref(motion), &[period], &[damping], None, &Control::default()).unwrap()[0]
 }
 
 #[test]
@@ -77,9 +79,9 @@ fn step_load_overshoots_by_its_closed_form() {
     for (dt, length) in [(0.005, 4000), (0.4, 60), (7.0, 3)] {
         let motion = Motion::new(vec![-3.0; length], dt, None).unwrap();
         for period in [0.31, 1.0, 4.7] {
-            for damping in [0.0, 0.02, 0.05, 0.5, 0.9] {
+            for damping in [0.0f64, 0.02, 0.05, 0.5, 0.9] {
                 let w = TAU / period;
-                let overshoot = (-PI * damping / (1.0 - damping * damping as f64).sqrt()).exp();
+                let overshoot = (-PI * damping / (1.0 - damping * damping).sqrt()).exp();
                 let expected = 3.0 / (w * w) * (1.0 + overshoot);
                 let error = spectrum(&motion, period, damping) / expected - 1.0;
                 assert!(error.abs() < TOLERANCE, "dt {dt}, T {period}, zeta {damping}: relative error {error:e}");
