@@ -186,8 +186,8 @@ class TargetSpectrum:
         --------
         >>> import seismass as sm
         >>> target = sm.TargetSpectrum.asce7(sds_g=1.0, sd1_g=0.6)
-        >>> (target([0.0, 0.3, 1.0, 16.0]) / 9.80665).round(6)
-        array([0.4     , 1.      , 0.6     , 0.01875])
+        >>> (target([0.0, 0.3, 1.0, 16.0]) / 9.80665).round(6).tolist()
+        [0.4, 1.0, 0.6, 0.01875]
         """
         given = {"sds_g": sds_g, "sd1_g": sd1_g, "tl": tl}
         numbers = {name: as_number(value, name, "target spectrum", InvalidOption) for name, value in given.items()}
