@@ -592,7 +592,13 @@ CASES: list[Case] = [
         "no threads",
         lambda: sm.simulate_many(block(), QUIET, threads=0),
         sm.InvalidOption,
-        r"threads of batch must be a whole number of at least 1; got 0",
+        r"threads of batch must be between 1 and 1024; got 0",
+    ),
+    (
+        "threads without end",
+        lambda: sm.simulate_many(block(), QUIET, threads=10**6),
+        sm.InvalidOption,
+        r"threads of batch must be between 1 and 1024; got 1000000",
     ),
     (
         "progress of another kind",

@@ -124,7 +124,7 @@ def as_array(
         given = np.asarray(value)
     except (TypeError, ValueError):
         raise refusal(kind, parameter, owner, requirement, brief(value)) from None
-    if given.dtype.kind not in "iuf" and given.size:
+    if (given.dtype.kind not in "iuf" and given.size) or np.ma.is_masked(value):
         raise refusal(kind, parameter, owner, requirement, brief(value))
     if given.ndim != dimensions and not (or_number and given.ndim == 0):
         got = brief(value) if given.ndim == 0 else f"an array of shape {given.shape}"

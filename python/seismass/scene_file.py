@@ -159,7 +159,7 @@ def _load(source: Path) -> dict[str, Any]:
         raise InvalidSceneFile(
             f"scene file must be a file that can be read; got {source} ({error.strerror or error})"
         ) from error
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError, json.JSONDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         form = suffix[1:].upper()
         raise refusal(InvalidSceneFile, "content", source.name, f"valid {form}", str(error)) from error
     except _RepeatedKey as error:
@@ -236,7 +236,7 @@ class _Table:
 
     def text(self, key: str) -> str:
         value = self.values.get(key, "")
-        if not isinstance(value, str):
+        if not isinstance(value, str) or "\0" in value:
             self.refuse(key, "text", brief(value))
         return value
 

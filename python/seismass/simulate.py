@@ -451,7 +451,7 @@ def simulate_many(
     peaks_only : bool, default False
         A run may end once no peak can be beaten any more, with the same peaks; residuals are then null.
     threads : int, optional
-        Number of threads; by default all cores.
+        Number of threads, up to 1024; by default all cores.
     progress : callable, optional
         Called with (runs done, runs in all) about twenty times a second, and at the end.
 
@@ -490,7 +490,7 @@ def simulate_many(
         [motion._kernel for motion in chosen],
         runs,
         peaks_only=bool(peaks_only),
-        threads=None if threads is None else as_count(threads, "threads", "batch", InvalidOption, least=1),
+        threads=None if threads is None else as_count(threads, "threads", "batch", InvalidOption),
         progress=progress,
     )
     return _table(batch, runs, listed)

@@ -5,7 +5,7 @@ use seismass::{Domain, Error, EventKind, Options, Peak};
 
 use crate::arrays::{Output, Table};
 use crate::errors::from_kernel;
-use crate::interrupt::run_watched;
+use crate::interrupt::{checked_threads, run_watched};
 use crate::response::{collapsed_storey, status_name};
 use crate::scene::{Motion, Scene};
 
@@ -25,6 +25,7 @@ pub(crate) fn simulate_many(
     let scenes: Vec<seismass::Scene> = scenes.iter().map(|scene| scene.0.clone()).collect();
     let motions: Vec<seismass::Motion> = motions.iter().map(|motion| motion.0.clone()).collect();
     let runs = pairs(&runs).map_err(|error| from_kernel(py, &error))?;
+    let threads = checked_threads(py, threads)?;
     let total = runs.len();
     let report = |done: usize| progress.as_ref().map_or(Ok(()), |call| call.call1((done, total)).map(drop));
     run_watched(py, report, move |control| {

@@ -10,12 +10,26 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use seismass::Control;
+use seismass::{Control, Domain, Error};
 
 use crate::errors::{from_kernel, from_panic};
 
 /// How often the calling thread looks for signals and reports progress.
 const WATCH_INTERVAL: Duration = Duration::from_millis(50);
+
+/// More threads than any machine has cores for; starting them would take longer than the work.
+const MAX_THREADS: usize = 1024;
+
+/// The number of threads of a batch, refused beyond [`MAX_THREADS`].
+pub(crate) fn checked_threads(py: Python<'_>, threads: Option<usize>) -> PyResult<Option<usize>> {
+    match threads {
+        Some(count) if !(1..=MAX_THREADS).contains(&count) => {
+            let requirement = format!("between 1 and {MAX_THREADS}");
+            Err(from_kernel(py, &Error::invalid(Domain::Options, "threads", "batch", requirement, count)))
+        }
+        _ => Ok(threads),
+    }
+}
 
 type Outcome<T> = Result<seismass::Result<T>, Box<dyn Any + Send>>;
 

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 
 use crate::arrays::{Output, Values};
-use crate::interrupt::run_watched;
+use crate::interrupt::{checked_threads, run_watched};
 use crate::scene::Motion;
 
 /// Peak relative displacement (m) of linear oscillators from rest: motions x damping ratios x periods.
@@ -17,6 +17,7 @@ pub(crate) fn response_spectra(
     threads: Option<usize>,
 ) -> PyResult<Output<f64>> {
     let motions: Vec<seismass::Motion> = motions.iter().map(|motion| motion.0.clone()).collect();
+    let threads = checked_threads(py, threads)?;
     let shape = [motions.len(), damping.0.len(), periods.0.len()];
     let peaks = run_watched(
         py,
