@@ -24,8 +24,8 @@ HEAD: Final = f"""# The section-4 building on the Brawley record
 
 Three storeys, T = 0.60 s, 5 % damping in every mode, V_y = 0.24, 0.20, 0.12 W, overstrength 2, third slope 0, one block
 of the floor's mass on each floor, friction coefficient 0.3; Imperial Valley 1979, Brawley Airport (RSN161), both
-components scaled to a peak of {PEAK_G} g. The paper reports that all storeys yield and that sliding is "mostly occurring
-at the first floor"; it gives neither the second slope r2 nor the scale of the record.
+components scaled to a peak of {PEAK_G} g. The paper reports that all storeys yield and that sliding is "mostly
+occurring at the first floor"; it gives neither the second slope r2 nor the scale of the record.
 
 Written by `tools/section4_table.py`. Peak drift and peak slip in mm, storeys and floors 1 / 2 / 3; yields counts first
 and second yields of each storey.
@@ -60,7 +60,7 @@ def row(component: str, record: sm.Record, second_slope: float) -> tuple[str, bo
 
 def page(shared: Path) -> str:
     """The page, from the recordings in `shared`."""
-    rows, all_yield, first = [], True, {r2: 0 for r2 in SECOND_SLOPES}
+    rows, all_yield, first = [], True, dict.fromkeys(SECOND_SLOPES, 0)
     for component in COMPONENTS:
         record = sm.read_record(shared / RECORDS / f"RSN161_IMPVALL.H_H-BRA{component}.AT2")
         for second_slope in SECOND_SLOPES:
