@@ -348,6 +348,16 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
         r"motion.unit of .* must be one of g, m/s2; got 'cm/s2'",
     ),
     (
+        {"motion": changed(MOTION, unit=["g"])},
+        sm.InvalidSceneFile,
+        r"motion.unit of .* must be one of g, m/s2; got \['g'\]",
+    ),
+    (
+        {"building": changed(BUILDING, damping={"kind": ["modal"]})},
+        sm.InvalidSceneFile,
+        r"building.damping.kind of .* must be one of .*; got \['modal'\]",
+    ),
+    (
         {"motion": changed(MOTION, scale="double")},
         sm.InvalidSceneFile,
         r"motion.scale of .* must be a number; got 'double'",

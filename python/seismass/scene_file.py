@@ -295,7 +295,7 @@ def _damping(building: _Table) -> float | Rayleigh | FloatArray:
         return as_number(building.values["damping"], "damping", "building", InvalidScene)
     table = building.table("damping")
     kind = table.values.get("kind")
-    if kind not in _DAMPING_KEYS:
+    if not isinstance(kind, str) or kind not in _DAMPING_KEYS:
         table.refuse("kind", f"one of {', '.join(_DAMPING_KEYS)}", "nothing" if kind is None else brief(kind))
     table.known(("kind", *_DAMPING_KEYS[kind]))
     for key in _DAMPING_KEYS[kind]:
@@ -337,7 +337,7 @@ def _samples(table: _Table, folder: Path) -> tuple[FloatArray, float, Record | N
     table.needed("file", "acceleration")
     table.excluded("file", "acceleration")
     unit = table.values.get("unit")
-    if unit is not None and unit not in _UNITS:
+    if unit is not None and (not isinstance(unit, str) or unit not in _UNITS):
         table.refuse("unit", f"one of {', '.join(_UNITS)}", brief(unit))
     scale, dt_scale = table.number("scale", 1.0), table.number("dt_scale", 1.0)
     if not np.isfinite(scale):
