@@ -1,0 +1,159 @@
+//! How far the fast kernel's response is from a solution, in the measures of the reference scenes.
+
+use seismass::{Event, Peak, Response, Status};
+
+use crate::record::Solution;
+
+/// Events this close (s) may be logged in any order.
+const ONE_INSTANT: f64 = 1e-10;
+
+/// Largest differences. Drifts, slips, accelerations and shears are relative to the larger of the peak of the same
+/// storey or block and a thousandth of the largest peak of the kind; NaN where only one of two is a number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Drift histories, if the response has them.
+    pub drift: f64,
+    /// Slip histories, if the response has them.
+    pub slip: f64,
+    /// Peaks of drift, slip, floor acceleration and storey shear.
+    pub peaks: f64,
+    /// Residual drifts and slips, and slip paths (these relative to themselves).
+    pub residuals: f64,
+    /// Event times (s); NaN if the events differ.
+    pub event_time: f64,
+    /// The first difference between the event logs, or between the ways the runs ended.
+    pub mismatch: Option<String>,
+}
+
+impl Comparison {
+    /// The largest relative difference; NaN if something is missing.
+    pub fn worst(&self) -> f64 {
+        [self.drift, self.slip, self.peaks, self.residuals].into_iter().fold(0.0, larger)
+    }
+
+    /// Whether the same events happened and everything agrees to this relative difference.
+    pub fn agrees(&self, tolerance: f64) -> bool {
+        self.mismatch.is_none() && self.worst() <= tolerance
+    }
+}
+
+/// The larger of two, NaN if one is.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+/// Largest difference of values in rows as wide as `scales`, each relative to its column's scale.
+fn difference(found: &[f64], expected: &[f64], scales: &[f64]) -> f64 {
+    if found.len() != expected.len() {
+        return f64::NAN;
+    }
+    let scales = scales.iter().cycle();
+    found.iter().zip(expected).zip(scales).fold(0.0, |worst, ((&f, &e), &scale)| {
+        let same = f == e || f.is_nan() && e.is_nan();
+        larger(worst, if same { 0.0 } else { (f - e).abs() / scale })
+    })
+}
+
+fn values(peaks: &[Peak]) -> Vec<f64> {
+    peaks.iter().map(|p| p.value).collect()
+}
+
+fn scales(peaks: &[f64]) -> Vec<f64> {
+    let largest = peaks.iter().copied().fold(0.0, f64::max);
+    peaks.iter().map(|&p| p.max(1e-3 * largest)).collect()
+}
+
+/// Compares event logs, those of one instant in any order: the largest time difference (s), or the first mismatch.
+pub fn compare_events(found: &[Event], expected: &[Event]) -> Result<f64, String> {
+    let key = |e: &Event| (e.kind as usize, e.number, e.sign, e.element);
+    let sorted = |log: &[Event]| {
+        let mut log = log.to_vec();
+        log.sort_by(|a, b| a.time.total_cmp(&b.time));
+        let mut start = 0;
+        for i in 1..=log.len() {
+            if i == log.len() || log[i].time - log[i - 1].time > ONE_INSTANT {
+                log[start..i].sort_by_key(key);
+                start = i;
+            }
+        }
+        log
+    };
+    let (found, expected) = (sorted(found), sorted(expected));
+    let pairs = found.iter().zip(&expected).enumerate();
+    let mut worst = 0.0f64;
+    for (i, (f, e)) in pairs {
+        if key(f) != key(e) {
+            return Err(format!("event {}: {f:?} for {e:?}", i + 1));
+        }
+        worst = worst.max((f.time - e.time).abs());
+    }
+    if found.len() != expected.len() {
+        return Err(format!("{} events for {}", found.len(), expected.len()));
+    }
+    Ok(worst)
+}
+
+impl Solution {
+    /// Compares another solution with this one, taken as exact.
+    pub fn judge(&self, other: &Solution) -> Comparison {
+        self.judge_parts(
+            &other.status,
+            [&other.peaks.drift, &other.peaks.slip, &other.peaks.floor_acceleration, &other.peaks.storey_shear],
+            [&other.residual_drift, &other.residual_slip, &other.slip_path],
+            Some((&other.drift, &other.slip)),
+            Some(&other.events),
+        )
+    }
+
+    fn judge_parts(
+        &self,
+        status: &Status,
+        peaks: [&[Peak]; 4],
+        [residual_drift, residual_slip, slip_path]: [&[f64]; 3],
+        histories: Option<(&[f64], &[f64])>,
+        events: Option<&[Event]>,
+    ) -> Comparison {
+        let own = [&self.peaks.drift, &self.peaks.slip, &self.peaks.floor_acceleration, &self.peaks.storey_shear];
+        let own = own.map(|p| values(p));
+        let [drift_scale, slip_scale, ..] = own.clone().map(|p| scales(&p));
+        let peaks = peaks.iter().zip(&own).map(|(found, own)| difference(&values(found), own, &scales(own)));
+        let residuals = [
+            difference(residual_drift, &self.residual_drift, &drift_scale),
+            difference(residual_slip, &self.residual_slip, &slip_scale),
+            difference(slip_path, &self.slip_path, &scales(&self.slip_path)),
+        ];
+        let (drift, slip) = histories.map_or((0.0, 0.0), |(drift, slip)| {
+            (difference(drift, &self.drift, &drift_scale), difference(slip, &self.slip, &slip_scale))
+        });
+        let events = events.map_or(Ok(0.0), |events| compare_events(events, &self.events));
+        let ending = match (status, &self.status) {
+            (Status::Completed, Status::Completed) => Ok(0.0),
+            (Status::Collapsed { storey: a, time: s }, Status::Collapsed { storey: b, time: t }) if a == b => {
+                Ok((s - t).abs())
+            }
+            (found, expected) => Err(format!("{found:?} for {expected:?}")),
+        };
+        let event_time = larger(*events.as_ref().unwrap_or(&f64::NAN), *ending.as_ref().unwrap_or(&f64::NAN));
+        Comparison {
+            drift,
+            slip,
+            peaks: peaks.fold(0.0, larger),
+            residuals: residuals.into_iter().fold(0.0, larger),
+            event_time,
+            mismatch: ending.err().or(events.err()),
+        }
+    }
+}
+
+/// Compares the fast kernel's response with a solution, which is taken as exact.
+///
+/// Histories need the same decimation; what the response was not asked for is not compared.
+pub fn compare(response: &Response, solution: &Solution) -> Comparison {
+    solution.judge_parts(
+        &response.status,
+        [&response.peaks.drift, &response.peaks.slip, &response.peaks.floor_acceleration, &response.peaks.storey_shear],
+        [&response.residual_drift, &response.residual_slip, &response.slip_path],
+        response.histories.as_ref().map(|h| (&h.drift[..], &h.slip[..])),
+        response.events.as_deref(),
+    )
+}

@@ -1,0 +1,218 @@
+//! The constant data of a scene in the number type of the run (`numerics`, sections 1 to 3).
+
+use seismass::damping::StoreyDamping;
+use seismass::{STANDARD_GRAVITY, Scene, Storey};
+
+use crate::real::Real;
+
+/// An elastic-perfectly-plastic element of a storey spring.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Element<R> {
+    pub(crate) stiffness: R,
+    pub(crate) yield_force: R,
+}
+
+/// A storey: elements in the order in which they yield, beside a linear spring and P/h.
+#[derive(Debug, Clone)]
+pub(crate) struct StoreyData<R> {
+    pub(crate) elements: Vec<Element<R>>,
+    pub(crate) linear: R,
+    pub(crate) geometric: R,
+    /// None: never.
+    pub(crate) collapse_drift: Option<R>,
+}
+
+/// A block; friction limits per unit mass and contact acceleration g + a_v.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BlockData<R> {
+    /// 0 is the ground.
+    pub(crate) floor: usize,
+    pub(crate) mass: R,
+    pub(crate) mu_s: R,
+    pub(crate) mu_k: R,
+}
+
+/// Whether a sum takes its terms with their sign, or their absolute values to measure its rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Terms {
+    Signed,
+    Sizes,
+}
+
+impl Terms {
+    fn of<R: Real>(self, value: R) -> R {
+        if self == Self::Sizes { value.abs() } else { value }
+    }
+}
+
+/// A scene in numbers of type `R`.
+#[derive(Debug, Clone)]
+pub(crate) struct Model<R> {
+    pub(crate) mass: Vec<R>,
+    pub(crate) storeys: Vec<StoreyData<R>>,
+    pub(crate) blocks: Vec<BlockData<R>>,
+    pub(crate) gravity: R,
+    /// D, row by row: drift rates to storey damping forces.
+    storey_damping: Vec<Vec<R>>,
+    /// Damping per floor mass (1/s).
+    mass_damping: R,
+}
+
+impl<R: Real> Model<R> {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let mut model = Self {
+            mass: Vec::new(),
+            storeys: Vec::new(),
+            blocks: Vec::new(),
+            gravity: R::of(STANDARD_GRAVITY),
+            storey_damping: Vec::new(),
+            mass_damping: R::zero(),
+        };
+        for block in scene.blocks() {
+            let (mass, mu_s, mu_k) = (R::of(block.mass), R::of(block.mu_s), R::of(block.mu_k));
+            model.blocks.push(BlockData { floor: block.floor, mass, mu_s, mu_k });
+        }
+        let Some(building) = scene.building() else { return model };
+        model.mass = building.mass().iter().map(|&m| R::of(m)).collect();
+        for (i, (storey, &geometric)) in building.storeys().iter().zip(scene.geometric_stiffness()).enumerate() {
+            model.storeys.push(storey_data(storey, geometric, scene.collapse_drift().map(|d| d[i])));
+        }
+        let n = model.mass.len();
+        let mut rows = vec![vec![R::zero(); n]; n];
+        match building.storey_damping() {
+            StoreyDamping::None => {}
+            StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => {
+                model.mass_damping = R::of(*mass_factor);
+                for (i, storey) in building.storeys().iter().enumerate() {
+                    rows[i][i] = R::of(*stiffness_factor) * R::of(storey.stiffness);
+                }
+            }
+            StoreyDamping::Dense(d) => {
+                for (i, row) in rows.iter_mut().enumerate() {
+                    for (j, value) in row.iter_mut().enumerate() {
+                        *value = R::of(d[(i, j)]);
+                    }
+                }
+            }
+        }
+        model.storey_damping = rows;
+        model
+    }
+
+    /// Damping forces of the storeys at these drift rates.
+    pub(crate) fn damping_forces(&self, rate: &[R], terms: Terms) -> Vec<R> {
+        let row = |row: &Vec<R>| row.iter().zip(rate).fold(R::zero(), |sum, (&d, &r)| sum + terms.of(d * r));
+        self.storey_damping.iter().map(row).collect()
+    }
+
+    /// Damping forces of the floors in proportion to their mass, at these velocities.
+    pub(crate) fn mass_damping_force(&self, floor: usize, velocity: R) -> R {
+        self.mass_damping * self.mass[floor] * velocity
+    }
+
+    /// Q: the force of springs, P-Delta and damping on each floor, at these element forces (summed over a storey),
+    /// drifts and drift rates.
+    pub(crate) fn pull(&self, elements: &[R], drift: &[R], rate: &[R], terms: Terms) -> Vec<R> {
+        let damping = self.damping_forces(rate, terms);
+        let action = |i: usize| {
+            let StoreyData { linear, geometric, .. } = self.storeys[i];
+            terms.of(elements[i]) + terms.of(linear * drift[i]) + terms.of(-geometric * drift[i]) + damping[i]
+        };
+        let mut above = R::zero();
+        let velocity = floor_velocities(rate);
+        let mut pull: Vec<R> = (0..self.storeys.len())
+            .rev()
+            .map(|i| {
+                let below = action(i);
+                let mass_damping = terms.of(-self.mass_damping_force(i, velocity[i]));
+                let q = above + terms.of(-below) + mass_damping;
+                above = below;
+                q
+            })
+            .collect();
+        pull.reverse();
+        pull
+    }
+
+    /// Bound of the norm of the system in every regime (1/s): sqrt(kappa) + gamma, where kappa and gamma are the
+    /// largest row sums from drifts and drift rates to the rates of drift rates, with all springs elastic, k + P/h
+    /// for k, and no mass but the floors'. With rates in units of sqrt(kappa) times a drift it is the norm of A.
+    pub(crate) fn frequency_bound(&self) -> f64 {
+        let n = self.mass.len();
+        let row_sum = |columns: &dyn Fn(usize) -> Vec<R>| {
+            let mut sums = vec![0.0; n];
+            for column in 0..n {
+                let q = columns(column);
+                let a = |i: usize| (q[i] / self.mass[i]).to_f64();
+                for (i, sum) in sums.iter_mut().enumerate() {
+                    *sum += (a(i) - if i > 0 { a(i - 1) } else { 0.0 }).abs();
+                }
+            }
+            sums.into_iter().fold(0.0, f64::max)
+        };
+        let unit = |at: usize, value: R| (0..n).map(|i| if i == at { value } else { R::zero() }).collect::<Vec<R>>();
+        let none = vec![R::zero(); n];
+        let kappa = row_sum(&|j| {
+            let storey = &self.storeys[j];
+            let stiffness = storey.elements.iter().fold(storey.linear + storey.geometric, |k, e| k + e.stiffness);
+            // P/h enters as added stiffness: a force in place of the drift.
+            self.pull(&unit(j, stiffness), &none, &none, Terms::Signed)
+        });
+        let gamma = row_sum(&|j| self.pull(&none, &none, &unit(j, R::of(1.0)), Terms::Signed));
+        kappa.sqrt() + gamma
+    }
+}
+
+/// Running sums: floor velocities from drift rates.
+pub(crate) fn floor_velocities<R: Real>(rate: &[R]) -> Vec<R> {
+    let mut velocity = R::zero();
+    let sum = |&r: &R| {
+        velocity = velocity + r;
+        velocity
+    };
+    rate.iter().map(sum).collect()
+}
+
+fn storey_data<R: Real>(storey: &Storey, geometric: f64, collapse_drift: Option<f64>) -> StoreyData<R> {
+    let geometric = R::of(geometric);
+    let (one, k) = (R::of(1.0), R::of(storey.stiffness));
+    let mut elements = Vec::new();
+    let mut linear = k;
+    if storey.yield_shear.is_finite() {
+        let (vy, omega) = (R::of(storey.yield_shear), R::of(storey.overstrength));
+        let (r2, r3) = (R::of(storey.second_slope), R::of(storey.third_slope));
+        linear = r3 * k;
+        let first = vy / k;
+        let parts = if omega == one {
+            vec![((one - r3) * k, first)]
+        } else if r2 == R::zero() {
+            vec![(k, first)]
+        } else {
+            vec![((one - r2) * k, first), ((r2 - r3) * k, first + (omega - one) * vy / (r2 * k))]
+        };
+        for (stiffness, drift) in parts.into_iter().filter(|&(stiffness, _)| stiffness > R::zero()) {
+            elements.push(Element { stiffness, yield_force: stiffness * drift });
+        }
+    }
+    let collapse_drift = match collapse_drift {
+        Some(drift) => drift.is_finite().then(|| R::of(drift)),
+        None => backbone_collapse(&elements, linear, geometric),
+    };
+    StoreyData { elements, linear, geometric, collapse_drift }
+}
+
+/// The drift d > 0 at which the monotonic backbone meets (P/h) d: the first yield after which it lies below decides
+/// on which branch, sum of yielded forces + (stiffness left) d = (P/h) d.
+fn backbone_collapse<R: Real>(elements: &[Element<R>], linear: R, geometric: R) -> Option<R> {
+    let yield_drift = |e: &Element<R>| e.yield_force / e.stiffness;
+    (0..=elements.len()).find_map(|yielded| {
+        let (plastic, elastic) = elements.split_at(yielded);
+        let tangent = elastic.iter().fold(linear - geometric, |k, e| k + e.stiffness);
+        let force = plastic.iter().fold(R::zero(), |f, e| f + e.yield_force);
+        if tangent >= R::zero() {
+            return None;
+        }
+        let drift = -force / tangent;
+        elastic.first().is_none_or(|next| drift <= yield_drift(next)).then_some(drift)
+    })
+}

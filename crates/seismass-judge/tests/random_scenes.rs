@@ -1,0 +1,76 @@
+//! Random scenes in double and in double-double, and the fast kernel beside them.
+
+use std::num::NonZeroUsize;
+
+use seismass::{Options, simulate};
+use seismass_judge::random_scene::random_scene;
+use seismass_judge::{Comparison, DoubleDouble, compare, solve};
+
+/// Seeds of a run of the tests; `SEISMASS_JUDGE_SCENES` sets another number.
+fn seeds() -> std::ops::Range<u64> {
+    0..std::env::var("SEISMASS_JUDGE_SCENES").map_or(300, |n| n.parse().unwrap())
+}
+
+/// Rounding grows along a motion and more in a collapse: most scenes agree far better than this.
+const AGREEMENT: f64 = 1e-9;
+
+struct Tally {
+    what: &'static str,
+    scenes: usize,
+    worst: f64,
+    apart: Vec<String>,
+}
+
+impl Tally {
+    fn new(what: &'static str) -> Self {
+        Self { what, scenes: 0, worst: 0.0, apart: Vec::new() }
+    }
+
+    fn add(&mut self, seed: u64, comparison: &Comparison) {
+        self.scenes += 1;
+        if comparison.agrees(AGREEMENT) {
+            self.worst = self.worst.max(comparison.worst());
+        } else {
+            self.apart.push(format!("seed {seed}: {comparison:?}"));
+        }
+    }
+
+    fn report(&self) {
+        let agree = self.scenes - self.apart.len();
+        println!("{}: {agree} of {} agree, worst {:.1e}", self.what, self.scenes, self.worst);
+        self.apart.iter().for_each(|line| println!("  {line}"));
+    }
+}
+
+#[test]
+fn double_agrees_with_double_double() {
+    let mut tally = Tally::new("double and double-double");
+    let (mut energy, mut energy_double_double, mut events) = (0.0f64, 0.0f64, 0);
+    for seed in seeds() {
+        let (scene, motion) = random_scene(seed).unwrap();
+        let exact = solve::<DoubleDouble>(&scene, &motion, 3).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+        let double = solve::<f64>(&scene, &motion, 3).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+        energy = energy.max(double.energy.relative_residual.abs());
+        energy_double_double = energy_double_double.max(exact.energy.relative_residual.abs());
+        events += exact.events.len();
+        tally.add(seed, &exact.judge(&double));
+    }
+    tally.report();
+    println!("{events} events; energy residuals {energy:.1e} and {energy_double_double:.1e}");
+    assert!(energy < 1e-11 && energy_double_double < 1e-27);
+    assert!(tally.apart.is_empty());
+}
+
+#[test]
+fn the_fast_kernel_agrees_with_the_judge() {
+    let mut tally = Tally::new("kernel and judge");
+    let options = Options { histories: NonZeroUsize::new(3), events: true, ..Options::default() };
+    for seed in seeds() {
+        let (scene, motion) = random_scene(seed).unwrap();
+        let exact = solve::<DoubleDouble>(&scene, &motion, 3).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+        let response = simulate(&scene, &motion, &options).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+        tally.add(seed, &compare(&response, &exact));
+    }
+    tally.report();
+    assert!(tally.apart.is_empty());
+}
