@@ -507,7 +507,7 @@ CASES: list[Case] = [
         "negative duration",
         lambda: QUIET.with_duration(-1.0),
         sm.InvalidMotion,
-        r"duration of motion must be between 0 and \d+ samples; got -1",
+        r"duration of motion must be between 0 and [\d.]+ s; got -1",
     ),
     (
         "NaN duration",

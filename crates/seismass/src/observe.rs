@@ -64,7 +64,7 @@ impl Observer {
         Self { peaks, histories, energy: energy.then(EnergyBalance::default) }
     }
 
-    /// Whether energies are kept: then every step needs its series.
+    /// Whether energies are kept: then every step needs its series too.
     pub(crate) fn keeps_energy(&self) -> bool {
         self.energy.is_some()
     }

@@ -24,8 +24,8 @@ fn one_signed((low, high): (f64, f64)) -> bool {
 }
 
 impl State<'_> {
-    /// Tries the present interval as one step; true if it was accepted and the state is at its end.
-    pub(crate) fn plain_step(&mut self, observer: &mut Observer) -> bool {
+    /// Forms the present interval as one step, and tells whether it may be accepted.
+    pub(crate) fn step_is_plain(&mut self, observer: &Observer) -> bool {
         if !self.propagate() {
             return false;
         }
@@ -35,14 +35,10 @@ impl State<'_> {
             *relative = jerk - ground_slope;
         }
         let liveliness = self.regime().liveliness(&self.drift_acceleration, &self.scratch, h);
-        let accepted = liveliness.is_finite()
+        liveliness.is_finite()
             && self.storeys_are_clear(liveliness, observer)
             && self.floors_are_clear(liveliness, observer)
-            && self.blocks_are_clear(liveliness);
-        if accepted {
-            self.accept_step(observer);
-        }
-        accepted
+            && self.blocks_are_clear(liveliness)
     }
 
     /// Forms the step; false where the regime has no propagator.
@@ -177,8 +173,8 @@ impl State<'_> {
         true
     }
 
-    /// Takes over the step.
-    fn accept_step(&mut self, observer: &mut Observer) {
+    /// Takes over the step that was found plain.
+    pub(crate) fn accept_step(&mut self, observer: &mut Observer) {
         let n = self.storeys();
         let Ends { start, end } = Ends::of(self);
         let h = self.interval.h;

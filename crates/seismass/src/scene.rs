@@ -496,7 +496,7 @@ impl Motion {
     pub fn with_duration(&self, duration: f64) -> Result<Self> {
         let last = (duration / self.dt).round();
         if !(duration >= 0.0 && last < MAX_SAMPLES as f64) {
-            let requirement = format!("between 0 and {MAX_SAMPLES} samples");
+            let requirement = format!("between 0 and {} s", (MAX_SAMPLES - 1) as f64 * self.dt);
             return Err(Error::invalid(Domain::Motion, "duration", "motion", requirement, duration));
         }
         let length = last as usize + 1;

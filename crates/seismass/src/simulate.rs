@@ -172,10 +172,15 @@ impl Run<'_> {
     fn solve_interval(&mut self) -> Result<Option<(usize, f64)>> {
         self.statistics.intervals += 1;
         let state = &mut self.state;
-        if !self.observer.keeps_energy() && !state.airborne {
+        if !state.airborne {
             let full_damping = state.has_full_damping();
-            if state.cache.visit(state.regime, state.model, full_damping) && state.plain_step(&mut self.observer) {
+            let propagates = state.cache.visit(state.regime, state.model, full_damping);
+            if propagates && state.step_is_plain(&self.observer) {
                 self.statistics.plain_steps += 1;
+                if self.observer.keeps_energy() {
+                    state.add_energy_of_interval(&mut self.observer);
+                }
+                state.accept_step(&mut self.observer);
                 return Ok(None);
             }
         }
@@ -213,9 +218,7 @@ impl Run<'_> {
     /// Advances by a series over at most `h` from `tau`, up to the first event, which is returned with its place.
     fn series_step(&mut self, tau: f64, h: f64) -> Result<Option<(f64, Guard)>> {
         let state = &mut self.state;
-        state.set_drive(tau);
-        let regime = state.cache.regime(state.regime);
-        state.series.form(state.model, regime, &state.x, &state.v, &state.drive, h);
+        state.form_series(tau, h);
         self.statistics.series_steps += 1;
         let isolated = &mut self.statistics.guards_isolated;
         let event = state.first_event(tau, isolated);
@@ -307,6 +310,27 @@ impl State<'_> {
         self.x.iter_mut().zip(&self.scratch).for_each(|(x, change)| *x += change);
         self.series.rate_changes(s, &mut self.scratch);
         self.v.iter_mut().zip(&self.scratch).for_each(|(v, change)| *v += change);
+    }
+
+    /// Integrates the energies of an interval without events, and leaves the state at its start.
+    fn add_energy_of_interval(&mut self, observer: &mut Observer) {
+        let before = (self.x.clone(), self.v.clone(), self.motions.clone());
+        let pieces = (self.regime().frequency * self.interval.h / MAX_PHASE).ceil().max(1.0);
+        let h = self.interval.h / pieces;
+        for piece in 0..pieces as usize {
+            let tau = piece as f64 * h;
+            self.form_series(tau, h);
+            observer.add_energy(self, tau, 1.0);
+            self.advance(tau, 1.0);
+        }
+        (self.x, self.v, self.motions) = before;
+    }
+
+    /// Forms the series over `h` from `tau`.
+    fn form_series(&mut self, tau: f64, h: f64) {
+        self.set_drive(tau);
+        let regime = self.cache.regime(self.regime);
+        self.series.form(self.model, regime, &self.x, &self.v, &self.drive, h);
     }
 
     fn check_finite(&self, tau: f64) -> Result<()> {
