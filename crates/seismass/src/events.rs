@@ -228,7 +228,7 @@ impl State<'_> {
             }
             Guard::Arrival { block } => {
                 let floor = self.model.blocks[block].floor;
-                self.arrive(block);
+                self.motions[block].velocity = 0.0;
                 self.arrive_with(block, tau);
                 self.settle_floor(floor, tau, Cause::Other, log);
             }
@@ -237,13 +237,6 @@ impl State<'_> {
         self.enter_regime();
         self.refresh_accelerations(tau);
         Outcome::Continue
-    }
-
-    /// Sets a block's relative velocity to exactly zero.
-    fn arrive(&mut self, block: usize) {
-        let motion = &mut self.motions[block];
-        motion.velocity = 0.0;
-        motion.turn_at(motion.slip);
     }
 
     /// Brings to rest the blocks that arrive at the same instant as `block`, on the same floor.
@@ -258,7 +251,7 @@ impl State<'_> {
             let slowing = sign.factor() * a + self.model.blocks[j].mu_k * contact;
             let size = a.abs() + self.model.blocks[j].mu_k * contact.max(STANDARD_GRAVITY);
             if velocity != 0.0 && slowing >= 0.0 && velocity.abs() <= ARRIVED * size * self.interval.h {
-                self.arrive(j);
+                self.motions[j].velocity = 0.0;
             }
         }
     }

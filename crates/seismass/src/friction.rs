@@ -84,6 +84,11 @@ impl BlockMotion {
         self.turn = slip;
     }
 
+    /// Closes a monotonic stretch of the slip path here.
+    fn end_stretch(&mut self) {
+        self.turn_at(self.slip);
+    }
+
     /// Path slipped so far (m).
     pub(crate) fn path(&self) -> f64 {
         self.path + (self.slip - self.turn).abs()
@@ -160,6 +165,7 @@ pub(crate) fn settle(
                 BlockState::Sliding(sign) => sign.as_i8(),
                 _ => 0,
             };
+            motions[j].end_stretch();
             log.push(Transition { block: j, kind: EventKind::Slip, sign: before });
             motions[j].state = BlockState::Stuck;
         }

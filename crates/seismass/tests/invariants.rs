@@ -8,7 +8,8 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 use seismass::{
-    Block, Building, Control, Damping, GravityEffect, Motion, Options, Response, Scene, Storey, simulate, simulate_many,
+    Block, Building, Control, Damping, GravityEffect, Motion, Options, Response, STANDARD_GRAVITY, Scene, Storey,
+    simulate, simulate_many,
 };
 
 /// Two ways to the same response differ by rounding, amplified by the motion: this fraction of the largest value.
@@ -94,7 +95,13 @@ fn blocks(n: usize) -> impl Strategy<Value = Vec<Block>> {
         (0..=n, 0.1..2.0f64, 0.02..0.5f64, prop_oneof![Just(1.0), 0.5..1.0f64]).prop_map(|(floor, mass, mu, ratio)| {
             Block { floor, mass: mass * 1000.0, mu_s: mu, mu_k: mu * ratio, velocity: None }
         });
-    prop::collection::vec(block, 0..5)
+    // Some blocks have a twin: equal ones must move as one.
+    (prop::collection::vec(block, 0..5), any::<bool>()).prop_map(|(mut blocks, twin)| {
+        if twin && let Some(&first) = blocks.first() {
+            blocks.push(first);
+        }
+        blocks
+    })
 }
 
 /// A sum of sines under an envelope, peaks up to `size` g.
@@ -149,8 +156,14 @@ proptest! {
 
     #[test]
     fn energy_is_balanced(case in case()) {
-        let residual = case.solve().energy.unwrap().relative_residual;
-        prop_assert!(residual.abs() < ENERGY, "{residual:e}");
+        let response = case.solve();
+        let energy = response.energy.unwrap();
+        prop_assert!(energy.relative_residual.abs() < ENERGY, "{:e}", energy.relative_residual);
+        if case.vertical.is_none() {
+            let paths = case.blocks.iter().zip(&response.slip_path);
+            let spent: f64 = paths.map(|(b, path)| b.mu_k * b.mass * STANDARD_GRAVITY * path).sum();
+            prop_assert!((spent - energy.friction).abs() <= ENERGY * (energy.friction + energy.input.abs()), "slip path");
+        }
     }
 
     #[test]
