@@ -57,6 +57,7 @@ mod model;
 mod observe;
 mod plain_step;
 mod propagator;
+pub mod reference;
 mod regime;
 pub mod response;
 pub mod scene;

@@ -1,0 +1,88 @@
+//! The guards of all state machines as numbers, and how a stepping method carries out their events.
+
+use super::Events;
+use crate::events::{Guard, Outcome};
+use crate::response::Event;
+use crate::state::State;
+use crate::storey::Sign;
+
+/// Value of a guard `tau` after the last sample: it has fallen when this is negative.
+pub(super) fn value(state: &State, guard: Guard, tau: f64) -> f64 {
+    match guard {
+        Guard::Yield { storey, sign } => {
+            let (lower, upper) = state.yield_bounds[storey];
+            let bound = if sign == Sign::Positive { upper } else { lower };
+            sign.factor() * (bound - state.x[storey])
+        }
+        Guard::Collapse { storey } => {
+            let (lower, upper) = state.collapse_bounds[storey];
+            (upper - state.x[storey]).min(state.x[storey] - lower)
+        }
+        Guard::Unload { storey } => {
+            state.springs[storey].plastic().map_or(f64::INFINITY, |sign| sign.factor() * state.v[storey])
+        }
+        Guard::Breakaway { floor, sign } => {
+            let acceleration = if floor > 0 { state.a[floor - 1] } else { state.interval.ground_at(tau) };
+            state.stuck_mu[floor] * state.contact_at(tau) - sign.factor() * acceleration
+        }
+        Guard::Arrival { block } => {
+            let motion = &state.motions[block];
+            motion.sliding().map_or(f64::INFINITY, |sign| sign.factor() * motion.velocity)
+        }
+        Guard::Contact => {
+            let sign = if state.airborne { -1.0 } else { 1.0 };
+            sign * state.interval.contact_at(tau)
+        }
+    }
+}
+
+/// The first guard, in the order in which one instant is worked off, that has fallen; `known` is passed over.
+pub(super) fn fallen(state: &State, tau: f64, known: Option<Guard>) -> Option<Guard> {
+    let fell = |guard: &Guard| value(state, *guard, tau) < 0.0 && known != Some(*guard);
+    if state.vertical && fell(&Guard::Contact) {
+        return Some(Guard::Contact);
+    }
+    let both = [Sign::Positive, Sign::Negative];
+    let storeys = (0..state.storeys()).flat_map(|storey| {
+        [
+            Guard::Collapse { storey },
+            Guard::Yield { storey, sign: Sign::Positive },
+            Guard::Yield { storey, sign: Sign::Negative },
+            Guard::Unload { storey },
+        ]
+    });
+    if let Some(guard) = storeys.into_iter().find(fell) {
+        return Some(guard);
+    }
+    if state.airborne {
+        return None;
+    }
+    let floors = (0..state.stuck_mu.len()).filter(|&floor| state.stuck_mu[floor].is_finite());
+    let breakaway = floors.flat_map(|floor| both.map(|sign| Guard::Breakaway { floor, sign })).find(fell);
+    breakaway.or_else(|| (0..state.motions.len()).map(|block| Guard::Arrival { block }).find(fell))
+}
+
+/// Carries out an event at the present state. Blocks of one floor that have arrived are decided together.
+///
+/// At the end of a step a velocity that has turned is kept: made zero, as it is where its turn was located, it would
+/// take momentum from the building.
+pub(super) fn carry_out(state: &mut State, guard: Guard, tau: f64, events: Events, log: &mut Vec<Event>) -> Outcome {
+    if let Guard::Arrival { block } = guard {
+        let floor = state.model.blocks[block].floor;
+        for &j in &state.model.on_floor[floor] {
+            if value(state, Guard::Arrival { block: j }, tau) <= 0.0 {
+                state.motions[j].velocity = 0.0;
+            }
+        }
+    }
+    let overshoot = match (guard, events) {
+        (Guard::Unload { storey }, Events::AtStepEnds) => Some((storey, state.v[storey])),
+        _ => None,
+    };
+    let outcome = state.carry_out(guard, tau, log);
+    if let Some((storey, rate)) = overshoot {
+        state.v[storey] = rate;
+        state.refresh_accelerations(tau);
+    }
+    outcome
+}
