@@ -127,9 +127,9 @@ fn springs(stiffness_ratio: f64, substeps: usize) -> Method {
     Method::FrictionSprings { substeps, stiffness_ratio, tolerance: 1e-9, max_iterations: 30 }
 }
 
-/// Blocks that break away once and slide on: the elastic slip x = mu m g / (kappa k) comes on top of the exact slip, and
-/// so does what its rate at breakaway adds later. On the ground under 0.6 g t^2 with mu = 0.15, that is at t = 0.5 s, the
-/// rate x 2 / t, the run ends at 1 s: 3 x in all, for any kappa.
+/// Blocks that break away once and slide on: the elastic slip x = mu m g / (kappa k) comes on top of the exact slip,
+/// and so does what its rate at breakaway adds later. On the ground under 0.6 g t^2 with mu = 0.15, that is at
+/// t = 0.5 s, with the rate 2 x / t, and the run ends at 1 s: 3 x in all, for any kappa.
 #[test]
 fn friction_springs_slip_too_far_by_one_over_kappa() {
     let floors = scene(f64::INFINITY, 0.05, 0.15);

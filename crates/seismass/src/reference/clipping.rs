@@ -1,9 +1,9 @@
 //! The friction impulses of one floor over one step, clipped to their limits; in closed form for several blocks too.
 //!
 //! With V the floor's velocity after the step, w_j the block's without friction, and L_j its limit, the impulse of
-//! block j is clip(m_j (w_j - V), -L_j, L_j), and m V = m V_free + their sum. That is piecewise linear and increasing in
-//! V, so its root is found by sorting the velocities at which blocks begin and cease to stick (the scalar case of the
-//! time-stepping of Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988).
+//! block j is clip(m_j (w_j - V), -L_j, L_j), and m V = m V_free + their sum. That is piecewise linear and increasing
+//! in V, so its root is found by sorting the velocities at which blocks begin and cease to stick (the scalar case of
+//! the time-stepping of Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988).
 
 /// A block as the leapfrog sees it.
 #[derive(Debug, Clone, Copy)]
@@ -179,7 +179,8 @@ mod tests {
         }
     }
 
-    /// Relative velocity 0.5, limit 2 * 0.2 * 1.5 on the ground, free impulse -2 * 3: stopped after 1 / 6.6 of the step.
+    /// Relative velocity 0.5, limit 2 * 0.2 * 1.5 on the ground, free impulse -2 * 3: it stops after
+    /// 1 / 6.6 of the step.
     #[test]
     fn a_reversal_is_split_where_the_block_stops() {
         let mut block = Contact { reduced: 2.0, ..contact(2.0, 0.3, 0.2, 0.5 - 3.0, 0.5) };

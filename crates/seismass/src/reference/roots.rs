@@ -9,8 +9,8 @@ const MAX_TRIALS: usize = 100;
 /// Every so many trials the bracket is bisected, whatever the secant says.
 const BISECT_EVERY: usize = 4;
 
-/// The length at which a guard that is `at_end` < 0 at length `h` falls, by the Illinois method (Dowell & Jarratt, BIT 11,
-/// 1971) down to a bracket of `width`, on the fallen side; 0 where it stood nowhere.
+/// The length at which a guard that is `at_end` < 0 at length `h` falls, by the Illinois method (Dowell & Jarratt,
+/// BIT 11, 1971) down to a bracket of `width`, on the fallen side; 0 where it stood nowhere.
 pub(super) fn first_fall(
     h: f64,
     at_end: f64,
