@@ -1,0 +1,27 @@
+"""The exact kernel of seismass: with all histories, and with peaks only."""
+
+from __future__ import annotations
+
+import seismass as sm
+from contestants.base import Outcome, Setting
+from scenes import BenchmarkScene
+
+
+def with_histories(bench: BenchmarkScene) -> Outcome:
+    """Histories of everything at every sample."""
+    run = sm.simulate(bench.scene, bench.motion, histories=True, events=False, energy=False)
+    return Outcome(run.drift, run.slip, run.peak_drift, run.peak_slip, run.residual_slip)
+
+
+def peaks_only(bench: BenchmarkScene) -> Outcome:
+    """Peaks and residuals, as the study asks for them."""
+    run = sm.simulate(bench.scene, bench.motion, events=False, energy=False)
+    return Outcome(None, None, run.peak_drift, run.peak_slip, run.residual_slip)
+
+
+def settings() -> list[Setting]:
+    """Return both."""
+    return [
+        Setting("seismass, exact", "histories", with_histories),
+        Setting("seismass, exact", "peaks only", peaks_only),
+    ]
