@@ -55,7 +55,7 @@ mod events;
 mod friction;
 mod model;
 mod observe;
-mod plain_step;
+mod plain_run;
 mod propagator;
 pub mod reference;
 mod regime;
@@ -69,6 +69,7 @@ mod taylor;
 
 pub use batch::{Control, simulate_many};
 pub use error::{Domain, Error, Result};
+pub use plain_run::InstructionSet;
 pub use response::{
     Energy, Event, EventCounts, EventKind, Histories, Peak, Peaks, Response, Skipped, Statistics, Status,
 };

@@ -88,6 +88,25 @@ impl Observer {
         low.abs().max(high.abs()) > self.peaks.floor_acceleration[i].value
     }
 
+    /// Drift coordinates of storey `i` between which neither its drift nor its shear beats a peak.
+    pub(crate) fn quiet_drift(&self, state: &State, i: usize) -> (f64, f64) {
+        let (peak, base) = (self.peaks.drift[i].value, state.springs[i].drift(0.0));
+        let (low, high) = (-peak - base, peak - base);
+        let (tangent, shear, force) =
+            (state.regime().spring_tangent[i], self.peaks.storey_shear[i].value, state.base_force[i]);
+        if tangent > 0.0 {
+            (low.max((-shear - force) / tangent), high.min((shear - force) / tangent))
+        } else {
+            (low, high)
+        }
+    }
+
+    /// Takes values of storey and floor `i` into the peaks.
+    pub(crate) fn take_floor(&mut self, state: &State, i: usize, x: f64, a: f64, time: f64) {
+        self.take_drift(state, i, x, time);
+        self.peaks.floor_acceleration[i].take(a, time);
+    }
+
     fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
         self.peaks.drift[i].take(state.springs[i].drift(x), time);
         self.peaks.storey_shear[i].take(state.base_force[i] + state.regime().spring_tangent[i] * x, time);
@@ -96,8 +115,7 @@ impl Observer {
     /// Takes the present values into the peaks.
     pub(crate) fn observe_values(&mut self, state: &State, time: f64) {
         for i in 0..state.storeys() {
-            self.take_drift(state, i, state.x[i], time);
-            self.peaks.floor_acceleration[i].take(state.a[i], time);
+            self.take_floor(state, i, state.x[i], state.a[i], time);
         }
         for (peak, motion) in self.peaks.slip.iter_mut().zip(&state.motions) {
             peak.take(motion.slip, time);

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use nalgebra::{DMatrix, DVector};
 
 use crate::model::Model;
+use crate::plain_run::{MAX_LANES, padded};
 use crate::regime::Regime;
 use crate::taylor::{Drive, MAX_PHASE, Series};
 
@@ -15,7 +16,7 @@ use crate::taylor::{Drive, MAX_PHASE, Series};
 const CACHE_BYTES: usize = 64 << 20;
 
 /// The step of a regime over one sample interval, acting on rows (dx, dv, a, j): changes of drifts and drift rates,
-/// floor accelerations and their rates at the end. Columns are stored one after the other.
+/// floor accelerations and their rates at the end, each padded to whole vectors. Columns are stored one after the other.
 pub(crate) struct Propagator {
     rows: usize,
     /// Columns of the state (x, v).
@@ -96,7 +97,8 @@ impl Propagator {
             step = step.doubled(h);
             h *= 2.0;
         }
-        let rows = 4 * n;
+        let lanes = padded(n);
+        let rows = 4 * lanes;
         let zero = vec![0.0; n];
         // Rows a and j of a column from the state at the end of the interval and the loads there.
         let finish = |change: &[f64], start: &[f64], load: &[f64], slope: &[f64], ground: f64, out: &mut Vec<f64>| {
@@ -110,9 +112,10 @@ impl Propagator {
                 below = a[i];
             }
             regime.accelerations(model, v, &drift_acceleration, slope, &mut jerk);
-            out.extend_from_slice(change);
-            out.extend(a);
-            out.extend(jerk);
+            for part in [&change[..n], &change[n..], &a, &jerk] {
+                out.extend_from_slice(part);
+                out.extend(std::iter::repeat_n(0.0, lanes - n));
+            }
         };
         let at_rest = vec![0.0; 2 * n];
         let unit = |length: usize, i: usize, value: f64| {
@@ -160,18 +163,16 @@ impl Propagator {
         self.combine(&self.ramp, load, out);
     }
 
-    /// The step: `out` = rows (dx, dv, a, j) for state (x, v), ground acceleration `ground` that changes by `change`,
-    /// and the effect of the floor loads, already in `out`.
+    /// Columns of the state (x, v), one after the other.
     #[inline]
-    pub(crate) fn advance(&self, x: &[f64], v: &[f64], ground: f64, change: f64, out: &mut [f64]) {
-        for ((o, g), r) in out.iter_mut().zip(&self.ground).zip(&self.ground_ramp) {
-            *o += g * ground + r * change;
-        }
-        for (column, &weight) in self.state.chunks_exact(self.rows).zip(x.iter().chain(v)) {
-            for (o, c) in out.iter_mut().zip(column) {
-                *o += c * weight;
-            }
-        }
+    pub(crate) fn state_columns(&self) -> &[f64] {
+        &self.state
+    }
+
+    /// Columns of a constant ground acceleration, and of one that grows from zero by one.
+    #[inline]
+    pub(crate) fn motion_columns(&self) -> (&[f64], &[f64]) {
+        (&self.ground, &self.ground_ramp)
     }
 }
 
@@ -201,7 +202,7 @@ impl RegimeCache {
     /// Whole intervals of a regime that a run solves by series before a propagator is formed.
     const SERIES_VISITS: u32 = 3;
     /// Storeys above which a series is cheaper than the dense step: with full damping matrices, and with others.
-    const DENSE_LIMITS: (usize, usize) = (48, 16);
+    const DENSE_LIMITS: (usize, usize) = (MAX_LANES, 16);
 
     pub(crate) fn new(dt: f64) -> Self {
         Self { dt, entries: Vec::new(), index: HashMap::new(), run: 0, bytes: 0, run_bytes: 0 }

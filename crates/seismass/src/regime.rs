@@ -20,7 +20,7 @@ pub(crate) struct Regime {
     pub(crate) inverse_mass: Vec<f64>,
     /// Bound on the growth of Taylor coefficients (rad/s).
     pub(crate) frequency: f64,
-    /// Bounds on the second, third and fourth derivative of each floor acceleration, per unit of [`Regime::liveliness`].
+    /// Bounds on the second, third and fourth derivative of each floor acceleration, per unit of [`Regime::liveliness_of`].
     pub(crate) derivative_bounds: [Vec<f64>; 3],
     /// Exponent (1/s) with which the energy of the derivatives may grow: positive with a negative tangent.
     growth: f64,
@@ -57,14 +57,10 @@ impl Regime {
         }
     }
 
-    /// A norm of (v', v'') at the start of a step that bounds their later values, times the growth over `h`.
+    /// A norm of (v', v'') at the start of a step of length `h` that bounds its later values, from its square there:
+    /// the sum of mass times relative jerk squared and of tangent (absolute) times drift acceleration squared.
     #[inline]
-    pub(crate) fn liveliness(&self, drift_acceleration: &[f64], relative_jerk: &[f64], h: f64) -> f64 {
-        let mut square = 0.0;
-        for i in 0..self.mass.len() {
-            square += self.mass[i] * relative_jerk[i] * relative_jerk[i]
-                + self.tangent[i].abs() * drift_acceleration[i] * drift_acceleration[i];
-        }
+    pub(crate) fn liveliness_of(&self, square: f64, h: f64) -> f64 {
         if self.growth > 0.0 { square.sqrt() * (self.growth * h).exp() } else { square.sqrt() }
     }
 

@@ -60,30 +60,37 @@ pub(crate) fn run(
     };
     run.begin(motion);
     let first = run.skip_quiet_head(motion);
-    let quiet_from = motion.acceleration().iter().rposition(|&a| a != 0.0).map_or(0, |i| i + 1);
+    let quiet_from =
+        if peaks_only { motion.acceleration().iter().rposition(|&a| a != 0.0).map_or(0, |i| i + 1) } else { samples };
     let mut status = Status::Completed;
-    let mut end = samples - 1;
-    for i in first..samples - 1 {
-        if i.is_multiple_of(INTERVALS_PER_POLL) && stop.load(Ordering::Relaxed) {
+    let last = samples - 1;
+    let mut i = first;
+    while i < last {
+        if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        if peaks_only && i >= quiet_from && run.no_peak_can_be_beaten() {
-            run.statistics.skipped.tail_samples = samples - 1 - i;
-            end = i;
+        if i >= quiet_from && run.no_peak_can_be_beaten() {
             break;
         }
         run.state.set_interval(interval(motion, i));
         if vertical {
             run.state.refresh_accelerations(0.0);
         }
-        if let Some((storey, time)) = run.solve_interval()? {
+        let reached = run.plain_run(motion, i, quiet_from);
+        if reached == i
+            && let Some((storey, time)) = run.series_interval()?
+        {
             status = Status::Collapsed { storey: storey + 1, time };
             break;
         }
-        run.observer.record(&run.state, i + 1);
+        i = reached.max(i + 1);
+        run.observer.record(&run.state, i);
+    }
+    if status == Status::Completed {
+        run.statistics.skipped.tail_samples = last - i;
     }
     let end_time = match status {
-        Status::Completed => end as f64 * motion.dt(),
+        Status::Completed => i as f64 * motion.dt(),
         Status::Collapsed { time, .. } => time,
     };
     Ok(run.finish(status, end_time, peaks_only))
@@ -168,22 +175,36 @@ impl Run<'_> {
         })
     }
 
-    /// Solves the present interval; returns the storey that collapsed, and when.
-    fn solve_interval(&mut self) -> Result<Option<(usize, f64)>> {
-        self.statistics.intervals += 1;
-        let state = &mut self.state;
-        if !state.airborne {
-            let full_damping = state.has_full_damping();
-            let propagates = state.cache.visit(state.regime, state.model, full_damping);
-            if propagates && state.step_is_plain(&self.observer) {
-                self.statistics.plain_steps += 1;
-                if self.observer.keeps_energy() {
-                    state.add_energy_of_interval(&mut self.observer);
-                }
-                state.accept_step(&mut self.observer);
-                return Ok(None);
-            }
+    /// Takes plain steps from interval `i` as far as nothing has to be looked at between; returns the interval reached.
+    fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> usize {
+        let last = motion.acceleration().len() - 1;
+        let mut end = last.min(i + INTERVALS_PER_POLL);
+        if let Some(histories) = &self.observer.histories {
+            end = end.min((i / histories.every + 1) * histories.every);
         }
+        if i < quiet_from {
+            end = end.min(quiet_from);
+        } else {
+            end = i + 1;
+        }
+        let state = &mut self.state;
+        let before = self.observer.keeps_energy().then(|| {
+            end = i + 1;
+            (state.x.clone(), state.v.clone(), state.motions.clone())
+        });
+        let reached = state.plain_run(&mut self.observer, motion, i, end);
+        self.statistics.intervals += reached - i;
+        self.statistics.plain_steps += reached - i;
+        if let Some(before) = before.filter(|_| reached > i) {
+            state.add_energy_of_interval(before, &mut self.observer);
+        }
+        reached
+    }
+
+    /// Solves the present interval by series; returns the storey that collapsed, and when.
+    fn series_interval(&mut self) -> Result<Option<(usize, f64)>> {
+        self.statistics.intervals += 1;
+        let state = &self.state;
         let h = state.interval.h;
         let vibrations = 1 + (state.regime().frequency * h) as usize;
         let machines = state.storeys() + state.motions.len();
@@ -312,9 +333,11 @@ impl State<'_> {
         self.v.iter_mut().zip(&self.scratch).for_each(|(v, change)| *v += change);
     }
 
-    /// Integrates the energies of an interval without events, and leaves the state at its start.
-    fn add_energy_of_interval(&mut self, observer: &mut Observer) {
-        let before = (self.x.clone(), self.v.clone(), self.motions.clone());
+    /// Integrates the energies of an interval without events, from drifts, drift rates and blocks at its start, and
+    /// leaves the state at its end as it is.
+    fn add_energy_of_interval(&mut self, start: (Vec<f64>, Vec<f64>, Vec<BlockMotion>), observer: &mut Observer) {
+        let end = (self.x.clone(), self.v.clone(), self.motions.clone());
+        (self.x, self.v, self.motions) = start;
         let pieces = (self.regime().frequency * self.interval.h / MAX_PHASE).ceil().max(1.0);
         let h = self.interval.h / pieces;
         for piece in 0..pieces as usize {
@@ -323,7 +346,7 @@ impl State<'_> {
             observer.add_energy(self, tau, 1.0);
             self.advance(tau, 1.0);
         }
-        (self.x, self.v, self.motions) = before;
+        (self.x, self.v, self.motions) = end;
     }
 
     /// Forms the series over `h` from `tau`.

@@ -4,6 +4,7 @@ use crate::STANDARD_GRAVITY;
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand};
 use crate::model::Model;
+use crate::plain_run::padded;
 use crate::propagator::RegimeCache;
 use crate::regime::Regime;
 use crate::scene::Scene;
@@ -96,7 +97,6 @@ pub(crate) struct State<'a> {
     pub(crate) effects: LoadEffects,
     pub(crate) drive: Drive,
     pub(crate) series: Series,
-    pub(crate) step: Vec<f64>,
     pub(crate) scratch: Vec<f64>,
     stuck_mass: Vec<f64>,
     key: Vec<u8>,
@@ -139,13 +139,12 @@ impl<'a> State<'a> {
             base_force: vec![0.0; n],
             effects: LoadEffects {
                 valid: false,
-                constant: vec![0.0; 4 * n],
-                friction: vec![0.0; 4 * n],
-                friction_ramp: vec![0.0; 4 * n],
+                constant: vec![0.0; 4 * padded(n)],
+                friction: vec![0.0; 4 * padded(n)],
+                friction_ramp: vec![0.0; 4 * padded(n)],
             },
             drive: Drive { load: vec![0.0; n], load_slope: vec![0.0; n], ..Drive::default() },
             series: Series::default(),
-            step: vec![0.0; 4 * n],
             scratch: vec![0.0; n],
             stuck_mass: vec![0.0; n],
             key: Vec::new(),

@@ -1,0 +1,544 @@
+//! Runs of whole sample intervals by the propagator, each accepted only when bounds prove that no guard fell inside it
+//! and no peak was beaten at a turn.
+//!
+//! Value and rate at both ends give the Bezier points of a cubic; the quantity differs from that cubic by at most
+//! h^4 / 384 times its largest fourth derivative, which the regime bounds. Storeys are lanes of fixed-size arrays, so
+//! that the compiler makes vectors of them; the widest vectors of the machine are chosen at run time.
+
+use std::sync::OnceLock;
+
+use crate::observe::Observer;
+use crate::propagator::Propagator;
+use crate::regime::Regime;
+use crate::scene::Motion;
+use crate::state::State;
+
+/// Instructions the plain steps are compiled for. Paths agree to rounding; each gives the same bits everywhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InstructionSet {
+    /// What every machine of the architecture has.
+    Baseline,
+    /// 256-bit vectors and fused multiply-add (x86-64-v3).
+    Avx2,
+    /// 512-bit vectors and fused multiply-add (x86-64-v4).
+    Avx512,
+}
+
+impl InstructionSet {
+    /// The one in use: the widest this machine has, or what the environment variable `SEISMASS_INSTRUCTIONS`
+    /// (`baseline`, `avx2`, `avx512`) names if the machine has it. Read once.
+    pub fn in_use() -> Self {
+        static CHOSEN: OnceLock<InstructionSet> = OnceLock::new();
+        *CHOSEN.get_or_init(|| {
+            let wanted = std::env::var("SEISMASS_INSTRUCTIONS").unwrap_or_default();
+            [Self::Avx512, Self::Avx2]
+                .into_iter()
+                .find(|set| set.is_available() && (wanted.is_empty() || wanted == set.name()))
+                .unwrap_or(Self::Baseline)
+        })
+    }
+
+    /// Lower-case name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn is_available(self) -> bool {
+        match self {
+            Self::Baseline => true,
+            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+            Self::Avx512 => {
+                Self::Avx2.is_available() && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl")
+            }
+        }
+    }
+
+    #[cfg(not(target_arch = "x86_64"))]
+    fn is_available(self) -> bool {
+        self == Self::Baseline
+    }
+}
+
+/// Most storeys that the lanes hold.
+pub(crate) const MAX_LANES: usize = 48;
+
+/// Storeys padded to whole vectors.
+pub(crate) fn padded(storeys: usize) -> usize {
+    match storeys {
+        0..=4 => 4,
+        5..=8 => 8,
+        9..=16 => 16,
+        _ => MAX_LANES,
+    }
+}
+
+/// A block that slides, as the loop needs it.
+struct Sliding {
+    block: usize,
+    floor: usize,
+    friction: f64,
+    positive: bool,
+    velocity: f64,
+    slip: f64,
+}
+
+/// What a run of plain steps reads.
+struct Course<'a> {
+    regime: &'a Regime,
+    propagator: &'a Propagator,
+    ground: &'a [f64],
+    vertical: Option<&'a [f64]>,
+    h: f64,
+    /// Effect of constant floor loads; with vertical motion, of friction at unit contact force and at a unit ramp.
+    constant: &'a [f64],
+    friction: &'a [f64],
+    friction_ramp: &'a [f64],
+    /// Contact force per unit mass without vertical motion.
+    gravity: f64,
+    /// Smallest mu_s of the blocks stuck to the ground.
+    ground_mu: f64,
+}
+
+/// State and bounds of the storeys in lanes; lanes beyond the last storey hold zeros and no bounds.
+struct Lanes<const N: usize> {
+    x: [f64; N],
+    v: [f64; N],
+    a: [f64; N],
+    jerk: [f64; N],
+    /// Second derivative of the drifts.
+    q: [f64; N],
+    mass: [f64; N],
+    tangent: [f64; N],
+    /// Bounds of fourth derivatives per unit of liveliness: of drift, drift rate and floor acceleration.
+    drift_margin: [f64; N],
+    rate_margin: [f64; N],
+    acceleration_margin: [f64; N],
+    /// Drift coordinates between which no storey yields or collapses, and which beat no peak.
+    x_low: [f64; N],
+    x_high: [f64; N],
+    /// Drift rates between which plastic storeys do not unload.
+    v_low: [f64; N],
+    v_high: [f64; N],
+    /// Smallest mu_s of the blocks stuck to each floor; infinite where none is.
+    stuck_mu: [f64; N],
+    /// Peak of the floor acceleration.
+    a_peak: [f64; N],
+}
+
+/// A step that is formed but not taken yet.
+struct Step<const N: usize> {
+    x: [f64; N],
+    v: [f64; N],
+    a: [f64; N],
+    jerk: [f64; N],
+    q: [f64; N],
+    ground: (f64, f64),
+    contact: (f64, f64),
+    liveliness: f64,
+}
+
+#[inline(always)]
+fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
+}
+
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// Range of the cubic through values and rates at both ends, widened by `margin`.
+#[inline(always)]
+fn range(start: f64, start_rate: f64, end: f64, end_rate: f64, third: f64, margin: f64) -> (f64, f64) {
+    let (first, second) = (start + third * start_rate, end - third * end_rate);
+    let low = smaller(smaller(start, end), smaller(first, second));
+    let high = larger(larger(start, end), larger(first, second));
+    (low - margin, high + margin)
+}
+
+impl<const N: usize> Lanes<N> {
+    fn load(state: &State, observer: &Observer) -> Self {
+        let n = state.storeys();
+        let regime = state.regime();
+        let fill = |values: &[f64]| {
+            let mut lanes = [0.0; N];
+            lanes[..n].copy_from_slice(values);
+            lanes
+        };
+        let differences = |bounds: &[f64]| {
+            let mut lanes = [0.0; N];
+            for i in 0..n {
+                lanes[i] = bounds[i] + if i > 0 { bounds[i - 1] } else { 0.0 };
+            }
+            lanes
+        };
+        let mut lanes = Self {
+            x: fill(&state.x),
+            v: fill(&state.v),
+            a: fill(&state.a),
+            jerk: fill(&state.jerk),
+            q: fill(&state.drift_acceleration),
+            mass: fill(&regime.mass),
+            tangent: fill(&regime.tangent).map(f64::abs),
+            drift_margin: differences(&regime.derivative_bounds[0]),
+            rate_margin: differences(&regime.derivative_bounds[1]),
+            acceleration_margin: fill(&regime.derivative_bounds[2]),
+            x_low: [f64::NEG_INFINITY; N],
+            x_high: [f64::INFINITY; N],
+            v_low: [f64::NEG_INFINITY; N],
+            v_high: [f64::INFINITY; N],
+            stuck_mu: [f64::INFINITY; N],
+            a_peak: [f64::INFINITY; N],
+        };
+        lanes.stuck_mu[..n].copy_from_slice(&state.stuck_mu[1..]);
+        for i in 0..n {
+            match state.springs[i].plastic().map(|sign| sign.factor()) {
+                Some(1.0) => lanes.v_low[i] = 0.0,
+                Some(_) => lanes.v_high[i] = 0.0,
+                None => {}
+            }
+            lanes.set_bounds(i, state, observer);
+        }
+        lanes
+    }
+
+    /// Bounds of storey and floor `i` from its guards and peaks.
+    fn set_bounds(&mut self, i: usize, state: &State, observer: &Observer) {
+        let (yields, collapses) = (state.yield_bounds[i], state.collapse_bounds[i]);
+        let quiet = observer.quiet_drift(state, i);
+        self.x_low[i] = yields.0.max(collapses.0).max(quiet.0);
+        self.x_high[i] = yields.1.min(collapses.1).min(quiet.1);
+        self.a_peak[i] = observer.peaks.floor_acceleration[i].value;
+    }
+
+    fn store(&self, state: &mut State) {
+        let n = state.storeys();
+        state.x.copy_from_slice(&self.x[..n]);
+        state.v.copy_from_slice(&self.v[..n]);
+        state.a.copy_from_slice(&self.a[..n]);
+        state.jerk.copy_from_slice(&self.jerk[..n]);
+        state.drift_acceleration.copy_from_slice(&self.q[..n]);
+    }
+
+    /// Forms the step over interval `i`.
+    #[inline(always)]
+    fn step<const FUSED: bool>(&self, course: &Course, i: usize) -> Step<N> {
+        let h = course.h;
+        let (ground, end) = (course.ground[i], course.ground[i + 1]);
+        let change = end - ground;
+        let contact = match course.vertical {
+            Some(vertical) => (course.gravity + vertical[i], course.gravity + vertical[i + 1]),
+            None => (course.gravity, course.gravity),
+        };
+        let slope = change / h;
+        let mut square = [0.0; N];
+        for l in 0..N {
+            let jerk = self.jerk[l] - slope;
+            square[l] = multiply_add::<FUSED>(self.mass[l] * jerk, jerk, self.tangent[l] * self.q[l] * self.q[l]);
+        }
+        let liveliness = course.regime.liveliness_of(square.iter().sum::<f64>(), h);
+        let mut rows = [[0.0; N]; 4];
+        let columns = course.propagator.motion_columns();
+        for (r, row) in rows.iter_mut().enumerate() {
+            for l in 0..N {
+                let at = r * N + l;
+                let effect = multiply_add::<FUSED>(columns.0[at], ground, course.constant[at]);
+                row[l] = multiply_add::<FUSED>(columns.1[at], change, effect);
+            }
+        }
+        if course.vertical.is_some() {
+            for (r, row) in rows.iter_mut().enumerate() {
+                for l in 0..N {
+                    let at = r * N + l;
+                    row[l] += course.friction[at] * contact.0 + course.friction_ramp[at] * (contact.1 - contact.0);
+                }
+            }
+        }
+        let state_columns = course.propagator.state_columns();
+        let storeys = state_columns.len() / (8 * N);
+        for (position, column) in state_columns.chunks_exact(4 * N).enumerate() {
+            let weight = if position < storeys { self.x[position] } else { self.v[position - storeys] };
+            for (r, row) in rows.iter_mut().enumerate() {
+                for l in 0..N {
+                    row[l] = multiply_add::<FUSED>(column[r * N + l], weight, row[l]);
+                }
+            }
+        }
+        let [dx, dv, a, jerk] = rows;
+        let (mut x, mut v, mut q) = (self.x, self.v, a);
+        for l in 0..N {
+            x[l] += dx[l];
+            v[l] += dv[l];
+        }
+        q[0] -= end;
+        for l in 1..N {
+            q[l] -= a[l - 1];
+        }
+        Step { x, v, a, jerk, q, ground: (ground, end), contact, liveliness }
+    }
+
+    /// How far the step is from being plain: negative when all storeys and floors are clear of guards and peaks.
+    #[inline(always)]
+    fn nearest(&self, step: &Step<N>, course: &Course, remainder: f64) -> f64 {
+        let third = course.h / 3.0;
+        let contact = smaller(step.contact.0, step.contact.1);
+        let mut nearest = [f64::NEG_INFINITY; N];
+        for l in 0..N {
+            let (low, high) =
+                range(self.x[l], self.v[l], step.x[l], step.v[l], third, remainder * self.drift_margin[l]);
+            let drift = larger(high - self.x_high[l], self.x_low[l] - low);
+            let (low, high) = range(self.v[l], self.q[l], step.v[l], step.q[l], third, remainder * self.rate_margin[l]);
+            let rate = larger(high - self.v_high[l], self.v_low[l] - low);
+            let margin = remainder * self.acceleration_margin[l];
+            let (low, high) = range(self.a[l], self.jerk[l], step.a[l], step.jerk[l], third, margin);
+            let limit = smaller(self.stuck_mu[l] * contact, self.a_peak[l]);
+            let acceleration = larger(high, -low) - limit;
+            nearest[l] = larger(larger(drift, rate), acceleration);
+        }
+        nearest.into_iter().fold(f64::NEG_INFINITY, larger)
+    }
+
+    /// Whether all guards are clear, and peaks that may be beaten are beaten at the end of the step.
+    fn is_clear_but_for_peaks(&self, step: &Step<N>, course: &Course, state: &State) -> bool {
+        let third = course.h / 3.0;
+        let remainder = remainder(step, course);
+        let contact = step.contact.0.min(step.contact.1);
+        let one_signed = |(low, high): (f64, f64)| low > 0.0 || high < 0.0;
+        (0..state.storeys()).all(|l| {
+            let drift = range(self.x[l], self.v[l], step.x[l], step.v[l], third, remainder * self.drift_margin[l]);
+            let rate = range(self.v[l], self.q[l], step.v[l], step.q[l], third, remainder * self.rate_margin[l]);
+            let margin = remainder * self.acceleration_margin[l];
+            let (low, high) = range(self.a[l], self.jerk[l], step.a[l], step.jerk[l], third, margin);
+            let inside = |(lower, upper): (f64, f64)| drift.1 < upper && drift.0 > lower;
+            let keeps_plastic = rate.0 > self.v_low[l] && rate.1 < self.v_high[l];
+            let monotonic = inside((self.x_low[l], self.x_high[l])) || one_signed(rate);
+            let size = high.max(-low);
+            let turn = 0.5 * course.h * step.liveliness * course.regime.derivative_bounds[0][l];
+            let (jerk, jerk_end) = (self.jerk[l], step.jerk[l]);
+            let steady = jerk * jerk_end > 0.0 && jerk.abs().min(jerk_end.abs()) > turn;
+            inside(state.yield_bounds[l])
+                && inside(state.collapse_bounds[l])
+                && keeps_plastic
+                && monotonic
+                && size < self.stuck_mu[l] * contact
+                && (size < self.a_peak[l] || steady)
+        })
+    }
+
+    fn take(&mut self, step: &Step<N>) {
+        (self.x, self.v, self.a, self.jerk, self.q) = (step.x, step.v, step.a, step.jerk, step.q);
+    }
+}
+
+/// h^4 / 384 times the liveliness: what a fourth derivative's bound is multiplied with.
+#[inline(always)]
+fn remainder<const N: usize>(step: &Step<N>, course: &Course) -> f64 {
+    let h2 = course.h * course.h;
+    step.liveliness * (h2 * h2 / 384.0)
+}
+
+/// Moves the sliding blocks over the step; false, and nothing is moved, when one may have turned.
+#[inline(always)]
+fn move_blocks<const N: usize>(
+    lanes: &Lanes<N>,
+    step: &Step<N>,
+    course: &Course,
+    remainder: f64,
+    sliding: &mut [Sliding],
+    moved: &mut [(f64, f64)],
+) -> bool {
+    let (ground, contact, h) = (step.ground, step.contact, course.h);
+    if course.vertical.is_some() && !(contact.0 > 0.0 && contact.1 > 0.0) {
+        return false;
+    }
+    if course.ground_mu.is_finite()
+        && !(ground.0.abs() < course.ground_mu * contact.0 && ground.1.abs() < course.ground_mu * contact.1)
+    {
+        return false;
+    }
+    let (ground_velocity, ground_displacement) = integrals(ground, h);
+    let (contact_velocity, contact_displacement) = integrals(contact, h);
+    for (block, moved) in sliding.iter().zip(moved.iter_mut()) {
+        let (mut velocity, mut displacement, mut start) = (ground_velocity, ground_displacement, 0.0);
+        let (mut a, mut margin) = (ground, 0.0);
+        for l in 0..block.floor {
+            velocity += step.v[l] - lanes.v[l];
+            displacement += step.x[l] - lanes.x[l];
+            start += lanes.v[l];
+        }
+        if block.floor > 0 {
+            let l = block.floor - 1;
+            a = (lanes.a[l], step.a[l]);
+            margin = remainder * course.regime.derivative_bounds[1][l];
+        }
+        let end = block.velocity - block.friction * contact_velocity - velocity;
+        let rate = (-block.friction * contact.0 - a.0, -block.friction * contact.1 - a.1);
+        let (low, high) = range(block.velocity, rate.0, end, rate.1, h / 3.0, margin);
+        if !(if block.positive { low > 0.0 } else { high < 0.0 }) {
+            return false;
+        }
+        let slip = block.velocity * h - block.friction * contact_displacement - (displacement - start * h);
+        *moved = (end, block.slip + slip);
+    }
+    for (block, &(velocity, slip)) in sliding.iter_mut().zip(moved.iter()) {
+        (block.velocity, block.slip) = (velocity, slip);
+    }
+    true
+}
+
+/// First and second integral over `h` of a quantity that is linear between two values.
+#[inline(always)]
+fn integrals(ends: (f64, f64), h: f64) -> (f64, f64) {
+    (0.5 * h * (ends.0 + ends.1), h * h * (2.0 * ends.0 + ends.1) / 6.0)
+}
+
+/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
+#[inline(always)]
+fn run_lanes<const N: usize, const FUSED: bool>(
+    state: &mut State,
+    observer: &mut Observer,
+    motion: &Motion,
+    first: usize,
+    end: usize,
+) -> usize {
+    let mut lanes = Lanes::<N>::load(state, observer);
+    let mut sliding: Vec<Sliding> = Vec::new();
+    for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
+        if let Some(sign) = motion.sliding() {
+            sliding.push(Sliding {
+                block,
+                floor: law.floor,
+                friction: sign.factor() * law.mu_k,
+                positive: sign.factor() > 0.0,
+                velocity: motion.velocity,
+                slip: motion.slip,
+            });
+        }
+    }
+    let mut moved = vec![(0.0, 0.0); sliding.len()];
+    let watches_blocks = !sliding.is_empty() || state.stuck_mu[0].is_finite() || state.vertical;
+    let mut i = first;
+    {
+        let regime = state.cache.regime(state.regime);
+        let Some(propagator) = regime.propagator.as_deref() else { return first };
+        let course = Course {
+            regime,
+            propagator,
+            ground: motion.acceleration(),
+            vertical: motion.vertical().filter(|_| state.vertical),
+            h: motion.dt(),
+            constant: &state.effects.constant,
+            friction: &state.effects.friction,
+            friction_ramp: &state.effects.friction_ramp,
+            gravity: crate::STANDARD_GRAVITY,
+            ground_mu: state.stuck_mu[0],
+        };
+        while i < end {
+            let step = lanes.step::<FUSED>(&course, i);
+            let remainder = remainder(&step, &course);
+            let plain = lanes.nearest(&step, &course, remainder) < 0.0 && remainder.is_finite();
+            if !plain && !(remainder.is_finite() && lanes.is_clear_but_for_peaks(&step, &course, state)) {
+                break;
+            }
+            if watches_blocks && !move_blocks(&lanes, &step, &course, remainder, &mut sliding, &mut moved) {
+                break;
+            }
+            lanes.take(&step);
+            i += 1;
+            if !plain {
+                let time = i as f64 * course.h;
+                for l in 0..state.storeys() {
+                    observer.take_floor(state, l, lanes.x[l], lanes.a[l], time);
+                    lanes.set_bounds(l, state, observer);
+                }
+            }
+            if course.vertical.is_some() && i < end {
+                break;
+            }
+        }
+    }
+    if i > first {
+        lanes.store(state);
+        for block in &sliding {
+            let motion = &mut state.motions[block.block];
+            (motion.velocity, motion.slip) = (block.velocity, block.slip);
+        }
+    }
+    i
+}
+
+macro_rules! for_lanes {
+    ($name:ident, $fused:literal $(, $feature:literal)?) => {
+        $(#[target_feature(enable = $feature)])?
+        fn $name(state: &mut State, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize {
+            match padded(state.storeys()) {
+                4 => run_lanes::<4, $fused>(state, observer, motion, first, end),
+                8 => run_lanes::<8, $fused>(state, observer, motion, first, end),
+                16 => run_lanes::<16, $fused>(state, observer, motion, first, end),
+                _ => run_lanes::<MAX_LANES, $fused>(state, observer, motion, first, end),
+            }
+        }
+    };
+}
+
+for_lanes!(run_baseline, false);
+#[cfg(target_arch = "x86_64")]
+for_lanes!(run_avx2, true, "avx2,fma");
+#[cfg(target_arch = "x86_64")]
+for_lanes!(run_avx512, true, "avx2,fma,avx512f,avx512vl");
+
+impl State<'_> {
+    #[allow(unsafe_code)]
+    /// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached,
+    /// whose start the state is then at.
+    pub(crate) fn plain_run(&mut self, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize {
+        let full_damping = self.has_full_damping();
+        if self.airborne || !self.cache.visit(self.regime, self.model, full_damping) {
+            return first;
+        }
+        self.prepare_effects();
+        let reached = match InstructionSet::in_use() {
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: `in_use` returns only what this machine has.
+            InstructionSet::Avx512 => unsafe { run_avx512(self, observer, motion, first, end) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: as above.
+            InstructionSet::Avx2 => unsafe { run_avx2(self, observer, motion, first, end) },
+            _ => run_baseline(self, observer, motion, first, end),
+        };
+        let time = reached as f64 * motion.dt();
+        for (peak, motion) in observer.peaks.slip.iter_mut().zip(&self.motions) {
+            peak.take(motion.slip, time);
+        }
+        reached
+    }
+
+    /// Forms the effect of the floor loads on the step, if they have changed.
+    fn prepare_effects(&mut self) {
+        if self.effects.valid {
+            return;
+        }
+        let Some(propagator) = self.cache.regime(self.regime).propagator.as_deref() else { return };
+        let effects = &mut self.effects;
+        propagator.of_load(&self.spring_load, &mut effects.constant);
+        propagator.of_load(&self.friction, &mut effects.friction);
+        if self.vertical {
+            propagator.of_ramp(&self.friction, &mut effects.friction_ramp);
+        } else {
+            for (constant, friction) in effects.constant.iter_mut().zip(&effects.friction) {
+                *constant += friction * crate::STANDARD_GRAVITY;
+            }
+        }
+        effects.valid = true;
+    }
+}
