@@ -14,8 +14,10 @@ __all__ = [
     "Batch",
     "Building",
     "Motion",
+    "ReferenceRun",
     "Response",
     "Scene",
+    "integrate_reference",
     "response_spectra",
     "simulate",
     "simulate_many",
@@ -198,6 +200,47 @@ class Motion:
     def with_duration(self, /, duration: SupportsFloat | SupportsIndex) -> Motion:
         """
         The motion up to the sample nearest to `duration` (s): cut, or continued at zero.
+        """
+
+@final
+class ReferenceRun:
+    """
+    What a reference integrator gives back.
+    """
+    @property
+    def completed(self, /) -> bool:
+        """
+        Whether the run reached the last sample; otherwise a storey collapsed.
+        """
+    @property
+    def drift(self, /) -> NDArray[float64]:
+        """
+        Storey drift (m) at the samples, samples x storeys.
+        """
+    @property
+    def events(self, /) -> int:
+        """
+        Changes of state; 0 for methods without events.
+        """
+    @property
+    def peak_drift(self, /) -> NDArray[float64]:
+        """
+        Largest absolute drift of each storey at the ends of steps (m).
+        """
+    @property
+    def peak_slip(self, /) -> NDArray[float64]:
+        """
+        Largest absolute slip of each block at the ends of steps (m).
+        """
+    @property
+    def slip(self, /) -> NDArray[float64]:
+        """
+        Slip (m) at the samples, samples x blocks.
+        """
+    @property
+    def steps(self, /) -> int:
+        """
+        Steps taken, those tried while locating events and Newton iterations included.
         """
 
 @final
@@ -388,6 +431,22 @@ class Scene:
         """
         P/h of each storey (N/m), the weight of the blocks included; zero without P-Delta.
         """
+
+def integrate_reference(
+    scene: Scene,
+    motion: Motion,
+    method: str,
+    substeps: SupportsIndex,
+    *,
+    event_tolerance: SupportsFloat | SupportsIndex | None = None,
+    stiffness_ratio: SupportsFloat | SupportsIndex | None = None,
+) -> ReferenceRun:
+    """
+    Integrate by steps: method is gauss, newmark, friction_springs or leapfrog, with `substeps` steps per sample interval.
+
+    States of gauss and newmark switch at step ends, or where `event_tolerance` (over the step) is given, at the located
+    events. Friction springs have `stiffness_ratio` times the stiffness of their storey.
+    """
 
 def response_spectra(
     motions: SupportsGetItem[int, Motion],

@@ -39,7 +39,8 @@ pub(crate) fn from_panic(py: Python<'_>, payload: &(dyn std::any::Any + Send)) -
     simulation_error(py, format!("the kernel stopped on a defect of seismass, please report it: {reason}"))
 }
 
-fn simulation_error(py: Python<'_>, message: String) -> PyErr {
+/// The exception for a run that was accepted and could not be finished.
+pub(crate) fn simulation_error(py: Python<'_>, message: String) -> PyErr {
     static SIMULATION: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     exception(py, &SIMULATION, "SimulationError", message)
 }

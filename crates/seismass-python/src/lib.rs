@@ -5,6 +5,7 @@ mod arrays;
 mod batch;
 mod errors;
 mod interrupt;
+mod reference;
 mod response;
 mod scene;
 mod spectrum;
@@ -18,6 +19,8 @@ mod _kernel {
 
     #[pymodule_export]
     use crate::batch::{Batch, simulate_many};
+    #[pymodule_export]
+    use crate::reference::{ReferenceRun, integrate_reference};
     #[pymodule_export]
     use crate::response::{Response, simulate};
     #[pymodule_export]
