@@ -53,6 +53,7 @@ pub mod damping;
 pub mod error;
 mod events;
 mod friction;
+mod lanes;
 mod model;
 mod observe;
 mod plain_run;
@@ -69,7 +70,7 @@ mod taylor;
 
 pub use batch::{Control, simulate_many};
 pub use error::{Domain, Error, Result};
-pub use plain_run::InstructionSet;
+pub use lanes::InstructionSet;
 pub use response::{
     Energy, Event, EventCounts, EventKind, Histories, Peak, Peaks, Response, Skipped, Statistics, Status,
 };

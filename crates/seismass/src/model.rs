@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::damping::StoreyDamping;
 use crate::friction::BlockLaw;
+use crate::lanes::padded;
 use crate::scene::{Building, Damping, Scene};
 use crate::storey::StoreyLaw;
 
@@ -17,8 +18,46 @@ pub(crate) struct Model {
     /// Blocks on the ground (0) and on each floor.
     pub(crate) on_floor: Vec<Vec<usize>>,
     building: Option<Arc<Building>>,
+    pub(crate) lanes: ModelLanes,
     /// The damping matrix is the user's own: it need not dissipate.
     damping_may_feed: bool,
+}
+
+/// What the series needs of a building, padded to whole vectors with zeros.
+#[derive(Default)]
+pub(crate) struct ModelLanes {
+    /// 1 for a storey, 0 for padding.
+    pub(crate) inside: Vec<f64>,
+    /// Columns of the full damping matrix, one after the other; empty without one.
+    pub(crate) damping: Vec<f64>,
+    /// Rayleigh damping: storey damping of each storey (N s/m), and mass-proportional damping of each floor (N s/m).
+    pub(crate) storey_damping: Vec<f64>,
+    pub(crate) floor_damping: Vec<f64>,
+}
+
+impl ModelLanes {
+    fn new(mass: &[f64], stiffness: &[f64], damping: &StoreyDamping) -> Self {
+        let stride = padded(mass.len());
+        let fill = |values: &mut dyn Iterator<Item = f64>| {
+            let mut lanes: Vec<f64> = values.collect();
+            lanes.resize(stride, 0.0);
+            lanes
+        };
+        let inside = fill(&mut mass.iter().map(|_| 1.0));
+        match damping {
+            StoreyDamping::None => Self { inside, ..Self::default() },
+            StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => Self {
+                inside,
+                storey_damping: fill(&mut stiffness.iter().map(|k| stiffness_factor * k)),
+                floor_damping: fill(&mut mass.iter().map(|m| mass_factor * m)),
+                ..Self::default()
+            },
+            StoreyDamping::Dense(d) => {
+                let columns = d.column_iter().flat_map(|column| fill(&mut column.iter().copied()));
+                Self { inside, damping: columns.collect(), ..Self::default() }
+            }
+        }
+    }
 }
 
 impl Model {
@@ -33,9 +72,13 @@ impl Model {
         for (j, block) in scene.blocks().iter().enumerate() {
             on_floor[block.floor].push(j);
         }
+        let mass = scene.building().map_or_else(Vec::new, |b| b.mass().to_vec());
+        let stiffness: Vec<f64> = storeys.iter().map(|s| s.stiffness).collect();
+        let damping = scene.building().map_or(&StoreyDamping::None, |b| b.storey_damping());
         Self {
-            mass: scene.building().map_or_else(Vec::new, |b| b.mass().to_vec()),
-            stiffness: storeys.iter().map(|s| s.stiffness).collect(),
+            lanes: ModelLanes::new(&mass, &stiffness, damping),
+            mass,
+            stiffness,
             laws,
             blocks: scene.blocks().iter().map(BlockLaw::new).collect(),
             on_floor,

@@ -5,77 +5,12 @@
 //! h^4 / 384 times its largest fourth derivative, which the regime bounds. Storeys are lanes of fixed-size arrays, so
 //! that the compiler makes vectors of them; the widest vectors of the machine are chosen at run time.
 
-use std::sync::OnceLock;
-
+use crate::lanes::{InstructionSet, MAX_LANES, multiply_add, padded};
 use crate::observe::Observer;
 use crate::propagator::Propagator;
 use crate::regime::Regime;
 use crate::scene::Motion;
 use crate::state::State;
-
-/// Instructions the plain steps are compiled for. Paths agree to rounding; each gives the same bits everywhere.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// What every machine of the architecture has.
-    Baseline,
-    /// 256-bit vectors and fused multiply-add (x86-64-v3).
-    Avx2,
-    /// 512-bit vectors and fused multiply-add (x86-64-v4).
-    Avx512,
-}
-
-impl InstructionSet {
-    /// The one in use: the widest this machine has, or what the environment variable `SEISMASS_INSTRUCTIONS`
-    /// (`baseline`, `avx2`, `avx512`) names if the machine has it. Read once.
-    pub fn in_use() -> Self {
-        static CHOSEN: OnceLock<InstructionSet> = OnceLock::new();
-        *CHOSEN.get_or_init(|| {
-            let wanted = std::env::var("SEISMASS_INSTRUCTIONS").unwrap_or_default();
-            [Self::Avx512, Self::Avx2]
-                .into_iter()
-                .find(|set| set.is_available() && (wanted.is_empty() || wanted == set.name()))
-                .unwrap_or(Self::Baseline)
-        })
-    }
-
-    /// Lower-case name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Baseline => "baseline",
-            Self::Avx2 => "avx2",
-            Self::Avx512 => "avx512",
-        }
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    fn is_available(self) -> bool {
-        match self {
-            Self::Baseline => true,
-            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
-            Self::Avx512 => {
-                Self::Avx2.is_available() && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl")
-            }
-        }
-    }
-
-    #[cfg(not(target_arch = "x86_64"))]
-    fn is_available(self) -> bool {
-        self == Self::Baseline
-    }
-}
-
-/// Most storeys that the lanes hold.
-pub(crate) const MAX_LANES: usize = 48;
-
-/// Storeys padded to whole vectors.
-pub(crate) fn padded(storeys: usize) -> usize {
-    match storeys {
-        0..=4 => 4,
-        5..=8 => 8,
-        9..=16 => 16,
-        _ => MAX_LANES,
-    }
-}
 
 /// A block that slides, as the loop needs it.
 struct Sliding {
@@ -140,11 +75,6 @@ struct Step<const N: usize> {
     ground: (f64, f64),
     contact: (f64, f64),
     liveliness: f64,
-}
-
-#[inline(always)]
-fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
-    if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
 #[inline(always)]
@@ -323,7 +253,8 @@ impl<const N: usize> Lanes<N> {
             let keeps_plastic = rate.0 > self.v_low[l] && rate.1 < self.v_high[l];
             let monotonic = inside((self.x_low[l], self.x_high[l])) || one_signed(rate);
             let size = high.max(-low);
-            let turn = 0.5 * course.h * step.liveliness * course.regime.derivative_bounds[0][l];
+            // Between its ends the jerk differs from its chord by at most h^2 / 8 times its second derivative.
+            let turn = 0.125 * course.h * course.h * step.liveliness * course.regime.derivative_bounds[1][l];
             let (jerk, jerk_end) = (self.jerk[l], step.jerk[l]);
             let steady = jerk * jerk_end > 0.0 && jerk.abs().min(jerk_end.abs()) > turn;
             inside(state.yield_bounds[l])

@@ -7,8 +7,8 @@ use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::lanes::{MAX_LANES, padded};
 use crate::model::Model;
-use crate::plain_run::{MAX_LANES, padded};
 use crate::regime::Regime;
 use crate::taylor::{Drive, MAX_PHASE, Series};
 

@@ -5,6 +5,7 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
+use crate::lanes::padded;
 use crate::model::Model;
 use crate::propagator::Propagator;
 
@@ -18,6 +19,8 @@ pub(crate) struct Regime {
     pub(crate) mass: Vec<f64>,
     /// 1 / mass.
     pub(crate) inverse_mass: Vec<f64>,
+    /// `tangent` and `inverse_mass`, padded to whole vectors with zeros.
+    pub(crate) lanes: (Vec<f64>, Vec<f64>),
     /// Bound on the growth of Taylor coefficients (rad/s).
     pub(crate) frequency: f64,
     /// Bounds on the second, third and fourth derivative of each floor acceleration, per unit of [`Regime::liveliness_of`].
@@ -38,7 +41,23 @@ impl Regime {
         let inverse_mass: Vec<f64> = mass.iter().map(|m| 1.0 / m).collect();
         let (frequency, growth) = frequency_and_growth(model, &tangent, &inverse_mass);
         let derivative_bounds = derivative_bounds(model, &tangent, &inverse_mass);
-        Self { tangent, spring_tangent, mass, inverse_mass, frequency, derivative_bounds, growth, propagator: None }
+        let fill = |values: &[f64]| {
+            let mut lanes = values.to_vec();
+            lanes.resize(padded(n), 0.0);
+            lanes
+        };
+        let lanes = (fill(&tangent), fill(&inverse_mass));
+        Self {
+            tangent,
+            spring_tangent,
+            mass,
+            inverse_mass,
+            lanes,
+            frequency,
+            derivative_bounds,
+            growth,
+            propagator: None,
+        }
     }
 
     /// Floor accelerations (absolute) from drifts, drift rates and floor loads: a_i = (S_(i+1) - S_i + load_i) / mass_i

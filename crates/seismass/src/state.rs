@@ -3,8 +3,8 @@
 use crate::STANDARD_GRAVITY;
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand};
+use crate::lanes::padded;
 use crate::model::Model;
-use crate::plain_run::padded;
 use crate::propagator::RegimeCache;
 use crate::regime::Regime;
 use crate::scene::Scene;

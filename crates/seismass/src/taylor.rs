@@ -3,6 +3,7 @@
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
 use crate::bernstein::{MAX_DEGREE, Polynomial};
+use crate::lanes::{InstructionSet, multiply_add, padded};
 use crate::model::Model;
 use crate::regime::Regime;
 
@@ -24,16 +25,31 @@ pub(crate) struct Drive {
     pub(crate) load_slope: Vec<f64>,
 }
 
-/// Series of drifts, drift rates and absolute floor accelerations, stored order by order.
+impl Drive {
+    /// Term `k` of the ground acceleration over a step `h`.
+    #[inline]
+    fn ground_term(&self, k: usize, h: f64) -> f64 {
+        match k {
+            0 => self.ground,
+            1 => self.ground_slope * h,
+            _ => 0.0,
+        }
+    }
+}
+
+/// Series of drifts, drift rates and absolute floor accelerations, stored order by order, padded to whole vectors.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Series {
     storeys: usize,
+    stride: usize,
     order: usize,
     h: f64,
     x: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
-    scratch: Vec<f64>,
+    /// Sums of the absolute coefficients of x, v and a beside the first.
+    excursion: [Vec<f64>; 3],
+    load: Vec<f64>,
 }
 
 /// Number of terms so that the first neglected one is below rounding.
@@ -52,36 +68,120 @@ impl Series {
     /// Forms the series over a step `h` from the state (x, v).
     pub(crate) fn form(&mut self, model: &Model, regime: &Regime, x: &[f64], v: &[f64], drive: &Drive, h: f64) {
         let n = x.len();
-        let order = terms(regime.frequency * h);
-        (self.storeys, self.order, self.h) = (n, order, h);
+        let (order, stride) = (terms(regime.frequency * h), padded(n));
+        (self.storeys, self.stride, self.order, self.h) = (n, stride, order, h);
+        let length = (order + 1) * stride;
         for buffer in [&mut self.x, &mut self.v, &mut self.a] {
-            buffer.clear();
-            buffer.resize((order + 1) * n, 0.0);
+            if buffer.len() < length {
+                buffer.resize(length, 0.0);
+            }
         }
-        self.scratch.clear();
-        self.scratch.resize(n, 0.0);
+        if self.load.len() != stride {
+            self.load = vec![0.0; stride];
+            self.excursion = [vec![0.0; stride], vec![0.0; stride], vec![0.0; stride]];
+        }
+        self.x[..stride].fill(0.0);
+        self.v[..stride].fill(0.0);
         self.x[..n].copy_from_slice(x);
         self.v[..n].copy_from_slice(v);
-        for k in 0..=order {
-            let at = k * n;
+        match InstructionSet::in_use() {
+            // SAFETY: `in_use` returns only what this machine has.
+            #[cfg(target_arch = "x86_64")]
+            #[allow(unsafe_code)]
+            InstructionSet::Avx512 | InstructionSet::Avx2 => unsafe { form_avx2(self, model, regime, drive) },
+            _ => form_baseline(self, model, regime, drive),
+        }
+    }
+
+    /// Forms the orders above the first, with `N` lanes.
+    #[inline(always)]
+    fn form_lanes<const N: usize, const FUSED: bool>(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
+        let lanes = |values: &[f64]| values.first_chunk::<N>().copied().unwrap_or([0.0; N]);
+        let (tangent, inverse_mass) = (lanes(&regime.lanes.0), lanes(&regime.lanes.1));
+        let inside = lanes(&model.lanes.inside);
+        let (mut x, mut v) = (lanes(&self.x), lanes(&self.v));
+        let mut excursion = [[0.0; N]; 3];
+        for k in 0..=self.order {
             match k {
-                0 => self.scratch.copy_from_slice(&drive.load),
-                1 => self.scratch.iter_mut().zip(&drive.load_slope).for_each(|(s, slope)| *s = slope * h),
-                2 => self.scratch.fill(0.0),
+                0 => self.load[..self.storeys].copy_from_slice(&drive.load),
+                1 => self.load.iter_mut().zip(&drive.load_slope).for_each(|(load, slope)| *load = slope * self.h),
+                2 => self.load.fill(0.0),
+                _ => {}
+            }
+            let load = lanes(&self.load);
+            let mut shear = [0.0; N];
+            for l in 0..N {
+                shear[l] = tangent[l] * x[l];
+            }
+            for (column, &rate) in model.lanes.damping.chunks_exact(N).zip(&v) {
+                for l in 0..N {
+                    shear[l] = multiply_add::<FUSED>(column[l], rate, shear[l]);
+                }
+            }
+            let mut force = load;
+            if let Some(storey_damping) = model.lanes.storey_damping.first_chunk::<N>() {
+                let mut velocity = 0.0;
+                for l in 0..N {
+                    shear[l] = multiply_add::<FUSED>(storey_damping[l], v[l], shear[l]);
+                    velocity += v[l];
+                    force[l] -= model.lanes.floor_damping[l] * velocity;
+                }
+            }
+            let mut a = [0.0; N];
+            for l in 0..N - 1 {
+                a[l] = (shear[l + 1] - shear[l] + force[l]) * inverse_mass[l];
+            }
+            a[N - 1] = (force[N - 1] - shear[N - 1]) * inverse_mass[N - 1];
+            let at = k * N;
+            self.x[at..at + N].copy_from_slice(&x);
+            self.v[at..at + N].copy_from_slice(&v);
+            self.a[at..at + N].copy_from_slice(&a);
+            if k > 0 {
+                for l in 0..N {
+                    excursion[0][l] += x[l].abs();
+                    excursion[1][l] += v[l].abs();
+                    excursion[2][l] += a[l].abs();
+                }
+            }
+            let factor = self.h / (k + 1) as f64;
+            for l in 0..N {
+                x[l] = factor * v[l];
+            }
+            v[0] = factor * (a[0] - drive.ground_term(k, self.h));
+            for l in 1..N {
+                v[l] = factor * (a[l] - a[l - 1]) * inside[l];
+            }
+        }
+        for (kept, formed) in self.excursion.iter_mut().zip(&excursion) {
+            kept.copy_from_slice(formed);
+        }
+    }
+
+    /// Forms the orders above the first, for more storeys than lanes are compiled for.
+    fn form_any(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
+        let (n, stride) = (self.storeys, self.stride);
+        self.excursion.iter_mut().for_each(|sums| sums.fill(0.0));
+        for k in 0..=self.order {
+            let at = k * stride;
+            match k {
+                0 => self.load[..n].copy_from_slice(&drive.load),
+                1 => self.load.iter_mut().zip(&drive.load_slope).for_each(|(load, slope)| *load = slope * self.h),
+                2 => self.load.fill(0.0),
                 _ => {}
             }
             let (xk, vk) = (&self.x[at..at + n], &self.v[at..at + n]);
-            regime.accelerations(model, xk, vk, &self.scratch, &mut self.a[at..at + n]);
-            if k == order {
+            regime.accelerations(model, xk, vk, &self.load[..n], &mut self.a[at..at + n]);
+            if k > 0 {
+                for (sums, data) in self.excursion.iter_mut().zip([&self.x, &self.v, &self.a]) {
+                    sums.iter_mut().zip(&data[at..at + n]).for_each(|(sum, c)| *sum += c.abs());
+                }
+            }
+            if k == self.order {
                 break;
             }
-            let factor = h / (k + 1) as f64;
-            let mut below = match k {
-                0 => drive.ground,
-                1 => drive.ground_slope * h,
-                _ => 0.0,
-            };
-            let next = at + n;
+            let factor = self.h / (k + 1) as f64;
+            let mut below = drive.ground_term(k, self.h);
+            let next = at + stride;
             for i in 0..n {
                 let a = self.a[at + i];
                 self.v[next + i] = factor * (a - below);
@@ -98,7 +198,7 @@ impl Series {
     }
 
     fn column(&self, data: &[f64], i: usize) -> Polynomial {
-        Polynomial::new((0..=self.order).map(|k| data[k * self.storeys + i]))
+        Polynomial::new((0..=self.order).map(|k| data[k * self.stride + i]))
     }
 
     /// Drift coordinate of storey `i`.
@@ -116,36 +216,51 @@ impl Series {
         self.column(&self.a, i)
     }
 
-    fn bound(&self, data: &[f64], i: usize, from: usize) -> f64 {
-        (from..=self.order).map(|k| data[k * self.storeys + i].abs()).sum()
-    }
-
     /// Bounds |x - x(0)|.
     pub(crate) fn drift_excursion(&self, i: usize) -> f64 {
-        self.bound(&self.x, i, 1)
+        self.excursion[0][i]
     }
 
     /// Bounds |v - v(0)|.
     pub(crate) fn rate_excursion(&self, i: usize) -> f64 {
-        self.bound(&self.v, i, 1)
+        self.excursion[1][i]
     }
 
     /// Bounds |a - a(0)|.
     pub(crate) fn acceleration_excursion(&self, i: usize) -> f64 {
-        self.bound(&self.a, i, 1)
+        self.excursion[2][i]
     }
 
+    /// Sum of the coefficients from order `from` times powers of `s`.
     fn evaluate(&self, data: &[f64], s: f64, from: usize, out: &mut [f64]) {
-        let n = self.storeys;
-        out.fill(0.0);
-        for k in (from..=self.order).rev() {
-            for i in 0..n {
-                out[i] = out[i] * s + data[k * n + i];
+        match self.stride {
+            4 => self.evaluate_lanes::<4>(data, s, from, out),
+            8 => self.evaluate_lanes::<8>(data, s, from, out),
+            _ => {
+                for (block, out) in out.chunks_mut(16).enumerate() {
+                    let mut sums = [0.0; 16];
+                    for k in (from..=self.order).rev() {
+                        let at = k * self.stride + 16 * block;
+                        for (sum, c) in sums.iter_mut().zip(&data[at..]).take(out.len()) {
+                            *sum = *sum * s + c;
+                        }
+                    }
+                    let factor = if from == 1 { s } else { 1.0 };
+                    out.iter_mut().zip(&sums).for_each(|(o, sum)| *o = sum * factor);
+                }
             }
         }
-        if from == 1 {
-            out.iter_mut().for_each(|value| *value *= s);
+    }
+
+    fn evaluate_lanes<const N: usize>(&self, data: &[f64], s: f64, from: usize, out: &mut [f64]) {
+        let mut sums = [0.0; N];
+        for orders in data[from * N..(self.order + 1) * N].chunks_exact(N).rev() {
+            for l in 0..N {
+                sums[l] = sums[l] * s + orders[l];
+            }
         }
+        let factor = if from == 1 { s } else { 1.0 };
+        out.iter_mut().zip(&sums).for_each(|(o, sum)| *o = sum * factor);
     }
 
     /// Change of the drifts up to `s`.
@@ -163,3 +278,21 @@ impl Series {
         self.evaluate(&self.v, s, 0, out);
     }
 }
+
+macro_rules! form_for {
+    ($name:ident, $fused:literal $(, $feature:literal)?) => {
+        $(#[target_feature(enable = $feature)])?
+        fn $name(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) {
+            match series.stride {
+                4 => series.form_lanes::<4, $fused>(model, regime, drive),
+                8 => series.form_lanes::<8, $fused>(model, regime, drive),
+                16 => series.form_lanes::<16, $fused>(model, regime, drive),
+                _ => series.form_any(model, regime, drive),
+            }
+        }
+    };
+}
+
+form_for!(form_baseline, false);
+#[cfg(target_arch = "x86_64")]
+form_for!(form_avx2, true, "avx2,fma");
