@@ -442,7 +442,7 @@ def integrate_reference(
     stiffness_ratio: SupportsFloat | SupportsIndex | None = None,
 ) -> ReferenceRun:
     """
-    Integrate by steps: method is gauss, newmark, friction_springs or leapfrog, with `substeps` steps per sample interval.
+    Integrate by steps, `substeps` per sample interval: method is gauss, newmark, friction_springs or leapfrog.
 
     States of gauss and newmark switch at step ends, or where `event_tolerance` (over the step) is given, at the located
     events. Friction springs have `stiffness_ratio` times the stiffness of their storey.
