@@ -2,6 +2,7 @@
 # Nothing is installed outside this directory. Needs Python >= 3.11 and a Rust toolchain; says so where they are missing.
 
 VENV := .venv
+BENCH_VENV := .venv-bench
 PYTHON := $(VENV)/bin/python
 RUST_SOURCES := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
 DATA := $(shell find data -type f)
@@ -18,9 +19,9 @@ study: build
 
 test: lint docs test-wheel test-rust test-python
 
-bench: build
-	cargo bench --locked -p seismass
-	$(PYTHON) benchmarks/study.py
+bench: build $(BENCH_VENV)/made
+	$(BENCH_VENV)/bin/python benchmarks/study.py
+	$(BENCH_VENV)/bin/python benchmarks/work_precision.py $(BENCH_OPTIONS)
 
 lint: build
 	cargo fmt --all --check
@@ -46,7 +47,7 @@ docs:
 
 clean:
 	cargo clean
-	rm -rf $(VENV) out dist python/seismass/data .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(BENCH_VENV) out dist python/seismass/data .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	rm -f python/seismass/_kernel*.so python/seismass/_kernel*.pyd
 	find python tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
@@ -59,6 +60,10 @@ $(VENV)/created: tools/find-python
 $(VENV)/installed: $(VENV)/created pyproject.toml
 	$(PYTHON) -m pip install --quiet --upgrade 'pip>=25.1'
 	$(PYTHON) -m pip install --quiet --group dev
+	@touch $@
+
+$(BENCH_VENV)/made: tools/find-python tools/make-bench-env benchmarks/requirements.txt
+	sh tools/make-bench-env $(BENCH_VENV)
 	@touch $@
 
 # Python sources are used in place (an editable install), so that only Rust, the metadata or the data need a new build.

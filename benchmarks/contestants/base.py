@@ -78,4 +78,5 @@ def hermite_peaks(value: FloatArray, rate: FloatArray, dt: float) -> FloatArray:
         s = -m0 / (b + np.copysign(np.sqrt(b * b - a * m0), b))
         inside = y0 + s * (m0 + s * (b + s * a / 3.0))
     inside = np.where((s > 0.0) & (s < 1.0), np.abs(inside), 0.0)
-    return np.maximum(peaks, inside.max(axis=0))
+    larger: FloatArray = np.maximum(peaks, inside.max(axis=0))
+    return larger

@@ -1,7 +1,7 @@
 """The method a good engineer writes by hand: half-explicit leapfrog in numba.
 
-Friction is an impulse clipped to its limit, storey springs follow by return mapping, viscous forces take the velocity
-extrapolated to the end of the step; second order where nothing switches.
+Friction is an impulse clipped to its limit, and divided where a block reverses within the step; storey springs follow
+by return mapping; viscous forces take the velocity extrapolated to the end of the step.
 """
 
 from __future__ import annotations
@@ -37,6 +37,7 @@ def _leapfrog(
     peak_drift, peak_slip = np.zeros(n), np.zeros(n)
     d, p, s = np.zeros(n), np.zeros((n, 2)), np.zeros(n)
     v, before, w, force, end = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n + 1), np.zeros(n)
+    relative = np.zeros(n)
     length = 0.5 * h
     for i in range(samples - 1):
         for step in range(substeps):
@@ -52,10 +53,17 @@ def _leapfrog(
                 if block_mass[j] > 0.0:
                     w[j] -= length * a
                     limit = mu[j] * block_mass[j] * 9.80665 * length
-                    impulse = (w[j] - v[j]) / (1.0 / block_mass[j] + 1.0 / mass[j])
-                    impulse = min(max(impulse, -limit), limit)
+                    reduced = 1.0 / (1.0 / block_mass[j] + 1.0 / mass[j])
+                    present, impulse = reduced * relative[j], reduced * (w[j] - v[j])
+                    push = impulse - present
+                    arrives = present * (impulse - np.copysign(limit, present)) <= 0.0
+                    if not arrives:
+                        impulse = np.copysign(limit, present)
+                    elif abs(push) > limit:  # braked up to zero relative velocity, pushed from there on
+                        impulse = np.copysign(limit, push) * (1.0 - 2.0 * abs(present) / (abs(push) + limit))
                     v[j] += impulse / mass[j]
                     w[j] -= impulse / block_mass[j]
+                    relative[j] = 0.0 if arrives and abs(push) <= limit else w[j] - v[j]
             if length < h:  # from rest: the velocity before t = 0 mirrors that after
                 length = h
                 for j in range(n):

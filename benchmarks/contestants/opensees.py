@@ -1,8 +1,8 @@
 """OpenSees through openseespy, modelled as its users would, and with the damping matrix of the scene.
 
-Storeys are elastic-perfectly-plastic springs in parallel; linear dashpots between every pair of floors and to the ground
-reproduce the damping matrix. Friction is a stiff elastic-plastic spring or the material CoulombDamper. Peaks are the
-envelopes of the elements over all steps.
+Storeys are elastic-perfectly-plastic springs in parallel; linear dashpots between every pair of floors and to the
+ground reproduce the damping matrix. Friction is a stiff elastic-plastic spring or the material CoulombDamper. Peaks are
+the envelopes of the elements over all steps.
 """
 
 from __future__ import annotations
@@ -216,7 +216,9 @@ def settings() -> list[Setting]:
         _setting(spring, "1e5 k, dt / 50", Recipe(1e5, 50), MAIN),
         _setting(coulomb, "dt", Recipe(None, 1, **newton), quick=True),
         _setting(coulomb, "dt / 5", Recipe(None, 5, **newton)),
-        _setting(coulomb, "dt / 50", Recipe(None, 50, **newton), MAIN),
+        _setting(coulomb, "dt / 20", Recipe(None, 20, **newton)),
+        _setting(coulomb, "dt / 100", Recipe(None, 100, **newton), MAIN),
         _setting(central, "1e4 k, dt / 10", Recipe(1e4, 10, **explicit), ("section4-0.05", "section4-0.5", "study-3")),
+        _setting(central, "1e5 k, dt / 50", Recipe(1e5, 50, **explicit), MAIN),
         _setting(modal, "1e4 k, dt / 10", Recipe(1e4, 10, modal_damping=True, ladder=True), MAIN),
     ]

@@ -22,6 +22,10 @@ LENGTH: Final = 1e-3
 """Absolute tolerance over the relative one (m, m/s)."""
 
 
+def _line(t: float, start: float, value: float, slope: float) -> float:
+    return value + slope * (t - start)
+
+
 def _event(guard: Guard) -> Callable[[float, FloatArray], float]:
     def value(t: float, x: FloatArray) -> float:
         return float(guard.row @ x + guard.offset)
@@ -67,7 +71,7 @@ class _Run:
             if not result.success and result.status != 1:
                 raise Failed(result.message)
             if len(result.t):
-                first = int(round(inside[0] / self.plain.dt))
+                first = round(inside[0] / self.plain.dt)
                 self.samples[first : first + result.y.shape[1]] = result.y.T
             if result.status == 0:
                 machine.x = result.y[:, -1].copy()
@@ -89,8 +93,7 @@ def integrate(bench: BenchmarkScene, tolerance: float, *, at_samples: bool) -> O
     if at_samples:
         for i, (start, end) in enumerate(zip(run.times[:-1], run.times[1:], strict=True)):
             low, high = run.plain.acceleration[i : i + 2]
-            slope = (high - low) / run.plain.dt
-            run.advance(start, end, lambda t, low=low, slope=slope, start=start: low + slope * (t - start))
+            run.advance(start, end, partial(_line, start=start, value=low, slope=(high - low) / run.plain.dt))
     else:
         run.advance(0.0, float(run.times[-1]), run.ground, steps=run.plain.dt)
     floors = list(run.plain.floors)

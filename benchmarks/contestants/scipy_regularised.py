@@ -26,6 +26,8 @@ except ImportError:
 LENGTH: Final = 1e-3
 """Absolute tolerances are the relative one times this displacement (m), or what it means as velocity or force."""
 VELOCITY: Final = 1e-2
+MAX_EVALUATIONS: Final = 4_000_000
+"""Evaluations of the right-hand side after which a run is given up: it chatters about a switch."""
 
 
 def _right_hand_side(
@@ -81,6 +83,20 @@ def _jacobian(t: float, y: FloatArray, *arguments: Any, scales: FloatArray) -> F
     return np.stack(columns, axis=1)
 
 
+class _Counted:
+    """The right-hand side, for so many evaluations."""
+
+    def __init__(self) -> None:
+        self.evaluations = 0
+
+    def __call__(self, t: float, y: FloatArray, *arguments: Any) -> FloatArray:
+        self.evaluations += 1
+        if self.evaluations > MAX_EVALUATIONS:
+            raise Failed(f"{MAX_EVALUATIONS:.0e} evaluations at t = {t:.3f} s")
+        derivative: FloatArray = _compiled(t, y, *arguments)
+        return derivative
+
+
 def integrate(bench: BenchmarkScene, method: str, width: float, tolerance: float) -> Outcome:
     """Integrate with one method, width (m/s) and relative tolerance."""
     if solve_ivp is None:
@@ -92,7 +108,7 @@ def integrate(bench: BenchmarkScene, method: str, width: float, tolerance: float
     scales = np.repeat([LENGTH, VELOCITY, force, force, LENGTH, VELOCITY], n)
     newton = {"jac": partial(_jacobian, scales=scales)} if method == "Radau" else {}
     result = solve_ivp(
-        _compiled,
+        _Counted(),
         (0.0, times[-1]),
         np.zeros(6 * n),
         method=method,

@@ -1,0 +1,39 @@
+"""What the measurements depend on: the machine and the versions, and what is missing."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import platform
+import re
+from pathlib import Path
+from typing import Final
+
+import seismass
+
+PACKAGES: Final = ("numpy", "numba", "scipy", "openseespy", "heyoka", "polars")
+
+
+def cpu() -> str:
+    """Return the name of the processor, and the number of its cores that this process may use."""
+    info = Path("/proc/cpuinfo")
+    found = re.search(r"model name\s*:\s*(.+)", info.read_text()) if info.exists() else None
+    name = found.group(1).strip() if found else platform.processor() or platform.machine()
+    return f"{name}, {os.cpu_count()} cores"
+
+
+def versions() -> dict[str, str]:
+    """Return the version of Python and of each package, or "absent"."""
+    found = {"seismass": seismass.__version__, "Python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            found[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            found[package] = "absent"
+    return found
+
+
+def summary() -> str:
+    """Return both in one line, and how busy the machine is besides."""
+    load = f" (load before: {os.getloadavg()[0]:.1f})" if hasattr(os, "getloadavg") else ""
+    return f"{cpu()}{load}; " + ", ".join(f"{name} {version}" for name, version in versions().items())

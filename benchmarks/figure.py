@@ -1,0 +1,89 @@
+"""The figures: time against error, log-log; one panel for the README, all scenes for the page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Final
+
+import matplotlib as mpl
+import polars as pl
+from matplotlib.figure import Figure
+
+from front import points
+from scenes import BenchmarkScene
+
+mpl.use("Agg")
+
+STYLES: Final[tuple[tuple[str, str, str, str], ...]] = (
+    ("seismass, exact", "#D55E00", "*", "-"),
+    ("leapfrog, Rust", "#0072B2", "o", "-"),
+    ("leapfrog, numba", "#0072B2", "s", "--"),
+    ("Gauss-Legendre 4, located", "#009E73", "^", "-"),
+    ("Gauss-Legendre 4", "#009E73", "v", ":"),
+    ("Newmark, located", "#CC79A7", "^", "-"),
+    ("Newmark", "#CC79A7", "v", ":"),
+    ("Newmark, friction spring", "#CC79A7", "x", ""),
+    ("OpenSees, friction spring", "#E69F00", "o", "-"),
+    ("OpenSees, CoulombDamper", "#E69F00", "s", "--"),
+    ("OpenSees, central difference", "#E69F00", "^", ""),
+    ("OpenSees, modalDamping", "#E69F00", "x", ""),
+    ("SciPy DOP853, events and samples", "#56B4E9", "o", "-"),
+    ("SciPy DOP853, events", "#56B4E9", "s", "--"),
+    ("SciPy DOP853, tanh friction", "#8C8C8C", "o", ":"),
+    ("SciPy Radau, tanh friction", "#8C8C8C", "s", ":"),
+    ("SciPy LSODA, tanh friction", "#8C8C8C", "^", ":"),
+    ("heyoka, events and samples", "#222222", "D", "-"),
+)
+"""Family, colour, marker, line."""
+LABEL: Final = "largest error of the drift history / peak drift"
+
+
+def _panel(axes: Any, table: pl.DataFrame, scene: str) -> None:
+    for family, colour, marker, line in STYLES:
+        found = points(table, scene, "drift_error", [family])
+        if found:
+            errors, times = zip(*found, strict=True)
+            axes.loglog(
+                times,
+                errors,
+                color=colour,
+                marker=marker,
+                linestyle=line or "none",
+                markersize=13 if marker == "*" else 5,
+                markerfacecolor="none" if line in ("--", ":") else colour,
+                linewidth=1.2,
+                zorder=5 if marker == "*" else 2,
+                label=family,
+            )
+    axes.grid(visible=True, which="major", linewidth=0.4, alpha=0.5)
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def main_figure(table: pl.DataFrame, bench: BenchmarkScene, path: Path) -> None:
+    """Draw the scene of the README."""
+    figure = Figure(figsize=(8.6, 5.2), layout="constrained")
+    axes = figure.subplots()
+    _panel(axes, table, bench.name)
+    axes.set_xlabel("time of one run (s)")
+    axes.set_ylabel(LABEL)
+    axes.set_title(f"{bench.title}; {bench.motion_name}, {bench.motion.duration:.0f} s", fontsize=10, loc="left")
+    figure.legend(loc="outside right center", fontsize=7.5, frameon=False)
+    figure.savefig(path, dpi=160)
+
+
+def scenes_figure(table: pl.DataFrame, benches: list[BenchmarkScene], path: Path) -> None:
+    """Draw every scene."""
+    columns = 2
+    rows = -(-(len(benches) + 1) // columns)
+    figure = Figure(figsize=(9.5, 3.1 * rows), layout="constrained")
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True).ravel()
+    for axes, bench in zip(grid, benches, strict=False):
+        _panel(axes, table, bench.name)
+        axes.set_title(bench.title, fontsize=9, loc="left")
+    handles = {label: handle for axes in grid for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)}
+    for axes in grid[len(benches) :]:
+        axes.axis("off")
+    grid[-1].legend(handles.values(), handles.keys(), loc="center", fontsize=7, frameon=False, ncols=2)
+    figure.supxlabel("time of one run (s)", fontsize=10)
+    figure.supylabel(LABEL, fontsize=10)
+    figure.savefig(path, dpi=130)
