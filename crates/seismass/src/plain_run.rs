@@ -5,9 +5,9 @@
 //! h^4 / 384 times its largest fourth derivative, which the regime bounds. Storeys are lanes of fixed-size arrays, so
 //! that the compiler makes vectors of them; the widest vectors of the machine are chosen at run time.
 
+use crate::STANDARD_GRAVITY;
 use crate::lanes::{InstructionSet, MAX_LANES, multiply_add, padded};
 use crate::observe::Observer;
-use crate::propagator::Propagator;
 use crate::regime::Regime;
 use crate::scene::Motion;
 use crate::state::State;
@@ -22,21 +22,54 @@ struct Sliding {
     slip: f64,
 }
 
+/// Rows (dx, dv, a, j) of a column of the step.
+type Column<const N: usize> = [[f64; N]; 4];
+
 /// What a run of plain steps reads.
-struct Course<'a> {
+struct Course<'a, const N: usize> {
     regime: &'a Regime,
-    propagator: &'a Propagator,
-    ground: &'a [f64],
-    vertical: Option<&'a [f64]>,
     h: f64,
+    /// Columns of the step: of each drift, of each drift rate, of the ground acceleration and of its change.
+    of_drift: &'a [Column<N>],
+    of_rate: &'a [Column<N>],
+    of_ground: &'a Column<N>,
+    of_change: &'a Column<N>,
     /// Effect of constant floor loads; with vertical motion, of friction at unit contact force and at a unit ramp.
-    constant: &'a [f64],
-    friction: &'a [f64],
-    friction_ramp: &'a [f64],
-    /// Contact force per unit mass without vertical motion.
-    gravity: f64,
+    constant: &'a Column<N>,
+    friction: &'a Column<N>,
+    friction_ramp: &'a Column<N>,
+    is_vertical: bool,
     /// Smallest mu_s of the blocks stuck to the ground.
     ground_mu: f64,
+}
+
+impl<'a, const N: usize> Course<'a, N> {
+    /// None where the regime has no propagator of this width.
+    fn new(state: &'a State, h: f64) -> Option<Self> {
+        let regime = state.regime();
+        let propagator = regime.propagator.as_deref()?;
+        let (of_drift, of_rate) = columns(propagator.state_columns()).split_at_checked(state.storeys())?;
+        let (of_ground, of_change) = propagator.motion_columns();
+        let first = |values: &'a [f64]| columns(values).first();
+        Some(Self {
+            regime,
+            h,
+            of_drift,
+            of_rate,
+            of_ground: first(of_ground)?,
+            of_change: first(of_change)?,
+            constant: first(&state.effects.constant)?,
+            friction: first(&state.effects.friction)?,
+            friction_ramp: first(&state.effects.friction_ramp)?,
+            is_vertical: state.vertical,
+            ground_mu: state.stuck_mu[0],
+        })
+    }
+}
+
+/// Values as columns of four rows of lanes.
+fn columns<const N: usize>(values: &[f64]) -> &[Column<N>] {
+    values.as_chunks::<N>().0.as_chunks::<4>().0
 }
 
 /// State and bounds of the storeys in lanes; lanes beyond the last storey hold zeros and no bounds.
@@ -160,16 +193,11 @@ impl<const N: usize> Lanes<N> {
         state.drift_acceleration.copy_from_slice(&self.q[..n]);
     }
 
-    /// Forms the step over interval `i`.
+    /// Forms the step over an interval, whose samples are given.
     #[inline(always)]
-    fn step<const FUSED: bool>(&self, course: &Course, i: usize) -> Step<N> {
+    fn step<const FUSED: bool>(&self, course: &Course<N>, ground: (f64, f64), contact: (f64, f64)) -> Step<N> {
         let h = course.h;
-        let (ground, end) = (course.ground[i], course.ground[i + 1]);
-        let change = end - ground;
-        let contact = match course.vertical {
-            Some(vertical) => (course.gravity + vertical[i], course.gravity + vertical[i + 1]),
-            None => (course.gravity, course.gravity),
-        };
+        let change = ground.1 - ground.0;
         let slope = change / h;
         let mut square = [0.0; N];
         for l in 0..N {
@@ -177,30 +205,26 @@ impl<const N: usize> Lanes<N> {
             square[l] = multiply_add::<FUSED>(self.mass[l] * jerk, jerk, self.tangent[l] * self.q[l] * self.q[l]);
         }
         let liveliness = course.regime.liveliness_of(square.iter().sum::<f64>(), h);
-        let mut rows = [[0.0; N]; 4];
-        let columns = course.propagator.motion_columns();
-        for (r, row) in rows.iter_mut().enumerate() {
+        let mut rows = *course.constant;
+        for (row, (of_ground, of_change)) in rows.iter_mut().zip(course.of_ground.iter().zip(course.of_change)) {
             for l in 0..N {
-                let at = r * N + l;
-                let effect = multiply_add::<FUSED>(columns.0[at], ground, course.constant[at]);
-                row[l] = multiply_add::<FUSED>(columns.1[at], change, effect);
+                row[l] = multiply_add::<FUSED>(of_ground[l], ground.0, row[l]);
+                row[l] = multiply_add::<FUSED>(of_change[l], change, row[l]);
             }
         }
-        if course.vertical.is_some() {
-            for (r, row) in rows.iter_mut().enumerate() {
+        if course.is_vertical {
+            for (row, (friction, ramp)) in rows.iter_mut().zip(course.friction.iter().zip(course.friction_ramp)) {
                 for l in 0..N {
-                    let at = r * N + l;
-                    row[l] += course.friction[at] * contact.0 + course.friction_ramp[at] * (contact.1 - contact.0);
+                    row[l] += friction[l] * contact.0 + ramp[l] * (contact.1 - contact.0);
                 }
             }
         }
-        let state_columns = course.propagator.state_columns();
-        let storeys = state_columns.len() / (8 * N);
-        for (position, column) in state_columns.chunks_exact(4 * N).enumerate() {
-            let weight = if position < storeys { self.x[position] } else { self.v[position - storeys] };
-            for (r, row) in rows.iter_mut().enumerate() {
-                for l in 0..N {
-                    row[l] = multiply_add::<FUSED>(column[r * N + l], weight, row[l]);
+        for (columns, weights) in [(course.of_drift, &self.x), (course.of_rate, &self.v)] {
+            for (column, &weight) in columns.iter().zip(weights) {
+                for (row, entries) in rows.iter_mut().zip(column) {
+                    for l in 0..N {
+                        row[l] = multiply_add::<FUSED>(entries[l], weight, row[l]);
+                    }
                 }
             }
         }
@@ -210,16 +234,16 @@ impl<const N: usize> Lanes<N> {
             x[l] += dx[l];
             v[l] += dv[l];
         }
-        q[0] -= end;
+        q[0] -= ground.1;
         for l in 1..N {
             q[l] -= a[l - 1];
         }
-        Step { x, v, a, jerk, q, ground: (ground, end), contact, liveliness }
+        Step { x, v, a, jerk, q, ground, contact, liveliness }
     }
 
     /// How far the step is from being plain: negative when all storeys and floors are clear of guards and peaks.
     #[inline(always)]
-    fn nearest(&self, step: &Step<N>, course: &Course, remainder: f64) -> f64 {
+    fn nearest(&self, step: &Step<N>, course: &Course<N>, remainder: f64) -> f64 {
         let third = course.h / 3.0;
         let contact = smaller(step.contact.0, step.contact.1);
         let mut nearest = [f64::NEG_INFINITY; N];
@@ -239,7 +263,7 @@ impl<const N: usize> Lanes<N> {
     }
 
     /// Whether all guards are clear, and peaks that may be beaten are beaten at the end of the step.
-    fn is_clear_but_for_peaks(&self, step: &Step<N>, course: &Course, state: &State) -> bool {
+    fn is_clear_but_for_peaks(&self, step: &Step<N>, course: &Course<N>, state: &State) -> bool {
         let third = course.h / 3.0;
         let remainder = remainder(step, course);
         let contact = step.contact.0.min(step.contact.1);
@@ -273,7 +297,7 @@ impl<const N: usize> Lanes<N> {
 
 /// h^4 / 384 times the liveliness: what a fourth derivative's bound is multiplied with.
 #[inline(always)]
-fn remainder<const N: usize>(step: &Step<N>, course: &Course) -> f64 {
+fn remainder<const N: usize>(step: &Step<N>, course: &Course<N>) -> f64 {
     let h2 = course.h * course.h;
     step.liveliness * (h2 * h2 / 384.0)
 }
@@ -283,13 +307,13 @@ fn remainder<const N: usize>(step: &Step<N>, course: &Course) -> f64 {
 fn move_blocks<const N: usize>(
     lanes: &Lanes<N>,
     step: &Step<N>,
-    course: &Course,
+    course: &Course<N>,
     remainder: f64,
     sliding: &mut [Sliding],
     moved: &mut [(f64, f64)],
 ) -> bool {
     let (ground, contact, h) = (step.ground, step.contact, course.h);
-    if course.vertical.is_some() && !(contact.0 > 0.0 && contact.1 > 0.0) {
+    if course.is_vertical && !(contact.0 > 0.0 && contact.1 > 0.0) {
         return false;
     }
     if course.ground_mu.is_finite()
@@ -358,44 +382,36 @@ fn run_lanes<const N: usize, const FUSED: bool>(
     }
     let mut moved = vec![(0.0, 0.0); sliding.len()];
     let watches_blocks = !sliding.is_empty() || state.stuck_mu[0].is_finite() || state.vertical;
+    let Some(course) = Course::<N>::new(state, motion.dt()) else { return first };
+    let samples = motion.acceleration();
+    let gravity = (STANDARD_GRAVITY, STANDARD_GRAVITY);
     let mut i = first;
-    {
-        let regime = state.cache.regime(state.regime);
-        let Some(propagator) = regime.propagator.as_deref() else { return first };
-        let course = Course {
-            regime,
-            propagator,
-            ground: motion.acceleration(),
-            vertical: motion.vertical().filter(|_| state.vertical),
-            h: motion.dt(),
-            constant: &state.effects.constant,
-            friction: &state.effects.friction,
-            friction_ramp: &state.effects.friction_ramp,
-            gravity: crate::STANDARD_GRAVITY,
-            ground_mu: state.stuck_mu[0],
+    for (pair, i_next) in samples[first..=end].windows(2).zip(first + 1..) {
+        let contact = match motion.vertical() {
+            Some(vertical) if course.is_vertical => (gravity.0 + vertical[i], gravity.1 + vertical[i_next]),
+            _ => gravity,
         };
-        while i < end {
-            let step = lanes.step::<FUSED>(&course, i);
-            let remainder = remainder(&step, &course);
-            let plain = lanes.nearest(&step, &course, remainder) < 0.0 && remainder.is_finite();
-            if !plain && !(remainder.is_finite() && lanes.is_clear_but_for_peaks(&step, &course, state)) {
-                break;
+        let step = lanes.step::<FUSED>(&course, (pair[0], pair[1]), contact);
+        let remainder = remainder(&step, &course);
+        let plain = lanes.nearest(&step, &course, remainder) < 0.0 && remainder.is_finite();
+        if !(plain || remainder.is_finite() && lanes.is_clear_but_for_peaks(&step, &course, state)) {
+            break;
+        }
+        if watches_blocks && !move_blocks(&lanes, &step, &course, remainder, &mut sliding, &mut moved) {
+            break;
+        }
+        lanes.take(&step);
+        i = i_next;
+        if !plain {
+            let time = i as f64 * course.h;
+            for l in 0..state.storeys() {
+                observer.take_floor(state, l, lanes.x[l], lanes.a[l], time);
+                lanes.set_bounds(l, state, observer);
             }
-            if watches_blocks && !move_blocks(&lanes, &step, &course, remainder, &mut sliding, &mut moved) {
-                break;
-            }
-            lanes.take(&step);
-            i += 1;
-            if !plain {
-                let time = i as f64 * course.h;
-                for l in 0..state.storeys() {
-                    observer.take_floor(state, l, lanes.x[l], lanes.a[l], time);
-                    lanes.set_bounds(l, state, observer);
-                }
-            }
-            if course.vertical.is_some() && i < end {
-                break;
-            }
+        }
+        if course.is_vertical {
+            // The slope of the contact force turns at the sample, and the rates of the accelerations with it.
+            break;
         }
     }
     if i > first {
@@ -467,7 +483,7 @@ impl State<'_> {
             propagator.of_ramp(&self.friction, &mut effects.friction_ramp);
         } else {
             for (constant, friction) in effects.constant.iter_mut().zip(&effects.friction) {
-                *constant += friction * crate::STANDARD_GRAVITY;
+                *constant += friction * STANDARD_GRAVITY;
             }
         }
         effects.valid = true;

@@ -31,6 +31,56 @@ pub(crate) struct Propagator {
     ground_ramp: Vec<f64>,
 }
 
+/// What a column of the step is the effect of, all else being zero.
+#[derive(Clone, Copy)]
+enum Cause {
+    Drift(usize),
+    DriftRate(usize),
+    Load(usize),
+    /// A floor load that grows from zero by one per second.
+    Ramp(usize),
+    Ground,
+    /// A ground acceleration that grows from zero by one per second.
+    GroundRamp,
+}
+
+/// Forms the series of columns.
+struct Columns<'a> {
+    model: &'a Model,
+    regime: &'a Regime,
+    series: Series,
+    x: Vec<f64>,
+    v: Vec<f64>,
+    drive: Drive,
+}
+
+impl<'a> Columns<'a> {
+    fn new(model: &'a Model, regime: &'a Regime) -> Self {
+        let zero = vec![0.0; model.storeys()];
+        let drive = Drive { load: zero.clone(), load_slope: zero.clone(), ..Drive::default() };
+        Self { model, regime, series: Series::default(), x: zero.clone(), v: zero, drive }
+    }
+
+    /// The series of a column over `h`.
+    fn form(&mut self, cause: Cause, h: f64) -> &Series {
+        self.set(cause, 1.0);
+        self.series.form(self.model, self.regime, &self.x, &self.v, &self.drive, h);
+        self.set(cause, 0.0);
+        &self.series
+    }
+
+    fn set(&mut self, cause: Cause, value: f64) {
+        match cause {
+            Cause::Drift(i) => self.x[i] = value,
+            Cause::DriftRate(i) => self.v[i] = value,
+            Cause::Load(i) => self.drive.load[i] = value,
+            Cause::Ramp(i) => self.drive.load_slope[i] = value,
+            Cause::Ground => self.drive.ground = value,
+            Cause::GroundRamp => self.drive.ground_slope = value,
+        }
+    }
+}
+
 /// Changes of the state (x, v) over a step as an affine map; slopes are per second.
 struct Step {
     state: DMatrix<f64>,
@@ -41,34 +91,26 @@ struct Step {
 }
 
 impl Step {
-    fn by_series(model: &Model, regime: &Regime, h: f64) -> Self {
-        let n = model.storeys();
-        let mut series = Series::default();
-        let zero = vec![0.0; n];
-        let mut column = |x: &[f64], v: &[f64], drive: &Drive| {
-            series.form(model, regime, x, v, drive, h);
-            let mut out = vec![0.0; 2 * n];
-            let (dx, dv) = out.split_at_mut(n);
+    fn by_series(columns: &mut Columns, h: f64) -> Self {
+        let n = columns.model.storeys();
+        let mut column = |cause: Cause| {
+            let series = columns.form(cause, h);
+            let mut out = DVector::zeros(2 * n);
+            let (dx, dv) = out.as_mut_slice().split_at_mut(n);
             series.drift_changes(1.0, dx);
             series.rate_changes(1.0, dv);
-            DVector::from_vec(out)
+            out
         };
-        let unit = |i: usize| {
-            let mut e = zero.clone();
-            e[i] = 1.0;
-            e
-        };
-        let rest = Drive { load: zero.clone(), load_slope: zero.clone(), ..Drive::default() };
-        let columns = |vectors: Vec<DVector<f64>>| {
-            if vectors.is_empty() { DMatrix::zeros(2 * n, 0) } else { DMatrix::from_columns(&vectors) }
-        };
-        let mut state: Vec<_> = (0..n).map(|i| column(&unit(i), &zero, &rest)).collect();
-        state.extend((0..n).map(|i| column(&zero, &unit(i), &rest)));
-        let load = (0..n).map(|i| column(&zero, &zero, &Drive { load: unit(i), ..rest.clone() })).collect();
-        let ramp = (0..n).map(|i| column(&zero, &zero, &Drive { load_slope: unit(i), ..rest.clone() })).collect();
-        let ground = column(&zero, &zero, &Drive { ground: 1.0, ..rest.clone() });
-        let ground_ramp = column(&zero, &zero, &Drive { ground_slope: 1.0, ..rest.clone() });
-        Self { state: columns(state), load: columns(load), ramp: columns(ramp), ground, ground_ramp }
+        let state: Vec<_> = (0..n).map(Cause::Drift).chain((0..n).map(Cause::DriftRate)).map(&mut column).collect();
+        let load: Vec<_> = (0..n).map(|i| column(Cause::Load(i))).collect();
+        let ramp: Vec<_> = (0..n).map(|i| column(Cause::Ramp(i))).collect();
+        Self {
+            state: DMatrix::from_columns(&state),
+            load: DMatrix::from_columns(&load),
+            ramp: DMatrix::from_columns(&ramp),
+            ground: column(Cause::Ground),
+            ground_ramp: column(Cause::GroundRamp),
+        }
     }
 
     /// The step taken twice; `h` is its length.
@@ -82,61 +124,60 @@ impl Step {
             ground_ramp: &self.ground_ramp * 2.0 + state * &self.ground_ramp + &self.ground * h,
         }
     }
+
+    /// Change of the state in the column of a cause.
+    fn change(&self, cause: Cause) -> &[f64] {
+        let rows = self.ground.len();
+        let column = |matrix: &'_ DMatrix<f64>, i: usize| rows * i..rows * (i + 1).min(matrix.ncols());
+        match cause {
+            Cause::Drift(i) => &self.state.as_slice()[column(&self.state, i)],
+            Cause::DriftRate(i) => &self.state.as_slice()[column(&self.state, rows / 2 + i)],
+            Cause::Load(i) => &self.load.as_slice()[column(&self.load, i)],
+            Cause::Ramp(i) => &self.ramp.as_slice()[column(&self.ramp, i)],
+            Cause::Ground => self.ground.as_slice(),
+            Cause::GroundRamp => self.ground_ramp.as_slice(),
+        }
+    }
 }
 
 impl Propagator {
+    /// The step of a regime over `dt`, by one series where it converges fast enough, else by halving.
     fn new(model: &Model, regime: &Regime, dt: f64) -> Self {
         let n = model.storeys();
-        let mut halvings = 0;
-        while regime.frequency * dt > MAX_PHASE * f64::powi(2.0, halvings) {
-            halvings += 1;
-        }
-        let mut h = dt * f64::powi(2.0, -halvings);
-        let mut step = Step::by_series(model, regime, h);
-        for _ in 0..halvings {
-            step = step.doubled(h);
-            h *= 2.0;
-        }
-        let lanes = padded(n);
-        let rows = 4 * lanes;
-        let zero = vec![0.0; n];
-        // Rows a and j of a column from the state at the end of the interval and the loads there.
-        let finish = |change: &[f64], start: &[f64], load: &[f64], slope: &[f64], ground: f64, out: &mut Vec<f64>| {
-            let end: Vec<f64> = change.iter().zip(start).map(|(c, s)| c + s).collect();
-            let (x, v) = end.split_at(n);
-            let (mut a, mut drift_acceleration, mut jerk) = (zero.clone(), zero.clone(), zero.clone());
-            regime.accelerations(model, x, v, load, &mut a);
-            let mut below = ground;
-            for i in 0..n {
-                drift_acceleration[i] = a[i] - below;
-                below = a[i];
+        let mut columns = Columns::new(model, regime);
+        let composed = (regime.frequency * dt > MAX_PHASE).then(|| {
+            let halvings = (regime.frequency * dt / MAX_PHASE).log2().ceil();
+            let mut h = dt * (-halvings).exp2();
+            let mut step = Step::by_series(&mut columns, h);
+            for _ in 0..halvings as usize {
+                step = step.doubled(h);
+                h *= 2.0;
             }
-            regime.accelerations(model, v, &drift_acceleration, slope, &mut jerk);
-            for part in [&change[..n], &change[n..], &a, &jerk] {
-                out.extend_from_slice(part);
-                out.extend(std::iter::repeat_n(0.0, lanes - n));
+            step
+        });
+        let mut gather = |causes: &mut dyn Iterator<Item = Cause>| {
+            let mut out = Vec::new();
+            for cause in causes {
+                match &composed {
+                    None => columns.form(cause, dt).push_rows_at_end(&mut out),
+                    Some(step) => push_rows_of_change(model, regime, cause, step.change(cause), dt, &mut out),
+                }
+                if matches!(cause, Cause::Ramp(_) | Cause::GroundRamp) {
+                    // Per interval instead of per second.
+                    let from = out.len() - 4 * padded(n);
+                    out[from..].iter_mut().for_each(|entry| *entry /= dt);
+                }
             }
+            out
         };
-        let at_rest = vec![0.0; 2 * n];
-        let unit = |length: usize, i: usize, value: f64| {
-            let mut e = vec![0.0; length];
-            e[i] = value;
-            e
-        };
-        let (mut state, mut load, mut ramp) = (Vec::new(), Vec::new(), Vec::new());
-        for i in 0..2 * n {
-            finish(step.state.column(i).as_slice(), &unit(2 * n, i, 1.0), &zero, &zero, 0.0, &mut state);
+        Self {
+            rows: 4 * padded(n),
+            state: gather(&mut (0..n).map(Cause::Drift).chain((0..n).map(Cause::DriftRate))),
+            load: gather(&mut (0..n).map(Cause::Load)),
+            ramp: gather(&mut (0..n).map(Cause::Ramp)),
+            ground: gather(&mut std::iter::once(Cause::Ground)),
+            ground_ramp: gather(&mut std::iter::once(Cause::GroundRamp)),
         }
-        for i in 0..n {
-            finish(step.load.column(i).as_slice(), &at_rest, &unit(n, i, 1.0), &zero, 0.0, &mut load);
-            let change: Vec<f64> = step.ramp.column(i).iter().map(|c| c / dt).collect();
-            finish(&change, &at_rest, &unit(n, i, 1.0), &unit(n, i, 1.0 / dt), 0.0, &mut ramp);
-        }
-        let (mut ground, mut ground_ramp) = (Vec::new(), Vec::new());
-        finish(step.ground.as_slice(), &at_rest, &zero, &zero, 1.0, &mut ground);
-        let change: Vec<f64> = step.ground_ramp.iter().map(|c| c / dt).collect();
-        finish(&change, &at_rest, &zero, &zero, 1.0, &mut ground_ramp);
-        Self { rows, state, load, ramp, ground, ground_ramp }
     }
 
     fn bytes(&self) -> usize {
@@ -173,6 +214,30 @@ impl Propagator {
     #[inline]
     pub(crate) fn motion_columns(&self) -> (&[f64], &[f64]) {
         (&self.ground, &self.ground_ramp)
+    }
+}
+
+/// Appends the rows (dx, dv, a, j) of a column from the change of the state over `h`.
+fn push_rows_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64], h: f64, out: &mut Vec<f64>) {
+    let n = model.storeys();
+    let (mut x, mut v) = (change[..n].to_vec(), change[n..].to_vec());
+    let (mut load, mut slope, mut ground) = (vec![0.0; n], vec![0.0; n], 0.0);
+    match cause {
+        Cause::Drift(i) => x[i] += 1.0,
+        Cause::DriftRate(i) => v[i] += 1.0,
+        Cause::Load(i) => load[i] = 1.0,
+        Cause::Ramp(i) => (load[i], slope[i]) = (h, 1.0),
+        Cause::Ground => ground = 1.0,
+        Cause::GroundRamp => ground = h,
+    }
+    let (mut a, mut jerk) = (vec![0.0; n], vec![0.0; n]);
+    regime.accelerations(model, &x, &v, &load, &mut a);
+    let mut below = ground;
+    let drift_acceleration: Vec<f64> = a.iter().map(|&a| a - std::mem::replace(&mut below, a)).collect();
+    regime.accelerations(model, &v, &drift_acceleration, &slope, &mut jerk);
+    for part in [&change[..n], &change[n..], &a, &jerk] {
+        out.extend_from_slice(part);
+        out.extend(std::iter::repeat_n(0.0, padded(n) - n));
     }
 }
 

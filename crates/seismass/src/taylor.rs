@@ -273,6 +273,28 @@ impl Series {
         self.evaluate(&self.v, s, 1, out);
     }
 
+    /// Appends rows, padded to whole vectors: changes of drifts and drift rates over the step, floor accelerations and
+    /// their rates at its end.
+    pub(crate) fn push_rows_at_end(&self, out: &mut Vec<f64>) {
+        let from = out.len();
+        out.resize(from + 4 * self.stride, 0.0);
+        let (change, rest) = out[from..].split_at_mut(2 * self.stride);
+        let (dx, dv) = change.split_at_mut(self.stride);
+        let (a, jerk) = rest.split_at_mut(self.stride);
+        for k in (0..=self.order).rev() {
+            let at = k * self.stride;
+            for i in 0..self.storeys {
+                if k > 0 {
+                    dx[i] += self.x[at + i];
+                    dv[i] += self.v[at + i];
+                    jerk[i] += k as f64 * self.a[at + i];
+                }
+                a[i] += self.a[at + i];
+            }
+        }
+        jerk.iter_mut().for_each(|j| *j /= self.h);
+    }
+
     /// Drift rates at `s`.
     pub(crate) fn rates(&self, s: f64, out: &mut [f64]) {
         self.evaluate(&self.v, s, 0, out);
