@@ -27,6 +27,7 @@ mod record;
 mod series;
 mod solve;
 mod state;
+pub mod stress;
 
 pub use compare::{Comparison, compare, compare_events};
 pub use real::{DoubleDouble, Real};

@@ -7,10 +7,10 @@ use seismass::scene::uniform_stiffness;
 use seismass::{Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey};
 
 /// The SplitMix64 generator (Steele, Lea and Flood, 2014): one 64-bit seed, the same numbers everywhere.
-struct Draw(u64);
+pub(crate) struct Draw(pub(crate) u64);
 
 impl Draw {
-    fn bits(&mut self) -> u64 {
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -19,20 +19,20 @@ impl Draw {
     }
 
     /// Uniform between two numbers.
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// Uniform in the logarithm.
-    fn scale(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn scale(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    fn one_in(&mut self, n: u64) -> bool {
+    pub(crate) fn one_in(&mut self, n: u64) -> bool {
         self.bits().is_multiple_of(n)
     }
 
-    fn one_of<T: Copy>(&mut self, values: &[T]) -> T {
+    pub(crate) fn one_of<T: Copy>(&mut self, values: &[T]) -> T {
         values[(self.bits() % values.len() as u64) as usize]
     }
 }
@@ -127,7 +127,7 @@ fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Bui
 }
 
 /// Overstrength, second and third slope, with all their special cases.
-fn spring(draw: &mut Draw) -> (f64, f64, f64) {
+pub(crate) fn spring(draw: &mut Draw) -> (f64, f64, f64) {
     let overstrength = if draw.one_in(5) { 1.0 } else { draw.between(1.05, 2.5) };
     let r2 = match draw.bits() % 8 {
         0 => 0.0,
@@ -168,7 +168,7 @@ fn blocks(draw: &mut Draw, storeys: usize, pga: f64) -> Vec<Block> {
 }
 
 /// Samples with a largest absolute value of `peak`: sines, filtered noise, or steps; then zeros and plateaus cut in.
-fn samples_of(draw: &mut Draw, samples: usize, dt: f64, peak: f64) -> Vec<f64> {
+pub(crate) fn samples_of(draw: &mut Draw, samples: usize, dt: f64, peak: f64) -> Vec<f64> {
     let duration = samples as f64 * dt;
     let envelope = !draw.one_in(4);
     let mut values: Vec<f64> = match draw.bits() % 4 {

@@ -1,0 +1,209 @@
+//! What must hold for any response by itself: numbers, legal sequences of events, and states that fit the histories.
+
+use seismass::{Event, EventKind, Motion, Response, STANDARD_GRAVITY, Scene, Status};
+
+/// Rounding of floor accelerations and relative velocities in the histories, as a fraction of their peaks.
+const ROUNDING: f64 = 1e-9;
+
+/// What an event log says about a block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Contact {
+    Stuck,
+    Sliding(i8),
+    Airborne,
+    /// Landed at rest: sticks unless a slip follows at once.
+    Landed,
+}
+
+/// Checks a response that has events and histories at every sample; the first fault found.
+///
+/// # Errors
+/// The fault, in one line.
+pub fn check(scene: &Scene, motion: &Motion, response: &Response) -> Result<(), String> {
+    numbers(response)?;
+    let log = response.events.as_deref().ok_or("no event log")?;
+    if log.len() != response.statistics.events.total() {
+        return Err(format!("{} events in the log, {} counted", log.len(), response.statistics.events.total()));
+    }
+    order(log, last_instant(response))?;
+    springs(scene, log)?;
+    blocks(scene, motion, response, log)?;
+    peaks(scene, response)
+}
+
+fn numbers(response: &Response) -> Result<(), String> {
+    let peaks = &response.peaks;
+    let lists = [&peaks.drift, &peaks.slip, &peaks.floor_acceleration, &peaks.storey_shear];
+    for (name, list) in ["drift", "slip", "floor acceleration", "storey shear"].iter().zip(lists) {
+        for (i, peak) in list.iter().enumerate() {
+            let in_time = peak.time >= 0.0 && peak.time <= last_instant(response);
+            if !(peak.value.is_finite() && in_time) {
+                return Err(format!("peak {name} {}: {peak:?}", i + 1));
+            }
+        }
+    }
+    let lists = [&response.residual_drift, &response.residual_slip, &response.slip_path];
+    for (name, list) in ["residual drift", "residual slip", "slip path"].iter().zip(lists) {
+        if let Some(i) = list.iter().position(|value| !value.is_finite()) {
+            return Err(format!("{name} {}: {}", i + 1, list[i]));
+        }
+    }
+    let Some(h) = &response.histories else { return Ok(()) };
+    let lists = [&h.drift, &h.slip, &h.floor_velocity, &h.block_velocity, &h.floor_acceleration, &h.storey_force];
+    let finite = lists.iter().all(|list| list.iter().all(|value| value.is_finite()));
+    if finite || response.status != Status::Completed { Ok(()) } else { Err("histories that are not finite".into()) }
+}
+
+/// The end of the run; the last sample's time is a product, an event's a sum.
+fn last_instant(response: &Response) -> f64 {
+    response.end_time * (1.0 + 4.0 * f64::EPSILON)
+}
+
+fn order(log: &[Event], end: f64) -> Result<(), String> {
+    let mut before = 0.0;
+    for event in log {
+        if !(event.time >= before && event.time <= end) {
+            return Err(format!("out of order in time: {event:?} after {before} s"));
+        }
+        before = event.time;
+    }
+    Ok(())
+}
+
+/// Per storey: elastic, first yield, second yield with the same sign, and back to elastic.
+fn springs(scene: &Scene, log: &[Event]) -> Result<(), String> {
+    let mut state = vec![(0u8, 0i8); scene.storeys()];
+    for event in log {
+        let i = event.number - 1;
+        let legal = match event.kind {
+            EventKind::Yield => {
+                let (count, sign) = state[i];
+                let legal = event.element == count + 1 && (count == 0 || event.sign == sign);
+                state[i] = (event.element, event.sign);
+                legal
+            }
+            EventKind::Unload => {
+                let legal = state[i].0 > 0 && state[i].1 == event.sign;
+                state[i] = (0, 0);
+                legal
+            }
+            _ => true,
+        };
+        if !legal {
+            return Err(format!("storey machine: {event:?}"));
+        }
+    }
+    Ok(())
+}
+
+fn at_start(scene: &Scene, motion: &Motion) -> Vec<Contact> {
+    let contact = motion
+        .vertical()
+        .map_or([STANDARD_GRAVITY; 2], |v| [STANDARD_GRAVITY + v[0], STANDARD_GRAVITY + v[1.min(v.len() - 1)]]);
+    let airborne = contact[0] < 0.0 || contact[0] == 0.0 && contact[1] <= contact[0];
+    let relative = |floor: usize| if floor > 0 { scene.initial_velocity()[floor - 1] } else { 0.0 };
+    let state = |b: &seismass::Block| match b.velocity.map_or(0.0, |w| w - relative(b.floor)) {
+        _ if airborne => Contact::Airborne,
+        0.0 => Contact::Stuck,
+        v => Contact::Sliding(if v > 0.0 { 1 } else { -1 }),
+    };
+    scene.blocks().iter().map(state).collect()
+}
+
+fn step(before: Contact, event: &Event) -> Option<Contact> {
+    let sign = event.sign;
+    match (event.kind, before) {
+        (EventKind::Slip, Contact::Stuck | Contact::Landed) if sign != 0 => Some(Contact::Sliding(sign)),
+        (EventKind::Stick, Contact::Sliding(old)) if old == sign => Some(Contact::Stuck),
+        (EventKind::Reverse, Contact::Sliding(old)) if old == -sign => Some(Contact::Sliding(sign)),
+        (EventKind::Touch, Contact::Sliding(old)) if old == sign => Some(Contact::Sliding(sign)),
+        (EventKind::Lift, Contact::Stuck | Contact::Landed) if sign == 0 => Some(Contact::Airborne),
+        (EventKind::Lift, Contact::Sliding(old)) if sign == old || sign == 0 => Some(Contact::Airborne),
+        (EventKind::Land, Contact::Airborne) if sign == 0 => Some(Contact::Landed),
+        (EventKind::Land, Contact::Airborne) => Some(Contact::Sliding(sign)),
+        _ => None,
+    }
+}
+
+/// Per block: the sequence of events, and at every sample what its state demands.
+fn blocks(scene: &Scene, motion: &Motion, response: &Response, log: &[Event]) -> Result<(), String> {
+    let mut state = at_start(scene, motion);
+    let Some(h) = &response.histories else { return Ok(()) };
+    let (n, m) = (scene.storeys(), scene.blocks().len());
+    let fastest = h.block_velocity.iter().chain(&h.floor_velocity).fold(0.0f64, |a, v| a.max(v.abs()));
+    let mut events = log.iter().filter(|e| !matches!(e.kind, EventKind::Yield | EventKind::Unload)).peekable();
+    let mut last_change = vec![f64::NEG_INFINITY; m];
+    for row in 0..h.rows {
+        let time = row as f64 * motion.dt();
+        if time > response.end_time || row * h.every >= motion.acceleration().len() {
+            break;
+        }
+        while let Some(event) = events.next_if(|e| e.time <= time) {
+            let j = event.number - 1;
+            state[j] = step(state[j], event).ok_or_else(|| format!("block machine: {event:?} while {:?}", state[j]))?;
+            last_change[j] = event.time;
+        }
+        for (j, block) in scene.blocks().iter().enumerate() {
+            let (velocity, acceleration, largest) = if block.floor > 0 {
+                let at = row * n + block.floor - 1;
+                let peak = response.peaks.floor_acceleration[block.floor - 1].value;
+                (h.floor_velocity[at], h.floor_acceleration[at], peak)
+            } else {
+                let a = motion.acceleration()[row];
+                (0.0, a, a.abs())
+            };
+            let relative = h.block_velocity[row * m + j] - velocity;
+            let sample = |message: String| Err(format!("block {} at t = {time} s: {message}", j + 1));
+            match state[j] {
+                Contact::Stuck | Contact::Landed => {
+                    if relative != 0.0 {
+                        return sample(format!("stuck with relative velocity {relative:e}"));
+                    }
+                    if row > 0 && last_change[j] < time - motion.dt() {
+                        let slip = [h.slip[(row - 1) * m + j], h.slip[row * m + j]];
+                        if slip[0] != slip[1] {
+                            return sample(format!("creeps from {} to {}", slip[0], slip[1]));
+                        }
+                    }
+                    let contact = STANDARD_GRAVITY + motion.vertical().map_or(0.0, |v| v[row]);
+                    let limit = block.mu_s * contact;
+                    if acceleration.abs() > limit + ROUNDING * (limit.abs() + block.mu_s * STANDARD_GRAVITY + largest) {
+                        return sample(format!("stuck at {acceleration:e}, limit {limit:e} m/s2"));
+                    }
+                }
+                Contact::Sliding(sign) => {
+                    if f64::from(sign) * relative < -ROUNDING * fastest {
+                        return sample(format!("slides with sign {sign} at {relative:e} m/s"));
+                    }
+                }
+                Contact::Airborne => {}
+            }
+        }
+    }
+    for event in events {
+        let j = event.number - 1;
+        state[j] = step(state[j], event).ok_or_else(|| format!("block machine: {event:?} while {:?}", state[j]))?;
+    }
+    Ok(())
+}
+
+/// No sample may beat a peak of continuous time.
+fn peaks(scene: &Scene, response: &Response) -> Result<(), String> {
+    let Some(h) = &response.histories else { return Ok(()) };
+    let (n, m) = (scene.storeys(), scene.blocks().len());
+    let lists = [
+        ("drift", &h.drift, &response.peaks.drift, n),
+        ("slip", &h.slip, &response.peaks.slip, m),
+        ("floor acceleration", &h.floor_acceleration, &response.peaks.floor_acceleration, n),
+        ("storey shear", &h.storey_force, &response.peaks.storey_shear, n),
+    ];
+    for (name, values, peaks, width) in lists {
+        for (i, value) in values.iter().enumerate() {
+            let peak = peaks[i % width].value;
+            if value.abs() > peak * (1.0 + ROUNDING) {
+                return Err(format!("{name} {} is {value:e} at sample {}, peak {peak:e}", i % width + 1, i / width));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,165 @@
+//! Where kernel and judge part: is it a true grazing? The judge is asked with its input changed in the last digits.
+
+use std::sync::Arc;
+
+use seismass::{Block, Building, Damping, GravityEffect, Motion, Response, Scene};
+
+use crate::random_scene::Draw;
+use crate::{Comparison, DoubleDouble, Solution, compare, solve};
+
+/// Relative differences below this are agreement.
+pub const AGREEMENT: f64 = 1e-9;
+/// Changes of the input tried, in units of the last digit of a double (2^-52).
+const LAST_DIGITS: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
+/// Different changes of each size.
+const TRIALS: u64 = 6;
+/// Without a difference in the events, the kernel may be this many times as far from the judge as the judge is from
+/// itself under a change of its input in the last digits.
+const AMPLIFICATION: f64 = 100.0;
+
+/// What became of a scene on which two implementations were compared.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// Same events, same numbers: the largest relative difference.
+    Agrees(f64),
+    /// The judge, with its input changed in the last digits, comes to the kernel's events and numbers.
+    Grazing {
+        /// The change, in units of the last digit.
+        digits: f64,
+        /// How the two differed.
+        difference: String,
+    },
+    /// The judge, with its input changed in the last digits, moves as far as the kernel is from it.
+    Sensitive {
+        /// The change, in units of the last digit.
+        digits: f64,
+        /// How the two differed.
+        difference: String,
+    },
+    /// Neither: a defect of one of them.
+    Unexplained(String),
+}
+
+/// Compares the kernel's response with the judge in double precision; if they part, with the judge in double-double;
+/// if they part still, looks for a grazing.
+pub fn judge(scene: &Scene, motion: &Motion, response: &Response) -> Verdict {
+    if let Ok(plain) = solve::<f64>(scene, motion, 1) {
+        let comparison = compare(response, &plain);
+        if comparison.agrees(AGREEMENT) {
+            return Verdict::Agrees(comparison.worst());
+        }
+    }
+    judge_precisely(scene, motion, response)
+}
+
+/// As [`judge`], with the judge in double-double from the start.
+pub fn judge_precisely(scene: &Scene, motion: &Motion, response: &Response) -> Verdict {
+    let exact = match solve::<DoubleDouble>(scene, motion, 1) {
+        Ok(exact) => exact,
+        Err(error) => return Verdict::Unexplained(format!("the judge failed: {error}")),
+    };
+    let comparison = compare(response, &exact);
+    if comparison.agrees(AGREEMENT) {
+        return Verdict::Agrees(comparison.worst());
+    }
+    explain(scene, motion, response, &exact, &comparison)
+}
+
+fn explain(scene: &Scene, motion: &Motion, response: &Response, exact: &Solution, parted: &Comparison) -> Verdict {
+    let difference = parted.mismatch.clone().unwrap_or_else(|| format!("relative difference {:.1e}", parted.worst()));
+    for digits in LAST_DIGITS {
+        for trial in 0..TRIALS {
+            let Some((scene, motion)) = changed(scene, motion, digits, trial) else { continue };
+            let Ok(other) = solve::<DoubleDouble>(&scene, &motion, 1) else { continue };
+            if compare(response, &other).agrees(AGREEMENT) {
+                return Verdict::Grazing { digits, difference };
+            }
+            let moved = exact.judge(&other);
+            let as_far = match (&parted.mismatch, &moved.mismatch) {
+                (None, None) => parted.worst() <= AMPLIFICATION * moved.worst(),
+                (Some(_), Some(_)) => same_instant(response, exact, &other),
+                _ => false,
+            };
+            if as_far {
+                return Verdict::Sensitive { digits, difference };
+            }
+        }
+    }
+    Verdict::Unexplained(difference)
+}
+
+/// Whether the changed judge leaves the judge at the instant at which the kernel does.
+fn same_instant(response: &Response, exact: &Solution, other: &Solution) -> bool {
+    let first = |log: &[seismass::Event]| {
+        let differ = |(a, b): (&seismass::Event, &seismass::Event)| a.kind != b.kind || a.number != b.number;
+        let place = log.iter().zip(&exact.events).position(differ).unwrap_or(log.len().min(exact.events.len()));
+        let time = |log: &[seismass::Event]| log.get(place).map_or(f64::INFINITY, |e| e.time);
+        time(log).min(time(&exact.events))
+    };
+    let kernel = first(response.events.as_deref().unwrap_or_default());
+    let judge = first(&other.events);
+    (kernel - judge).abs() <= 1e-6 * kernel.max(judge) || kernel == judge
+}
+
+/// The scene and motion with every number changed by up to `digits` in its last digit. Numbers of one kind change
+/// together (all masses, all friction coefficients), so that what is equal stays equal; trial 0 scales the motion.
+fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(Scene, Motion)> {
+    let mut draw = Draw(trial);
+    let size = digits * f64::EPSILON;
+    let mut factor = || 1.0 + size * draw.one_of(&[-1.0, 1.0]) * if trial < 2 { 1.0 } else { draw.between(0.5, 1.0) };
+    let (ground, vertical) = (factor(), factor());
+    let (mass, stiffness, friction, strength, start) =
+        if trial < 2 { (1.0, 1.0, 1.0, 1.0, 1.0) } else { (factor(), factor(), factor(), factor(), factor()) };
+    let scaled = |values: &[f64], by: f64| values.iter().map(|v| v * by).collect::<Vec<f64>>();
+    let ground = if trial == 0 { 1.0 + size } else { ground };
+    let motion = Motion::new(
+        scaled(motion.acceleration(), ground),
+        motion.dt(),
+        motion.vertical().map(|v| scaled(v, vertical).into()),
+    )
+    .ok()?;
+    let block = |b: &Block| Block {
+        mass: b.mass * mass,
+        mu_s: b.mu_s * friction,
+        mu_k: b.mu_k * friction,
+        velocity: b.velocity.map(|v| v * start),
+        ..*b
+    };
+    let building = match scene.building() {
+        None => None,
+        Some(building) => Some(Arc::new(changed_building(building, mass, stiffness, strength)?)),
+    };
+    let limits = building.as_ref().map(|b| b.storeys().to_vec()).unwrap_or_default();
+    let mut changed = Scene::new(building, scene.blocks().iter().map(block).collect()).ok()?;
+    if scene.initial_drift().iter().chain(scene.initial_velocity()).any(|&value| value != 0.0) {
+        let drift = scene.initial_drift().iter().zip(limits).map(|(d, storey)| {
+            let limit = storey.yield_shear / storey.stiffness;
+            (d * start).clamp(-limit, limit)
+        });
+        changed = changed.with_initial(drift.collect(), scaled(scene.initial_velocity(), start)).ok()?;
+    }
+    if let Some(drift) = scene.collapse_drift() {
+        changed = changed.with_collapse_drift(drift.to_vec()).ok()?;
+    }
+    Some((changed, motion))
+}
+
+fn changed_building(building: &Building, mass: f64, stiffness: f64, strength: f64) -> Option<Building> {
+    let masses = building.mass().iter().map(|m| m * mass).collect();
+    let mut storeys = building.storeys().to_vec();
+    for storey in &mut storeys {
+        storey.stiffness *= stiffness;
+        storey.yield_shear *= strength;
+    }
+    let damping = match building.damping() {
+        Damping::Matrix(c) => Damping::Matrix(c * stiffness),
+        other => other.clone(),
+    };
+    let gravity = match building.gravity() {
+        GravityEffect::GeometricStiffness(values) => {
+            GravityEffect::GeometricStiffness(values.iter().map(|v| v * stiffness).collect())
+        }
+        other => other.clone(),
+    };
+    Building::new(masses, storeys, damping).ok()?.with_gravity(gravity).ok()
+}

@@ -1,0 +1,197 @@
+//! Random scenes by the million: every run checked by itself, some of them against the judge.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use rayon::prelude::*;
+use seismass::{Error, EventCounts, EventKind, Motion, Options, Response, Scene, Status, simulate};
+
+use super::consistency;
+use super::grazing::{Verdict, judge};
+use super::hard_scene::hard_scene;
+use crate::random_scene::{Draw, random_scene};
+
+/// Largest energy residual that rounding explains.
+pub const LARGEST_RESIDUAL: f64 = 1e-11;
+/// The judge is not asked where its series would need more pieces than this.
+const AFFORDABLE_PIECES: f64 = 3e5;
+/// One scene in so many has its energies balanced; a judged one always.
+const ENERGIES: u64 = 10;
+/// One scene in so many is of the hard family.
+const HARD: u64 = 8;
+
+/// Which scenes to run.
+#[derive(Debug, Clone, Copy)]
+pub struct Selection {
+    /// First seed.
+    pub first: u64,
+    /// Number of scenes.
+    pub scenes: u64,
+    /// Share of them that is compared with the judge.
+    pub judged: f64,
+}
+
+/// The seed's scene, and whether it is of the hard family.
+///
+/// # Errors
+/// None for any seed.
+pub fn scene_of(seed: u64) -> (bool, seismass::Result<(Scene, Motion)>) {
+    let hard = Draw(!seed).one_in(HARD);
+    (hard, if hard { hard_scene(seed) } else { random_scene(seed) })
+}
+
+/// What one scene came to.
+#[derive(Debug, Clone, Default)]
+struct Found {
+    seed: u64,
+    hard: bool,
+    collapsed: bool,
+    events: EventCounts,
+    residual: Option<f64>,
+    verdict: Option<Verdict>,
+    defect: Option<String>,
+}
+
+fn examine(seed: u64, judged: bool) -> Found {
+    let mut draw = Draw(seed.wrapping_mul(31).wrapping_add(7));
+    let (hard, drawn) = scene_of(seed);
+    let mut found = Found { seed, hard, ..Found::default() };
+    let (scene, motion) = match drawn {
+        Ok(drawn) => drawn,
+        Err(error) => return Found { defect: Some(format!("the scene was refused: {error}")), ..found },
+    };
+    let energy = judged || draw.one_in(ENERGIES);
+    let options = Options { histories: NonZeroUsize::new(1), events: true, energy, ..Options::default() };
+    let response = match simulate(&scene, &motion, &options) {
+        Ok(response) => response,
+        Err(error) => return Found { defect: unexplained(&scene, &motion, &error), ..found },
+    };
+    found.collapsed = response.status != Status::Completed;
+    found.events = response.statistics.events;
+    found.residual = response.energy.map(|e| e.relative_residual.abs());
+    found.defect = consistency::check(&scene, &motion, &response).err();
+    if found.residual.is_some_and(|r| r > LARGEST_RESIDUAL || r.is_nan()) {
+        found.defect.get_or_insert(format!("energy residual {:?}", found.residual));
+    }
+    if judged && affordable(&scene, &motion) {
+        let verdict = judge(&scene, &motion, &response);
+        if let Verdict::Unexplained(difference) = &verdict {
+            found.defect.get_or_insert(format!("parts from the judge: {difference}"));
+        }
+        found.verdict = Some(verdict);
+    }
+    found
+}
+
+/// An error is explained if the judge in double-double cannot go on either.
+fn unexplained(scene: &Scene, motion: &Motion, error: &Error) -> Option<String> {
+    match crate::solve::<crate::DoubleDouble>(scene, motion, 1) {
+        Err(_) => None,
+        Ok(_) => Some(format!("error: {error}")),
+    }
+}
+
+fn affordable(scene: &Scene, motion: &Motion) -> bool {
+    let shortest = scene.building().map_or(f64::INFINITY, |b| b.periods().into_iter().fold(f64::INFINITY, f64::min));
+    let phase = std::f64::consts::TAU * motion.dt() / shortest;
+    2.0 * phase * motion.acceleration().len() as f64 * (1.0 + scene.storeys() as f64) < AFFORDABLE_PIECES
+}
+
+/// The distribution of a random run.
+#[derive(Debug, Clone, Default)]
+pub struct Tally {
+    /// Scenes run, with seeds from 0.
+    pub scenes: u64,
+    /// Of them, of the hard family.
+    pub hard: u64,
+    /// Of them, ended by collapse.
+    pub collapsed: u64,
+    /// Of them, compared with the judge.
+    pub judged: u64,
+    /// Of them, with energies.
+    pub balanced: u64,
+    /// Largest energy residual of the usual and the hard family, and its seed.
+    pub worst_residual: [(f64, u64); 2],
+    /// Largest difference to the judge where the events agree, and its seed.
+    pub worst_difference: [(f64, u64); 2],
+    /// How many runs had so many events.
+    pub events: BTreeMap<u64, u64>,
+    /// Events by kind.
+    pub kinds: [u64; EventKind::ALL.len()],
+    /// Grazings, explained: seed, change in last digits, difference.
+    pub grazing: Vec<(u64, f64, String)>,
+    /// Sensitive scenes, explained: seed, change in last digits, difference.
+    pub sensitive: Vec<(u64, f64, String)>,
+    /// Defects: seed, what is wrong.
+    pub defects: Vec<(u64, String)>,
+}
+
+impl Tally {
+    fn add(&mut self, found: Found) {
+        let family = usize::from(found.hard);
+        let raise = |worst: &mut (f64, u64), value: f64| {
+            if value > worst.0 || value.is_nan() {
+                *worst = (value, found.seed);
+            }
+        };
+        self.scenes += 1;
+        self.hard += u64::from(found.hard);
+        self.collapsed += u64::from(found.collapsed);
+        self.balanced += u64::from(found.residual.is_some());
+        self.judged += u64::from(found.verdict.is_some());
+        raise(&mut self.worst_residual[family], found.residual.unwrap_or(0.0));
+        *self.events.entry(found.events.total() as u64).or_default() += 1;
+        for (sum, kind) in self.kinds.iter_mut().zip(EventKind::ALL) {
+            *sum += found.events.of(kind) as u64;
+        }
+        match found.verdict {
+            Some(Verdict::Agrees(difference)) => raise(&mut self.worst_difference[family], difference),
+            Some(Verdict::Grazing { digits, difference }) => self.grazing.push((found.seed, digits, difference)),
+            Some(Verdict::Sensitive { digits, difference }) => self.sensitive.push((found.seed, digits, difference)),
+            Some(Verdict::Unexplained(_)) | None => {}
+        }
+        if let Some(defect) = found.defect {
+            self.defects.push((found.seed, defect));
+        }
+    }
+
+    /// Least, median and greatest number of events of a run.
+    pub fn event_quantiles(&self) -> [u64; 3] {
+        let mut below = 0;
+        let median = self.events.iter().find(|(_, runs)| {
+            below += **runs;
+            2 * below >= self.scenes
+        });
+        let number = |entry: Option<(&u64, &u64)>| entry.map_or(0, |(events, _)| *events);
+        [number(self.events.first_key_value()), number(median), number(self.events.last_key_value())]
+    }
+}
+
+/// Runs scenes in parallel and adds what was found to `tally`.
+pub fn run(selection: Selection, tally: &mut Tally) {
+    let Selection { first, scenes, judged } = selection;
+    let found: Vec<Found> = (first..first + scenes)
+        .into_par_iter()
+        .map(|seed| {
+            let judged = Draw(seed).between(0.0, 1.0) < judged;
+            catch_unwind(AssertUnwindSafe(|| examine(seed, judged))).unwrap_or_else(|_| Found {
+                seed,
+                defect: Some("panic".into()),
+                ..Found::default()
+            })
+        })
+        .collect();
+    found.into_iter().for_each(|found| tally.add(found));
+}
+
+/// The kernel's response with everything that can be checked.
+///
+/// # Errors
+/// The kernel's error, or the first fault that the response shows by itself.
+pub fn solve_checked(scene: &Scene, motion: &Motion) -> Result<Response, String> {
+    let options = Options { histories: NonZeroUsize::new(1), events: true, energy: true, ..Options::default() };
+    let response = simulate(scene, motion, &options).map_err(|e| e.to_string())?;
+    consistency::check(scene, motion, &response)?;
+    Ok(response)
+}

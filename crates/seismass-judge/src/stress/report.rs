@@ -1,0 +1,86 @@
+//! What the stress suite prints and writes: the table of cases and the distribution of the random run.
+
+use std::fmt::Write as _;
+
+use seismass::EventKind;
+
+use super::cases::Finding;
+use super::random::{LARGEST_RESIDUAL, Tally};
+
+/// The distribution of a random run, as Markdown.
+pub fn distribution(tally: &Tally) -> String {
+    let mut text = String::new();
+    let mut row = |what: &str, value: String| {
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "| {what} | {value} |");
+    };
+    row("quantity", "value".into());
+    row("---", "---".into());
+    row("scenes run (seeds from 0)", format!("{}, of them {} of the hard family", tally.scenes, tally.hard));
+    row("completed / collapsed", format!("{} / {}", tally.scenes - tally.collapsed, tally.collapsed));
+    let [least, median, most] = tally.event_quantiles();
+    row("events of a run: least / median / most", format!("{least} / {median} / {most}"));
+    let kinds = EventKind::ALL.iter().zip(tally.kinds).map(|(kind, n)| format!("{} {n}", kind.name()));
+    row("events by kind", kinds.collect::<Vec<_>>().join(", "));
+    row("energies balanced", tally.balanced.to_string());
+    let worst = |[usual, hard]: [(f64, u64); 2]| {
+        format!("usual {:.1e} (seed {}), hard {:.1e} (seed {})", usual.0, usual.1, hard.0, hard.1)
+    };
+    row(&format!("worst energy residual (limit {LARGEST_RESIDUAL:.0e})"), worst(tally.worst_residual));
+    row("compared with the plain implementation", tally.judged.to_string());
+    row("worst relative difference where the events agree (limit 1e-9)", worst(tally.worst_difference));
+    row("parted at a grazing, explained", tally.grazing.len().to_string());
+    row("parted by sensitivity, explained", tally.sensitive.len().to_string());
+    row("defects: panics, NaN, errors, residuals, illegal sequences, unexplained", tally.defects.len().to_string());
+    for (heading, list) in [("Grazings", &tally.grazing), ("Sensitive scenes", &tally.sensitive)] {
+        if !list.is_empty() {
+            let _ = writeln!(text, "\n{heading}, with the change of the input, in last digits, that does the same:\n");
+        }
+        for (seed, digits, difference) in list {
+            let _ = writeln!(text, "- seed {seed}, {digits}: `{difference}`");
+        }
+    }
+    if !tally.defects.is_empty() {
+        let _ = writeln!(text, "\nDefects:\n");
+    }
+    for (seed, defect) in &tally.defects {
+        let _ = writeln!(text, "- seed {seed}: `{defect}`");
+    }
+    text
+}
+
+/// The table of the named cases, as Markdown.
+pub fn table(findings: &[Finding]) -> String {
+    let mut text = String::from("| theme | case | expectation | found | holds |\n| --- | --- | --- | --- | --- |\n");
+    for Finding { case, outcome } in findings {
+        let (found, holds) = match outcome {
+            Ok(found) => (found, "yes"),
+            Err(fault) => (fault, "**no**"),
+        };
+        let found = found.replace('|', "/");
+        let _ = writeln!(text, "| {} | {} | {} | {found} | {holds} |", case.theme, case.name, case.expectation);
+    }
+    text
+}
+
+/// The page of docs.
+pub fn page(findings: &[Finding], tally: &Tally, command: &str) -> String {
+    let failed = findings.iter().filter(|f| f.outcome.is_err()).count();
+    format!(
+        "# Stress\n\nWritten by `{command}`. What can still go wrong is in [limitations.md](limitations.md).\n\n\
+         ## Named cases\n\n\
+         {} cases, {failed} whose expectation does not hold. *Judge*: the second, plain implementation, in double-double \
+         precision unless stated; a difference to it is relative to the peak of the same storey or block. \
+         Every run is also checked by itself: finite numbers, energy balance, legal sequences of events, stuck blocks that \
+         neither move nor exceed their limit, peaks that no sample beats.\n\n{}\n\
+         ## Random scenes\n\n\
+         Seeded scenes that draw every feature of the model; the hard family draws every number from a range far wider than \
+         buildings have (`random_scene.rs`, `stress/hard_scene.rs` of `crates/seismass-judge`). Every run is checked by \
+         itself, a tenth with energies, a random part against the judge. Where the two part, the judge is asked again with \
+         its input changed in the last digits: a grazing is explained if it then comes to the same events and numbers as \
+         the kernel, and a scene is sensitive if it then moves as far.\n\n{}",
+        findings.len(),
+        table(findings),
+        distribution(tally),
+    )
+}

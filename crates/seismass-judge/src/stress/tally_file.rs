@@ -1,0 +1,102 @@
+//! A tally on disk, so that a long random run can stop and go on: one line per entry, tab-separated.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use super::random::Tally;
+
+impl Tally {
+    /// Writes the tally to a file, whole or not at all.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn save(&self, path: &Path) -> io::Result<()> {
+        let mut text = String::new();
+        let mut line = |key: &str, fields: &[String]| {
+            // Writing to a string does not fail.
+            let _ = writeln!(text, "{key}\t{}", fields.join("\t"));
+        };
+        let counts = [self.scenes, self.hard, self.collapsed, self.judged, self.balanced];
+        line("counts", &counts.map(|c| c.to_string()));
+        line("kinds", &self.kinds.map(|c| c.to_string()));
+        for (key, worst) in [("residual", self.worst_residual), ("difference", self.worst_difference)] {
+            for (value, seed) in worst {
+                line(key, &[format!("{value:e}"), seed.to_string()]);
+            }
+        }
+        for (events, runs) in &self.events {
+            line("events", &[events.to_string(), runs.to_string()]);
+        }
+        for (key, list) in [("grazing", &self.grazing), ("sensitive", &self.sensitive)] {
+            for (seed, digits, difference) in list {
+                line(key, &[seed.to_string(), digits.to_string(), difference.clone()]);
+            }
+        }
+        for (seed, defect) in &self.defects {
+            line("defect", &[seed.to_string(), defect.clone()]);
+        }
+        let new = path.with_extension("new");
+        fs::write(&new, text)?;
+        fs::rename(&new, path)
+    }
+
+    /// Reads a tally; an empty one where there is no file.
+    ///
+    /// # Errors
+    /// Those of the file system, and [`io::ErrorKind::InvalidData`] for a file that is no tally.
+    pub fn load(path: &Path) -> io::Result<Self> {
+        if !path.exists() {
+            return Ok(Self::default());
+        }
+        let text = fs::read_to_string(path)?;
+        let mut tally = Self::default();
+        let (mut residuals, mut differences) = (0, 0);
+        for (number, line) in text.lines().enumerate() {
+            let fields: Vec<&str> = line.split('\t').collect();
+            tally.read_line(&fields, &mut residuals, &mut differences).ok_or_else(|| {
+                let message = format!("line {} of {} is not of a tally: {line}", number + 1, path.display());
+                io::Error::new(io::ErrorKind::InvalidData, message)
+            })?;
+        }
+        Ok(tally)
+    }
+
+    fn read_line(&mut self, fields: &[&str], residuals: &mut usize, differences: &mut usize) -> Option<()> {
+        let (key, fields) = fields.split_first()?;
+        let whole = |i: usize| fields.get(i)?.parse::<u64>().ok();
+        let real = |i: usize| fields.get(i)?.parse::<f64>().ok();
+        let text = |i: usize| fields.get(i).map(ToString::to_string);
+        match *key {
+            "counts" => {
+                let counts =
+                    [&mut self.scenes, &mut self.hard, &mut self.collapsed, &mut self.judged, &mut self.balanced];
+                for (i, count) in counts.into_iter().enumerate() {
+                    *count = whole(i)?;
+                }
+            }
+            "kinds" => {
+                for (i, count) in self.kinds.iter_mut().enumerate() {
+                    *count = whole(i)?;
+                }
+            }
+            "residual" => {
+                *self.worst_residual.get_mut(*residuals)? = (real(0)?, whole(1)?);
+                *residuals += 1;
+            }
+            "difference" => {
+                *self.worst_difference.get_mut(*differences)? = (real(0)?, whole(1)?);
+                *differences += 1;
+            }
+            "events" => {
+                self.events.insert(whole(0)?, whole(1)?);
+            }
+            "grazing" => self.grazing.push((whole(0)?, real(1)?, text(2)?)),
+            "sensitive" => self.sensitive.push((whole(0)?, real(1)?, text(2)?)),
+            "defect" => self.defects.push((whole(0)?, text(1)?)),
+            _ => return None,
+        }
+        Some(())
+    }
+}
