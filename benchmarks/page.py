@@ -28,8 +28,8 @@ MEASURES: Final = dict(zip(ERRORS, ("drift history", "peak drift", "slip history
 HEAD: Final = """# Error against run time
 
 Every contestant solves the same scenes, from the scene to arrays of drifts and slips at every sample of the motion, in
-one process and one thread. Times are medians after a warm-up; what takes longer than three seconds runs once. Errors
-are the largest absolute differences from the second implementation of the model in double-double precision (crate
+one process and one thread. Times are processor times, medians after a warm-up; what takes longer than two seconds runs
+once. Errors are the largest absolute differences from the second implementation of the model in double-double precision (crate
 `seismass-judge`, which has the kernel's damping matrix and nothing of its solver), over the largest drift, or slip, of
 the scene. {recordings}
 

@@ -26,7 +26,7 @@ except ImportError:
 LENGTH: Final = 1e-3
 """Absolute tolerances are the relative one times this displacement (m), or what it means as velocity or force."""
 VELOCITY: Final = 1e-2
-MAX_EVALUATIONS: Final = 4_000_000
+MAX_EVALUATIONS: Final = 2_000_000
 """Evaluations of the right-hand side after which a run is given up: it chatters about a switch."""
 
 
@@ -146,7 +146,6 @@ def settings() -> list[Setting]:
         ("LSODA", 1e-2, 1e-6, False),
         ("LSODA", 1e-3, 1e-6, True),
         ("LSODA", 1e-4, 1e-8, False),
-        ("LSODA", 1e-5, 1e-9, False),
     )
     return [
         Setting(

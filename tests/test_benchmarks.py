@@ -1,0 +1,75 @@
+"""The benchmarks' own arithmetic, and the peers that need nothing installed, against the exact kernel."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import seismass as sm
+
+FOLDER = Path(__file__).parents[1] / "benchmarks"
+
+
+@pytest.fixture
+def module(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Import a module of benchmarks/, which is no package."""
+    monkeypatch.syspath_prepend(str(FOLDER))
+    before = set(sys.modules)
+    yield importlib.import_module
+    for name in set(sys.modules) - before:
+        if getattr(sys.modules[name], "__file__", None) and str(FOLDER) in str(sys.modules[name].__file__):
+            del sys.modules[name]
+
+
+@pytest.fixture
+def bench(module: Any) -> Any:
+    """The section-4 building under the first 2000 samples of a built-in motion."""
+    scenes = module("scenes")
+    motion = sm.builtin_suite()[0]
+    samples = motion.scaled(6.9 / motion.pga).acceleration[:2000]
+    return scenes.BenchmarkScene("short", "short", scenes.section4(0.05), sm.Motion(samples, motion.dt), "synthetic")
+
+
+def test_time_at_an_error_level_is_straight_in_log_log(module: Any) -> None:
+    front = module("front")
+    found = [(1e-2, 1.0), (1e-4, 10.0), (1e-3, 20.0)]
+    assert front.envelope(found) == [(1e-2, 1.0), (1e-4, 10.0)]
+    assert front.time_at(found, 1e-1) == 1.0
+    assert front.time_at(found, 1e-3) == pytest.approx(10**0.5)
+    assert front.time_at(found, 1e-5) is None
+
+
+def test_cubic_peaks_lie_between_samples(module: Any) -> None:
+    # A sine sampled beside its crests: the cubic's error is below (w dt)^4 / 384.
+    dt, w = 0.05, 2.0
+    t = np.arange(200) * dt
+    value, rate = np.sin(w * t + 0.3)[:, None], w * np.cos(w * t + 0.3)[:, None]
+    peak = module("contestants.base").hermite_peaks(value, rate, dt)
+    assert abs(peak[0] - 1.0) < (w * dt) ** 4 / 384 < 1.0 - np.abs(value).max() + 1e-6
+
+
+@pytest.mark.parametrize(
+    ("method", "substeps", "located", "bound"), [("gauss", 5, 1e-12, 1e-7), ("leapfrog", 20, None, 1e-4)]
+)
+def test_reference_integrators_reach_python(
+    module: Any, bench: Any, method: str, substeps: int, located: float | None, bound: float
+) -> None:
+    exact = module("contestants.exact").with_histories(bench)
+    found = module("contestants.reference").run(bench, method, substeps, located)
+    assert found.drift.shape == exact.drift.shape
+    assert found.slip.shape == exact.slip.shape
+    assert np.abs(found.drift - exact.drift).max() < bound * exact.peak_drift.max()
+    assert np.abs(found.peak_slip - exact.peak_slip).max() < bound * exact.peak_slip.max()
+
+
+def test_scipy_with_events_and_samples_agrees_with_the_kernel(module: Any, bench: Any) -> None:
+    """A fresh state machine on an integrator that shares nothing with the kernel."""
+    exact = module("contestants.exact").with_histories(bench)
+    found = module("contestants.scipy_events").integrate(bench, 1e-12, at_samples=True)
+    assert np.abs(found.drift - exact.drift).max() < 1e-10 * exact.peak_drift.max()
+    assert np.abs(found.slip - exact.slip).max() < 1e-10 * exact.peak_slip.max()
