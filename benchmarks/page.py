@@ -29,9 +29,9 @@ HEAD: Final = """# Error against run time
 
 Every contestant solves the same scenes, from the scene to arrays of drifts and slips at every sample of the motion, in
 one process and one thread. Times are processor times, medians after a warm-up; what takes longer than two seconds runs
-once. Errors are the largest absolute differences from the second implementation of the model in double-double precision (crate
-`seismass-judge`, which has the kernel's damping matrix and nothing of its solver), over the largest drift, or slip, of
-the scene. {recordings}
+once. Errors are the largest absolute differences from the second implementation of the model in double-double precision
+(crate `seismass-judge`, which has the kernel's damping matrix and nothing of its solver), over the largest drift, or
+slip, of the scene. {recordings}
 
 Written by `benchmarks/work_precision.py` (`make bench`); all points are in `benchmarks/results/work_precision.parquet`.
 
