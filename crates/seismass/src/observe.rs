@@ -101,15 +101,15 @@ impl Observer {
         }
     }
 
-    /// Takes values of storey and floor `i` into the peaks.
-    pub(crate) fn take_floor(&mut self, state: &State, i: usize, x: f64, a: f64, time: f64) {
-        self.take_drift(state, i, x, time);
-        self.peaks.floor_acceleration[i].take(a, time);
+    /// Takes values of storey and floor `i` into the peaks; tells whether they beat any.
+    pub(crate) fn take_floor(&mut self, state: &State, i: usize, x: f64, a: f64, time: f64) -> bool {
+        let drift = self.take_drift(state, i, x, time);
+        self.peaks.floor_acceleration[i].take(a, time) || drift
     }
 
-    fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
-        self.peaks.drift[i].take(state.springs[i].drift(x), time);
-        self.peaks.storey_shear[i].take(state.base_force[i] + state.regime().spring_tangent[i] * x, time);
+    fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) -> bool {
+        let drift = self.peaks.drift[i].take(state.springs[i].drift(x), time);
+        self.peaks.storey_shear[i].take(state.base_force[i] + state.regime().spring_tangent[i] * x, time) || drift
     }
 
     /// Takes the present values into the peaks.
@@ -133,14 +133,18 @@ impl Observer {
             if turns && self.drift_may_peak(state, i, x - excursion, x + excursion) {
                 *isolated += 1;
                 let drift = state.series.drift(i).cut(end);
-                drift.derivative().sign_changes(&mut |s| self.take_drift(state, i, drift.at(s), time(s)));
+                drift.derivative().sign_changes(&mut |s| {
+                    self.take_drift(state, i, drift.at(s), time(s));
+                });
             }
             let (a, excursion) = (state.a[i], state.series.acceleration_excursion(i));
             if self.acceleration_may_peak(i, a - excursion, a + excursion) {
                 *isolated += 1;
                 let acceleration = state.series.floor_acceleration(i).cut(end);
                 let peak = &mut self.peaks.floor_acceleration[i];
-                acceleration.derivative().sign_changes(&mut |s| peak.take(acceleration.at(s), time(s)));
+                acceleration.derivative().sign_changes(&mut |s| {
+                    peak.take(acceleration.at(s), time(s));
+                });
             }
         }
         if state.airborne {

@@ -405,8 +405,9 @@ fn run_lanes<const N: usize, const FUSED: bool>(
         if !plain {
             let time = i as f64 * course.h;
             for l in 0..state.storeys() {
-                observer.take_floor(state, l, lanes.x[l], lanes.a[l], time);
-                lanes.set_bounds(l, state, observer);
+                if observer.take_floor(state, l, lanes.x[l], lanes.a[l], time) {
+                    lanes.set_bounds(l, state, observer);
+                }
             }
         }
         if course.is_vertical {
@@ -450,7 +451,7 @@ impl State<'_> {
     /// whose start the state is then at.
     pub(crate) fn plain_run(&mut self, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize {
         let full_damping = self.has_full_damping();
-        if self.airborne || !self.cache.visit(self.regime, self.model, full_damping) {
+        if self.airborne || !self.cache.visit(self.regime, self.model, full_damping, self.vertical) {
             return first;
         }
         self.prepare_effects();

@@ -23,7 +23,7 @@ pub(crate) struct Propagator {
     state: Vec<f64>,
     /// Columns of constant floor loads.
     load: Vec<f64>,
-    /// Columns of floor loads that grow from zero by one per interval.
+    /// Columns of floor loads that grow from zero by one per interval; empty where no vertical motion needs them.
     ramp: Vec<f64>,
     /// Column of a constant ground acceleration.
     ground: Vec<f64>,
@@ -142,7 +142,7 @@ impl Step {
 
 impl Propagator {
     /// The step of a regime over `dt`, by one series where it converges fast enough, else by halving.
-    fn new(model: &Model, regime: &Regime, dt: f64) -> Self {
+    fn new(model: &Model, regime: &Regime, dt: f64, with_ramps: bool) -> Self {
         let n = model.storeys();
         let mut columns = Columns::new(model, regime);
         let composed = (regime.frequency * dt > MAX_PHASE).then(|| {
@@ -174,7 +174,7 @@ impl Propagator {
             rows: 4 * padded(n),
             state: gather(&mut (0..n).map(Cause::Drift).chain((0..n).map(Cause::DriftRate))),
             load: gather(&mut (0..n).map(Cause::Load)),
-            ramp: gather(&mut (0..n).map(Cause::Ramp)),
+            ramp: gather(&mut (0..if with_ramps { n } else { 0 }).map(Cause::Ramp)),
             ground: gather(&mut std::iter::once(Cause::Ground)),
             ground_ramp: gather(&mut std::iter::once(Cause::GroundRamp)),
         }
@@ -265,7 +265,7 @@ pub(crate) struct RegimeCache {
 
 impl RegimeCache {
     /// Whole intervals of a regime that a run solves by series before a propagator is formed.
-    const SERIES_VISITS: u32 = 3;
+    const SERIES_VISITS: u32 = 2;
     /// Storeys above which a series is cheaper than the dense step: with full damping matrices, and with others.
     const DENSE_LIMITS: (usize, usize) = (MAX_LANES, 16);
 
@@ -327,7 +327,7 @@ impl RegimeCache {
     }
 
     /// Counts a whole interval in a regime; true once its propagator is to be used, which then exists.
-    pub(crate) fn visit(&mut self, index: usize, model: &Model, full_damping: bool) -> bool {
+    pub(crate) fn visit(&mut self, index: usize, model: &Model, full_damping: bool, vertical: bool) -> bool {
         let entry = &mut self.entries[index];
         let n = model.storeys();
         let limit = if full_damping { Self::DENSE_LIMITS.0 } else { Self::DENSE_LIMITS.1 };
@@ -338,8 +338,8 @@ impl RegimeCache {
         if entry.visits <= Self::SERIES_VISITS {
             return false;
         }
-        if entry.regime.propagator.is_none() {
-            let propagator = Propagator::new(model, &entry.regime, self.dt);
+        if entry.regime.propagator.as_ref().is_none_or(|p| vertical && p.ramp.is_empty()) {
+            let propagator = Propagator::new(model, &entry.regime, self.dt, vertical);
             self.bytes += propagator.bytes();
             entry.regime.propagator = Some(Box::new(propagator));
         }

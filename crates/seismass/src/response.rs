@@ -24,12 +24,14 @@ pub struct Peak {
 }
 
 impl Peak {
-    /// Takes a value if it beats the peak.
+    /// Takes a value if it beats the peak; tells whether it did.
     #[inline]
-    pub(crate) fn take(&mut self, value: f64, time: f64) {
-        if value.abs() > self.value {
+    pub(crate) fn take(&mut self, value: f64, time: f64) -> bool {
+        let beats = value.abs() > self.value;
+        if beats {
             *self = Self { value: value.abs(), time };
         }
+        beats
     }
 }
 

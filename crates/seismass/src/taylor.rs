@@ -278,21 +278,48 @@ impl Series {
     pub(crate) fn push_rows_at_end(&self, out: &mut Vec<f64>) {
         let from = out.len();
         out.resize(from + 4 * self.stride, 0.0);
-        let (change, rest) = out[from..].split_at_mut(2 * self.stride);
-        let (dx, dv) = change.split_at_mut(self.stride);
-        let (a, jerk) = rest.split_at_mut(self.stride);
-        for k in (0..=self.order).rev() {
-            let at = k * self.stride;
-            for i in 0..self.storeys {
-                if k > 0 {
-                    dx[i] += self.x[at + i];
-                    dv[i] += self.v[at + i];
-                    jerk[i] += k as f64 * self.a[at + i];
+        let rows = &mut out[from..];
+        match self.stride {
+            4 => self.rows_at_end::<4>(rows),
+            8 => self.rows_at_end::<8>(rows),
+            stride => {
+                for block in 0..stride / 8 {
+                    let mut part = [0.0; 32];
+                    self.rows_of_block::<8>(8 * block, &mut part);
+                    for (row, values) in rows.chunks_exact_mut(stride).zip(part.chunks_exact(8)) {
+                        row[8 * block..8 * block + 8].copy_from_slice(values);
+                    }
                 }
-                a[i] += self.a[at + i];
             }
         }
-        jerk.iter_mut().for_each(|j| *j /= self.h);
+    }
+
+    fn rows_at_end<const N: usize>(&self, rows: &mut [f64]) {
+        self.rows_of_block::<N>(0, rows);
+    }
+
+    /// Rows of the `N` storeys from `first`.
+    fn rows_of_block<const N: usize>(&self, first: usize, rows: &mut [f64]) {
+        let mut sums = [[0.0; N]; 4];
+        let orders =
+            |data: &[f64], k: usize| data[k * self.stride + first..].first_chunk::<N>().copied().unwrap_or([0.0; N]);
+        for k in (1..=self.order).rev() {
+            let (x, v, a) = (orders(&self.x, k), orders(&self.v, k), orders(&self.a, k));
+            for l in 0..N {
+                sums[0][l] += x[l];
+                sums[1][l] += v[l];
+                sums[2][l] += a[l];
+                sums[3][l] += k as f64 * a[l];
+            }
+        }
+        let a = orders(&self.a, 0);
+        for l in 0..N {
+            sums[2][l] += a[l];
+            sums[3][l] /= self.h;
+        }
+        for (row, sums) in rows.chunks_exact_mut(N).zip(&sums) {
+            row.copy_from_slice(sums);
+        }
     }
 
     /// Drift rates at `s`.
