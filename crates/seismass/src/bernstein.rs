@@ -104,13 +104,21 @@ impl Polynomial {
         loop {
             let start = end - back;
             if start.is_nan() || start <= 0.0 {
-                return if self.coefficients[0] > 0.0 { self.refine(0.0, end) } else { 0.0 };
+                return self.without_zeros_at_start().map_or(0.0, |rising| rising.refine(0.0, end));
             }
             if self.at(start) >= 0.0 {
                 return self.refine(start, end);
             }
             back *= 4.0;
         }
+    }
+
+    /// The polynomial without its zeros at 0, if it is positive or rises there, by however little: what it does first
+    /// decides, for a guard that has just fired starts at exactly zero.
+    fn without_zeros_at_start(&self) -> Option<Self> {
+        let zeros = self.coefficients().iter().position(|&c| c != 0.0)?;
+        let rest = &self.coefficients()[zeros..];
+        (rest[0] > 0.0).then(|| Self::new(rest.iter().copied()))
     }
 
     /// The root in [left, right], at whose ends the polynomial is positive and not positive, to rounding: Newton kept
@@ -148,6 +156,23 @@ impl Polynomial {
     }
 }
 
+/// 1 / C(n, k), by degree n and order k.
+const INVERSE_BINOMIALS: [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1] = {
+    let mut table = [[1.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
+    let mut n = 1;
+    while n <= MAX_DEGREE {
+        let mut binomial = 1u64;
+        let mut k = 1;
+        while k <= n {
+            binomial = binomial * (n + 1 - k) as u64 / k as u64;
+            table[n][k] = 1.0 / binomial as f64;
+            k += 1;
+        }
+        n += 1;
+    }
+    table
+};
+
 /// A polynomial on a part of [0, 1] by its Bernstein coefficients.
 #[derive(Clone, Copy)]
 struct Bernstein {
@@ -160,11 +185,9 @@ impl Bernstein {
     fn new(polynomial: &Polynomial) -> Self {
         let length = polynomial.length;
         let mut b = polynomial.coefficients;
-        let degree = length - 1;
-        let mut binomial = 1.0;
+        let weights = &INVERSE_BINOMIALS[length - 1];
         for k in 1..length {
-            binomial *= (degree + 1 - k) as f64 / k as f64;
-            b[k] /= binomial;
+            b[k] *= weights[k];
         }
         for pass in 1..length {
             for j in (pass..length).rev() {
@@ -283,6 +306,9 @@ mod tests {
         // Leaves zero upwards and comes back.
         let s = Polynomial::new([0.0, 1.0, -2.0]).first_fall(1e-15).unwrap();
         assert!((s - 0.5).abs() < 1e-15);
+        // Rises off zero by less than the tolerance, and falls: the fall is where it comes back, not the start.
+        let s = Polynomial::new([0.0, 1e-9, 0.0, -1e3]).first_fall(1e-12).unwrap();
+        assert!((s - 1e-6).abs() < 1e-20, "{s}");
         // Noise below zero at the start, then rises.
         assert_eq!(Polynomial::new([-1e-17, -1e-17, 1.0]).first_fall(1e-15), None);
     }
