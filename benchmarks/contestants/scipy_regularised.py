@@ -26,7 +26,7 @@ except ImportError:
 LENGTH: Final = 1e-3
 """Absolute tolerances are the relative one times this displacement (m), or what it means as velocity or force."""
 VELOCITY: Final = 1e-2
-MAX_EVALUATIONS: Final = 4_000_000
+MAX_EVALUATIONS: Final = 5_000_000
 """Evaluations of the right-hand side after which a run is given up: it chatters about a switch."""
 
 
