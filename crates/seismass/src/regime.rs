@@ -64,6 +64,55 @@ impl Regime {
     /// with S the storey forces of springs, P-Delta and damping. Also serves derivatives of these.
     #[inline]
     pub(crate) fn accelerations(&self, model: &Model, x: &[f64], v: &[f64], load: &[f64], out: &mut [f64]) {
+        match self.lanes.0.len() {
+            4 => self.accelerations_in_lanes::<4>(model, x, v, load, out),
+            8 => self.accelerations_in_lanes::<8>(model, x, v, load, out),
+            _ => self.accelerations_of_any(model, x, v, load, out),
+        }
+    }
+
+    fn accelerations_in_lanes<const N: usize>(
+        &self,
+        model: &Model,
+        x: &[f64],
+        v: &[f64],
+        load: &[f64],
+        out: &mut [f64],
+    ) {
+        let fill = |values: &[f64]| {
+            let mut lanes = [0.0; N];
+            lanes.iter_mut().zip(values).for_each(|(lane, value)| *lane = *value);
+            lanes
+        };
+        let lanes = |values: &[f64]| values.first_chunk::<N>().copied().unwrap_or([0.0; N]);
+        let (x, v, mut force) = (fill(x), fill(v), fill(load));
+        let (tangent, inverse_mass) = (lanes(&self.lanes.0), lanes(&self.lanes.1));
+        let mut shear = [0.0; N];
+        for l in 0..N {
+            shear[l] = tangent[l] * x[l];
+        }
+        for (column, &rate) in model.lanes.damping.chunks_exact(N).zip(&v) {
+            for l in 0..N {
+                shear[l] += column[l] * rate;
+            }
+        }
+        if let Some(storey_damping) = model.lanes.storey_damping.first_chunk::<N>() {
+            let mut velocity = 0.0;
+            for l in 0..N {
+                shear[l] += storey_damping[l] * v[l];
+                velocity += v[l];
+                force[l] -= model.lanes.floor_damping[l] * velocity;
+            }
+        }
+        for l in 0..N - 1 {
+            force[l] += shear[l + 1];
+        }
+        for (l, out) in out.iter_mut().enumerate() {
+            *out = (force[l] - shear[l]) * inverse_mass[l];
+        }
+    }
+
+    fn accelerations_of_any(&self, model: &Model, x: &[f64], v: &[f64], load: &[f64], out: &mut [f64]) {
         let n = out.len();
         storey_forces(&self.tangent, model, x, v, out);
         let mut velocity = 0.0;

@@ -2,16 +2,13 @@
 //!
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
-use crate::bernstein::{MAX_DEGREE, Polynomial};
+use crate::bernstein::Polynomial;
 use crate::lanes::{InstructionSet, multiply_add, padded};
 use crate::model::Model;
 use crate::regime::Regime;
 
 /// Longest step of one series, as frequency times time: longer intervals are split.
 pub(crate) const MAX_PHASE: f64 = 1.0;
-/// Relative size of the first neglected term.
-const TRUNCATION: f64 = 1.0 / (1u64 << 60) as f64;
-
 /// What drives the system in a step: ground acceleration and floor loads, linear in time.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Drive {
@@ -52,16 +49,15 @@ pub(crate) struct Series {
     load: Vec<f64>,
 }
 
-/// Number of terms so that the first neglected one is below rounding.
+/// Largest phase at which the term of order 3, 4, ... is below 2^-60: phase^k / k! rounded down.
+const PHASE_LIMITS: [f64; 26] = [
+    0.0000, 0.0000, 0.0006, 0.0029, 0.0088, 0.0207, 0.0408, 0.0707, 0.1119, 0.1652, 0.2312, 0.3099, 0.4014, 0.5054,
+    0.6215, 0.7493, 0.8883, 1.0380, 1.1978, 1.3672, 1.5458, 1.7329, 1.9282, 2.1311, 2.3412, 2.5582,
+];
+
+/// Order of the first term that is below rounding.
 fn terms(phase: f64) -> usize {
-    let mut term = 1.0;
-    for k in 1..MAX_DEGREE - 3 {
-        term *= phase / k as f64;
-        if term < TRUNCATION {
-            return k.max(3);
-        }
-    }
-    MAX_DEGREE - 3
+    3 + PHASE_LIMITS.iter().position(|&limit| phase < limit).unwrap_or(PHASE_LIMITS.len() - 1)
 }
 
 impl Series {
@@ -345,3 +341,20 @@ macro_rules! form_for {
 form_for!(form_baseline, false);
 #[cfg(target_arch = "x86_64")]
 form_for!(form_avx2, true, "avx2,fma");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bernstein::MAX_DEGREE;
+
+    /// The neglected term is below 2^-60, and the next guard polynomials still fit.
+    #[test]
+    fn series_are_long_enough() {
+        for phase in [1e-9, 1e-3, 0.1, 0.3, 0.7, MAX_PHASE] {
+            let order = terms(phase);
+            let term = (1..=order).fold(1.0, |term, k| term * phase / k as f64);
+            assert!(term <= (-60f64).exp2(), "phase {phase}: {term:e}");
+        }
+        assert!(2 + terms(f64::INFINITY) <= MAX_DEGREE);
+    }
+}
