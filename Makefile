@@ -12,7 +12,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 
-.PHONY: study test bench docs clean build lint test-rust test-python test-wheel
+.PHONY: study test bench stress docs clean build lint test-rust test-python test-wheel
 
 study: build
 	$(VENV)/bin/seismass study --out out/study
@@ -22,6 +22,10 @@ test: lint docs test-wheel test-rust test-python
 bench: build $(BENCH_VENV)/made
 	$(BENCH_VENV)/bin/python benchmarks/study.py
 	$(BENCH_VENV)/bin/python benchmarks/work_precision.py $(BENCH_OPTIONS)
+
+# A run that was stopped goes on from target/stress/tally.tsv, where failing seeds are kept; remove it to begin again.
+stress:
+	cargo run --locked --release -p seismass-judge --bin stress -- --scenes 1000000 --judged 10000 --write docs/stress.md
 
 lint: build
 	cargo fmt --all --check

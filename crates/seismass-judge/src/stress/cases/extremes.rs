@@ -32,7 +32,7 @@ pub(super) const CASES: &[Case] = &[
     Case {
         theme: THEME,
         name: "one sample, and two",
-        expectation: "one: ends at 0 s, no event even above mu g; two: judge to 1e-12",
+        expectation: "one: ends at 0 s, drifts and slips exactly 0, only the ground's block has let go; two: judge to 1e-12",
         run: one_sample,
     },
     Case {
@@ -117,7 +117,8 @@ fn one_sample() -> Outcome {
     let scene = loaded(4.0, 0.2)?;
     let response = checked(&scene, &motion(vec![9.0], 0.01)?)?;
     require(response.end_time == 0.0, || format!("ends at {} s", response.end_time))?;
-    require(response.peaks.drift.iter().all(|p| p.value == 0.0), || "a drift".into())?;
+    require(response.peaks.drift.iter().chain(&response.peaks.slip).all(|p| p.value == 0.0), || "a peak".into())?;
+    expect_count(&response, EventKind::Slip, 1)?;
     let two = motion(vec![9.0, -3.0], 0.01)?;
     let both = checked(&scene, &two)?;
     let difference = judged::<DoubleDouble>(&scene, &two, &both, 1e-12)?;

@@ -222,9 +222,9 @@ fn slopes() -> Outcome {
             let storey = Storey { stiffness: 300.0, yield_shear: 2.5, overstrength, second_slope, third_slope };
             let storeys = building(vec![1.0; 2], vec![storey; 2], 0.05)?;
             let scene = standing(storeys, vec![Block::new(1, 0.5, 0.2), Block::new(2, 0.5, 0.2)])?;
-            let response = checked(&scene, &motion)?;
-            let found = judged::<DoubleDouble>(&scene, &motion, &response, 1e-10)
-                .map_err(|e| format!("r2 {second_slope}, r3 {third_slope}, Omega {overstrength}: {e}"))?;
+            let spring = |fault: String| format!("r2 {second_slope}, r3 {third_slope}, Omega {overstrength}: {fault}");
+            let response = checked(&scene, &motion).map_err(spring)?;
+            let found = judged::<DoubleDouble>(&scene, &motion, &response, 1e-10).map_err(spring)?;
             worst = worst.max(found);
             events += response.statistics.events.total();
         }
