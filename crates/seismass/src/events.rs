@@ -110,7 +110,7 @@ impl State<'_> {
     fn storey_guards(&self, h: f64, sizes: &[f64], first: &mut First, isolated: &mut usize) {
         for i in 0..self.storeys() {
             let (x, excursion) = (self.x[i], self.series.drift_excursion(i));
-            let size = self.model.laws[i].elastic_range();
+            let size = self.model.laws[i].yield_range(self.springs[i].yielded());
             let mut bound = |limit: f64, sign: Sign, guard: Guard| {
                 let margin = sign.factor() * (limit - x);
                 let tolerance = ROUNDING * (limit.abs() + x.abs() + excursion + size);
@@ -277,6 +277,10 @@ impl State<'_> {
         let time = self.interval.start + tau;
         let kind = if self.airborne { EventKind::Land } else { EventKind::Lift };
         for (j, motion) in self.motions.iter_mut().enumerate() {
+            // An arrival that a lift forestalls, by rounding of time.
+            if motion.sliding().is_some_and(|sign| sign.factor() * motion.velocity < 0.0) {
+                motion.velocity = 0.0;
+            }
             log.push(Event { time, kind, number: j + 1, sign: motion.velocity_sign(), element: 0 });
             motion.state = match kind {
                 EventKind::Lift => BlockState::Airborne,

@@ -118,10 +118,10 @@ impl StoreyLaw {
         &self.elements[..self.count as usize]
     }
 
-    /// Largest drift to first yield of an element: the size of the numbers that elastic drifts come from; 0 if none
-    /// yields.
-    pub(crate) fn elastic_range(&self) -> f64 {
-        self.elements().iter().map(|e| e.yield_force / e.stiffness).fold(0.0, f64::max)
+    /// Yield drift of the element that yields after `yielded` others: the size of the numbers that its bound comes
+    /// from; 0 if there is none.
+    pub(crate) fn yield_range(&self, yielded: u8) -> f64 {
+        self.elements().get(yielded as usize).map_or(0.0, |e| e.yield_force / e.stiffness)
     }
 
     /// Whether the storey can yield at all.
