@@ -163,24 +163,46 @@ impl Observer {
         }
     }
 
-    /// Appends a row to the histories.
+    /// Appends the present state to the histories.
     pub(crate) fn record(&mut self, state: &State, sample: usize) {
+        if self.records(sample) {
+            let blocks = state.motions.iter().map(|m| (m.velocity, m.slip));
+            self.record_row(state, &state.x, &state.v, &state.a, blocks);
+        }
+    }
+
+    /// Whether the histories have a row at a sample.
+    #[inline]
+    pub(crate) fn records(&self, sample: usize) -> bool {
+        self.histories.as_ref().is_some_and(|h| sample.is_multiple_of(h.every))
+    }
+
+    /// Appends a row: drift coordinates, drift rates, floor accelerations, and (velocity, slip) of the blocks, in the
+    /// regime of `state`.
+    pub(crate) fn record_row(
+        &mut self,
+        state: &State,
+        x: &[f64],
+        v: &[f64],
+        a: &[f64],
+        blocks: impl Iterator<Item = (f64, f64)>,
+    ) {
         let Some(histories) = &mut self.histories else { return };
-        if !sample.is_multiple_of(histories.every) {
-            return;
-        }
-        let regime = state.regime();
-        for i in 0..state.storeys() {
-            histories.drift.push(state.springs[i].drift(state.x[i]));
-            histories.floor_acceleration.push(state.a[i]);
-            histories.storey_force.push(state.base_force[i] + regime.spring_tangent[i] * state.x[i]);
-        }
+        let tangent = &state.regime().spring_tangent;
+        let n = state.storeys();
         let first = histories.floor_velocity.len();
-        histories.floor_velocity.extend(state.floor_velocities());
-        for (motion, law) in state.motions.iter().zip(&state.model.blocks) {
+        let mut velocity = 0.0;
+        for i in 0..n {
+            velocity += v[i];
+            histories.drift.push(state.springs[i].drift(x[i]));
+            histories.storey_force.push(state.base_force[i] + tangent[i] * x[i]);
+            histories.floor_velocity.push(velocity);
+        }
+        histories.floor_acceleration.extend_from_slice(&a[..n]);
+        for ((relative, slip), law) in blocks.zip(&state.model.blocks) {
             let floor = if law.floor > 0 { histories.floor_velocity[first + law.floor - 1] } else { 0.0 };
-            histories.slip.push(motion.slip);
-            histories.block_velocity.push(floor + motion.velocity);
+            histories.slip.push(slip);
+            histories.block_velocity.push(floor + relative);
         }
     }
 

@@ -381,6 +381,8 @@ fn run_lanes<const N: usize, const FUSED: bool>(
         }
     }
     let mut moved = vec![(0.0, 0.0); sliding.len()];
+    // Velocity and slip of all blocks, as histories have them.
+    let mut blocks: Vec<(f64, f64)> = state.motions.iter().map(|m| (m.velocity, m.slip)).collect();
     let watches_blocks = !sliding.is_empty() || state.stuck_mu[0].is_finite() || state.vertical;
     let Some(course) = Course::<N>::new(state, motion.dt()) else { return first };
     let samples = motion.acceleration();
@@ -409,6 +411,10 @@ fn run_lanes<const N: usize, const FUSED: bool>(
                     lanes.set_bounds(l, state, observer);
                 }
             }
+        }
+        if observer.records(i) {
+            sliding.iter().for_each(|b| blocks[b.block] = (b.velocity, b.slip));
+            observer.record_row(state, &lanes.x, &lanes.v, &lanes.a, blocks.iter().copied());
         }
         if course.is_vertical {
             // The slope of the contact force turns at the sample, and the rates of the accelerations with it.
@@ -447,8 +453,8 @@ for_lanes!(run_avx512, true, "avx2,fma,avx512f,avx512vl");
 
 impl State<'_> {
     #[allow(unsafe_code)]
-    /// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached,
-    /// whose start the state is then at.
+    /// Takes plain steps from interval `first` until `end`, or until one is not plain, and records their histories;
+    /// returns the interval reached, whose start the state is then at.
     pub(crate) fn plain_run(&mut self, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize {
         let full_damping = self.has_full_damping();
         if self.airborne || !self.cache.visit(self.regime, self.model, full_damping, self.vertical) {

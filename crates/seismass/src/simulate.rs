@@ -77,13 +77,15 @@ pub(crate) fn run(
             run.state.refresh_accelerations(0.0);
         }
         let reached = run.plain_run(motion, i, quiet_from);
-        if reached == i
-            && let Some((storey, time)) = run.series_interval()?
-        {
+        if reached > i {
+            i = reached;
+            continue;
+        }
+        if let Some((storey, time)) = run.series_interval()? {
             status = Status::Collapsed { storey: storey + 1, time };
             break;
         }
-        i = reached.max(i + 1);
+        i += 1;
         run.observer.record(&run.state, i);
     }
     if status == Status::Completed {
@@ -179,9 +181,6 @@ impl Run<'_> {
     fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> usize {
         let last = motion.acceleration().len() - 1;
         let mut end = last.min(i + INTERVALS_PER_POLL);
-        if let Some(histories) = &self.observer.histories {
-            end = end.min((i / histories.every + 1) * histories.every);
-        }
         if i < quiet_from {
             end = end.min(quiet_from);
         } else {
