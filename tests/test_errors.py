@@ -129,7 +129,7 @@ CASES: list[Case] = [
         "overstrength below 1",
         lambda: building(overstrength=0.9),
         sm.InvalidScene,
-        r"overstrength of storey 1 must be a number of at least 1; got 0.9",
+        r"overstrength of storey 1 must be finite and at least 1; got 0.9",
     ),
     (
         "second slope above 1",
@@ -375,9 +375,9 @@ CASES: list[Case] = [
         "negative friction",
         lambda: block(mu=-0.1),
         sm.InvalidScene,
-        r"mu_s of block 1 must be zero or positive; got -0.1",
+        r"mu_s of block 1 must be finite and not negative; got -0.1",
     ),
-    ("infinite friction", lambda: block(mu=INF), sm.InvalidScene, r"mu_s of block 1 must be zero or positive; got inf"),
+    ("infinite friction", lambda: block(mu=INF), sm.InvalidScene, r"mu_s of block 1 must be finite and not negative; got inf"),
     (
         "mu_k above mu_s",
         lambda: block(mu=None, mu_s=0.3, mu_k=0.4),

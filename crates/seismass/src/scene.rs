@@ -8,11 +8,17 @@ use crate::STANDARD_GRAVITY;
 use crate::damping::{StoreyDamping, natural_frequencies};
 use crate::error::{Domain, Error, Result};
 
-/// Longest motion a run takes (samples).
-const MAX_SAMPLES: usize = 1 << 31;
+/// Longest motion a run takes (samples): 0.8 GB.
+const MAX_SAMPLES: usize = 100_000_000;
+/// Most storeys of a building: a full damping matrix takes 8 MB.
+const MAX_STOREYS: usize = 1000;
 
 fn check(ok: bool, parameter: &str, owner: &str, requirement: &str, value: f64) -> Result<()> {
     if ok { Ok(()) } else { Err(Error::invalid(Domain::Scene, parameter, owner, requirement, value)) }
+}
+
+fn check_storeys(count: usize) -> Result<()> {
+    check(count <= MAX_STOREYS, "storeys", "building", &format!("at most {MAX_STOREYS}"), count as f64)
 }
 
 fn check_length(parameter: &str, owner: &str, expected: usize, of: &str, got: usize) -> Result<()> {
@@ -75,7 +81,7 @@ impl Storey {
         let Self { stiffness: k, yield_shear: vy, overstrength: omega, second_slope: r2, third_slope: r3 } = *self;
         check(k.is_finite() && k > 0.0, "stiffness", owner, "a positive number", k)?;
         check(vy > 0.0, "yield_shear", owner, "positive (infinite: elastic)", vy)?;
-        check(omega.is_finite() && omega >= 1.0, "overstrength", owner, "a number of at least 1", omega)?;
+        check(omega.is_finite() && omega >= 1.0, "overstrength", owner, "finite and at least 1", omega)?;
         check((0.0..=1.0).contains(&r2), "second_slope", owner, "between 0 and 1", r2)?;
         check((0.0..=r2).contains(&r3), "third_slope", owner, &format!("between 0 and the second slope {r2}"), r3)
     }
@@ -136,6 +142,7 @@ impl Building {
         if mass.is_empty() {
             return Err(Error::invalid(Domain::Scene, "mass", "building", "a list of at least one floor mass", "none"));
         }
+        check_storeys(mass.len())?;
         check_length("stiffness", "building", mass.len(), "storey", storeys.len())?;
         for (i, (&m, storey)) in mass.iter().zip(&storeys).enumerate() {
             check(m.is_finite() && m > 0.0, "mass", &format!("floor {}", i + 1), "a positive number", m)?;
@@ -251,6 +258,7 @@ impl Building {
 /// [`Error::Invalid`] when a number is out of its range.
 pub fn uniform_stiffness(storeys: usize, period: f64, mass: f64) -> Result<f64> {
     check(storeys >= 1, "storeys", "building", "at least 1", storeys as f64)?;
+    check_storeys(storeys)?;
     check(period.is_finite() && period > 0.0, "period", "building", "a positive number", period)?;
     check(mass.is_finite() && mass > 0.0, "mass", "building", "a positive number", mass)?;
     let angle = std::f64::consts::PI / (2.0 * (2 * storeys + 1) as f64);
@@ -282,12 +290,15 @@ impl Block {
     fn validate(&self, owner: &str, floors: usize) -> Result<()> {
         let Self { floor, mass, mu_s, mu_k, velocity } = *self;
         if floor > floors {
-            let requirement = format!("a floor of the building, 1 to {floors}, or 0 for the ground");
+            let requirement = match floors {
+                0 => "0, the ground, where there is no building".to_string(),
+                _ => format!("a floor of the building, 1 to {floors}, or 0 for the ground"),
+            };
             return Err(Error::invalid(Domain::Scene, "floor", owner, requirement, floor));
         }
         check(mass.is_finite() && mass > 0.0, "mass", owner, "a positive number", mass)?;
-        check(mu_s.is_finite() && mu_s >= 0.0, "mu_s", owner, "zero or positive", mu_s)?;
-        check(mu_k >= 0.0, "mu_k", owner, "zero or positive", mu_k)?;
+        check(mu_s.is_finite() && mu_s >= 0.0, "mu_s", owner, "finite and not negative", mu_s)?;
+        check(mu_k >= 0.0, "mu_k", owner, "finite and not negative", mu_k)?;
         check(mu_k <= mu_s, "mu_k", owner, &format!("at most mu_s = {mu_s}"), mu_k)?;
         velocity.map_or(Ok(()), |v| check(v.is_finite(), "velocity", owner, "a finite number", v))
     }
