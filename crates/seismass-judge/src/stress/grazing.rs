@@ -13,6 +13,8 @@ pub const AGREEMENT: f64 = 1e-9;
 const LAST_DIGITS: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 /// Different changes of each size.
 const TRIALS: u64 = 6;
+/// Events this close (s) are at one instant.
+const ONE_INSTANT: f64 = 1e-10;
 /// Without a difference in the events, the kernel may be this many times as far from the judge as the judge is from
 /// itself under a change of its input in the last digits.
 const AMPLIFICATION: f64 = 100.0;
@@ -91,14 +93,15 @@ fn explain(scene: &Scene, motion: &Motion, response: &Response, exact: &Solution
 /// Whether the changed judge leaves the judge at the instant at which the kernel does.
 fn same_instant(response: &Response, exact: &Solution, other: &Solution) -> bool {
     let first = |log: &[seismass::Event]| {
-        let differ = |(a, b): (&seismass::Event, &seismass::Event)| a.kind != b.kind || a.number != b.number;
+        let differ =
+            |(a, b): (&seismass::Event, &seismass::Event)| (a.kind, a.number, a.sign) != (b.kind, b.number, b.sign);
         let place = log.iter().zip(&exact.events).position(differ).unwrap_or(log.len().min(exact.events.len()));
         let time = |log: &[seismass::Event]| log.get(place).map_or(f64::INFINITY, |e| e.time);
         time(log).min(time(&exact.events))
     };
     let kernel = first(response.events.as_deref().unwrap_or_default());
     let judge = first(&other.events);
-    (kernel - judge).abs() <= 1e-6 * kernel.max(judge) || kernel == judge
+    kernel == judge || (kernel - judge).abs() <= ONE_INSTANT + 1e-6 * kernel.max(judge)
 }
 
 /// The scene and motion with every number changed by up to `digits` in its last digit. Numbers of one kind change
