@@ -64,10 +64,11 @@ pub fn table(findings: &[Finding]) -> String {
 }
 
 /// The page of docs.
-pub fn page(findings: &[Finding], tally: &Tally, command: &str) -> String {
+pub fn page(findings: &[Finding], tally: &Tally) -> String {
     let failed = findings.iter().filter(|f| f.outcome.is_err()).count();
     format!(
-        "# Stress\n\nWritten by `{command}`. What can still go wrong is in [limitations.md](limitations.md).\n\n\
+        "# Stress\n\nWritten by `make stress`, which runs a million random scenes and may be stopped and \
+         gone on with; how many this page stands for is in its last table. What can still go wrong is in [limitations.md](limitations.md).\n\n\
          ## Named cases\n\n\
          {} cases, {failed} whose expectation does not hold. *Judge*: the second, plain implementation, in double-double \
          precision unless stated; a difference to it is relative to the peak of the same storey or block. \
