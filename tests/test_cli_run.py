@@ -48,6 +48,16 @@ def test_summary(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert all(len(line) <= 120 for line in printed.out.splitlines())
 
 
+def test_p_delta_is_shown_on_elastic_storeys(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    building = {"storeys": 2, "period": 0.3, "mass": 1000.0, "heights": 3.0, "gravity_load": 1e4}
+    path = tmp_path / "elastic.json"
+    path.write_text(json.dumps({**SCENE, "building": building}))
+    assert command(path) == 0
+    printed = capsys.readouterr().out
+    assert "springs   elastic" in printed
+    assert "P-Delta" in printed
+
+
 def test_json_has_the_names_of_the_reference_results(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert command(scene, "--json") == 0
     printed = json.loads(capsys.readouterr().out)
@@ -106,7 +116,7 @@ def test_bad_input_ends_with_2_and_writes_nothing(
     for arguments, message in (
         ((tmp_path / "nowhere.toml", "--histories", target), "must be a file that can be read"),
         ((scene, "--histories", tmp_path / "histories.xlsx"), "suffix of --histories must be .parquet or .csv"),
-        ((scene, "--histories", tmp_path / "nowhere" / "h.csv"), "No such file or directory"),
+        ((scene, "--histories", tmp_path / "nowhere" / "h.csv"), "folder of --histories must exist"),
     ):
         assert command(*arguments) == 2
         printed = capsys.readouterr()

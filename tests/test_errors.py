@@ -377,7 +377,12 @@ CASES: list[Case] = [
         sm.InvalidScene,
         r"mu_s of block 1 must be finite and not negative; got -0.1",
     ),
-    ("infinite friction", lambda: block(mu=INF), sm.InvalidScene, r"mu_s of block 1 must be finite and not negative; got inf"),
+    (
+        "infinite friction",
+        lambda: block(mu=INF),
+        sm.InvalidScene,
+        r"mu_s of block 1 must be finite and not negative; got inf",
+    ),
     (
         "mu_k above mu_s",
         lambda: block(mu=None, mu_s=0.3, mu_k=0.4),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
 from collections.abc import Sequence
@@ -47,6 +48,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     except KeyboardInterrupt:
         # On a terminal a progress bar, or the ^C itself, has begun the line.
-        print("\n" * sys.stderr.isatty() + "seismass: interrupted", file=sys.stderr)
+        # One Ctrl-C may be heard twice, by a library and by Python.
+        with contextlib.suppress(KeyboardInterrupt):
+            print("\n" * sys.stderr.isatty() + "seismass: interrupted", file=sys.stderr)
         return INTERRUPTED
     return code

@@ -42,6 +42,11 @@ def read_motions(args: argparse.Namespace) -> Suite:
     return replace(builtin_suite(), name="built-in suite") if args.records is None else read_suite(args.records)
 
 
+def left_out(suite: Suite) -> list[str]:
+    """Return a line for each file of the folder that the suite left out, with the reason."""
+    return [f"left out {item.file.name}: {item.reason}" for item in suite.excluded]
+
+
 def read_target(args: argparse.Namespace) -> TargetSpectrum:
     """Return the target spectrum that the options describe.
 

@@ -52,6 +52,8 @@ def run(args: argparse.Namespace) -> int:
     if args.histories is not None and args.histories.suffix.lower() not in _HISTORY_SUFFIXES:
         suffixes = " or ".join(_HISTORY_SUFFIXES)
         raise InvalidOption(f"suffix of --histories must be {suffixes}; got {args.histories.suffix!r}")
+    if args.histories is not None and not args.histories.absolute().parent.is_dir():
+        raise InvalidOption(f"folder of --histories must exist; got {args.histories.absolute().parent}")
     file = read_scene(args.scene)
     try:
         response = simulate(file.scene, file.motion, histories=args.histories is not None, energy=True)
@@ -164,8 +166,6 @@ def _building_lines(building: Building, scene: Scene) -> list[str]:
         f"building  {building.storeys} {noun}, periods {periods}{more} s, weight {building.weight / 1000.0:.5g} kN, "
         f"damping {_damping_text(building)}"
     ]
-    if math.isinf(building.yield_shear.min()):
-        return [*lines, "springs   elastic"]
     parameters = ", ".join(
         f"{symbol} {_listed(values)}"
         for symbol, values in (
@@ -175,7 +175,7 @@ def _building_lines(building: Building, scene: Scene) -> list[str]:
             ("r3", building.third_slope),
         )
     )
-    lines.append(f"springs   {parameters}")
+    lines.append(f"springs   {'elastic' if math.isinf(building.yield_shear.min()) else parameters}")
     if scene.geometric_stiffness.any():
         lines.append(f"P-Delta   P/(h k) {_listed(scene.geometric_stiffness / building.stiffness)}")
     return lines

@@ -6,7 +6,7 @@ import argparse
 import json
 from typing import Any
 
-from seismass.commands.options import add_motion_options, read_motions, read_target
+from seismass.commands.options import add_motion_options, left_out, read_motions, read_target
 
 _EPILOG = """examples:
   seismass scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6
@@ -48,6 +48,8 @@ def run(args: argparse.Namespace) -> int:
         print(json.dumps(document, indent=2))
         return 0
     print(f"suite   {suite.name}: {len(suite)} motions")
+    for line in left_out(suite):
+        print(f"        {line}")
     print(f"target  {target.label}")
     print(
         f"range   {scaling.periods[0]:g} to {scaling.periods[-1]:g} s; the mean touches the target at "

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from seismass.commands.options import add_motion_options, count_option, read_motions, read_target
+from seismass.commands.options import add_motion_options, count_option, left_out, read_motions, read_target
 
 _EPILOG = """examples:
   seismass study
@@ -78,8 +78,8 @@ def run(args: argparse.Namespace) -> int:
         counts = metadata["counts"]
         made = "synthetic motions, none recorded" if metadata["suite"]["synthetic"] else "motions"
         print(f"suite    {metadata['suite']['name']}: {len(suite)} {made}")
-        for item in suite.excluded:
-            print(f"         left out {item.file.name}: {item.reason}")
+        for line in left_out(suite):
+            print(f"         {line}")
         for motion in metadata["suite"]["motions"]:
             print(f"         {motion['motion']:>2}  x {motion['factor']:<7.4f} {motion['record']}")
         print(f"target   {target.label}")
