@@ -378,6 +378,37 @@ CASES: list[Case] = [
         r"mu_s of block 1 must be finite and not negative; got -0.1",
     ),
     (
+        "strength over weight, negative",
+        lambda: sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.2, -0.1, 0.1]),
+        sm.InvalidScene,
+        r"yield_shear_over_weight of building must be positive; got \[0.2, -0.1, 0.1\]",
+    ),
+    (
+        "strength over weight, too few",
+        lambda: sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.2, 0.1]),
+        sm.InvalidScene,
+        r"yield_shear_over_weight of building must be one number or a list of 3, one per storey; got 2 values",
+    ),
+    (
+        "scene file as number",
+        lambda: sm.read_scene(5),
+        sm.InvalidSceneFile,
+        r"path of scene file must be a path; got 5",
+    ),  # type: ignore[arg-type]
+    (
+        "record as number",
+        lambda: sm.read_record(5),  # type: ignore[arg-type]
+        sm.RecordFormatError,
+        r"path of record must be a path; got 5",
+    ),
+    ("suite as number", lambda: sm.read_suite(5), sm.RecordFormatError, r"path of suite must be a path; got 5"),  # type: ignore[arg-type]
+    (
+        "negative threads",
+        lambda: sm.simulate_many([block()], [sm.Motion([0.0, 1.0], 0.01)], threads=-1),
+        sm.InvalidOption,
+        r"threads of batch must be a whole number of at least 1; got -1",
+    ),
+    (
         "infinite friction",
         lambda: block(mu=INF),
         sm.InvalidScene,
@@ -597,7 +628,7 @@ CASES: list[Case] = [
         "no threads",
         lambda: sm.simulate_many(block(), QUIET, threads=0),
         sm.InvalidOption,
-        r"threads of batch must be between 1 and 1024; got 0",
+        r"threads of batch must be a whole number of at least 1; got 0",
     ),
     (
         "threads without end",

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numbers
 from collections.abc import Hashable
+from pathlib import Path
 from typing import Any, Self, TypeAlias, TypeVar
 
 import numpy as np
@@ -90,6 +91,17 @@ def brief(value: Any) -> str:
 def refusal(kind: type[SeismassError], parameter: str, owner: str, requirement: str, got: str) -> SeismassError:
     """Return the error of the one form: *parameter* of *owner* must be *requirement*; got *value*."""
     return kind(f"{parameter} of {owner} must be {requirement}; got {got}")
+
+
+def as_path(value: Any, owner: str, kind: type[SeismassError]) -> Path:
+    """Return a path of a file or folder."""
+    try:
+        path = Path(value)
+    except TypeError:
+        path = None
+    if path is None or "\0" in str(path):
+        raise refusal(kind, "path", owner, "a path", brief(value))
+    return path
 
 
 def as_number(value: Any, parameter: str, owner: str, kind: type[SeismassError]) -> float:

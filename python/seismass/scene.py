@@ -250,6 +250,18 @@ class Building(Value):
             fraction = as_array(
                 yield_shear_over_weight, "yield_shear_over_weight", "building", InvalidScene, or_number=True
             )
+            if not np.all(fraction > 0.0):
+                raise refusal(
+                    InvalidScene, "yield_shear_over_weight", "building", "positive", brief(yield_shear_over_weight)
+                )
+            if fraction.size not in (1, count):
+                raise refusal(
+                    InvalidScene,
+                    "yield_shear_over_weight",
+                    "building",
+                    f"one number or a list of {count}, one per storey",
+                    f"{fraction.size} values",
+                )
             yield_shear = fraction * (STANDARD_GRAVITY * floor_mass * count)
         return cls(
             np.full(count, floor_mass),

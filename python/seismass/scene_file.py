@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from seismass._values import FloatArray, as_array, as_count, as_number, brief, refusal
+from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
 from seismass.errors import InvalidMotion, InvalidScene, InvalidSceneFile
 from seismass.records import Record, read_record
 from seismass.scene import Block, Building, Rayleigh, Scene
@@ -120,7 +120,7 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     >>> sm.read_scene(file).scene
     Scene(ground only, 1 block)
     """
-    source = Path(path)
+    source = as_path(path, "scene file", InvalidSceneFile)
     top = _Table(_load(source), "", source.name)
     top.known(_SCENE_KEYS)
     if "motion" not in top.values:

@@ -490,7 +490,7 @@ def simulate_many(
         [motion._kernel for motion in chosen],
         runs,
         peaks_only=bool(peaks_only),
-        threads=None if threads is None else as_count(threads, "threads", "batch", InvalidOption),
+        threads=None if threads is None else as_count(threads, "threads", "batch", InvalidOption, least=1),
         progress=progress,
     )
     return _table(batch, runs, listed)

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import Literal
 
-from seismass._values import as_number, brief
+from seismass._values import as_number, as_path, brief
 from seismass.errors import RecordFormatError
 from seismass.records.at2 import looks_like_at2, parse_at2
 from seismass.records.columns import parse_columns
@@ -54,7 +54,7 @@ def read_record(
     >>> read_record(file)
     <Record ramp: 3 x 0.01 s, PGA 0.1020 g>
     """
-    source = Path(path)
+    source = as_path(path, "record", RecordFormatError)
     if dt is not None:
         step = as_number(dt, "dt", source.name, RecordFormatError)
         if not (math.isfinite(step) and step > 0.0):

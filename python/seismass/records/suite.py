@@ -12,6 +12,7 @@ from pathlib import Path
 
 import polars as pl
 
+from seismass._values import as_path
 from seismass.errors import RecordFormatError
 from seismass.records.read import read_record, read_text
 from seismass.records.record import Record
@@ -115,7 +116,7 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
         A missing path, no record in it, a CSV without the column or that lists a file twice or a vertical component,
         or any file that cannot be read: none is dropped silently.
     """
-    source = Path(path)
+    source = as_path(path, "suite", RecordFormatError)
     if source.is_dir():
         return _read_directory(source)
     if source.suffix.lower() == ".csv":
