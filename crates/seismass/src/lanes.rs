@@ -72,3 +72,9 @@ pub(crate) fn padded(storeys: usize) -> usize {
 pub(crate) fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
+
+/// The first `N` values as lanes; zeros where there are fewer.
+#[inline(always)]
+pub(crate) fn first_lanes<const N: usize>(values: &[f64]) -> [f64; N] {
+    values.first_chunk::<N>().copied().unwrap_or([0.0; N])
+}

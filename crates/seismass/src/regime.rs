@@ -5,8 +5,8 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::padded;
-use crate::model::Model;
+use crate::lanes::{first_lanes, multiply_add, padded};
+use crate::model::{Model, ModelLanes};
 use crate::propagator::Propagator;
 
 /// The linear operators of one regime.
@@ -84,32 +84,8 @@ impl Regime {
             lanes.iter_mut().zip(values).for_each(|(lane, value)| *lane = *value);
             lanes
         };
-        let lanes = |values: &[f64]| values.first_chunk::<N>().copied().unwrap_or([0.0; N]);
-        let (x, v, mut force) = (fill(x), fill(v), fill(load));
-        let (tangent, inverse_mass) = (lanes(&self.lanes.0), lanes(&self.lanes.1));
-        let mut shear = [0.0; N];
-        for l in 0..N {
-            shear[l] = tangent[l] * x[l];
-        }
-        for (column, &rate) in model.lanes.damping.chunks_exact(N).zip(&v) {
-            for l in 0..N {
-                shear[l] += column[l] * rate;
-            }
-        }
-        if let Some(storey_damping) = model.lanes.storey_damping.first_chunk::<N>() {
-            let mut velocity = 0.0;
-            for l in 0..N {
-                shear[l] += storey_damping[l] * v[l];
-                velocity += v[l];
-                force[l] -= model.lanes.floor_damping[l] * velocity;
-            }
-        }
-        for l in 0..N - 1 {
-            force[l] += shear[l + 1];
-        }
-        for (l, out) in out.iter_mut().enumerate() {
-            *out = (force[l] - shear[l]) * inverse_mass[l];
-        }
+        let a = LaneOperator::<N>::new(model, self).accelerations::<false>(&fill(x), &fill(v), fill(load));
+        out.iter_mut().zip(&a).for_each(|(out, a)| *out = *a);
     }
 
     fn accelerations_of_any(&self, model: &Model, x: &[f64], v: &[f64], load: &[f64], out: &mut [f64]) {
@@ -135,6 +111,48 @@ impl Regime {
     /// Whether energy cannot grow in this regime: no negative tangent, damping known not to feed it.
     pub(crate) fn is_passive(&self) -> bool {
         self.growth == 0.0
+    }
+}
+
+/// [`Regime::accelerations`] with storeys as `N` lanes, of which those beyond the last storey are zero.
+pub(crate) struct LaneOperator<'a, const N: usize> {
+    tangent: [f64; N],
+    inverse_mass: [f64; N],
+    model: &'a ModelLanes,
+}
+
+impl<'a, const N: usize> LaneOperator<'a, N> {
+    pub(crate) fn new(model: &'a Model, regime: &Regime) -> Self {
+        let (tangent, inverse_mass) = &regime.lanes;
+        Self { tangent: first_lanes(tangent), inverse_mass: first_lanes(inverse_mass), model: &model.lanes }
+    }
+
+    /// Floor accelerations from drifts, drift rates and floor loads.
+    #[inline(always)]
+    pub(crate) fn accelerations<const FUSED: bool>(&self, x: &[f64; N], v: &[f64; N], mut force: [f64; N]) -> [f64; N] {
+        let mut shear = [0.0; N];
+        for l in 0..N {
+            shear[l] = self.tangent[l] * x[l];
+        }
+        for (column, &rate) in self.model.damping.chunks_exact(N).zip(v) {
+            for l in 0..N {
+                shear[l] = multiply_add::<FUSED>(column[l], rate, shear[l]);
+            }
+        }
+        if let Some(storey_damping) = self.model.storey_damping.first_chunk::<N>() {
+            let mut velocity = 0.0;
+            for l in 0..N {
+                shear[l] = multiply_add::<FUSED>(storey_damping[l], v[l], shear[l]);
+                velocity += v[l];
+                force[l] -= self.model.floor_damping[l] * velocity;
+            }
+        }
+        let mut a = [0.0; N];
+        for l in 0..N - 1 {
+            a[l] = (shear[l + 1] - shear[l] + force[l]) * self.inverse_mass[l];
+        }
+        a[N - 1] = (force[N - 1] - shear[N - 1]) * self.inverse_mass[N - 1];
+        a
     }
 }
 

@@ -310,7 +310,7 @@ impl<'a> State<'a> {
         })
     }
 
-    /// Total contact force per unit mass, whether or not the blocks feel it.
+    /// Moves on to another sample interval.
     pub(crate) fn set_interval(&mut self, interval: Interval) {
         self.interval = interval;
     }

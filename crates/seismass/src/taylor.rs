@@ -3,9 +3,9 @@
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
 use crate::bernstein::Polynomial;
-use crate::lanes::{InstructionSet, multiply_add, padded};
+use crate::lanes::{InstructionSet, first_lanes, padded};
 use crate::model::Model;
-use crate::regime::Regime;
+use crate::regime::{LaneOperator, Regime};
 
 /// Longest step of one series, as frequency times time: longer intervals are split.
 pub(crate) const MAX_PHASE: f64 = 1.0;
@@ -89,45 +89,27 @@ impl Series {
         }
     }
 
+    /// Sets the load to term `k` of the floor loads over the step.
+    #[inline(always)]
+    fn set_load(&mut self, drive: &Drive, k: usize) {
+        match k {
+            0 => self.load[..self.storeys].copy_from_slice(&drive.load),
+            1 => self.load.iter_mut().zip(&drive.load_slope).for_each(|(load, slope)| *load = slope * self.h),
+            2 => self.load.fill(0.0),
+            _ => {}
+        }
+    }
+
     /// Forms the orders above the first, with `N` lanes.
     #[inline(always)]
     fn form_lanes<const N: usize, const FUSED: bool>(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
-        let lanes = |values: &[f64]| values.first_chunk::<N>().copied().unwrap_or([0.0; N]);
-        let (tangent, inverse_mass) = (lanes(&regime.lanes.0), lanes(&regime.lanes.1));
-        let inside = lanes(&model.lanes.inside);
-        let (mut x, mut v) = (lanes(&self.x), lanes(&self.v));
+        let operator = LaneOperator::<N>::new(model, regime);
+        let inside: [f64; N] = first_lanes(&model.lanes.inside);
+        let (mut x, mut v): ([f64; N], [f64; N]) = (first_lanes(&self.x), first_lanes(&self.v));
         let mut excursion = [[0.0; N]; 3];
         for k in 0..=self.order {
-            match k {
-                0 => self.load[..self.storeys].copy_from_slice(&drive.load),
-                1 => self.load.iter_mut().zip(&drive.load_slope).for_each(|(load, slope)| *load = slope * self.h),
-                2 => self.load.fill(0.0),
-                _ => {}
-            }
-            let load = lanes(&self.load);
-            let mut shear = [0.0; N];
-            for l in 0..N {
-                shear[l] = tangent[l] * x[l];
-            }
-            for (column, &rate) in model.lanes.damping.chunks_exact(N).zip(&v) {
-                for l in 0..N {
-                    shear[l] = multiply_add::<FUSED>(column[l], rate, shear[l]);
-                }
-            }
-            let mut force = load;
-            if let Some(storey_damping) = model.lanes.storey_damping.first_chunk::<N>() {
-                let mut velocity = 0.0;
-                for l in 0..N {
-                    shear[l] = multiply_add::<FUSED>(storey_damping[l], v[l], shear[l]);
-                    velocity += v[l];
-                    force[l] -= model.lanes.floor_damping[l] * velocity;
-                }
-            }
-            let mut a = [0.0; N];
-            for l in 0..N - 1 {
-                a[l] = (shear[l + 1] - shear[l] + force[l]) * inverse_mass[l];
-            }
-            a[N - 1] = (force[N - 1] - shear[N - 1]) * inverse_mass[N - 1];
+            self.set_load(drive, k);
+            let a = operator.accelerations::<FUSED>(&x, &v, first_lanes(&self.load));
             let at = k * N;
             self.x[at..at + N].copy_from_slice(&x);
             self.v[at..at + N].copy_from_slice(&v);
@@ -159,12 +141,7 @@ impl Series {
         self.excursion.iter_mut().for_each(|sums| sums.fill(0.0));
         for k in 0..=self.order {
             let at = k * stride;
-            match k {
-                0 => self.load[..n].copy_from_slice(&drive.load),
-                1 => self.load.iter_mut().zip(&drive.load_slope).for_each(|(load, slope)| *load = slope * self.h),
-                2 => self.load.fill(0.0),
-                _ => {}
-            }
+            self.set_load(drive, k);
             let (xk, vk) = (&self.x[at..at + n], &self.v[at..at + n]);
             regime.accelerations(model, xk, vk, &self.load[..n], &mut self.a[at..at + n]);
             if k > 0 {
