@@ -1,7 +1,8 @@
 """The work-precision benchmark: time of a run against its error, beside the peers.
 
-Usage: python benchmarks/work_precision.py [--quick]. The full benchmark writes docs/work_precision.md, its figures in
-docs/figures and all points in benchmarks/results; --quick writes the same under out/bench.
+Usage: python benchmarks/work_precision.py [--quick] [--contestants NAME ...] [--scenes NAME ...]. The full benchmark
+writes docs/work_precision.md, its figures in docs/figures and all points in benchmarks/results; --quick writes the same
+under out/bench. A part of the contestants or scenes is printed and not written.
 """
 
 from __future__ import annotations
@@ -10,12 +11,13 @@ import argparse
 import importlib
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final
 
 import polars as pl
 
-from contestants.base import Setting
+from contestants.base import EVERYWHERE, Setting
 from environment import summary
 from figure import main_figure, scenes_figure
 from judge import ROOT, Reference, reference
@@ -44,9 +46,9 @@ SCHEMA: Final[dict[str, Any]] = {
 }
 
 
-def settings(*, quick: bool) -> list[Setting]:
-    """Return the settings of all contestants."""
-    modules = (importlib.import_module(f"contestants.{name}") for name in CONTESTANTS)
+def settings(contestants: Sequence[str] = CONTESTANTS, *, quick: bool) -> list[Setting]:
+    """Return the settings of contestants."""
+    modules = (importlib.import_module(f"contestants.{name}") for name in contestants)
     return [setting for module in modules for setting in module.settings() if setting.quick or not quick]
 
 
@@ -58,9 +60,10 @@ def line(row: dict[str, Any]) -> str:
     return f"  {row['family']:34} {row['setting']:26} {spent:>14}  {told}"
 
 
-def run(benches: list[BenchmarkScene], references: dict[str, Reference], *, quick: bool) -> pl.DataFrame:
-    """Measure everything, scene by scene."""
-    chosen = settings(quick=quick)
+def run(
+    benches: list[BenchmarkScene], references: dict[str, Reference], chosen: list[Setting], *, quick: bool
+) -> pl.DataFrame:
+    """Measure the chosen settings, scene by scene."""
     rows = []
     for bench in benches:
         print(f"{bench.title}; {bench.motion_name}; {references[bench.name].events} events", flush=True)
@@ -71,19 +74,21 @@ def run(benches: list[BenchmarkScene], references: dict[str, Reference], *, quic
     return pl.DataFrame(rows, schema=SCHEMA)
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the benchmark and write its results."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--quick", action="store_true", help="fewer settings and repeats; docs stay as they are")
-    quick = parser.parse_args().quick
+    for option, names in (("--contestants", CONTESTANTS), ("--scenes", EVERYWHERE)):
+        parser.add_argument(option, nargs="+", metavar="NAME", choices=names, help=f"only these of {', '.join(names)}")
+    given = parser.parse_args(arguments)
     began = time.perf_counter()
     machine = summary()
     print(machine, flush=True)
-    benches = scenes()
+    benches = [bench for bench in scenes() if given.scenes is None or bench.name in given.scenes]
     references = {bench.name: reference(bench) for bench in benches}
-    table = run(benches, references, quick=quick)
-    out = ROOT / "out" / "bench" if quick else ROOT
-    write(table, benches, references, machine, out)
+    table = run(benches, references, settings(given.contestants or CONTESTANTS, quick=given.quick), quick=given.quick)
+    if given.contestants is None and given.scenes is None:
+        write(table, benches, references, machine, ROOT / "out" / "bench" if given.quick else ROOT)
     print(f"{len(table)} points in {time.perf_counter() - began:.0f} s")
     return 0
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -73,3 +74,19 @@ def test_scipy_with_events_and_samples_agrees_with_the_kernel(module: Any, bench
     found = module("contestants.scipy_events").integrate(bench, 1e-12, at_samples=True)
     assert np.abs(found.drift - exact.drift).max() < 1e-10 * exact.peak_drift.max()
     assert np.abs(found.slip - exact.slip).max() < 1e-10 * exact.peak_slip.max()
+
+
+def test_part_of_the_benchmark_is_run_and_not_written(
+    module: Any, bench: Any, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    benchmark, judge = module("work_precision"), module("judge")
+    solved = module("contestants.exact").with_histories(bench)
+    monkeypatch.setattr(benchmark, "scenes", lambda: [replace(bench, name=name) for name in ("sliding", "elastic")])
+    monkeypatch.setattr(benchmark, "reference", lambda _: judge.Reference(solved, solved.drift, solved.slip, 7))
+    monkeypatch.setattr(benchmark, "write", lambda *_: pytest.fail("written"))
+    assert benchmark.main(["--quick", "--contestants", "exact", "--scenes", "sliding"]) == 0
+    rows = [line.split()[0] for line in capsys.readouterr().out.splitlines() if line.startswith("  ")]
+    assert rows
+    assert set(rows) == {"seismass,"}
+    with pytest.raises(SystemExit):
+        benchmark.main(["--contestants", "heyoka"])
