@@ -59,8 +59,9 @@ NOTES: Final = """## Who is who
 - **SciPy, events**: DOP853 on a state machine, restarted at events, or at events and samples; peaks by cubic
   interpolation between samples, which bounds their error near 1e-7. **SciPy, tanh friction**: friction smoothed over a
   relative velocity; the error is the smoothing's. These and the finest OpenSees steps run on the first scene only.
-- **heyoka**: Taylor integration with event detection on the same state machine. An error far above its tolerance means
-  that an event was lost between its detection and this state machine, which is written here and not heyoka's.
+- **heyoka**: Taylor integration with event detection on the same state machine, compiled for the guards that a scene
+  has; peaks from its own dense output. Its steps end at the samples, where the ground motion has kinks: such steps are
+  so short that the error is far below the tolerance, and a coarser one saves little.
 """
 
 

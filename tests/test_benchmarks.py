@@ -76,6 +76,20 @@ def test_scipy_with_events_and_samples_agrees_with_the_kernel(module: Any, bench
     assert np.abs(found.slip - exact.slip).max() < 1e-10 * exact.peak_slip.max()
 
 
+def test_heyoka_loses_no_event_of_a_guard_that_starts_at_zero(module: Any, bench: Any) -> None:
+    """Blocks that rest for moments only slip and come to rest again within a sample interval."""
+    pytest.importorskip("heyoka", reason="heyoka is a package of the benchmarks, not of the tests")
+    scenes, contestant = module("scenes"), module("contestants.heyoka_taylor")
+    for scene in (scenes.section4(0.5), scenes.section4(0.05, mu=0.05)):
+        short = replace(bench, scene=scene)
+        exact = module("contestants.exact").with_histories(short)
+        found = contestant.integrate(short, 1e-15)
+        assert np.abs(found.drift - exact.drift).max() < 1e-11 * exact.peak_drift.max()
+        assert np.abs(found.slip - exact.slip).max() < 1e-11 * exact.peak_slip.max()
+        assert np.abs(found.peak_drift - exact.peak_drift).max() < 1e-11 * exact.peak_drift.max()
+        assert np.abs(found.peak_slip - exact.peak_slip).max() < 1e-11 * exact.peak_slip.max()
+
+
 def test_part_of_the_benchmark_is_run_and_not_written(
     module: Any, bench: Any, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
