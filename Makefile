@@ -12,7 +12,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 
-.PHONY: study test bench stress docs clean build lint test-rust test-python test-wheel
+.PHONY: study test bench bench-kernel count-instructions stress docs clean build lint test-rust test-python test-wheel
 
 study: build
 	$(VENV)/bin/seismass study --out out/study
@@ -22,6 +22,14 @@ test: lint docs test-wheel test-rust test-python
 bench: build $(BENCH_VENV)/made
 	$(BENCH_VENV)/bin/python benchmarks/study.py
 	$(BENCH_VENV)/bin/python benchmarks/work_precision.py $(BENCH_OPTIONS)
+
+# Wall times of the kernel alone; BENCH_OPTIONS goes to divan (a filter, --sample-count).
+bench-kernel:
+	cargo bench --locked -p seismass --bench kernel -- $(BENCH_OPTIONS)
+
+# Instructions beside those recorded in benchmarks/results/instructions.csv; LABEL="what changed" records them there.
+count-instructions: build
+	$(PYTHON) benchmarks/instructions.py $(if $(LABEL),--label "$(LABEL)")
 
 # A run that was stopped goes on from target/stress/tally.tsv, where failing seeds are kept; remove it to begin again.
 stress:
