@@ -11,7 +11,7 @@ from typing import Final
 
 import seismass
 
-PACKAGES: Final = ("numpy", "numba", "scipy", "openseespy", "heyoka", "polars")
+PACKAGES: Final = ("numpy", "numba", "scipy", "openseespy", "heyoka", "pydiffsol", "polars")
 
 
 def cpu() -> str:

@@ -33,6 +33,7 @@ STYLES: Final[tuple[tuple[str, str, str, str], ...]] = (
     ("SciPy Radau, tanh friction", "#8C8C8C", "s", ":"),
     ("SciPy LSODA, tanh friction", "#8C8C8C", "^", ":"),
     ("heyoka, events and samples", "#222222", "D", "-"),
+    ("diffsol, events and samples", "#222222", "v", "--"),
 )
 """Family, colour, marker, line."""
 LABEL: Final = "largest error of the drift history / peak drift"

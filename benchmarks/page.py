@@ -62,6 +62,9 @@ NOTES: Final = """## Who is who
 - **heyoka**: Taylor integration with event detection on the same state machine, compiled for the guards that a scene
   has; peaks from its own dense output. Its steps end at the samples, where the ground motion has kinks: such steps are
   so short that the error is far below the tolerance, and a coarser one saves little.
+- **diffsol**: a Rust library, through its package pydiffsol: Tsit45 with stop conditions on the same state machine,
+  restarted at the samples too; peaks of the cubics over its steps. Its other methods are implicit, of lower order, and
+  not run.
 """
 
 

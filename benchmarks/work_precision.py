@@ -31,6 +31,7 @@ CONTESTANTS: Final = (
     "numba_leapfrog",
     "opensees",
     "heyoka_taylor",
+    "diffsol_tsit45",
     "scipy_events",
     "scipy_regularised",
 )

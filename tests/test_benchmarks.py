@@ -76,18 +76,40 @@ def test_scipy_with_events_and_samples_agrees_with_the_kernel(module: Any, bench
     assert np.abs(found.slip - exact.slip).max() < 1e-10 * exact.peak_slip.max()
 
 
-def test_heyoka_loses_no_event_of_a_guard_that_starts_at_zero(module: Any, bench: Any) -> None:
+@pytest.mark.parametrize(
+    ("package", "contestant", "tolerance", "bound"),
+    [("heyoka", "heyoka_taylor", 1e-15, 1e-11), ("pydiffsol", "diffsol_tsit45", 1e-14, 1e-10)],
+)
+def test_no_event_of_a_guard_that_starts_at_zero_is_lost(
+    module: Any, bench: Any, package: str, contestant: str, tolerance: float, bound: float
+) -> None:
     """Blocks that rest for moments only slip and come to rest again within a sample interval."""
-    pytest.importorskip("heyoka", reason="heyoka is a package of the benchmarks, not of the tests")
-    scenes, contestant = module("scenes"), module("contestants.heyoka_taylor")
+    pytest.importorskip(package, reason=f"{package} is a package of the benchmarks, not of the tests")
+    scenes = module("scenes")
     for scene in (scenes.section4(0.5), scenes.section4(0.05, mu=0.05)):
         short = replace(bench, scene=scene)
         exact = module("contestants.exact").with_histories(short)
-        found = contestant.integrate(short, 1e-15)
-        assert np.abs(found.drift - exact.drift).max() < 1e-11 * exact.peak_drift.max()
-        assert np.abs(found.slip - exact.slip).max() < 1e-11 * exact.peak_slip.max()
-        assert np.abs(found.peak_drift - exact.peak_drift).max() < 1e-11 * exact.peak_drift.max()
-        assert np.abs(found.peak_slip - exact.peak_slip).max() < 1e-11 * exact.peak_slip.max()
+        found = module(f"contestants.{contestant}").integrate(short, tolerance)
+        assert np.abs(found.drift - exact.drift).max() < bound * exact.peak_drift.max()
+        assert np.abs(found.slip - exact.slip).max() < bound * exact.peak_slip.max()
+        assert np.abs(found.peak_drift - exact.peak_drift).max() < bound * exact.peak_drift.max()
+        assert np.abs(found.peak_slip - exact.peak_slip).max() < bound * exact.peak_slip.max()
+
+
+def test_guards_at_zero_are_lifted_and_guards_below_are_missed_events(module: Any, bench: Any) -> None:
+    watched = module("contestants.watched").Watched(module("scenes").system(bench), 1e-15)
+    machine = module("contestants.state_machine")
+    assert len(watched.limits) == len(watched.values(watched.machine.x)) == 3 * (4 + 1 + 3)
+    x = np.zeros(12)
+    assert (watched.lifted(x, 0.0) == watched.limits).all()
+    yields = next(number for number, guard in watched.guards.items() if guard.kind == "yield" and guard.floor == 0)
+    guard = watched.guards[yields]
+    x[0] = -guard.offset / guard.row[0]
+    lifted = watched.lifted(x, 0.0) - watched.limits
+    assert lifted[yields] == pytest.approx(machine.ROUNDING, rel=1e-2)
+    assert np.count_nonzero(lifted) == 1
+    with pytest.raises(module("contestants.base").Failed, match="missed"):
+        watched.lifted(1.01 * x, 0.0)
 
 
 def test_part_of_the_benchmark_is_run_and_not_written(

@@ -68,8 +68,8 @@ def from_histories(
     return Outcome(drift, slip, hermite_peaks(drift, drift_rate, dt), hermite_peaks(slip, slip_rate, dt), slip[-1])
 
 
-def hermite_peaks(value: FloatArray, rate: FloatArray, dt: float) -> FloatArray:
-    """Return the largest absolute values of the cubics through values and rates at the samples, per column."""
+def hermite_peaks(value: FloatArray, rate: FloatArray, dt: float | FloatArray) -> FloatArray:
+    """Return the largest absolute values of the cubics through values and rates, per column; dt or one per interval."""
     peaks: FloatArray = np.abs(value).max(axis=0)
     y0, y1, m0, m1 = value[:-1], value[1:], dt * rate[:-1], dt * rate[1:]
     a, b = 3.0 * (2.0 * (y0 - y1) + m0 + m1), 3.0 * (y1 - y0) - 2.0 * m0 - m1

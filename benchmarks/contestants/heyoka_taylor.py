@@ -5,8 +5,8 @@ One compiled integrator serves every regime of a scene: its coefficients are par
 heyoka looks for roots of a guard's Taylor polynomial in a step, and guards often start a step at zero: that of a block
 that has just begun to slide, say, or one whose event falls on a sample. Where the constant term is zero, heyoka takes
 the start of the step for the root and misses the next one; where it is below zero by rounding, a falling guard has no
-root left; and a root at which a guard hardly moves gets a cooldown so long that it hides the next. So a guard that
-starts below `ROUNDING` is lifted to it, until the next event or sample. Then every root is an event.
+root left; and a root at which a guard hardly moves gets a cooldown so long that it hides the next. So such guards are
+lifted (`Watched.lifted`). Then every root is an event.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any, Final
 import numpy as np
 
 from contestants.base import Absent, Failed, Outcome, Setting
-from contestants.state_machine import GRAVITY, ROUNDING, Guard, Machine
+from contestants.watched import Slot, Watched, slots
 from scenes import BenchmarkScene, System, scenes, system
 
 try:
@@ -42,34 +42,6 @@ class _Parameters:
         """Return the next parameter."""
         self.count += 1
         return hy.par[self.count - 1]
-
-
-Slot = tuple[str, int, int, float]
-"""Kind, floor, element and sign of a guard; no sign where a regime has one of both signs."""
-
-
-def slots(plain: System) -> tuple[Slot, ...]:
-    """Return the guards that a scene can have: an integrator has no others to watch."""
-    found: list[Slot] = []
-    for i, elements in enumerate(plain.elements):
-        yielding = [e for e, (stiffness, strength) in enumerate(elements) if stiffness > 0.0 and np.isfinite(strength)]
-        found += [("yield", i, e, sign) for e in yielding for sign in (1.0, -1.0)]
-        if yielding:
-            found.append(("unload", i, 0, 0.0))
-        if plain.block_mass[i] > 0.0:
-            found += [("slip", i, 0, 1.0), ("slip", i, 0, -1.0), ("arrive", i, 0, 0.0)]
-    return tuple(found)
-
-
-def _slot(guard: Guard) -> Slot:
-    return guard.kind, guard.floor, guard.element, guard.sign if guard.kind in ("yield", "slip") else 0.0
-
-
-def _factor(guard: Guard) -> float:
-    """Return the factor of a guard on its quantity: drift, its rate, relative velocity, or floor acceleration."""
-    if guard.kind == "yield":
-        return float(guard.row[guard.floor])
-    return -guard.sign if guard.kind == "slip" else guard.sign
 
 
 @cache
@@ -105,10 +77,8 @@ class _Run:
     """One run: the state machine, and the integrator that follows it from sample to sample."""
 
     def __init__(self, plain: System, tolerance: float) -> None:
-        watched = slots(plain)
-        self.numbers = {slot: number for number, slot in enumerate(watched)}
-        self.machine = Machine(plain, tolerance)
-        self.integrator, self.peak = _integrator(plain.storeys, watched, tolerance)
+        self.watched = Watched(plain, tolerance)
+        self.integrator, self.peak = _integrator(plain.storeys, slots(plain), tolerance)
         self.pars, self.state = self.integrator.pars, self.integrator.state
         self.events = 0
         self.peak[:] = 0.0
@@ -116,28 +86,12 @@ class _Run:
         self._enter()
 
     def _enter(self) -> None:
-        """Take over state and regime of the machine; a guard that the regime does not have is 1."""
-        n, machine, count = self.machine.n, self.machine, len(self.numbers)
-        floors = np.column_stack((machine.matrix[n : 2 * n, : 2 * n], machine.constant[n : 2 * n]))
-        blocks = np.column_stack((-np.abs(machine.slides), -GRAVITY * machine.plain.mu * machine.slides))
-        self.guards = {self.numbers[_slot(guard)]: guard for guard in machine.guards}
-        factors, self.offsets, self.limits = np.zeros(count), np.ones(count), np.ones(count)
-        self.rows = np.zeros((count, 4 * n))
-        for number, guard in self.guards.items():
-            factors[number], self.rows[number] = _factor(guard) / guard.scale, guard.row / guard.scale
-            self.offsets[number] = guard.offset / guard.scale
-            self.limits[number] = 1.0 if guard.kind == "slip" else self.offsets[number]
-        self.pars[2 : self.pars.size - count] = np.concatenate((floors.ravel(), blocks.ravel(), factors))
-        self.state[:] = machine.x
-        if count:
+        """Take over state and regime of the machine."""
+        watched = self.watched
+        self.pars[2 : self.pars.size - len(watched.limits)] = watched.coefficients
+        self.state[:] = watched.machine.x
+        if len(watched.limits):
             self.integrator.reset_cooldowns()
-
-    def _lift(self, instant: float) -> None:
-        """Lift the guards that start at zero; one far below has been missed."""
-        values = self.rows @ self.state + self.offsets
-        if values.min(initial=1.0) < -self.machine.zero:
-            raise Failed(f"an event was missed before t = {instant:.3f} s")
-        self.pars[self.pars.size - len(values) :] = self.limits + np.maximum(ROUNDING - values, 0.0)
 
     def note(self) -> None:
         """Count the state at an event or sample among the peaks."""
@@ -149,17 +103,17 @@ class _Run:
         """Advance by a sample interval, restarting at events."""
         self.pars[:2] = acceleration, slope
         self.integrator.time = 0.0
+        watched = self.watched
         while True:
-            self._lift(start + self.integrator.time)
-            outcome = int(self.integrator.propagate_until(self.machine.plain.dt)[0].value)
+            self.pars[self.pars.size - len(watched.limits) :] = watched.lifted(self.state, start)
+            outcome = int(self.integrator.propagate_until(watched.machine.plain.dt)[0].value)
             if not NO_EVENT < outcome < 0:
                 return
             self.events += 1
             if self.events > MAX_EVENTS:
                 raise Failed(f"more than {MAX_EVENTS} events at t = {start:.3f} s")
-            self.machine.x = np.array(self.state)
             self.note()
-            self.machine.fire(self.guards[-outcome - 1], acceleration + slope * self.integrator.time)
+            watched.fire(-outcome - 1, np.array(self.state), acceleration + slope * self.integrator.time)
             self._enter()
 
 
