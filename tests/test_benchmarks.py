@@ -97,8 +97,9 @@ def test_no_event_of_a_guard_that_starts_at_zero_is_lost(
 
 
 def test_guards_at_zero_are_lifted_and_guards_below_are_missed_events(module: Any, bench: Any) -> None:
-    watched = module("contestants.watched").Watched(module("scenes").system(bench), 1e-15)
-    machine = module("contestants.state_machine")
+    scenes, machine = module("scenes"), module("contestants.state_machine")
+    rough = replace(bench, scene=scenes.section4(0.05, mu=10.0))
+    watched = module("contestants.watched").Watched(scenes.system(rough), 1e-15)
     assert len(watched.limits) == len(watched.values(watched.machine.x)) == 3 * (4 + 1 + 3)
     x = np.zeros(12)
     assert (watched.lifted(x, 0.0) == watched.limits).all()
