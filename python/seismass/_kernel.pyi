@@ -13,13 +13,16 @@ __all__ = [
     "VERSION",
     "Batch",
     "Building",
+    "Columns",
     "Motion",
     "ReferenceRun",
     "Response",
     "Scene",
+    "instruction_set",
     "integrate_reference",
     "response_spectra",
     "simulate",
+    "simulate_columns",
     "simulate_many",
     "uniform_stiffness",
 ]
@@ -168,6 +171,29 @@ class Building:
         """
 
 @final
+class Columns:
+    """
+    Scenes as columns, one row each: the index of a building, and tables of rows x blocks; a block of mass ratio 0 is
+    absent.
+    """
+    def __new__(
+        cls,
+        /,
+        buildings: SupportsGetItem[int, Building],
+        floors: SupportsGetItem[int, SupportsIndex],
+        building: NDArray[int64],
+        mass_ratio: NDArray[float64],
+        mu_s: NDArray[float64],
+        mu_k: NDArray[float64],
+        *,
+        collapse_drift: SupportsFloat | SupportsIndex | None = None,
+    ) -> Columns: ...
+    def check(self, /, numbers: NDArray[int64]) -> None:
+        """
+        Raises what is wrong with the first row that describes no valid scene, called by its number of those given.
+        """
+
+@final
 class Motion:
     """
     Ground motion held by the kernel.
@@ -191,6 +217,10 @@ class Motion:
     def dt(self, /) -> float:
         """
         Time step (s).
+        """
+    def scaled(self, /, factor: SupportsFloat | SupportsIndex) -> Motion:
+        """
+        The motion with both components multiplied by `factor`.
         """
     @property
     def vertical(self, /) -> NDArray[float64] | None:
@@ -324,6 +354,11 @@ class Response:
         Floor velocity relative to the ground (m/s), rows x storeys.
         """
     @property
+    def instructions(self, /) -> str:
+        """
+        Name of the instruction set that solved it.
+        """
+    @property
     def peak_drift(self, /) -> NDArray[float64]:
         """
         Peak storey drift (m).
@@ -432,6 +467,11 @@ class Scene:
         P/h of each storey (N/m), the weight of the blocks included; zero without P-Delta.
         """
 
+def instruction_set() -> str:
+    """
+    Name of the instruction set that the hot loops use: "baseline", "avx2" or "avx512".
+    """
+
 def integrate_reference(
     scene: Scene,
     motion: Motion,
@@ -461,6 +501,21 @@ def response_spectra(
 def simulate(scene: Scene, motion: Motion, every: SupportsIndex, energy: bool, events: bool) -> Response:
     """
     Solves one scene under one motion; histories at every so many samples (0: none).
+    """
+
+def simulate_columns(
+    columns: Columns,
+    motions: SupportsGetItem[int, Motion],
+    runs: NDArray[int64],
+    scale: NDArray[float64],
+    *,
+    peaks_only: bool = False,
+    threads: SupportsIndex | None = None,
+    progress: Any | None = None,
+) -> Batch:
+    """
+    Solves `runs`, rows of (row of the columns, index of motion), with the motion of run i multiplied by `scale[i]`;
+    otherwise as `simulate_many`.
     """
 
 def simulate_many(

@@ -1,13 +1,15 @@
 //! Many runs at once, and their peaks as flat columns: no Python object is made per run.
 
-use pyo3::prelude::*;
-use seismass::{Domain, Error, EventKind, Options, Peak};
+use std::sync::Arc;
 
-use crate::arrays::{Output, Table};
+use pyo3::prelude::*;
+use seismass::{Domain, Error, EventKind, Options, Peak, Run, SceneColumns};
+
+use crate::arrays::{Output, Table, Values};
 use crate::errors::from_kernel;
-use crate::interrupt::{checked_threads, run_watched};
+use crate::interrupt::{checked_threads, run_inline, run_watched};
 use crate::response::{collapsed_storey, status_name};
-use crate::scene::{Motion, Scene};
+use crate::scene::{Building, Motion, Scene};
 
 /// Solves `runs`, rows of (index of scene, index of motion); with `peaks_only` residuals may be NaN. `progress` is
 /// called with runs done and runs in all.
@@ -23,12 +25,62 @@ pub(crate) fn simulate_many(
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Batch> {
     let scenes: Vec<seismass::Scene> = scenes.iter().map(|scene| scene.0.clone()).collect();
-    let motions: Vec<seismass::Motion> = motions.iter().map(|motion| motion.0.clone()).collect();
     let runs = pairs(&runs).map_err(|error| from_kernel(py, &error))?;
+    solve(py, motions, runs.len(), peaks_only, threads, progress, move || {
+        Ok((scenes, runs.iter().map(|&(scene, motion)| Run::new(scene, motion)).collect()))
+    })
+}
+
+/// Solves `runs`, rows of (row of the columns, index of motion), with the motion of run i multiplied by `scale[i]`;
+/// otherwise as `simulate_many`.
+#[pyfunction]
+#[pyo3(signature = (columns, motions, runs, scale, *, peaks_only=false, threads=None, progress=None))]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn simulate_columns(
+    py: Python<'_>,
+    columns: PyRef<'_, Columns>,
+    motions: Vec<PyRef<'_, Motion>>,
+    runs: Table<i64>,
+    scale: Values<f64>,
+    peaks_only: bool,
+    threads: Option<usize>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Batch> {
+    let columns = Arc::clone(&columns.0);
+    let runs = pairs(&runs).map_err(|error| from_kernel(py, &error))?;
+    if scale.0.len() != runs.len() {
+        let (requirement, got) = (format!("one factor per run, {}", runs.len()), format!("{} values", scale.0.len()));
+        return Err(from_kernel(py, &Error::invalid(Domain::Options, "scale", "batch", requirement, got)));
+    }
+    solve(py, motions, runs.len(), peaks_only, threads, progress, move || {
+        let (scenes, of_row) = columns.scenes()?;
+        let run = |(&(row, motion), &scale): (&(usize, usize), &f64)| match of_row.get(row) {
+            Some(&scene) => Ok(Run { scene, motion, scale }),
+            None => {
+                let requirement = format!("below the number of them, {}", of_row.len());
+                Err(Error::invalid(Domain::Options, "row", "batch", requirement, row))
+            }
+        };
+        let runs = runs.iter().zip(&scale.0).map(run).collect::<Result<_, _>>()?;
+        Ok((scenes, runs))
+    })
+}
+
+/// Solves what `prepare` gives, away from the calling thread: scenes, and `total` runs of them.
+fn solve(
+    py: Python<'_>,
+    motions: Vec<PyRef<'_, Motion>>,
+    total: usize,
+    peaks_only: bool,
+    threads: Option<usize>,
+    progress: Option<Bound<'_, PyAny>>,
+    prepare: impl FnOnce() -> seismass::Result<(Vec<seismass::Scene>, Vec<Run>)> + Send + 'static,
+) -> PyResult<Batch> {
+    let motions: Vec<seismass::Motion> = motions.iter().map(|motion| motion.0.clone()).collect();
     let threads = checked_threads(py, threads)?;
-    let total = runs.len();
     let report = |done: usize| progress.as_ref().map_or(Ok(()), |call| call.call1((done, total)).map(drop));
     run_watched(py, report, move |control| {
+        let (scenes, runs) = prepare()?;
         let options = Options { peaks_only, ..Options::default() };
         let results = seismass::simulate_many(&scenes, &motions, &runs, &options, threads, control)?;
         let mut batch = Batch::default();
@@ -54,6 +106,58 @@ fn pairs(runs: &Table<i64>) -> seismass::Result<Vec<(usize, usize)>> {
             _ => Err(refuse(format!("({}, {})", pair[0], pair[1]))),
         })
         .collect()
+}
+
+/// Scenes as columns, one row each: the index of a building, and tables of rows x blocks; a block of mass ratio 0 is
+/// absent.
+#[pyclass(frozen, module = "seismass._kernel")]
+pub(crate) struct Columns(Arc<SceneColumns>);
+
+#[pymethods]
+impl Columns {
+    #[new]
+    #[pyo3(signature = (buildings, floors, building, mass_ratio, mu_s, mu_k, *, collapse_drift=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn new(
+        py: Python<'_>,
+        buildings: Vec<PyRef<'_, Building>>,
+        floors: Vec<usize>,
+        building: Values<i64>,
+        mass_ratio: Table<f64>,
+        mu_s: Table<f64>,
+        mu_k: Table<f64>,
+        collapse_drift: Option<f64>,
+    ) -> PyResult<Self> {
+        let index = |&index: &i64| {
+            usize::try_from(index).map_err(|_| {
+                let error = Error::invalid(Domain::Scene, "building index", "scene columns", "0 or more", index);
+                from_kernel(py, &error)
+            })
+        };
+        Ok(Self(Arc::new(SceneColumns {
+            buildings: buildings.iter().map(|building| Arc::clone(&building.0)).collect(),
+            floors,
+            building: building.0.iter().map(index).collect::<PyResult<_>>()?,
+            mass_ratio: mass_ratio.values,
+            mu_s: mu_s.values,
+            mu_k: mu_k.values,
+            collapse_drift,
+        })))
+    }
+
+    /// Raises what is wrong with the first row that describes no valid scene, called by its number of those given.
+    fn check(&self, py: Python<'_>, numbers: Values<i64>) -> PyResult<()> {
+        let columns = &self.0;
+        run_inline(py, || {
+            (0..columns.rows()).zip(&numbers.0).try_for_each(|(row, number)| match columns.scene(row) {
+                Err(Error::Invalid { domain, parameter, owner, requirement, value }) => {
+                    let owner = format!("{owner} of scene {number}");
+                    Err(Error::Invalid { domain, parameter, owner, requirement, value })
+                }
+                other => other.map(drop),
+            })
+        })
+    }
 }
 
 /// Results of a batch. A list per storey (or block) of run i is the next `storeys[i]` (or `blocks[i]`) values of a

@@ -18,11 +18,11 @@ mod _kernel {
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
     #[pymodule_export]
-    use crate::batch::{Batch, simulate_many};
+    use crate::batch::{Batch, Columns, simulate_columns, simulate_many};
     #[pymodule_export]
     use crate::reference::{ReferenceRun, integrate_reference};
     #[pymodule_export]
-    use crate::response::{Response, simulate};
+    use crate::response::{Response, instruction_set, simulate};
     #[pymodule_export]
     use crate::scene::{Building, Motion, Scene, uniform_stiffness};
     #[pymodule_export]

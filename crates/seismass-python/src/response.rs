@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use pyo3::prelude::*;
 use seismass::simulate::simulate_until;
-use seismass::{EventKind, Options, Peak, Status};
+use seismass::{EventKind, InstructionSet, Options, Peak, Status};
 
 use crate::arrays::{Named, Output};
 use crate::interrupt::{run_inline, run_watched};
@@ -41,6 +41,12 @@ pub(crate) fn simulate(
 /// The response of one run, held by the kernel; arrays are made when asked for.
 #[pyclass(frozen, module = "seismass._kernel")]
 pub(crate) struct Response(seismass::Response);
+
+/// Name of the instruction set that the hot loops use: "baseline", "avx2" or "avx512".
+#[pyfunction]
+pub(crate) fn instruction_set() -> &'static str {
+    InstructionSet::in_use().name()
+}
 
 /// "completed" or "collapsed".
 pub(crate) fn status_name(status: Status) -> &'static str {
@@ -269,6 +275,12 @@ impl Response {
                 ("relative_residual", energy.relative_residual),
             ])
         })
+    }
+
+    /// Name of the instruction set that solved it.
+    #[getter]
+    fn instructions(&self) -> &'static str {
+        instruction_set()
     }
 
     /// Work done and skipped.

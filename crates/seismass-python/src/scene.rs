@@ -168,6 +168,11 @@ impl Motion {
         self.0.with_duration(duration).map(Self).map_err(|error| from_kernel(py, &error))
     }
 
+    /// The motion with both components multiplied by `factor`.
+    fn scaled(&self, py: Python<'_>, factor: f64) -> PyResult<Self> {
+        self.0.scaled(factor).map(Self).map_err(|error| from_kernel(py, &error))
+    }
+
     /// Horizontal samples (m/s2).
     #[getter]
     fn acceleration(&self) -> Output<f64> {

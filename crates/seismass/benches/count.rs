@@ -18,14 +18,14 @@ use std::num::NonZeroUsize;
 use common::{PEAKS, Result, case};
 use seismass::reference::{Method, integrate};
 use seismass::spectrum::response_spectra;
-use seismass::{Control, Motion, Options, Response, Scene, simulate_many};
+use seismass::{Control, Motion, Options, Response, Run, Scene, simulate_many};
 
 /// Factor of a motion under which nothing yields and nothing slides.
 const CALM: f64 = 0.01;
 
 /// Solves a scene under each motion, as a batch of as many scenes.
 fn solve(scenes: &[Scene], motions: &[Motion], options: &Options) -> seismass::Result<Vec<Response>> {
-    let runs: Vec<_> = (0..scenes.len()).map(|i| (i, i)).collect();
+    let runs: Vec<_> = (0..scenes.len()).map(|i| Run::new(i, i)).collect();
     simulate_many(scenes, motions, &runs, options, None, &Control::default())?.into_iter().collect()
 }
 

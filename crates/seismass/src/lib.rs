@@ -49,6 +49,7 @@
 
 pub mod batch;
 mod bernstein;
+pub mod columns;
 pub mod damping;
 pub mod error;
 mod events;
@@ -68,7 +69,8 @@ mod state;
 mod storey;
 mod taylor;
 
-pub use batch::{Control, simulate_many};
+pub use batch::{Control, Run, simulate_many};
+pub use columns::SceneColumns;
 pub use error::{Domain, Error, Result};
 pub use lanes::InstructionSet;
 pub use response::{

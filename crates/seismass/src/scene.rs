@@ -287,7 +287,7 @@ impl Block {
         Self { floor, mass, mu_s: mu, mu_k: mu, velocity: None }
     }
 
-    fn validate(&self, owner: &str, floors: usize) -> Result<()> {
+    pub(crate) fn validate(&self, owner: &str, floors: usize) -> Result<()> {
         let Self { floor, mass, mu_s, mu_k, velocity } = *self;
         if floor > floors {
             let requirement = match floors {
@@ -517,6 +517,21 @@ impl Motion {
             samples.into()
         };
         Ok(Self { dt: self.dt, acceleration: resize(&self.acceleration), vertical: self.vertical.as_ref().map(resize) })
+    }
+
+    /// The motion with both components multiplied by `factor`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when the factor, or a sample times it, is not a finite number.
+    pub fn scaled(&self, factor: f64) -> Result<Self> {
+        if !factor.is_finite() {
+            return Err(Error::invalid(Domain::Motion, "factor", "scaled motion", "a finite number", factor));
+        }
+        if factor == 1.0 {
+            return Ok(self.clone());
+        }
+        let multiply = |samples: &Arc<[f64]>| -> Arc<[f64]> { samples.iter().map(|a| a * factor).collect() };
+        Self::new(multiply(&self.acceleration), self.dt, self.vertical.as_ref().map(multiply))
     }
 
     /// Time step (s).

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 use seismass::{
-    Block, Building, Control, Damping, GravityEffect, Motion, Options, Response, STANDARD_GRAVITY, Scene, Storey,
+    Block, Building, Control, Damping, GravityEffect, Motion, Options, Response, Run, STANDARD_GRAVITY, Scene, Storey,
     simulate, simulate_many,
 };
 
@@ -266,17 +266,17 @@ proptest! {
     fn threads_order_and_company_change_no_bit(cases in prop::collection::vec(case(), 2..5)) {
         let scenes: Vec<Scene> = cases.iter().map(Case::scene).collect();
         let motions: Vec<Motion> = cases.iter().map(Case::motion).collect();
-        let mut runs: Vec<(usize, usize)> =
-            (0..scenes.len()).flat_map(|s| (0..motions.len()).map(move |m| (s, m))).collect();
+        let mut runs: Vec<Run> =
+            (0..scenes.len()).flat_map(|s| (0..motions.len()).map(move |m| Run::new(s, m))).collect();
         let options = Options { events: true, ..Options::default() };
-        let batch = |runs: &[(usize, usize)], threads| {
+        let batch = |runs: &[Run], threads| {
             simulate_many(&scenes, &motions, runs, &options, Some(threads), &Control::default()).unwrap()
         };
         let one = batch(&runs, 1);
         let three = batch(&runs, 3);
         prop_assert!(one.iter().zip(&three).all(|(a, b)| same_bits(a.as_ref().unwrap(), b.as_ref().unwrap())));
-        for (&(s, m), response) in runs.iter().zip(&one) {
-            let alone = simulate(&scenes[s], &motions[m], &options).unwrap();
+        for (run, response) in runs.iter().zip(&one) {
+            let alone = simulate(&scenes[run.scene], &motions[run.motion], &options).unwrap();
             prop_assert!(same_bits(response.as_ref().unwrap(), &alone));
         }
         runs.reverse();

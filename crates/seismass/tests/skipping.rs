@@ -5,8 +5,8 @@
 use std::sync::Arc;
 
 use seismass::{
-    Block, Building, Control, Damping, Error, Motion, Options, Scene, Storey, batch::count_distinct, simulate,
-    simulate_many, simulate_until,
+    Block, Building, Control, Damping, Error, Motion, Options, Run, Scene, Storey, simulate, simulate_many,
+    simulate_until,
 };
 
 fn building() -> Arc<Building> {
@@ -61,8 +61,7 @@ fn what_does_not_exist_is_counted_as_skipped() {
 fn equal_runs_of_a_batch_are_solved_once() {
     let scenes = [scene(0.2), scene(0.3), scene(0.2)];
     let motions = [motion(0, 0), motion(0, 0)];
-    let runs: Vec<_> = (0..3).flat_map(|s| [(s, 0), (s, 1)]).collect();
-    assert_eq!(count_distinct(&scenes, &motions, &runs), 2);
+    let runs: Vec<_> = (0..3).flat_map(|s| [Run::new(s, 0), Run::new(s, 1)]).collect();
     let control = Control::default();
     let responses = simulate_many(&scenes, &motions, &runs, &Options::default(), None, &control).unwrap();
     assert_eq!(control.done.into_inner(), 6);
@@ -74,14 +73,35 @@ fn equal_runs_of_a_batch_are_solved_once() {
 fn a_batch_can_be_stopped() {
     let control = Control::default();
     control.stop.store(true, std::sync::atomic::Ordering::Relaxed);
-    let runs = [(0, 0)];
+    let runs = [Run::new(0, 0)];
     let stopped = simulate_many(&[scene(0.2)], &[motion(0, 0)], &runs, &Options::default(), None, &control);
     assert_eq!(stopped.unwrap_err(), Error::Interrupted);
     let long = Motion::new(vec![0.1; 5000], 0.01, None).unwrap();
     assert_eq!(simulate_until(&scene(0.2), &long, &Options::default(), &control.stop).unwrap_err(), Error::Interrupted);
-    let wrong =
-        simulate_many(&[scene(0.2)], &[motion(0, 0)], &[(0, 3)], &Options::default(), None, &Control::default());
+    let wrong = simulate_many(
+        &[scene(0.2)],
+        &[motion(0, 0)],
+        &[Run::new(0, 3)],
+        &Options::default(),
+        None,
+        &Control::default(),
+    );
     assert!(
         wrong.unwrap_err().to_string().contains("motion index of run 1 must be below the number of them, 1; got 3")
     );
+}
+
+#[test]
+fn a_scaled_motion_of_a_batch_is_the_motion_times_its_factor() {
+    let (scenes, motions) = ([scene(0.2)], [motion(100, 0)]);
+    let factors = [2.0, 1.0, -0.7, 2.0, 1e308];
+    let runs = factors.map(|scale| Run { scale, ..Run::new(0, 0) });
+    let batch = simulate_many(&scenes, &motions, &runs, &Options::default(), Some(2), &Control::default()).unwrap();
+    for (factor, response) in factors.iter().zip(&batch).take(4) {
+        let samples: Vec<f64> = motions[0].acceleration().iter().map(|a| a * factor).collect();
+        let alone = simulate(&scenes[0], &Motion::new(samples, 0.01, None).unwrap(), &Options::default()).unwrap();
+        assert_eq!(response.as_ref().unwrap(), &alone);
+    }
+    let message = batch[4].as_ref().unwrap_err().to_string();
+    assert!(message.starts_with("acceleration of motion must be finite at every sample; got "), "{message}");
 }
