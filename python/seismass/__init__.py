@@ -1,6 +1,7 @@
 """How much of a building's live load acts as mass in an earthquake: exact sliding-block shear-building simulation."""
 
 from seismass import _kernel
+from seismass.batch import simulate_many, stream_many, write_many
 from seismass.errors import (
     InvalidMotion,
     InvalidOption,
@@ -10,11 +11,12 @@ from seismass.errors import (
     SeismassError,
     SimulationError,
 )
+from seismass.grid import Grid
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
 from seismass.scene_file import SceneFile, read_scene
-from seismass.simulate import Motion, Response, simulate, simulate_many
+from seismass.simulate import Motion, Response, instruction_set, simulate
 from seismass.spectra import TargetSpectrum, response_spectrum
 from seismass.units import STANDARD_GRAVITY
 
@@ -24,6 +26,7 @@ __all__ = [
     "STANDARD_GRAVITY",
     "Block",
     "Building",
+    "Grid",
     "InvalidMotion",
     "InvalidOption",
     "InvalidScene",
@@ -43,6 +46,7 @@ __all__ = [
     "__version__",
     "blocks_on_floors",
     "builtin_suite",
+    "instruction_set",
     "read_record",
     "read_scene",
     "read_suite",
@@ -50,4 +54,6 @@ __all__ = [
     "scale_asce7_10",
     "simulate",
     "simulate_many",
+    "stream_many",
+    "write_many",
 ]

@@ -1,13 +1,12 @@
-"""Running scenes under motions: one at a time with everything about it, or many with their peaks as a table."""
+"""One scene under one motion, with everything about it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Final, Protocol, TypeAlias, runtime_checkable
+from typing import Any, Final, Protocol, TypeAlias, TypedDict, cast, runtime_checkable
 
 import numpy as np
 import polars as pl
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass._values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
@@ -98,6 +97,17 @@ class Motion(Value):
         changed = self._kernel.with_duration(as_number(duration, "duration", "motion", InvalidMotion))
         return Motion(changed.acceleration, self.dt, changed.vertical)
 
+    def scaled(self, factor: float) -> Motion:
+        """Return the motion with both components multiplied by `factor`.
+
+        Raises
+        ------
+        InvalidMotion
+            The factor, or a sample times it, is not a finite number.
+        """
+        changed = self._kernel.scaled(as_number(factor, "factor", "scaled motion", InvalidMotion))
+        return Motion(changed.acceleration, self.dt, changed.vertical)
+
     def _arguments(self) -> dict[str, Any]:
         return {"acceleration": self.acceleration, "dt": self.dt, "vertical": self.vertical}
 
@@ -117,6 +127,35 @@ class HasMotion(Protocol):
 
 MotionLike: TypeAlias = Motion | HasMotion
 """A Motion, or a Record as it is."""
+
+
+class Statistics(TypedDict):
+    """The work that a run took, and what it could leave out; the same for any number of threads."""
+
+    intervals: int
+    """Sample intervals solved."""
+    plain_steps: int
+    """Steps by a propagator that were proved free of events by bounds alone."""
+    series_steps: int
+    """Steps for which a Taylor series was formed."""
+    guards_isolated: int
+    """Guards and peaks looked at with Bernstein polynomials."""
+    events: int
+    """Events of all kinds."""
+    regimes: int
+    """Different regimes entered."""
+    regime_hits: int
+    """Changes into a regime that the run already knew."""
+    skipped_elastic_storeys: int
+    """Storeys that cannot yield."""
+    skipped_bare_floors: int
+    """Floors without a block."""
+    skipped_head_samples: int
+    """Samples at the head that are zero, with everything at rest."""
+    skipped_tail_samples: int
+    """Samples at the tail where no peak could be beaten."""
+    instructions: str
+    """Instruction set in use, as `instruction_set` names it."""
 
 
 class Response:
@@ -319,9 +358,9 @@ class Response:
         return dict(self._asked("energy", "energy"))
 
     @property
-    def statistics(self) -> dict[str, int]:
-        """Work done by the kernel (intervals, steps, events, regimes, cache hits) and what was skipped."""
-        return dict(self._get("statistics"))
+    def statistics(self) -> Statistics:
+        """Work done by the kernel (intervals, steps, events, regimes), what was skipped, and the instructions used."""
+        return cast(Statistics, {**self._get("statistics"), "instructions": self._get("instructions")})
 
     def _array(self, name: str) -> FloatArray:
         array: FloatArray = self._get(name)
@@ -428,72 +467,20 @@ def simulate(
     return Response(run, chosen.dt, None if scene.building is None else scene.building.heights)
 
 
-def simulate_many(
-    scenes: Scene | Sequence[Scene],
-    motions: MotionLike | Iterable[MotionLike],
-    *,
-    pairs: ArrayLike | None = None,
-    peaks_only: bool = False,
-    threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> pl.DataFrame:
-    """Solve many scenes under many motions, in parallel; the result does not depend on the number of threads.
+def instruction_set() -> str:
+    """Return the name of the instruction set that the kernel uses: "baseline", "avx2" or "avx512".
 
-    Parameters
-    ----------
-    scenes : Scene or sequence of Scene
-        The scenes.
-    motions : Motion, Record or iterable of them
-        The motions.
-    pairs : array_like of int, shape (runs, 2), optional
-        Rows of (index of scene, index of motion), from 0. By default every scene under every motion, the motion
-        changing fastest. Equal runs are solved once.
-    peaks_only : bool, default False
-        A run may end once no peak can be beaten any more, with the same peaks; residuals are then null.
-    threads : int, optional
-        Number of threads, up to 1024; by default all cores.
-    progress : callable, optional
-        Called with (runs done, runs in all) about twenty times a second, and at the end.
-
-    Returns
-    -------
-    polars.DataFrame
-        One row per run, in the order asked for: `scene`, `motion` (indices); `status` ("completed", "collapsed",
-        "failed"), `reason` (of a failure, else null), `end_time` (s), `collapsed_storey` (from 1, or null); lists
-        per storey `peak_drift`, `peak_drift_time`, `peak_drift_ratio` (null without heights), `residual_drift`,
-        `peak_floor_acceleration`, `peak_storey_shear`; `peak_base_shear`; lists per block `peak_slip`,
-        `peak_slip_time`, `residual_slip`, `slip_path`; numbers of `events`, `yields`, `slips`. SI units.
-
-    Raises
-    ------
-    InvalidScene, InvalidMotion, InvalidOption
-        An argument is not what it must be. A run that fails raises nothing: it is a row with a reason.
-    KeyboardInterrupt
-        Ctrl-C was pressed; the batch stops at once.
+    It is the widest that the machine has, or the one that the environment variable SEISMASS_INSTRUCTIONS names when the
+    kernel is first used, if the machine has it ("baseline": every machine). Results agree to rounding between
+    instruction sets, and to the bit on every machine with the same one.
 
     Examples
     --------
     >>> import seismass as sm
-    >>> scenes = [sm.Scene(None, [sm.Block(0, mass=100.0, mu=mu)]) for mu in (0.1, 0.3)]
-    >>> table = sm.simulate_many(scenes, sm.Motion([2.0, 2.0, 0.0, 0.0], dt=0.1))
-    >>> table["slips"].to_list()
-    [1, 0]
+    >>> sm.instruction_set() in ("baseline", "avx2", "avx512")
+    True
     """
-    listed = _listed_scenes(scenes)
-    given = [motions] if isinstance(motions, Motion | HasMotion) else list(_iterated(motions))
-    chosen = [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(given)]
-    runs = _pairs(pairs, len(listed), len(chosen))
-    if progress is not None and not callable(progress):
-        raise refusal(InvalidOption, "progress", "batch", "a callable of two numbers", brief(progress))
-    batch = _kernel.simulate_many(
-        [scene._kernel for scene in listed],
-        [motion._kernel for motion in chosen],
-        runs,
-        peaks_only=bool(peaks_only),
-        threads=None if threads is None else as_count(threads, "threads", "batch", InvalidOption, least=1),
-        progress=progress,
-    )
-    return _table(batch, runs, listed)
+    return _kernel.instruction_set()
 
 
 def as_motion(motion: Any, parameter: str, owner: str) -> Motion:
@@ -502,146 +489,6 @@ def as_motion(motion: Any, parameter: str, owner: str) -> Motion:
     if not isinstance(found, Motion):
         raise refusal(InvalidMotion, parameter, owner, "a Motion or a Record", brief(motion))
     return found
-
-
-def _iterated(values: Any) -> Iterable[Any]:
-    if not isinstance(values, Iterable):
-        raise refusal(InvalidMotion, "motions", "batch", "a list of Motions or Records", brief(values))
-    return values
-
-
-def _listed_scenes(scenes: Any) -> list[Scene]:
-    if not isinstance(scenes, Scene | Iterable):
-        raise refusal(InvalidScene, "scenes", "batch", "a list of Scenes", brief(scenes))
-    listed = [scenes] if isinstance(scenes, Scene) else list(scenes)
-    for number, scene in enumerate(listed):
-        if not isinstance(scene, Scene):
-            raise refusal(InvalidScene, f"scene {number}", "batch", "a Scene", brief(scene))
-    return listed
-
-
-def _pairs(pairs: ArrayLike | None, scenes: int, motions: int) -> NDArray[np.int64]:
-    """Runs as rows of (scene, motion)."""
-    if pairs is None:
-        product = np.indices((scenes, motions), dtype=np.int64).reshape(2, -1)
-        return np.ascontiguousarray(product.T)
-    requirement = "rows of (index of scene, index of motion)"
-    try:
-        rows = np.asarray(pairs)
-    except ValueError:
-        raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs)) from None
-    if rows.size == 0:
-        return np.empty((0, 2), dtype=np.int64)
-    if rows.dtype.kind not in "iu" or rows.ndim != 2 or rows.shape[1] != 2:
-        raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs))
-    for column, (name, size) in enumerate((("scene", scenes), ("motion", motions))):
-        wrong = np.flatnonzero((rows[:, column] < 0) | (rows[:, column] >= size))
-        if len(wrong):
-            limits = f"an index of a {name}, 0 to {size - 1}"
-            got = f"{rows[wrong[0], column]} in pair {wrong[0]}"
-            raise refusal(InvalidOption, "pairs", "batch", limits, got)
-    return np.ascontiguousarray(rows, dtype=np.int64)
-
-
-def _table(batch: _kernel.Batch, runs: NDArray[np.int64], scenes: list[Scene]) -> pl.DataFrame:
-    """The flat columns of a batch as a frame, without a Python object per run."""
-    failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
-    storeys, blocks = batch.storeys, batch.blocks
-    per_storey = {
-        "peak_drift": batch.peak_drift,
-        "peak_drift_time": batch.peak_drift_time,
-        "peak_drift_ratio": batch.peak_drift / _heights(runs[:, 0], storeys, scenes),
-        "residual_drift": batch.residual_drift,
-        "peak_floor_acceleration": batch.peak_floor_acceleration,
-        "peak_storey_shear": batch.peak_storey_shear,
-    }
-    per_block = {
-        "peak_slip": batch.peak_slip,
-        "peak_slip_time": batch.peak_slip_time,
-        "residual_slip": batch.residual_slip,
-        "slip_path": batch.slip_path,
-    }
-    reasons = pl.DataFrame(batch.failures, schema={"run": pl.UInt32, "reason": pl.String}, orient="row")
-    unknown = pl.element().is_nan().all()
-    table = (
-        pl.DataFrame(
-            {
-                "run": np.arange(len(runs), dtype=np.uint32),
-                "scene": runs[:, 0].astype(np.uint32),
-                "motion": runs[:, 1].astype(np.uint32),
-                "status": pl.Series(_kernel.Batch.status_names(), dtype=pl.String).gather(batch.status),
-                "end_time": pl.Series(batch.end_time).fill_nan(None),
-                "collapsed_storey": pl.Series(batch.collapsed_storey).replace(0, None),
-                **_lists(per_storey, storeys, failed),
-                **_lists(per_block, blocks, failed),
-                "events": batch.events,
-                "yields": batch.yields,
-                "slips": batch.slips,
-            }
-        )
-        .join(reasons, on="run", how="left", maintain_order="left")
-        .with_columns(
-            pl.col("peak_storey_shear").list.first().alias("peak_base_shear"),
-            # A run that ended early has no residual.
-            pl.col("residual_drift", "residual_slip").list.eval(pl.element().fill_nan(None)),
-            pl.when(pl.col("peak_drift_ratio").list.eval(unknown).list.first().not_())
-            .then("peak_drift_ratio")
-            .alias("peak_drift_ratio"),
-            pl.when(pl.col("status") != "failed").then(pl.col("events", "yields", "slips")),
-        )
-    )
-    return table.select(_COLUMNS)
-
-
-_COLUMNS: Final = (
-    "scene",
-    "motion",
-    "status",
-    "reason",
-    "end_time",
-    "collapsed_storey",
-    "peak_drift",
-    "peak_drift_time",
-    "peak_drift_ratio",
-    "residual_drift",
-    "peak_floor_acceleration",
-    "peak_storey_shear",
-    "peak_base_shear",
-    "peak_slip",
-    "peak_slip_time",
-    "residual_slip",
-    "slip_path",
-    "events",
-    "yields",
-    "slips",
-)
-
-
-def _heights(scene: NDArray[np.int64], storeys: NDArray[np.uint32], scenes: list[Scene]) -> FloatArray:
-    """Height of each storey of each run, flat; NaN where not known."""
-    per_scene = [
-        np.full(s.storeys, np.nan) if s.building is None or s.building.heights is None else s.building.heights
-        for s in scenes
-    ]
-    if not per_scene:
-        return np.empty(0)
-    starts = np.concatenate([[0], np.cumsum([len(heights) for heights in per_scene])[:-1]])
-    within = np.arange(storeys.sum()) - np.repeat(np.cumsum(storeys) - storeys, storeys)
-    heights: FloatArray = np.concatenate(per_scene)[np.repeat(starts[scene], storeys) + within.astype(np.int64)]
-    return heights
-
-
-def _lists(columns: dict[str, FloatArray], lengths: NDArray[np.uint32], failed: pl.Series) -> dict[str, pl.Series]:
-    """Flat values as list columns, `lengths[i]` values in row i; null in failed rows."""
-    rows = pl.DataFrame({"run": np.arange(len(lengths), dtype=np.uint32), "empty": lengths == 0, "failed": failed})
-    owners = np.repeat(rows["run"].to_numpy(), lengths)
-    lists = pl.DataFrame({"run": owners, **columns}).group_by("run", maintain_order=True).agg(pl.all())
-    nothing = pl.lit([], dtype=pl.List(pl.Float64))
-    filled = rows.join(lists, on="run", how="left", maintain_order="left").select(
-        pl.when(pl.col("empty") & ~pl.col("failed")).then(nothing).otherwise(pl.col(name)).alias(name)
-        for name in columns
-    )
-    return {name: filled[name] for name in columns}
 
 
 def _same(one: Any, other: Any) -> bool:

@@ -18,6 +18,7 @@ import polars as pl
 
 from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_number, brief, refusal
+from seismass.batch import simulate_many
 from seismass.design import Combination, SpectrumAnalysis, response_spectrum_analysis
 from seismass.errors import InvalidMotion, InvalidOption
 from seismass.records import Suite
@@ -31,7 +32,6 @@ from seismass.scene import (
     Scene,
     blocks_on_floors,
 )
-from seismass.simulate import simulate_many
 from seismass.spectra import TargetSpectrum, mean_spectrum, response_spectrum
 from seismass.units import STANDARD_GRAVITY
 
