@@ -127,3 +127,11 @@ def test_part_of_the_benchmark_is_run_and_not_written(
     assert set(rows) == {"seismass,"}
     with pytest.raises(SystemExit):
         benchmark.main(["--contestants", "heyoka"])
+
+
+def test_a_large_batch_is_streamed_whole(module: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    million = module("million")
+    monkeypatch.setattr(million, "LEAST_TIME", 0.0)
+    found = million.measured_here(27, threads=2)
+    assert (found["runs"], found["failed"], found["repeats"]) == (27, 0, 1)
+    assert found["events"] == sm.simulate_many(million.grid(27), million.motion())["events"].sum()
