@@ -260,13 +260,13 @@ class _SceneBatch:
         used, scene = np.unique(rows[:, 0], return_inverse=True)
         chosen = [self.scenes[number] for number in used]
         batch = _kernel.simulate_many(
-            [scene._kernel for scene in chosen],
-            [motion._kernel for motion in self.motions],
+            [each._kernel for each in chosen],
+            [each._kernel for each in self.motions],
             np.stack([scene, rows[:, 1]], axis=1),
             **options,
             progress=progress,
         )
-        heights = [_heights_of(scene) for scene in chosen]
+        heights = [_heights_of(each) for each in chosen]
         return _table(batch, rows[:, 0], rows[:, 1], _heights(heights, scene, batch.storeys))
 
 
@@ -286,7 +286,7 @@ class _GridBatch:
         first, last = (int(scene[0]), int(scene[-1]) + 1) if len(scene) else (0, 0)
         batch = _kernel.simulate_columns(
             self.grid._kernel_columns(np.arange(first, last)),
-            [motion._kernel for motion in self.motions],
+            [each._kernel for each in self.motions],
             np.stack([scene - first, motion], axis=1),
             self.grid._factor_of(scene),
             **options,
