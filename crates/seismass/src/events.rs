@@ -4,8 +4,9 @@ use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
 use crate::friction::{BlockState, Cause, Transition, settle};
 use crate::response::{Event, EventKind};
-use crate::state::State;
+use crate::state::{State, range};
 use crate::storey::Sign;
+use crate::taylor::INVERSE;
 
 /// A guard falls when it is below zero by more than this fraction of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -27,6 +28,13 @@ pub(crate) enum Guard {
     Arrival { block: usize },
     /// The contact force of all blocks vanishes or returns.
     Contact,
+}
+
+impl Guard {
+    /// Whether nothing jumps at its event: forces and accelerations go on from where they are.
+    pub(crate) fn is_smooth(self) -> bool {
+        matches!(self, Self::Yield { .. } | Self::Unload { .. })
+    }
 }
 
 /// What an event leads to.
@@ -78,17 +86,17 @@ impl State<'_> {
         Polynomial::new([self.interval.ground_at(tau), slope * self.series.h()])
     }
 
-    /// The first guard that falls within the present series, which starts at `tau`: its place in [0, 1], and what it is.
+    /// The first guard that falls within the present series, which starts at `tau` and whose ranges are formed: its place
+    /// in [0, 1], and what it is.
     ///
     /// `isolated` counts the guards that could not be cleared by a bound.
-    pub(crate) fn first_event(&mut self, tau: f64, isolated: &mut usize) -> Option<(f64, Guard)> {
+    pub(crate) fn first_event(&self, tau: f64, isolated: &mut usize) -> Option<(f64, Guard)> {
         let mut first = First { place: f64::INFINITY, guard: None };
-        let mut sizes = std::mem::take(&mut self.scratch);
         let h = self.series.h();
-        self.acceleration_sizes(self.contact_at(tau), &mut sizes);
-        self.storey_guards(h, &sizes, &mut first, isolated);
-        self.block_guards(tau, &sizes, &mut first, isolated);
-        self.scratch = sizes;
+        self.storey_guards(tau, &mut first, isolated);
+        if !self.motions.is_empty() {
+            self.block_guards(tau, &mut first, isolated);
+        }
         // A block whose floor's acceleration is below rounding lifts off stuck.
         if let Some(Guard::Breakaway { .. }) = first.guard
             && self.vertical
@@ -107,73 +115,74 @@ impl State<'_> {
         Polynomial::new([sign * self.interval.contact_at(tau), sign * change])
     }
 
-    fn storey_guards(&self, h: f64, sizes: &[f64], first: &mut First, isolated: &mut usize) {
+    fn storey_guards(&self, tau: f64, first: &mut First, isolated: &mut usize) {
         for i in 0..self.storeys() {
-            let (x, excursion) = (self.x[i], self.series.drift_excursion(i));
-            let size = self.model.laws[i].yield_range(self.springs[i].yielded());
-            let mut bound = |limit: f64, sign: Sign, guard: Guard| {
-                let margin = sign.factor() * (limit - x);
-                let tolerance = ROUNDING * (limit.abs() + x.abs() + excursion + size);
-                if margin > excursion + tolerance {
-                    return;
-                }
-                *isolated += 1;
-                let mut p = self.series.drift(i);
-                p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign.factor());
-                p.coefficients_mut()[0] = margin;
-                first.consider(guard, &p, tolerance);
-            };
-            for ((lower, upper), collapse) in [(self.yield_bounds[i], false), (self.collapse_bounds[i], true)] {
-                for (limit, sign) in [(upper, Sign::Positive), (lower, Sign::Negative)] {
-                    if limit.is_finite() {
-                        let guard =
-                            if collapse { Guard::Collapse { storey: i } } else { Guard::Yield { storey: i, sign } };
-                        bound(limit, sign, guard);
+            let (low, high) = self.ranges.drift[i];
+            let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
+            if !(high < yields.1 && low > yields.0 && high < collapses.1 && low > collapses.0) {
+                for (limit, sign, guard) in [
+                    (yields.1, Sign::Positive, Guard::Yield { storey: i, sign: Sign::Positive }),
+                    (yields.0, Sign::Negative, Guard::Yield { storey: i, sign: Sign::Negative }),
+                    (collapses.1, Sign::Positive, Guard::Collapse { storey: i }),
+                    (collapses.0, Sign::Negative, Guard::Collapse { storey: i }),
+                ] {
+                    let clear = if sign == Sign::Positive { high < limit } else { low > limit };
+                    if !clear && limit.is_finite() {
+                        *isolated += 1;
+                        self.drift_guard(i, limit, sign, guard, first);
                     }
                 }
             }
             if let Some(sign) = self.springs[i].plastic() {
-                let (v, excursion) = (sign.factor() * self.v[i], self.series.rate_excursion(i));
-                let below = if i > 0 { sizes[i - 1] } else { self.drive.ground.abs() };
-                let tolerance = ROUNDING * (v.abs() + excursion + h * (sizes[i] + below));
-                if v <= excursion + tolerance {
+                let (low, high) = self.ranges.rate[i];
+                if !(if sign == Sign::Positive { low > 0.0 } else { high < 0.0 }) {
                     *isolated += 1;
                     let mut p = self.series.drift_rate(i);
                     p.coefficients_mut().iter_mut().for_each(|c| *c *= sign.factor());
+                    let contact = self.contact_at(tau);
+                    let sizes = self.acceleration_size(i + 1, contact) + self.acceleration_size(i, contact);
+                    let tolerance = ROUNDING * (p.norm() + self.series.h() * sizes);
                     first.consider(Guard::Unload { storey: i }, &p, tolerance);
                 }
             }
         }
     }
 
-    fn block_guards(&self, tau: f64, sizes: &[f64], first: &mut First, isolated: &mut usize) {
+    fn drift_guard(&self, i: usize, limit: f64, sign: Sign, guard: Guard, first: &mut First) {
+        let mut p = self.series.drift(i);
+        p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign.factor());
+        p.coefficients_mut()[0] = sign.factor() * (limit - self.x[i]);
+        let size = self.model.laws[i].yield_range(self.springs[i].yielded());
+        let excursion: f64 = p.coefficients()[1..].iter().map(|c| c.abs()).sum();
+        first.consider(guard, &p, ROUNDING * (limit.abs() + self.x[i].abs() + excursion + size));
+    }
+
+    fn block_guards(&self, tau: f64, first: &mut First, isolated: &mut usize) {
         let h = self.series.h();
         let contact = self.interval.contact_at(tau);
         let contact_change = self.interval.slope(self.interval.contact_change) * h;
-        if !self.motions.is_empty() && (self.vertical || self.airborne) {
+        if self.vertical || self.airborne {
             first.consider(Guard::Contact, &self.contact_guard(tau), ROUNDING * STANDARD_GRAVITY);
         }
         if self.airborne {
             return;
         }
+        let least_contact = contact.min(contact + contact_change).max(0.0);
         for (floor, &mu) in self.stuck_mu.iter().enumerate() {
             if !mu.is_finite() {
                 continue;
             }
-            let (a, excursion, size) = if floor > 0 {
-                (self.a[floor - 1], self.series.acceleration_excursion(floor - 1), sizes[floor - 1])
-            } else {
-                (self.drive.ground, self.drive.ground_slope.abs() * h, self.drive.ground.abs())
-            };
-            let limit = mu * contact.max(0.0);
-            let excursion = excursion + (mu * contact_change).abs();
-            let tolerance = ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size + excursion);
-            if limit - a.abs() > excursion + tolerance {
+            let (low, high) = self.acceleration_range(floor);
+            if high < mu * least_contact && low > -mu * least_contact {
                 continue;
             }
             *isolated += 1;
+            let acceleration = self.acceleration_of(floor, tau);
+            let limit = mu * contact.max(0.0);
+            let size = acceleration.norm() + (mu * contact_change).abs() + self.acceleration_size(floor, contact);
+            let tolerance = ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size);
             for sign in [Sign::Positive, Sign::Negative] {
-                let mut p = self.acceleration_of(floor, tau);
+                let mut p = acceleration;
                 p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign.factor());
                 p.coefficients_mut()[0] += limit;
                 p.coefficients_mut()[1] += mu * contact_change;
@@ -182,23 +191,72 @@ impl State<'_> {
         }
         for (j, motion) in self.motions.iter().enumerate() {
             let Some(sign) = motion.sliding() else { continue };
+            let (low, high) = self.velocity_range(j, tau);
+            if if sign == Sign::Positive { low > 0.0 } else { high < 0.0 } {
+                continue;
+            }
+            *isolated += 1;
             let mut p = self.relative_velocity(j, tau);
             p.coefficients_mut().iter_mut().for_each(|c| *c *= sign.factor());
             let law = &self.model.blocks[j];
-            let size = self.floor_size(law.floor, sizes) + law.mu_k * STANDARD_GRAVITY;
-            let tolerance = ROUNDING * (p.norm() + h * size);
-            if 2.0 * p.coefficients()[0].abs() <= p.norm() + tolerance || p.coefficients()[0] < 0.0 {
-                *isolated += 1;
-                first.consider(Guard::Arrival { block: j }, &p, tolerance);
+            let size = self.acceleration_size(law.floor, contact) + law.mu_k * STANDARD_GRAVITY;
+            first.consider(Guard::Arrival { block: j }, &p, ROUNDING * (p.norm() + h * size));
+        }
+    }
+
+    /// Range of the absolute acceleration of a floor, or of the ground (0), over the present series.
+    fn acceleration_range(&self, floor: usize) -> (f64, f64) {
+        match floor.checked_sub(1) {
+            Some(i) => self.ranges.acceleration[i],
+            None => {
+                let (start, end) = (self.drive.ground, self.drive.ground + self.drive.ground_slope * self.series.h());
+                (start.min(end), start.max(end))
             }
         }
     }
 
-    fn floor_size(&self, floor: usize, sizes: &[f64]) -> f64 {
-        if floor > 0 { sizes[floor - 1] } else { self.drive.ground.abs() }
+    /// Range of the relative velocity of a sliding block over the present series, which starts at `tau`.
+    fn velocity_range(&self, block: usize, tau: f64) -> (f64, f64) {
+        let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
+        let h = self.series.h();
+        let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
+        let contact = (self.contact_at(tau), self.contact_at(tau + h));
+        let (a, margin) = match law.floor.checked_sub(1) {
+            Some(i) => {
+                let margin = self.ranges.remainder * self.regime().lanes.fourth[3][i];
+                ((self.a[i], self.series.accelerations_at_end().0[i]), margin)
+            }
+            None => ((self.drive.ground, self.drive.ground + self.drive.ground_slope * h), 0.0),
+        };
+        let (velocity, _) = self.block_change(block, tau, 1.0);
+        let rates = (-friction * contact.0 - a.0, -friction * contact.1 - a.1);
+        range(motion.velocity, rates.0, motion.velocity + velocity, rates.1, h / 3.0, margin)
     }
 
-    /// Carries out an event at `tau`, to which the state has been advanced. What happened is appended to `log`.
+    /// Changes of relative velocity and slip of a block up to place `s` of the present series, which starts at `tau`:
+    /// integrals of its floor's absolute acceleration and its own, so that small ones keep their digits.
+    pub(crate) fn block_change(&self, block: usize, tau: f64, s: f64) -> (f64, f64) {
+        let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
+        let h = self.series.h();
+        let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
+        let contact = [self.contact_at(tau), self.interval.slope(self.interval.contact_change) * h];
+        let ground = [self.drive.ground, self.drive.ground_slope * h];
+        let order = if law.floor > 0 { self.series.order() } else { 1 };
+        let (mut velocity, mut slip) = (0.0, 0.0);
+        for k in (0..=order).rev() {
+            let mut a = if law.floor > 0 { self.series.floor_acceleration_term(k, law.floor - 1) } else { ground[k] };
+            if k < 2 {
+                a += friction * contact[k];
+            }
+            velocity = velocity * s + a * INVERSE[k + 1];
+            slip = slip * s + a * (INVERSE[k + 1] * INVERSE[k + 2]);
+        }
+        let h = h * s;
+        (-h * velocity, h * motion.velocity - h * h * slip)
+    }
+
+    /// Carries out an event at `tau`, to which the state has been advanced, accelerations included where blocks decide.
+    /// What happened is appended to `log`.
     pub(crate) fn carry_out(&mut self, guard: Guard, tau: f64, log: &mut Vec<Event>) -> Outcome {
         let time = self.interval.start + tau;
         match guard {
@@ -292,6 +350,7 @@ impl State<'_> {
         if kind == EventKind::Land {
             // Contact has only just returned: the accelerations decide, with no friction yet.
             self.enter_regime();
+            self.refresh_accelerations(tau);
             self.settle_all(tau, log);
         }
     }

@@ -1,4 +1,4 @@
-//! Storeys as lanes of fixed-size arrays, of which the compiler makes vectors, and the instructions it may use for them.
+//! Storeys as lanes of vectors, and the instructions the hot loops may use for them.
 
 use std::sync::OnceLock;
 
@@ -9,13 +9,14 @@ pub enum InstructionSet {
     Baseline,
     /// 256-bit vectors and fused multiply-add (x86-64-v3).
     Avx2,
-    /// 512-bit vectors and fused multiply-add (x86-64-v4).
+    /// The same with twice the registers (x86-64-v4).
     Avx512,
 }
 
 impl InstructionSet {
     /// The one in use: the widest this machine has, or what the environment variable `SEISMASS_INSTRUCTIONS`
     /// (`baseline`, `avx2`, `avx512`) names if the machine has it. Read once.
+    #[inline]
     pub fn in_use() -> Self {
         static CHOSEN: OnceLock<InstructionSet> = OnceLock::new();
         *CHOSEN.get_or_init(|| {
@@ -53,8 +54,12 @@ impl InstructionSet {
     }
 }
 
-/// Most storeys that the lanes hold.
+/// Lanes of a vector.
+pub(crate) const WIDTH: usize = 4;
+/// Most storeys that the hot loops hold in vectors.
 pub(crate) const MAX_LANES: usize = 48;
+/// Stands for a bound that is never reached in lanes: finite, so that the middle between two of them is.
+pub(crate) const FAR: f64 = 1e300;
 
 /// Storeys padded to whole vectors.
 pub(crate) fn padded(storeys: usize) -> usize {
@@ -67,14 +72,297 @@ pub(crate) fn padded(storeys: usize) -> usize {
     }
 }
 
-/// a b + c, fused or not.
-#[inline(always)]
-pub(crate) fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
-    if FUSED { a.mul_add(b, c) } else { a * b + c }
+/// Values padded to whole vectors of a scene with `storeys`.
+pub(crate) fn filled(values: impl IntoIterator<Item = f64>, storeys: usize, padding: f64) -> Vec<f64> {
+    let mut lanes: Vec<f64> = values.into_iter().collect();
+    lanes.resize(padded(storeys), padding);
+    lanes
 }
 
-/// The first `N` values as lanes; zeros where there are fewer.
+/// Four lanes.
+pub(crate) trait Vector: Copy {
+    fn splat(value: f64) -> Self;
+    fn load(values: &[f64; WIDTH]) -> Self;
+    fn store(self, values: &mut [f64; WIDTH]);
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    /// self * factor + term, fused where the path has it.
+    fn mul_add(self, factor: Self, term: Self) -> Self;
+    fn abs(self) -> Self;
+    fn min(self, other: Self) -> Self;
+    fn max(self, other: Self) -> Self;
+    /// One lane in all.
+    fn broadcast(self, lane: usize) -> Self;
+    /// Each lane takes that below it, the lowest takes the highest of `before`.
+    fn shifted_up(self, before: Self) -> Self;
+    /// Each lane takes that above it, the highest takes the lowest of `after`.
+    fn shifted_down(self, after: Self) -> Self;
+    /// Bits of the lanes that are not below those of `other`; lanes that are no numbers are not.
+    fn not_below(self, other: Self) -> u32;
+    fn sum(self) -> f64;
+}
+
+/// What every architecture has; the compiler makes vectors of it.
+#[derive(Clone, Copy)]
+pub(crate) struct Plain([f64; WIDTH]);
+
+impl Plain {
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let (a, b) = (self.0, other.0);
+        Self([f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])])
+    }
+}
+
+impl Vector for Plain {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; WIDTH])
+    }
+    #[inline(always)]
+    fn load(values: &[f64; WIDTH]) -> Self {
+        Self(*values)
+    }
+    #[inline(always)]
+    fn store(self, values: &mut [f64; WIDTH]) {
+        *values = self.0;
+    }
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self.mul(factor).add(term)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.map(f64::abs))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+    #[inline(always)]
+    fn broadcast(self, lane: usize) -> Self {
+        Self([self.0[lane]; WIDTH])
+    }
+    #[inline(always)]
+    fn shifted_up(self, before: Self) -> Self {
+        Self([before.0[3], self.0[0], self.0[1], self.0[2]])
+    }
+    #[inline(always)]
+    fn shifted_down(self, after: Self) -> Self {
+        Self([self.0[1], self.0[2], self.0[3], after.0[0]])
+    }
+    #[inline(always)]
+    fn not_below(self, other: Self) -> u32 {
+        let mut bits = 0;
+        for l in 0..WIDTH {
+            let is_below = self.0[l] < other.0[l];
+            bits |= u32::from(!is_below) << l;
+        }
+        bits
+    }
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        (self.0[0] + self.0[2]) + (self.0[1] + self.0[3])
+    }
+}
+
+/// The first `K` vectors of padded values; zeros where there are fewer.
 #[inline(always)]
-pub(crate) fn first_lanes<const N: usize>(values: &[f64]) -> [f64; N] {
-    values.first_chunk::<N>().copied().unwrap_or([0.0; N])
+pub(crate) fn load<V: Vector, const K: usize>(values: &[f64]) -> [V; K] {
+    let mut vectors = [V::splat(0.0); K];
+    if let Some(lanes) = values.as_chunks::<WIDTH>().0.first_chunk::<K>() {
+        for k in 0..K {
+            vectors[k] = V::load(&lanes[k]);
+        }
+    }
+    vectors
+}
+
+/// Puts vectors into padded values, if these hold as many.
+#[inline(always)]
+pub(crate) fn store<V: Vector, const K: usize>(vectors: &[V; K], values: &mut [f64]) {
+    if let Some(lanes) = values.as_chunks_mut::<WIDTH>().0.first_chunk_mut::<K>() {
+        for k in 0..K {
+            vectors[k].store(&mut lanes[k]);
+        }
+    }
+}
+
+/// Padded columns, one after the other.
+#[inline(always)]
+pub(crate) fn columns_of<const K: usize>(values: &[f64]) -> &[[[f64; WIDTH]; K]] {
+    values.as_chunks::<WIDTH>().0.as_chunks::<K>().0
+}
+
+/// Differences between each lane and that below it; the lowest keeps `bottom` below it.
+#[inline(always)]
+pub(crate) fn differences<V: Vector, const K: usize>(values: &[V; K], bottom: V) -> [V; K] {
+    let mut out = *values;
+    for k in 0..K {
+        let before = if k > 0 { values[k - 1] } else { bottom };
+        out[k] = values[k].sub(values[k].shifted_up(before));
+    }
+    out
+}
+
+/// Sums of each lane and all below it.
+#[inline(always)]
+pub(crate) fn prefix_sums<V: Vector, const K: usize>(values: &[V; K]) -> [V; K] {
+    let zero = V::splat(0.0);
+    let mut out = *values;
+    for k in 0..K {
+        let pairs = values[k].add(values[k].shifted_up(zero));
+        out[k] = pairs.add(pairs.shifted_up(zero).shifted_up(zero));
+        if k > 0 {
+            out[k] = out[k].add(out[k - 1].broadcast(WIDTH - 1));
+        }
+    }
+    out
+}
+
+/// Defines a function of which each path is compiled for its instructions: `inner`, generic in the vector.
+macro_rules! for_each_path {
+    ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) $(-> $out:ty)? = $inner:ident) => {
+        $(#[$meta])*
+        #[allow(unsafe_code)]
+        $vis fn $name($($arg: $type),*) $(-> $out)? {
+            #[cfg(target_arch = "x86_64")]
+            #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
+            fn avx512($($arg: $type),*) $(-> $out)? {
+                $inner::<crate::lanes::Fused>($($arg),*)
+            }
+            #[cfg(target_arch = "x86_64")]
+            #[target_feature(enable = "avx2,fma")]
+            fn avx2($($arg: $type),*) $(-> $out)? {
+                $inner::<crate::lanes::Fused>($($arg),*)
+            }
+            match crate::lanes::InstructionSet::in_use() {
+                // SAFETY: `in_use` returns only what this machine has.
+                #[cfg(target_arch = "x86_64")]
+                crate::lanes::InstructionSet::Avx512 => unsafe { avx512($($arg),*) },
+                // SAFETY: as above.
+                #[cfg(target_arch = "x86_64")]
+                crate::lanes::InstructionSet::Avx2 => unsafe { avx2($($arg),*) },
+                _ => $inner::<crate::lanes::Plain>($($arg),*),
+            }
+        }
+    };
+}
+pub(crate) use for_each_path;
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use x86::Fused;
+
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
+mod x86 {
+    use std::arch::x86_64::*;
+
+    use super::{Vector, WIDTH};
+
+    /// A 256-bit vector with fused multiply-add.
+    ///
+    /// To be used only inside functions compiled for `avx2,fma`, which call nothing that is not inlined into them: these
+    /// are reached through [`super::InstructionSet::in_use`] alone.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Fused(__m256d);
+
+    // SAFETY, of all blocks below: see the type.
+    impl Vector for Fused {
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(unsafe { _mm256_set1_pd(value) })
+        }
+        #[inline(always)]
+        fn load(values: &[f64; WIDTH]) -> Self {
+            Self(unsafe { _mm256_loadu_pd(values.as_ptr()) })
+        }
+        #[inline(always)]
+        fn store(self, values: &mut [f64; WIDTH]) {
+            unsafe { _mm256_storeu_pd(values.as_mut_ptr(), self.0) }
+        }
+        #[inline(always)]
+        fn add(self, other: Self) -> Self {
+            Self(unsafe { _mm256_add_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn sub(self, other: Self) -> Self {
+            Self(unsafe { _mm256_sub_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn mul(self, other: Self) -> Self {
+            Self(unsafe { _mm256_mul_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn mul_add(self, factor: Self, term: Self) -> Self {
+            Self(unsafe { _mm256_fmadd_pd(self.0, factor.0, term.0) })
+        }
+        #[inline(always)]
+        fn abs(self) -> Self {
+            Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
+        }
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            Self(unsafe { _mm256_min_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            Self(unsafe { _mm256_max_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn broadcast(self, lane: usize) -> Self {
+            Self(unsafe {
+                match lane {
+                    0 => _mm256_permute4x64_pd::<0b00_00_00_00>(self.0),
+                    1 => _mm256_permute4x64_pd::<0b01_01_01_01>(self.0),
+                    2 => _mm256_permute4x64_pd::<0b10_10_10_10>(self.0),
+                    _ => _mm256_permute4x64_pd::<0b11_11_11_11>(self.0),
+                }
+            })
+        }
+        #[inline(always)]
+        fn shifted_up(self, before: Self) -> Self {
+            // (before 2, 3, self 0, 1), of which the upper of each pair goes to the lower of the next.
+            Self(unsafe {
+                let middle = _mm256_permute2f128_pd::<0x21>(before.0, self.0);
+                _mm256_shuffle_pd::<0b0101>(middle, self.0)
+            })
+        }
+        #[inline(always)]
+        fn shifted_down(self, after: Self) -> Self {
+            // (self 2, 3, after 0, 1).
+            Self(unsafe {
+                let middle = _mm256_permute2f128_pd::<0x21>(self.0, after.0);
+                _mm256_shuffle_pd::<0b0101>(self.0, middle)
+            })
+        }
+        #[inline(always)]
+        fn not_below(self, other: Self) -> u32 {
+            unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_NLT_UQ>(self.0, other.0)) as u32 }
+        }
+        #[inline(always)]
+        fn sum(self) -> f64 {
+            unsafe {
+                let pair = _mm_add_pd(_mm256_castpd256_pd128(self.0), _mm256_extractf128_pd::<1>(self.0));
+                _mm_cvtsd_f64(_mm_add_sd(pair, _mm_unpackhi_pd(pair, pair)))
+            }
+        }
+    }
 }

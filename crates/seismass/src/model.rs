@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::damping::StoreyDamping;
 use crate::friction::BlockLaw;
-use crate::lanes::padded;
+use crate::lanes::{WIDTH, filled};
 use crate::scene::{Building, Damping, Scene};
 use crate::storey::StoreyLaw;
 
@@ -19,6 +19,8 @@ pub(crate) struct Model {
     pub(crate) on_floor: Vec<Vec<usize>>,
     building: Option<Arc<Building>>,
     pub(crate) lanes: ModelLanes,
+    /// Absolute values of a full damping matrix in floor coordinates, row by row; empty without one.
+    pub(crate) damping_sizes: Vec<f64>,
     /// The damping matrix is the user's own: it need not dissipate.
     damping_may_feed: bool,
 }
@@ -28,7 +30,7 @@ pub(crate) struct Model {
 pub(crate) struct ModelLanes {
     /// 1 for a storey, 0 for padding.
     pub(crate) inside: Vec<f64>,
-    /// Columns of the full damping matrix, one after the other; empty without one.
+    /// Columns of the full damping matrix, one after the other, at least a vector's number of them; empty without one.
     pub(crate) damping: Vec<f64>,
     /// Rayleigh damping: storey damping of each storey (N s/m), and mass-proportional damping of each floor (N s/m).
     pub(crate) storey_damping: Vec<f64>,
@@ -37,27 +39,35 @@ pub(crate) struct ModelLanes {
 
 impl ModelLanes {
     fn new(mass: &[f64], stiffness: &[f64], damping: &StoreyDamping) -> Self {
-        let stride = padded(mass.len());
-        let fill = |values: &mut dyn Iterator<Item = f64>| {
-            let mut lanes: Vec<f64> = values.collect();
-            lanes.resize(stride, 0.0);
-            lanes
-        };
-        let inside = fill(&mut mass.iter().map(|_| 1.0));
+        let n = mass.len();
+        let inside = filled(mass.iter().map(|_| 1.0), n, 0.0);
         match damping {
             StoreyDamping::None => Self { inside, ..Self::default() },
             StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => Self {
                 inside,
-                storey_damping: fill(&mut stiffness.iter().map(|k| stiffness_factor * k)),
-                floor_damping: fill(&mut mass.iter().map(|m| mass_factor * m)),
+                storey_damping: filled(stiffness.iter().map(|k| stiffness_factor * k), n, 0.0),
+                floor_damping: filled(mass.iter().map(|m| mass_factor * m), n, 0.0),
                 ..Self::default()
             },
             StoreyDamping::Dense(d) => {
-                let columns = d.column_iter().flat_map(|column| fill(&mut column.iter().copied()));
-                Self { inside, damping: columns.collect(), ..Self::default() }
+                let mut columns: Vec<f64> =
+                    d.column_iter().flat_map(|column| filled(column.iter().copied(), n, 0.0)).collect();
+                if n <= WIDTH {
+                    columns.resize(WIDTH * WIDTH, 0.0);
+                }
+                Self { inside, damping: columns, ..Self::default() }
             }
         }
     }
+}
+
+/// |C| in floor coordinates from a full matrix between drift rates and storey forces.
+fn damping_sizes(damping: &StoreyDamping) -> Vec<f64> {
+    let StoreyDamping::Dense(d) = damping else { return Vec::new() };
+    let n = d.nrows();
+    let at = |r: usize, c: usize| if r < n && c < n { d[(r, c)] } else { 0.0 };
+    let size = |i: usize, j: usize| (at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1)).abs();
+    (0..n * n).map(|entry| size(entry / n, entry % n)).collect()
 }
 
 impl Model {
@@ -77,6 +87,7 @@ impl Model {
         let damping = scene.building().map_or(&StoreyDamping::None, |b| b.storey_damping());
         Self {
             lanes: ModelLanes::new(&mass, &stiffness, damping),
+            damping_sizes: damping_sizes(damping),
             mass,
             stiffness,
             laws,

@@ -122,23 +122,24 @@ impl Observer {
         }
     }
 
-    /// Takes the extremes inside the present series, from `tau` to its place `end`, before the state is advanced.
+    /// Takes the extremes inside the present series, whose ranges are formed, from `tau` to its place `end`, before the
+    /// state is advanced.
     pub(crate) fn observe_series(&mut self, state: &mut State, tau: f64, end: f64, isolated: &mut usize) {
         let h = state.series.h();
         let time = |s: f64| state.interval.start + tau + s * end * h;
         for i in 0..state.storeys() {
-            let excursion = state.series.drift_excursion(i);
-            let x = state.x[i];
-            let turns = state.v[i].abs() <= state.series.rate_excursion(i);
-            if turns && self.drift_may_peak(state, i, x - excursion, x + excursion) {
+            let (low, high) = state.ranges.drift[i];
+            let rate = state.ranges.rate[i];
+            let turns = !(rate.0 > 0.0 || rate.1 < 0.0);
+            if turns && self.drift_may_peak(state, i, low, high) {
                 *isolated += 1;
                 let drift = state.series.drift(i).cut(end);
                 drift.derivative().sign_changes(&mut |s| {
                     self.take_drift(state, i, drift.at(s), time(s));
                 });
             }
-            let (a, excursion) = (state.a[i], state.series.acceleration_excursion(i));
-            if self.acceleration_may_peak(i, a - excursion, a + excursion) {
+            let (low, high) = state.ranges.acceleration[i];
+            if self.acceleration_may_peak(i, low, high) && !state.is_steady(i) {
                 *isolated += 1;
                 let acceleration = state.series.floor_acceleration(i).cut(end);
                 let peak = &mut self.peaks.floor_acceleration[i];
@@ -263,7 +264,7 @@ impl Observer {
             energy.input -= weight * length * momentum * state.interval.ground_at(at);
         }
         let mut changes = vec![0.0; n];
-        state.series.drift_changes(end, &mut changes);
+        state.series.changes_at(end, &mut changes, &mut rates);
         for (spring, change) in state.springs.iter().zip(&changes) {
             balance.energy.hysteretic += spring.plastic_force() * change;
         }

@@ -2,55 +2,48 @@
 //! and no peak was beaten at a turn.
 //!
 //! Value and rate at both ends give the Bezier points of a cubic; the quantity differs from that cubic by at most
-//! h^4 / 384 times its largest fourth derivative, which the regime bounds. Storeys are lanes of fixed-size arrays, so
-//! that the compiler makes vectors of them; the widest vectors of the machine are chosen at run time.
+//! h^4 / 384 times its largest fourth derivative, which the regime bounds. The loop itself looks at each end once: a
+//! value must keep the distance of h / 3 times its rate from its bound, and the margin of the fourth derivative, to
+//! either side. Steps that this does not clear are looked at closer, by the Bezier points themselves.
 
 use crate::STANDARD_GRAVITY;
-use crate::lanes::{InstructionSet, MAX_LANES, multiply_add, padded};
+use crate::lanes::{FAR, MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, prefix_sums, store};
 use crate::observe::Observer;
 use crate::regime::Regime;
 use crate::scene::Motion;
-use crate::state::State;
+use crate::state::{State, range};
+use crate::storey::Sign;
 
-/// A block that slides, as the loop needs it.
-struct Sliding {
-    block: usize,
-    floor: usize,
-    friction: f64,
-    positive: bool,
-    velocity: f64,
-    slip: f64,
-}
+/// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits.
+const SMALL_DIFFERENCE: f64 = 1e-6;
 
 /// Rows (dx, dv, a, j) of a column of the step.
-type Column<const N: usize> = [[f64; N]; 4];
+type Column<const K: usize> = [[[f64; WIDTH]; K]; 4];
 
 /// What a run of plain steps reads.
-struct Course<'a, const N: usize> {
+struct Course<'a, const K: usize> {
     regime: &'a Regime,
     h: f64,
     /// Columns of the step: of each drift, of each drift rate, of the ground acceleration and of its change.
-    of_drift: &'a [Column<N>],
-    of_rate: &'a [Column<N>],
-    of_ground: &'a Column<N>,
-    of_change: &'a Column<N>,
+    of_drift: &'a [Column<K>],
+    of_rate: &'a [Column<K>],
+    of_ground: &'a Column<K>,
+    of_change: &'a Column<K>,
     /// Effect of constant floor loads; with vertical motion, of friction at unit contact force and at a unit ramp.
-    constant: &'a Column<N>,
-    friction: &'a Column<N>,
-    friction_ramp: &'a Column<N>,
-    is_vertical: bool,
-    /// Smallest mu_s of the blocks stuck to the ground.
-    ground_mu: f64,
+    constant: &'a Column<K>,
+    friction: &'a Column<K>,
+    friction_ramp: &'a Column<K>,
 }
 
-impl<'a, const N: usize> Course<'a, N> {
+impl<'a, const K: usize> Course<'a, K> {
     /// None where the regime has no propagator of this width.
+    #[inline(always)]
     fn new(state: &'a State, h: f64) -> Option<Self> {
         let regime = state.regime();
-        let propagator = regime.propagator.as_deref()?;
-        let (of_drift, of_rate) = columns(propagator.state_columns()).split_at_checked(state.storeys())?;
+        let propagator = &regime.steps.as_deref()?.propagator;
+        let (of_drift, of_rate) = four_rows(propagator.state_columns()).split_at_checked(state.storeys())?;
         let (of_ground, of_change) = propagator.motion_columns();
-        let first = |values: &'a [f64]| columns(values).first();
+        let first = |values: &'a [f64]| four_rows(values).first();
         Some(Self {
             regime,
             h,
@@ -61,398 +54,709 @@ impl<'a, const N: usize> Course<'a, N> {
             constant: first(&state.effects.constant)?,
             friction: first(&state.effects.friction)?,
             friction_ramp: first(&state.effects.friction_ramp)?,
-            is_vertical: state.vertical,
-            ground_mu: state.stuck_mu[0],
         })
     }
 }
 
-/// Values as columns of four rows of lanes.
-fn columns<const N: usize>(values: &[f64]) -> &[Column<N>] {
-    values.as_chunks::<N>().0.as_chunks::<4>().0
-}
-
-/// State and bounds of the storeys in lanes; lanes beyond the last storey hold zeros and no bounds.
-struct Lanes<const N: usize> {
-    x: [f64; N],
-    v: [f64; N],
-    a: [f64; N],
-    jerk: [f64; N],
-    /// Second derivative of the drifts.
-    q: [f64; N],
-    mass: [f64; N],
-    tangent: [f64; N],
-    /// Bounds of fourth derivatives per unit of liveliness: of drift, drift rate and floor acceleration.
-    drift_margin: [f64; N],
-    rate_margin: [f64; N],
-    acceleration_margin: [f64; N],
-    /// Drift coordinates between which no storey yields or collapses, and which beat no peak.
-    x_low: [f64; N],
-    x_high: [f64; N],
-    /// Drift rates between which plastic storeys do not unload.
-    v_low: [f64; N],
-    v_high: [f64; N],
-    /// Smallest mu_s of the blocks stuck to each floor; infinite where none is.
-    stuck_mu: [f64; N],
-    /// Peak of the floor acceleration.
-    a_peak: [f64; N],
-}
-
-/// A step that is formed but not taken yet.
-struct Step<const N: usize> {
-    x: [f64; N],
-    v: [f64; N],
-    a: [f64; N],
-    jerk: [f64; N],
-    q: [f64; N],
-    ground: (f64, f64),
-    contact: (f64, f64),
-    liveliness: f64,
-}
-
 #[inline(always)]
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
+fn four_rows<const K: usize>(values: &[f64]) -> &[Column<K>] {
+    columns_of::<K>(values).as_chunks::<4>().0
 }
 
-#[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
+/// The state at a sample: drifts, drift rates, floor accelerations, their rates, and drift accelerations.
+#[derive(Clone, Copy)]
+struct Sample<V, const K: usize> {
+    x: [V; K],
+    v: [V; K],
+    a: [V; K],
+    jerk: [V; K],
+    q: [V; K],
 }
 
-/// Range of the cubic through values and rates at both ends, widened by `margin`.
-#[inline(always)]
-fn range(start: f64, start_rate: f64, end: f64, end_rate: f64, third: f64, margin: f64) -> (f64, f64) {
-    let (first, second) = (start + third * start_rate, end - third * end_rate);
-    let low = smaller(smaller(start, end), smaller(first, second));
-    let high = larger(larger(start, end), larger(first, second));
-    (low - margin, high + margin)
+impl<V: Vector, const K: usize> Sample<V, K> {
+    #[inline(always)]
+    fn of(state: &State) -> Self {
+        Self {
+            x: load(&state.x),
+            v: load(&state.v),
+            a: load(&state.a),
+            jerk: load(&state.jerk),
+            q: load(&state.drift_acceleration),
+        }
+    }
+
+    #[inline(always)]
+    fn values(&self) -> Values<K> {
+        let zero = [[0.0; WIDTH]; K];
+        let mut values = Values { x: zero, v: zero, a: zero, jerk: zero, q: zero };
+        for k in 0..K {
+            self.x[k].store(&mut values.x[k]);
+            self.v[k].store(&mut values.v[k]);
+            self.a[k].store(&mut values.a[k]);
+            self.jerk[k].store(&mut values.jerk[k]);
+            self.q[k].store(&mut values.q[k]);
+        }
+        values
+    }
 }
 
-impl<const N: usize> Lanes<N> {
-    fn load(state: &State, observer: &Observer) -> Self {
+/// A [`Sample`] as numbers.
+struct Values<const K: usize> {
+    x: [[f64; WIDTH]; K],
+    v: [[f64; WIDTH]; K],
+    a: [[f64; WIDTH]; K],
+    jerk: [[f64; WIDTH]; K],
+    q: [[f64; WIDTH]; K],
+}
+
+/// The same, of any width.
+#[derive(Clone, Copy)]
+struct SampleValues<'a> {
+    x: &'a [f64],
+    v: &'a [f64],
+    a: &'a [f64],
+    jerk: &'a [f64],
+    q: &'a [f64],
+}
+
+impl<const K: usize> Values<K> {
+    fn as_slices(&self) -> SampleValues<'_> {
+        SampleValues {
+            x: self.x.as_flattened(),
+            v: self.v.as_flattened(),
+            a: self.a.as_flattened(),
+            jerk: self.jerk.as_flattened(),
+            q: self.q.as_flattened(),
+        }
+    }
+}
+
+/// Bounds between which no guard falls and no peak is beaten.
+struct Bounds<V, const K: usize> {
+    /// Drift coordinates: the middle, and how far they may go from it.
+    middle: [V; K],
+    reach: [V; K],
+    /// Drift rates of plastic storeys: their signs, and what their negative may not reach (0; else far).
+    sign: [V; K],
+    turn: [V; K],
+    /// Smallest mu_s of the blocks stuck to each floor, far where none is; peak of the floor acceleration.
+    stuck_mu: [V; K],
+    a_peak: [V; K],
+}
+
+impl<V: Vector, const K: usize> Bounds<V, K> {
+    #[inline(always)]
+    fn new(state: &State, observer: &Observer) -> Self {
         let n = state.storeys();
-        let regime = state.regime();
-        let fill = |values: &[f64]| {
-            let mut lanes = [0.0; N];
-            lanes[..n].copy_from_slice(values);
-            lanes
-        };
-        let differences = |bounds: &[f64]| {
-            let mut lanes = [0.0; N];
-            for i in 0..n {
-                lanes[i] = bounds[i] + if i > 0 { bounds[i - 1] } else { 0.0 };
-            }
-            lanes
-        };
-        let mut lanes = Self {
-            x: fill(&state.x),
-            v: fill(&state.v),
-            a: fill(&state.a),
-            jerk: fill(&state.jerk),
-            q: fill(&state.drift_acceleration),
-            mass: fill(&regime.mass),
-            tangent: fill(&regime.tangent).map(f64::abs),
-            drift_margin: differences(&regime.derivative_bounds[0]),
-            rate_margin: differences(&regime.derivative_bounds[1]),
-            acceleration_margin: fill(&regime.derivative_bounds[2]),
-            x_low: [f64::NEG_INFINITY; N],
-            x_high: [f64::INFINITY; N],
-            v_low: [f64::NEG_INFINITY; N],
-            v_high: [f64::INFINITY; N],
-            stuck_mu: [f64::INFINITY; N],
-            a_peak: [f64::INFINITY; N],
-        };
-        lanes.stuck_mu[..n].copy_from_slice(&state.stuck_mu[1..]);
+        let (mut middle, mut reach) = ([[0.0; WIDTH]; K], [[FAR; WIDTH]; K]);
         for i in 0..n {
-            match state.springs[i].plastic().map(|sign| sign.factor()) {
-                Some(1.0) => lanes.v_low[i] = 0.0,
-                Some(_) => lanes.v_high[i] = 0.0,
-                None => {}
-            }
-            lanes.set_bounds(i, state, observer);
+            (middle.as_flattened_mut()[i], reach.as_flattened_mut()[i]) =
+                middle_and_reach(quiet_drift(state, observer, i));
         }
-        lanes
+        let plastic = |i: usize| state.springs[i].plastic().map_or(0.0, Sign::factor);
+        Self {
+            middle: load(middle.as_flattened()),
+            reach: load(reach.as_flattened()),
+            sign: load_some(n, 0.0, plastic),
+            turn: load_some(n, FAR, |i| if plastic(i) == 0.0 { FAR } else { 0.0 }),
+            stuck_mu: load_some(n, FAR, |i| state.stuck_mu[i + 1].min(FAR)),
+            a_peak: load_some(n, FAR, |i| observer.peaks.floor_acceleration[i].value),
+        }
     }
 
-    /// Bounds of storey and floor `i` from its guards and peaks.
-    fn set_bounds(&mut self, i: usize, state: &State, observer: &Observer) {
-        let (yields, collapses) = (state.yield_bounds[i], state.collapse_bounds[i]);
-        let quiet = observer.quiet_drift(state, i);
-        self.x_low[i] = yields.0.max(collapses.0).max(quiet.0);
-        self.x_high[i] = yields.1.min(collapses.1).min(quiet.1);
-        self.a_peak[i] = observer.peaks.floor_acceleration[i].value;
-    }
-
-    fn store(&self, state: &mut State) {
-        let n = state.storeys();
-        state.x.copy_from_slice(&self.x[..n]);
-        state.v.copy_from_slice(&self.v[..n]);
-        state.a.copy_from_slice(&self.a[..n]);
-        state.jerk.copy_from_slice(&self.jerk[..n]);
-        state.drift_acceleration.copy_from_slice(&self.q[..n]);
-    }
-
-    /// Forms the step over an interval, whose samples are given.
+    /// How far values are from their middles after h / 3 at their rates, to either side: of drifts, of the negative of
+    /// plastic storeys' rates, of accelerations.
     #[inline(always)]
-    fn step<const FUSED: bool>(&self, course: &Course<N>, ground: (f64, f64), contact: (f64, f64)) -> Step<N> {
-        let h = course.h;
-        let change = ground.1 - ground.0;
-        let slope = change / h;
-        let mut square = [0.0; N];
-        for l in 0..N {
-            let jerk = self.jerk[l] - slope;
-            square[l] = multiply_add::<FUSED>(self.mass[l] * jerk, jerk, self.tangent[l] * self.q[l] * self.q[l]);
+    fn apart(&self, sample: &Sample<V, K>, third: V) -> [[V; K]; 3] {
+        let mut out = [sample.x, sample.v, sample.a];
+        for k in 0..K {
+            out[0][k] = third.mul_add(sample.v[k].abs(), sample.x[k].sub(self.middle[k]).abs());
+            out[1][k] = third.mul(sample.q[k].abs()).sub(self.sign[k].mul(sample.v[k]));
+            out[2][k] = third.mul_add(sample.jerk[k].abs(), sample.a[k].abs());
         }
-        let liveliness = course.regime.liveliness_of(square.iter().sum::<f64>(), h);
-        let mut rows = *course.constant;
-        for (row, (of_ground, of_change)) in rows.iter_mut().zip(course.of_ground.iter().zip(course.of_change)) {
-            for l in 0..N {
-                row[l] = multiply_add::<FUSED>(of_ground[l], ground.0, row[l]);
-                row[l] = multiply_add::<FUSED>(of_change[l], change, row[l]);
-            }
-        }
-        if course.is_vertical {
-            for (row, (friction, ramp)) in rows.iter_mut().zip(course.friction.iter().zip(course.friction_ramp)) {
-                for l in 0..N {
-                    row[l] += friction[l] * contact.0 + ramp[l] * (contact.1 - contact.0);
-                }
-            }
-        }
-        for (columns, weights) in [(course.of_drift, &self.x), (course.of_rate, &self.v)] {
-            for (column, &weight) in columns.iter().zip(weights) {
-                for (row, entries) in rows.iter_mut().zip(column) {
-                    for l in 0..N {
-                        row[l] = multiply_add::<FUSED>(entries[l], weight, row[l]);
-                    }
-                }
-            }
-        }
-        let [dx, dv, a, jerk] = rows;
-        let (mut x, mut v, mut q) = (self.x, self.v, a);
-        for l in 0..N {
-            x[l] += dx[l];
-            v[l] += dv[l];
-        }
-        q[0] -= ground.1;
-        for l in 1..N {
-            q[l] -= a[l - 1];
-        }
-        Step { x, v, a, jerk, q, ground, contact, liveliness }
+        out
     }
 
-    /// How far the step is from being plain: negative when all storeys and floors are clear of guards and peaks.
+    /// Follows peaks that are beaten from here on: accelerations are taken at each sample; drifts at the end of the run,
+    /// up to which their rates must keep their signs.
     #[inline(always)]
-    fn nearest(&self, step: &Step<N>, course: &Course<N>, remainder: f64) -> f64 {
-        let third = course.h / 3.0;
-        let contact = smaller(step.contact.0, step.contact.1);
-        let mut nearest = [f64::NEG_INFINITY; N];
-        for l in 0..N {
-            let (low, high) =
-                range(self.x[l], self.v[l], step.x[l], step.v[l], third, remainder * self.drift_margin[l]);
-            let drift = larger(high - self.x_high[l], self.x_low[l] - low);
-            let (low, high) = range(self.v[l], self.q[l], step.v[l], step.q[l], third, remainder * self.rate_margin[l]);
-            let rate = larger(high - self.v_high[l], self.v_low[l] - low);
-            let margin = remainder * self.acceleration_margin[l];
-            let (low, high) = range(self.a[l], self.jerk[l], step.a[l], step.jerk[l], third, margin);
-            let limit = smaller(self.stuck_mu[l] * contact, self.a_peak[l]);
-            let acceleration = larger(high, -low) - limit;
-            nearest[l] = larger(larger(drift, rate), acceleration);
+    fn follow(
+        &mut self,
+        peaks: &BeatenPeaks,
+        state: &State,
+        observer: &mut Observer,
+        sample: &Sample<V, K>,
+        time: f64,
+    ) {
+        let (v, a) = (numbers(&sample.v), numbers(&sample.a));
+        let (mut middle, mut reach) = (numbers(&self.middle), numbers(&self.reach));
+        let (mut sign, mut turn) = (numbers(&self.sign), numbers(&self.turn));
+        let mut a_peak = numbers(&self.a_peak);
+        for i in 0..state.storeys() {
+            if peaks.drift >> i & 1 == 1 {
+                (middle.as_flattened_mut()[i], reach.as_flattened_mut()[i]) = middle_and_reach(guarded_drift(state, i));
+                (sign.as_flattened_mut()[i], turn.as_flattened_mut()[i]) = (v.as_flattened()[i].signum(), 0.0);
+            }
+            if peaks.acceleration >> i & 1 == 1 {
+                let peak = &mut observer.peaks.floor_acceleration[i];
+                peak.take(a.as_flattened()[i], time);
+                a_peak.as_flattened_mut()[i] = peak.value;
+            }
         }
-        nearest.into_iter().fold(f64::NEG_INFINITY, larger)
-    }
-
-    /// Whether all guards are clear, and peaks that may be beaten are beaten at the end of the step.
-    fn is_clear_but_for_peaks(&self, step: &Step<N>, course: &Course<N>, state: &State) -> bool {
-        let third = course.h / 3.0;
-        let remainder = remainder(step, course);
-        let contact = step.contact.0.min(step.contact.1);
-        let one_signed = |(low, high): (f64, f64)| low > 0.0 || high < 0.0;
-        (0..state.storeys()).all(|l| {
-            let drift = range(self.x[l], self.v[l], step.x[l], step.v[l], third, remainder * self.drift_margin[l]);
-            let rate = range(self.v[l], self.q[l], step.v[l], step.q[l], third, remainder * self.rate_margin[l]);
-            let margin = remainder * self.acceleration_margin[l];
-            let (low, high) = range(self.a[l], self.jerk[l], step.a[l], step.jerk[l], third, margin);
-            let inside = |(lower, upper): (f64, f64)| drift.1 < upper && drift.0 > lower;
-            let keeps_plastic = rate.0 > self.v_low[l] && rate.1 < self.v_high[l];
-            let monotonic = inside((self.x_low[l], self.x_high[l])) || one_signed(rate);
-            let size = high.max(-low);
-            // Between its ends the jerk differs from its chord by at most h^2 / 8 times its second derivative.
-            let turn = 0.125 * course.h * course.h * step.liveliness * course.regime.derivative_bounds[1][l];
-            let (jerk, jerk_end) = (self.jerk[l], step.jerk[l]);
-            let steady = jerk * jerk_end > 0.0 && jerk.abs().min(jerk_end.abs()) > turn;
-            inside(state.yield_bounds[l])
-                && inside(state.collapse_bounds[l])
-                && keeps_plastic
-                && monotonic
-                && size < self.stuck_mu[l] * contact
-                && (size < self.a_peak[l] || steady)
-        })
-    }
-
-    fn take(&mut self, step: &Step<N>) {
-        (self.x, self.v, self.a, self.jerk, self.q) = (step.x, step.v, step.a, step.jerk, step.q);
+        self.middle = load(middle.as_flattened());
+        self.reach = load(reach.as_flattened());
+        self.sign = load(sign.as_flattened());
+        self.turn = load(turn.as_flattened());
+        self.a_peak = load(a_peak.as_flattened());
     }
 }
 
-/// h^4 / 384 times the liveliness: what a fourth derivative's bound is multiplied with.
 #[inline(always)]
-fn remainder<const N: usize>(step: &Step<N>, course: &Course<N>) -> f64 {
-    let h2 = course.h * course.h;
-    step.liveliness * (h2 * h2 / 384.0)
+fn middle_and_reach((low, high): (f64, f64)) -> (f64, f64) {
+    let (low, high) = (low.max(-FAR), high.min(FAR));
+    (0.5 * (low + high), 0.5 * (high - low))
 }
 
-/// Moves the sliding blocks over the step; false, and nothing is moved, when one may have turned.
-#[inline(always)]
-fn move_blocks<const N: usize>(
-    lanes: &Lanes<N>,
-    step: &Step<N>,
-    course: &Course<N>,
-    remainder: f64,
-    sliding: &mut [Sliding],
-    moved: &mut [(f64, f64)],
-) -> bool {
-    let (ground, contact, h) = (step.ground, step.contact, course.h);
-    if course.is_vertical && !(contact.0 > 0.0 && contact.1 > 0.0) {
-        return false;
-    }
-    if course.ground_mu.is_finite()
-        && !(ground.0.abs() < course.ground_mu * contact.0 && ground.1.abs() < course.ground_mu * contact.1)
-    {
-        return false;
-    }
-    let (ground_velocity, ground_displacement) = integrals(ground, h);
-    let (contact_velocity, contact_displacement) = integrals(contact, h);
-    for (block, moved) in sliding.iter().zip(moved.iter_mut()) {
-        let (mut velocity, mut displacement, mut start) = (ground_velocity, ground_displacement, 0.0);
-        let (mut a, mut margin) = (ground, 0.0);
-        for l in 0..block.floor {
-            velocity += step.v[l] - lanes.v[l];
-            displacement += step.x[l] - lanes.x[l];
-            start += lanes.v[l];
-        }
-        if block.floor > 0 {
-            let l = block.floor - 1;
-            a = (lanes.a[l], step.a[l]);
-            margin = remainder * course.regime.derivative_bounds[1][l];
-        }
-        let end = block.velocity - block.friction * contact_velocity - velocity;
-        let rate = (-block.friction * contact.0 - a.0, -block.friction * contact.1 - a.1);
-        let (low, high) = range(block.velocity, rate.0, end, rate.1, h / 3.0, margin);
-        if !(if block.positive { low > 0.0 } else { high < 0.0 }) {
-            return false;
-        }
-        let slip = block.velocity * h - block.friction * contact_displacement - (displacement - start * h);
-        *moved = (end, block.slip + slip);
-    }
-    for (block, &(velocity, slip)) in sliding.iter_mut().zip(moved.iter()) {
-        (block.velocity, block.slip) = (velocity, slip);
-    }
-    true
+/// Storeys and floors, as bits, whose peaks a step beats.
+#[derive(Default)]
+struct BeatenPeaks {
+    drift: u64,
+    acceleration: u64,
 }
 
-/// First and second integral over `h` of a quantity that is linear between two values.
+/// Lanes of the storeys, and padding.
 #[inline(always)]
-fn integrals(ends: (f64, f64), h: f64) -> (f64, f64) {
-    (0.5 * h * (ends.0 + ends.1), h * h * (2.0 * ends.0 + ends.1) / 6.0)
+fn load_some<V: Vector, const K: usize>(storeys: usize, padding: f64, value: impl Fn(usize) -> f64) -> [V; K] {
+    let mut values = [[padding; WIDTH]; K];
+    for (i, lane) in values.as_flattened_mut().iter_mut().enumerate().take(storeys) {
+        *lane = value(i);
+    }
+    load(values.as_flattened())
 }
 
-/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
+/// Drift coordinates of a storey between which it does not yield or collapse, and which beat no peak.
 #[inline(always)]
-fn run_lanes<const N: usize, const FUSED: bool>(
+fn quiet_drift(state: &State, observer: &Observer, i: usize) -> (f64, f64) {
+    let (guarded, quiet) = (guarded_drift(state, i), observer.quiet_drift(state, i));
+    (guarded.0.max(quiet.0), guarded.1.min(quiet.1))
+}
+
+/// Drift coordinates of a storey between which it does not yield or collapse.
+#[inline(always)]
+fn guarded_drift(state: &State, i: usize) -> (f64, f64) {
+    let (yields, collapses) = (state.yield_bounds[i], state.collapse_bounds[i]);
+    (yields.0.max(collapses.0), yields.1.min(collapses.1))
+}
+
+/// Blocks that slide, at most one of each floor.
+struct Layer<V, const K: usize> {
+    /// Of each floor its block, if there is one.
+    block: [[Option<usize>; WIDTH]; K],
+    /// Sign times mu_k.
+    friction: [V; K],
+    sign: [V; K],
+    /// What the negative of sign times velocity may not reach: 0; far where there is no block.
+    turn: [V; K],
+    velocity: [V; K],
+    slip: [V; K],
+    /// h / 3 times the size of the relative acceleration, less sign times velocity.
+    approach: [V; K],
+    /// Velocity and approach at the end of the step.
+    velocity_after: [V; K],
+    approach_after: [V; K],
+}
+
+/// A block that slides on the ground.
+struct GroundBlock {
+    block: usize,
+    friction: f64,
+    sign: f64,
+    velocity: f64,
+    slip: f64,
+}
+
+/// Values at both ends of an interval of what is linear between them.
+#[derive(Clone, Copy)]
+struct Linear {
+    start: f64,
+    end: f64,
+}
+
+impl Linear {
+    /// Integral over the length `h`.
+    #[inline(always)]
+    fn once(self, h: f64) -> f64 {
+        0.5 * h * (self.start + self.end)
+    }
+
+    /// Second integral over the length `h`.
+    #[inline(always)]
+    fn twice(self, h: f64) -> f64 {
+        (1.0 / 6.0) * h * h * (2.0 * self.start + self.end)
+    }
+}
+
+#[inline(always)]
+fn layers<V: Vector, const K: usize>(state: &State) -> (Vec<Layer<V, K>>, Vec<GroundBlock>) {
+    let mut places: Vec<[[Option<usize>; WIDTH]; K]> = Vec::new();
+    let mut on_ground = Vec::new();
+    for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
+        let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
+        match law.floor.checked_sub(1) {
+            None => on_ground.push(GroundBlock {
+                block,
+                friction: sign * law.mu_k,
+                sign,
+                velocity: motion.velocity,
+                slip: motion.slip,
+            }),
+            Some(i) => match places.iter_mut().find(|place| place.as_flattened()[i].is_none()) {
+                Some(place) => place.as_flattened_mut()[i] = Some(block),
+                None => {
+                    let mut place = [[None; WIDTH]; K];
+                    place.as_flattened_mut()[i] = Some(block);
+                    places.push(place);
+                }
+            },
+        }
+    }
+    let n = state.storeys();
+    let layer = |block: [[Option<usize>; WIDTH]; K]| {
+        let sign = |j: usize| state.motions[j].sliding().map_or(0.0, Sign::factor);
+        let of = |without: f64, value: &dyn Fn(usize) -> f64| {
+            load_some(n, without, |i| block.as_flattened()[i].map_or(without, value))
+        };
+        Layer {
+            block,
+            friction: of(0.0, &|j| sign(j) * state.model.blocks[j].mu_k),
+            sign: of(0.0, &sign),
+            turn: of(FAR, &|_| 0.0),
+            velocity: of(0.0, &|j| state.motions[j].velocity),
+            slip: of(0.0, &|j| state.motions[j].slip),
+            approach: [V::splat(0.0); K],
+            velocity_after: [V::splat(0.0); K],
+            approach_after: [V::splat(0.0); K],
+        }
+    };
+    (places.into_iter().map(layer).collect(), on_ground)
+}
+
+impl<V: Vector, const K: usize> Layer<V, K> {
+    #[inline(always)]
+    fn approach_at(&self, velocity: &[V; K], a: &[V; K], contact: f64, third: V) -> [V; K] {
+        let mut out = *velocity;
+        for k in 0..K {
+            let rate = self.friction[k].mul(V::splat(contact)).add(a[k]);
+            out[k] = third.mul(rate.abs()).sub(self.sign[k].mul(velocity[k]));
+        }
+        out
+    }
+
+    fn blocks(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.block.as_flattened().iter().enumerate().filter_map(|(i, block)| block.map(|block| (i, block)))
+    }
+}
+
+/// Changes of floor velocities over a step, and of floor displacements beyond those of the velocities at its start.
+struct FloorMotion<V, const K: usize> {
+    velocity: [V; K],
+    displacement: [V; K],
+}
+
+/// rows += column * weight.
+#[inline(always)]
+fn add<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column: &Column<K>, weight: V) {
+    for r in 0..4 {
+        for k in 0..K {
+            rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
+        }
+    }
+}
+
+/// rows += columns * weights.
+#[inline(always)]
+fn multiply<V: Vector, const K: usize, const S: usize>(
+    rows: &mut [[V; K]; 4],
+    columns: &[Column<K>],
+    weights: &[V; K],
+) {
+    if S > 0 {
+        let Some(columns) = columns.first_chunk::<S>() else { return };
+        for c in 0..S {
+            add(rows, &columns[c], weights[0].broadcast(c));
+        }
+    } else {
+        let values = numbers(weights);
+        for (column, &weight) in columns.iter().zip(values.as_flattened()) {
+            add(rows, column, V::splat(weight));
+        }
+    }
+}
+
+/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached. `S` is
+/// the number of storeys where it is known, else 0; `SLIDING`: blocks may slide on floors.
+#[inline(always)]
+fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, const VERTICAL: bool>(
     state: &mut State,
     observer: &mut Observer,
     motion: &Motion,
     first: usize,
     end: usize,
 ) -> usize {
-    let mut lanes = Lanes::<N>::load(state, observer);
-    let mut sliding: Vec<Sliding> = Vec::new();
-    for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
-        if let Some(sign) = motion.sliding() {
-            sliding.push(Sliding {
-                block,
-                floor: law.floor,
-                friction: sign.factor() * law.mu_k,
-                positive: sign.factor() > 0.0,
-                velocity: motion.velocity,
-                slip: motion.slip,
-            });
-        }
-    }
-    let mut moved = vec![(0.0, 0.0); sliding.len()];
-    // Velocity and slip of all blocks, as histories have them.
-    let mut blocks: Vec<(f64, f64)> = state.motions.iter().map(|m| (m.velocity, m.slip)).collect();
-    let watches_blocks = !sliding.is_empty() || state.stuck_mu[0].is_finite() || state.vertical;
-    let Some(course) = Course::<N>::new(state, motion.dt()) else { return first };
+    let Some(course) = Course::<K>::new(state, motion.dt()) else { return first };
+    let h = course.h;
+    let (length, third, per_second) = (V::splat(h), V::splat(h / 3.0), 1.0 / h);
+    let lanes = &course.regime.lanes;
+    let (mass, tangent): ([V; K], [V; K]) = (load(&lanes.root_mass), load(&lanes.root_tangent));
+    let [of_drift, of_rate, of_acceleration, of_block] = &lanes.fourth;
+    let margins: [[V; K]; 4] = [load(of_drift), load(of_rate), load(of_acceleration), load(of_block)];
+    let growth = course.regime.growth_over(h);
+    let widening = h * h * h * h / 384.0 * growth;
+    let mut sample = Sample::<V, K>::of(state);
+    let mut bounds = Bounds::<V, K>::new(state, observer);
+    let (mut layers, mut on_ground) = layers::<V, K>(state);
+    let watches_ground = !on_ground.is_empty() || state.stuck_mu[0].is_finite();
     let samples = motion.acceleration();
-    let gravity = (STANDARD_GRAVITY, STANDARD_GRAVITY);
-    let mut i = first;
-    for (pair, i_next) in samples[first..=end].windows(2).zip(first + 1..) {
-        let contact = match motion.vertical() {
-            Some(vertical) if course.is_vertical => (gravity.0 + vertical[i], gravity.1 + vertical[i_next]),
-            _ => gravity,
-        };
-        let step = lanes.step::<FUSED>(&course, (pair[0], pair[1]), contact);
-        let remainder = remainder(&step, &course);
-        let plain = lanes.nearest(&step, &course, remainder) < 0.0 && remainder.is_finite();
-        if !(plain || remainder.is_finite() && lanes.is_clear_but_for_peaks(&step, &course, state)) {
-            break;
+    let vertical = motion.vertical().unwrap_or(&[]);
+    let contact_at = |i: usize| if VERTICAL { STANDARD_GRAVITY + vertical[i] } else { STANDARD_GRAVITY };
+    // Rate of the floor accelerations per slope of the contact force: it turns at every sample.
+    let mut turning: [V; K] = load(&state.friction);
+    for (turning, inverse_mass) in turning.iter_mut().zip(load::<V, K>(&lanes.inverse_mass)) {
+        *turning = turning.mul(inverse_mass);
+    }
+    let mut slope_before = if VERTICAL { (contact_at(first + 1) - contact_at(first)) * per_second } else { 0.0 };
+    let mut apart_before = bounds.apart(&sample, third);
+    for layer in &mut layers {
+        layer.approach = layer.approach_at(&layer.velocity, &sample.a, contact_at(first), third);
+    }
+    // Velocity and slip of all blocks, as histories have them.
+    let mut blocks: Vec<(f64, f64)> = match observer.histories {
+        Some(_) => state.motions.iter().map(|m| (m.velocity, m.slip)).collect(),
+        None => Vec::new(),
+    };
+    let mut follows_drifts = false;
+    let mut reached = first;
+    for (pair, next) in samples[first..=end].windows(2).zip(first + 1..) {
+        let (before, after) = (pair[0], pair[1]);
+        let change = after - before;
+        let contact = (contact_at(next - 1), contact_at(next));
+        if VERTICAL {
+            let slope = (contact.1 - contact.0) * per_second;
+            for k in 0..K {
+                sample.jerk[k] = turning[k].mul_add(V::splat(slope - slope_before), sample.jerk[k]);
+                apart_before[2][k] = third.mul_add(sample.jerk[k].abs(), sample.a[k].abs());
+            }
+            slope_before = slope;
         }
-        if watches_blocks && !move_blocks(&lanes, &step, &course, remainder, &mut sliding, &mut moved) {
-            break;
+        // The norm that bounds the fourth derivatives, itself bounded by the sum of its terms' sizes.
+        let slope = V::splat(change * per_second);
+        let mut sizes = V::splat(0.0);
+        for k in 0..K {
+            sizes = mass[k].mul_add(sample.jerk[k].sub(slope).abs(), sizes);
+            sizes = tangent[k].mul_add(sample.q[k].abs(), sizes);
         }
-        lanes.take(&step);
-        i = i_next;
-        if !plain {
-            let time = i as f64 * course.h;
-            for l in 0..state.storeys() {
-                if observer.take_floor(state, l, lanes.x[l], lanes.a[l], time) {
-                    lanes.set_bounds(l, state, observer);
+        let margin = V::splat(sizes.sum() * widening);
+        // The step.
+        let mut rows = [[V::splat(0.0); K]; 4];
+        let (ground, ramp) = (V::splat(before), V::splat(change));
+        for r in 0..4 {
+            for k in 0..K {
+                let constant = V::load(&course.constant[r][k]);
+                let row = V::load(&course.of_change[r][k]).mul_add(ramp, constant);
+                rows[r][k] = V::load(&course.of_ground[r][k]).mul_add(ground, row);
+                if VERTICAL {
+                    let friction = V::load(&course.friction[r][k]).mul_add(V::splat(contact.0), rows[r][k]);
+                    rows[r][k] =
+                        V::load(&course.friction_ramp[r][k]).mul_add(V::splat(contact.1 - contact.0), friction);
                 }
             }
         }
-        if observer.records(i) {
-            sliding.iter().for_each(|b| blocks[b.block] = (b.velocity, b.slip));
-            observer.record_row(state, &lanes.x, &lanes.v, &lanes.a, blocks.iter().copied());
+        multiply::<V, K, S>(&mut rows, course.of_drift, &sample.x);
+        multiply::<V, K, S>(&mut rows, course.of_rate, &sample.v);
+        let [dx, dv, a, jerk] = rows;
+        let mut taken = Sample { x: sample.x, v: sample.v, a, jerk, q: differences(&a, V::splat(after)) };
+        for k in 0..K {
+            taken.x[k] = sample.x[k].add(dx[k]);
+            taken.v[k] = sample.v[k].add(dv[k]);
         }
-        if course.is_vertical {
-            // The slope of the contact force turns at the sample, and the rates of the accelerations with it.
-            break;
-        }
-    }
-    if i > first {
-        lanes.store(state);
-        for block in &sliding {
-            let motion = &mut state.motions[block.block];
-            (motion.velocity, motion.slip) = (block.velocity, block.slip);
-        }
-    }
-    i
-}
-
-macro_rules! for_lanes {
-    ($name:ident, $fused:literal $(, $feature:literal)?) => {
-        $(#[target_feature(enable = $feature)])?
-        fn $name(state: &mut State, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize {
-            match padded(state.storeys()) {
-                4 => run_lanes::<4, $fused>(state, observer, motion, first, end),
-                8 => run_lanes::<8, $fused>(state, observer, motion, first, end),
-                16 => run_lanes::<16, $fused>(state, observer, motion, first, end),
-                _ => run_lanes::<MAX_LANES, $fused>(state, observer, motion, first, end),
+        // The proof.
+        let apart_after = bounds.apart(&taken, third);
+        let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
+        let mut suspects = 0;
+        for k in 0..K {
+            let limit = bounds.stuck_mu[k].mul(least_contact).min(bounds.a_peak[k]);
+            for (which, bound) in [(0, bounds.reach[k]), (1, bounds.turn[k]), (2, limit)] {
+                let most = apart_before[which][k].max(apart_after[which][k]);
+                suspects |= margin.mul_add(margins[which][k], most).not_below(bound);
             }
         }
-    };
+        let (ground, push) = (Linear { start: before, end: after }, Linear { start: contact.0, end: contact.1 });
+        let mut floors = FloorMotion { velocity: dv, displacement: dx };
+        if SLIDING {
+            floors.velocity = prefix_sums(&dv);
+            let displacement = V::splat(push.once(h));
+            let shift = V::splat(ground.once(h));
+            for layer in &mut layers {
+                for k in 0..K {
+                    let pushed = layer.friction[k].mul_add(displacement, shift);
+                    layer.velocity_after[k] = layer.velocity[k].sub(pushed.add(floors.velocity[k]));
+                }
+                layer.approach_after = layer.approach_at(&layer.velocity_after, &taken.a, contact.1, third);
+                // A velocity that is a small difference of large ones is left to the series.
+                let digits = V::splat(-SMALL_DIFFERENCE);
+                for k in 0..K {
+                    let most = layer.approach[k].max(layer.approach_after[k]);
+                    let bound = digits.mul_add(floors.velocity[k].abs(), layer.turn[k]);
+                    suspects |= margin.mul_add(margins[3][k], most).not_below(bound);
+                }
+            }
+        }
+        let mut beaten = BeatenPeaks::default();
+        if suspects != 0 {
+            let (at_start, at_end) = (sample.values(), taken.values());
+            let mut step = Closer {
+                state,
+                observer,
+                start: at_start.as_slices(),
+                end: at_end.as_slices(),
+                h,
+                contact,
+                liveliness: 0.0,
+                beaten: BeatenPeaks::default(),
+            };
+            step.set_liveliness(change * per_second, growth);
+            if !step.look() || SLIDING && layers.iter().any(|layer| step.may_turn(layer)) {
+                break;
+            }
+            beaten = step.beaten;
+        }
+        if VERTICAL && !(contact.0 > 0.0 && contact.1 > 0.0)
+            || watches_ground && !move_on_ground(&mut on_ground, ground, push, h, state.stuck_mu[0])
+        {
+            break;
+        }
+        if SLIDING {
+            for k in 0..K {
+                floors.displacement[k] = dx[k].sub(length.mul(sample.v[k]));
+            }
+            floors.displacement = prefix_sums(&floors.displacement);
+            let (push, ground) = (V::splat(push.twice(h)), V::splat(ground.twice(h)));
+            for layer in &mut layers {
+                for k in 0..K {
+                    let pushed = layer.friction[k].mul_add(push, ground);
+                    let own = length.mul(layer.velocity[k]).sub(pushed.add(floors.displacement[k]));
+                    layer.slip[k] = layer.slip[k].add(own);
+                }
+                (layer.velocity, layer.approach) = (layer.velocity_after, layer.approach_after);
+            }
+        }
+        (sample, apart_before) = (taken, apart_after);
+        reached = next;
+        if beaten.drift | beaten.acceleration != 0 {
+            follows_drifts |= beaten.drift != 0;
+            bounds.follow(&beaten, state, observer, &sample, reached as f64 * h);
+            apart_before = bounds.apart(&sample, third);
+        }
+        if observer.records(reached) {
+            let values = sample.values();
+            let values = values.as_slices();
+            block_values(&layers, &on_ground, |block, velocity, slip| blocks[block] = (velocity, slip));
+            observer.record_row(state, values.x, values.v, values.a, blocks.iter().copied());
+        }
+    }
+    if reached > first {
+        store(&sample.x, &mut state.x);
+        store(&sample.v, &mut state.v);
+        store(&sample.a, &mut state.a);
+        store(&sample.jerk, &mut state.jerk);
+        store(&sample.q, &mut state.drift_acceleration);
+        let motions = &mut state.motions;
+        block_values(&layers, &on_ground, |block, velocity, slip| {
+            (motions[block].velocity, motions[block].slip) = (velocity, slip);
+        });
+        if follows_drifts {
+            observer.observe_values(state, reached as f64 * h);
+        }
+    }
+    reached
 }
 
-for_lanes!(run_baseline, false);
-#[cfg(target_arch = "x86_64")]
-for_lanes!(run_avx2, true, "avx2,fma");
-#[cfg(target_arch = "x86_64")]
-for_lanes!(run_avx512, true, "avx2,fma,avx512f,avx512vl");
+#[inline(always)]
+fn numbers<V: Vector, const K: usize>(vectors: &[V; K]) -> [[f64; WIDTH]; K] {
+    let mut out = [[0.0; WIDTH]; K];
+    for k in 0..K {
+        vectors[k].store(&mut out[k]);
+    }
+    out
+}
+
+/// Calls `visit(block, velocity, slip)` for all sliding blocks.
+#[inline(always)]
+fn block_values<V: Vector, const K: usize>(
+    layers: &[Layer<V, K>],
+    on_ground: &[GroundBlock],
+    mut visit: impl FnMut(usize, f64, f64),
+) {
+    for layer in layers {
+        let (velocity, slip) = (numbers(&layer.velocity), numbers(&layer.slip));
+        let (velocity, slip) = (velocity.as_flattened(), slip.as_flattened());
+        layer.blocks().for_each(|(i, block)| visit(block, velocity[i], slip[i]));
+    }
+    on_ground.iter().for_each(|b| visit(b.block, b.velocity, b.slip));
+}
+
+/// Moves the blocks that slide on the ground over a step; false when one may have turned, or one that is stuck broken
+/// away: then nothing is moved.
+#[inline(never)]
+fn move_on_ground(blocks: &mut [GroundBlock], ground: Linear, contact: Linear, h: f64, stuck_mu: f64) -> bool {
+    if stuck_mu.is_finite()
+        && !(ground.start.abs() < stuck_mu * contact.start && ground.end.abs() < stuck_mu * contact.end)
+    {
+        return false;
+    }
+    let end = |b: &GroundBlock| b.velocity - b.friction * contact.once(h) - ground.once(h);
+    let keeps = |b: &GroundBlock| {
+        let rate = (-b.friction * contact.start - ground.start, -b.friction * contact.end - ground.end);
+        let (low, high) = range(b.velocity, rate.0, end(b), rate.1, h / 3.0, 0.0);
+        if b.sign > 0.0 { low > 0.0 } else { high < 0.0 }
+    };
+    if !blocks.iter().all(keeps) {
+        return false;
+    }
+    for block in blocks {
+        block.slip += block.velocity * h - block.friction * contact.twice(h) - ground.twice(h);
+        block.velocity = end(block);
+    }
+    true
+}
+
+/// A step that the loop did not clear.
+struct Closer<'a, 'b> {
+    state: &'a State<'b>,
+    observer: &'a Observer,
+    start: SampleValues<'a>,
+    end: SampleValues<'a>,
+    h: f64,
+    contact: (f64, f64),
+    liveliness: f64,
+    /// Peaks that may be beaten, at the end of the step.
+    beaten: BeatenPeaks,
+}
+
+impl Closer<'_, '_> {
+    /// The norm that bounds the higher derivatives, under a ground acceleration with this slope.
+    fn set_liveliness(&mut self, slope: f64, growth: f64) {
+        let lanes = &self.state.regime().lanes;
+        let mut square = 0.0;
+        for i in 0..self.state.storeys() {
+            let (jerk, q) =
+                (lanes.root_mass[i] * (self.start.jerk[i] - slope), lanes.root_tangent[i] * self.start.q[i]);
+            square += jerk * jerk + q * q;
+        }
+        self.liveliness = square.sqrt() * growth;
+    }
+
+    /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
+    fn remainder(&self) -> f64 {
+        let h2 = self.h * self.h;
+        self.liveliness * (h2 * h2 / 384.0)
+    }
+
+    /// Whether no guard fell and no peak was beaten inside the step.
+    #[inline(never)]
+    fn look(&mut self) -> bool {
+        let (state, start, end) = (self.state, self.start, self.end);
+        let (third, remainder) = (self.h / 3.0, self.remainder());
+        let [of_drift, of_rate, of_acceleration, of_block] = &state.regime().lanes.fourth;
+        let contact = self.contact.0.min(self.contact.1);
+        for i in 0..state.storeys() {
+            let drift = range(start.x[i], start.v[i], end.x[i], end.v[i], third, remainder * of_drift[i]);
+            let rate = range(start.v[i], start.q[i], end.v[i], end.q[i], third, remainder * of_rate[i]);
+            let margin = remainder * of_acceleration[i];
+            let (low, high) = range(start.a[i], start.jerk[i], end.a[i], end.jerk[i], third, margin);
+            let size = high.max(-low);
+            let inside = |(lower, upper): (f64, f64)| drift.1 < upper && drift.0 > lower;
+            let keeps_plastic = match state.springs[i].plastic() {
+                Some(Sign::Positive) => rate.0 > 0.0,
+                Some(Sign::Negative) => rate.1 < 0.0,
+                None => true,
+            };
+            if !(inside(guarded_drift(state, i)) && keeps_plastic && size < state.stuck_mu[i + 1] * contact) {
+                return false;
+            }
+            if !inside(self.observer.quiet_drift(state, i)) {
+                if !(rate.0 > 0.0 || rate.1 < 0.0) {
+                    return false;
+                }
+                self.beaten.drift |= 1 << i;
+            }
+            let below_peak = size < self.observer.peaks.floor_acceleration[i].value;
+            if !below_peak {
+                // Between its ends the jerk differs from its chord by at most h^2 / 8 times its second derivative.
+                let turn = 0.125 * self.h * self.h * self.liveliness * of_block[i];
+                let (jerk, jerk_end) = (start.jerk[i], end.jerk[i]);
+                if !(jerk * jerk_end > 0.0 && jerk.abs().min(jerk_end.abs()) > turn) {
+                    return false;
+                }
+                self.beaten.acceleration |= 1 << i;
+            }
+        }
+        true
+    }
+
+    /// Whether the relative velocity of a block may have turned.
+    #[inline(never)]
+    fn may_turn<V: Vector, const K: usize>(&self, layer: &Layer<V, K>) -> bool {
+        let (before, after) = (numbers(&layer.velocity), numbers(&layer.velocity_after));
+        let (before, after) = (before.as_flattened(), after.as_flattened());
+        let margins = &self.state.regime().lanes.fourth[3];
+        layer.blocks().any(|(i, block)| {
+            let sign = self.state.motions[block].sliding().map_or(0.0, Sign::factor);
+            let friction = sign * self.state.model.blocks[block].mu_k;
+            let rates = (-friction * self.contact.0 - self.start.a[i], -friction * self.contact.1 - self.end.a[i]);
+            let margin = self.remainder() * margins[i];
+            let (low, high) = range(before[i], rates.0, after[i], rates.1, self.h / 3.0, margin);
+            let floor: f64 = self.end.v[..=i].iter().zip(self.start.v).map(|(end, start)| end - start).sum();
+            let least = SMALL_DIFFERENCE * floor.abs();
+            !(if sign > 0.0 { low > least } else { high < -least })
+        })
+    }
+}
+
+for_each_path! {
+    fn run(state: &mut State, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize = run_by_width
+}
+
+#[inline(always)]
+fn run_by_width<V: Vector>(
+    state: &mut State,
+    observer: &mut Observer,
+    motion: &Motion,
+    first: usize,
+    end: usize,
+) -> usize {
+    const WIDEST: usize = MAX_LANES / WIDTH;
+    let sliding = state.motions.iter().zip(&state.model.blocks).any(|(m, law)| law.floor > 0 && m.sliding().is_some());
+    match (state.storeys(), sliding, state.vertical) {
+        (1, false, false) => run_lanes::<V, 1, 1, false, false>(state, observer, motion, first, end),
+        (2, false, false) => run_lanes::<V, 1, 2, false, false>(state, observer, motion, first, end),
+        (3, false, false) => run_lanes::<V, 1, 3, false, false>(state, observer, motion, first, end),
+        (4, false, false) => run_lanes::<V, 1, 4, false, false>(state, observer, motion, first, end),
+        (1, true, false) => run_lanes::<V, 1, 1, true, false>(state, observer, motion, first, end),
+        (2, true, false) => run_lanes::<V, 1, 2, true, false>(state, observer, motion, first, end),
+        (3, true, false) => run_lanes::<V, 1, 3, true, false>(state, observer, motion, first, end),
+        (4, true, false) => run_lanes::<V, 1, 4, true, false>(state, observer, motion, first, end),
+        (5..=8, _, false) => run_lanes::<V, 2, 0, true, false>(state, observer, motion, first, end),
+        (9..=16, _, false) => run_lanes::<V, 4, 0, true, false>(state, observer, motion, first, end),
+        (_, _, false) => run_lanes::<V, WIDEST, 0, true, false>(state, observer, motion, first, end),
+        (..=4, _, true) => run_lanes::<V, 1, 0, true, true>(state, observer, motion, first, end),
+        (5..=8, _, true) => run_lanes::<V, 2, 0, true, true>(state, observer, motion, first, end),
+        (9..=16, _, true) => run_lanes::<V, 4, 0, true, true>(state, observer, motion, first, end),
+        (_, _, true) => run_lanes::<V, WIDEST, 0, true, true>(state, observer, motion, first, end),
+    }
+}
 
 impl State<'_> {
-    #[allow(unsafe_code)]
     /// Takes plain steps from interval `first` until `end`, or until one is not plain, and records their histories;
     /// returns the interval reached, whose start the state is then at.
     pub(crate) fn plain_run(&mut self, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize {
@@ -461,15 +765,7 @@ impl State<'_> {
             return first;
         }
         self.prepare_effects();
-        let reached = match InstructionSet::in_use() {
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: `in_use` returns only what this machine has.
-            InstructionSet::Avx512 => unsafe { run_avx512(self, observer, motion, first, end) },
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: as above.
-            InstructionSet::Avx2 => unsafe { run_avx2(self, observer, motion, first, end) },
-            _ => run_baseline(self, observer, motion, first, end),
-        };
+        let reached = run(self, observer, motion, first, end);
         let time = reached as f64 * motion.dt();
         for (peak, motion) in observer.peaks.slip.iter_mut().zip(&self.motions) {
             peak.take(motion.slip, time);
@@ -482,8 +778,8 @@ impl State<'_> {
         if self.effects.valid {
             return;
         }
-        let Some(propagator) = self.cache.regime(self.regime).propagator.as_deref() else { return };
-        let effects = &mut self.effects;
+        let Some(steps) = self.cache.regime(self.regime).steps.as_deref() else { return };
+        let (propagator, effects) = (&steps.propagator, &mut self.effects);
         propagator.of_load(&self.spring_load, &mut effects.constant);
         propagator.of_load(&self.friction, &mut effects.friction);
         if self.vertical {

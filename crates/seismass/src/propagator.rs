@@ -1,19 +1,40 @@
-//! The exact step of a regime over one whole sample interval, and the cache of regimes.
+//! The exact steps of a regime, formed once: over one whole sample interval, and as tables of its Taylor series; and the
+//! cache of regimes.
 //!
-//! The step is affine in the state, the floor loads and the motion. Its columns are series of unit vectors; an interval
-//! too long for one series is halved until it is short enough, and the step composed with itself.
+//! Within an interval, floor accelerations are linear in drifts and drift rates, and loads are linear in time; so from
+//! the second order on everything is linear in the drift accelerations q and their rates alone, which obey the
+//! homogeneous system. Its series of unit vectors give all: summed, the step of a whole interval; kept, tables that make
+//! of a series independent products in place of a chain. An interval too long for one series is halved until it is
+//! short enough, and the step composed with itself.
 
 use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
+use rustc_hash::FxBuildHasher;
 
-use crate::lanes::{MAX_LANES, padded};
+use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, padded, store};
 use crate::model::Model;
-use crate::regime::Regime;
-use crate::taylor::{Drive, MAX_PHASE, Series};
+use crate::regime::{Operator, Regime};
+use crate::taylor::{MAX_PHASE, terms};
 
 /// Memory one cache may take before it starts afresh (bytes).
 const CACHE_BYTES: usize = 64 << 20;
+/// Most storeys of which tables of the series are kept.
+const MAX_TABLE: usize = 8;
+
+/// The steps of a regime.
+pub(crate) struct Steps {
+    /// Series of the regime over a step of its own; none above [`MAX_TABLE`] storeys.
+    pub(crate) table: Option<Table>,
+    pub(crate) propagator: Propagator,
+}
+
+/// Taylor terms of the floor accelerations from the second order on, over a step `h`, of unit drift accelerations and
+/// of unit rates of these: by order, by column, by floor padded to whole vectors.
+pub(crate) struct Table {
+    pub(crate) h: f64,
+    pub(crate) terms: Vec<f64>,
+}
 
 /// The step of a regime over one sample interval, acting on rows (dx, dv, a, j): changes of drifts and drift rates,
 /// floor accelerations and their rates at the end, each padded to whole vectors. Columns are stored one after the other.
@@ -44,40 +65,165 @@ enum Cause {
     GroundRamp,
 }
 
-/// Forms the series of columns.
-struct Columns<'a> {
-    model: &'a Model,
-    regime: &'a Regime,
-    series: Series,
-    x: Vec<f64>,
-    v: Vec<f64>,
-    drive: Drive,
+/// What a step of length `h` adds to (dx, dv, a, j) beyond the first order, of unit drift accelerations and of unit
+/// rates of these: columns of four padded rows.
+struct Remainders {
+    h: f64,
+    order: usize,
+    sums: Vec<f64>,
+    terms: Vec<f64>,
 }
 
-impl<'a> Columns<'a> {
-    fn new(model: &'a Model, regime: &'a Regime) -> Self {
-        let zero = vec![0.0; model.storeys()];
-        let drive = Drive { load: zero.clone(), load_slope: zero.clone(), ..Drive::default() };
-        Self { model, regime, series: Series::default(), x: zero.clone(), v: zero, drive }
-    }
+for_each_path! {
+    fn form_remainders(model: &Model, regime: &Regime, out: &mut Remainders) = remainders_by_width
+}
 
-    /// The series of a column over `h`.
-    fn form(&mut self, cause: Cause, h: f64) -> &Series {
-        self.set(cause, 1.0);
-        self.series.form(self.model, self.regime, &self.x, &self.v, &self.drive, h);
-        self.set(cause, 0.0);
-        &self.series
+#[inline(always)]
+fn remainders_by_width<V: Vector>(model: &Model, regime: &Regime, out: &mut Remainders) {
+    match padded(model.storeys()) {
+        4 => remainders::<V, 1>(model, regime, out),
+        8 => remainders::<V, 2>(model, regime, out),
+        16 => remainders::<V, 4>(model, regime, out),
+        _ => remainders::<V, { MAX_LANES / WIDTH }>(model, regime, out),
+    }
+}
+
+/// The series of (q, q') = unit vectors, as drifts and drift rates of the homogeneous system, whose accelerations then
+/// are the second derivatives of the floor accelerations.
+#[inline(always)]
+fn remainders<V: Vector, const K: usize>(model: &Model, regime: &Regime, out: &mut Remainders) {
+    let (n, h, width) = (model.storeys(), out.h, WIDTH * K);
+    let zero = [V::splat(0.0); K];
+    let operator = Operator::<V, K>::new(model, regime);
+    let inside: [V; K] = load(&model.lanes.inside);
+    let keeps_terms = n <= MAX_TABLE;
+    out.sums.resize(2 * n * 4 * width, 0.0);
+    let mut states = vec![0.0; 2 * n * 2 * width];
+    for i in 0..n {
+        states[2 * i * width + i] = 1.0;
+        states[(2 * (n + i) + 1) * width + i] = 1.0;
+    }
+    if keeps_terms {
+        out.terms.resize((out.order - 1) * 2 * n * width, 0.0);
+    }
+    for k in 0..=out.order {
+        let (once, twice) = (h / (k + 1) as f64, h * h / ((k + 1) * (k + 2)) as f64);
+        let (first, second) = (V::splat(once), V::splat(twice));
+        for c in 0..2 * n {
+            let state = &mut states[2 * c * width..2 * (c + 1) * width];
+            let (x, v): ([V; K], [V; K]) = (load(state), load(&state[width..]));
+            let a = operator.accelerations(&x, &v, zero);
+            let drift_acceleration = differences(&a, V::splat(0.0));
+            let (mut next_x, mut next_v, mut term) = (zero, zero, zero);
+            let mut rows = [zero; 4];
+            let sums = &mut out.sums[4 * c * width..4 * (c + 1) * width];
+            for r in 0..4 {
+                rows[r] = load(&sums[r * width..]);
+            }
+            for l in 0..K {
+                term[l] = second.mul(a[l]);
+                rows[0][l] = second.mul_add(x[l], rows[0][l]);
+                rows[1][l] = first.mul_add(x[l], rows[1][l]);
+                rows[2][l] = rows[2][l].add(term[l]);
+                rows[3][l] = first.mul_add(a[l], rows[3][l]);
+                next_x[l] = first.mul(v[l]);
+                next_v[l] = first.mul(drift_acceleration[l]).mul(inside[l]);
+            }
+            for r in 0..4 {
+                store(&rows[r], &mut sums[r * width..]);
+            }
+            store(&next_x, state);
+            store(&next_v, &mut state[width..]);
+            if keeps_terms && k + 2 <= out.order {
+                store(&term, &mut out.terms[(k * 2 * n + c) * width..]);
+            }
+        }
+    }
+}
+
+/// The cause of a column: drifts, drift rates, loads and their slopes, padded; ground acceleration and its slope.
+#[derive(Default)]
+struct Unit {
+    state: [Vec<f64>; 2],
+    load: [Vec<f64>; 2],
+    ground: [f64; 2],
+}
+
+impl Unit {
+    fn new(storeys: usize) -> Self {
+        let zero = || vec![0.0; padded(storeys)];
+        Self { state: [zero(), zero()], load: [zero(), zero()], ground: [0.0; 2] }
     }
 
     fn set(&mut self, cause: Cause, value: f64) {
         match cause {
-            Cause::Drift(i) => self.x[i] = value,
-            Cause::DriftRate(i) => self.v[i] = value,
-            Cause::Load(i) => self.drive.load[i] = value,
-            Cause::Ramp(i) => self.drive.load_slope[i] = value,
-            Cause::Ground => self.drive.ground = value,
-            Cause::GroundRamp => self.drive.ground_slope = value,
+            Cause::Drift(i) => self.state[0][i] = value,
+            Cause::DriftRate(i) => self.state[1][i] = value,
+            Cause::Load(i) => self.load[0][i] = value,
+            Cause::Ramp(i) => self.load[1][i] = value,
+            Cause::Ground => self.ground[0] = value,
+            Cause::GroundRamp => self.ground[1] = value,
         }
+    }
+}
+
+for_each_path! {
+    /// Appends the rows of a column over the step of `remainders`.
+    fn push_rows(model: &Model, regime: &Regime, remainders: &Remainders, unit: &Unit, out: &mut Vec<f64>)
+        = rows_by_width
+}
+
+#[inline(always)]
+fn rows_by_width<V: Vector>(model: &Model, regime: &Regime, remainders: &Remainders, unit: &Unit, out: &mut Vec<f64>) {
+    let from = out.len();
+    out.resize(from + 4 * padded(model.storeys()), 0.0);
+    let rows = &mut out[from..];
+    match padded(model.storeys()) {
+        4 => form_rows::<V, 1>(model, regime, remainders, unit, rows),
+        8 => form_rows::<V, 2>(model, regime, remainders, unit, rows),
+        16 => form_rows::<V, 4>(model, regime, remainders, unit, rows),
+        _ => form_rows::<V, { MAX_LANES / WIDTH }>(model, regime, remainders, unit, rows),
+    }
+}
+
+#[inline(always)]
+fn form_rows<V: Vector, const K: usize>(
+    model: &Model,
+    regime: &Regime,
+    remainders: &Remainders,
+    unit: &Unit,
+    out: &mut [f64],
+) {
+    let (n, width) = (model.storeys(), WIDTH * K);
+    let operator = Operator::<V, K>::new(model, regime);
+    let (x, v): ([V; K], [V; K]) = (load(&unit.state[0]), load(&unit.state[1]));
+    let a = operator.accelerations(&x, &v, load(&unit.load[0]));
+    let q = differences(&a, V::splat(unit.ground[0]));
+    let jerk = operator.accelerations(&v, &q, load(&unit.load[1]));
+    let rate = differences(&jerk, V::splat(unit.ground[1]));
+    let h = V::splat(remainders.h);
+    let mut rows = [[V::splat(0.0); K]; 4];
+    for k in 0..K {
+        rows[0][k] = h.mul(v[k]);
+        rows[2][k] = h.mul_add(jerk[k], a[k]);
+        rows[3][k] = jerk[k];
+    }
+    for (weights, columns) in [q, rate].iter().zip(columns_of::<K>(&remainders.sums).chunks_exact(4 * n)) {
+        let mut values = [[0.0; WIDTH]; K];
+        for k in 0..K {
+            weights[k].store(&mut values[k]);
+        }
+        for (column, &weight) in columns.as_chunks::<4>().0.iter().zip(values.as_flattened()) {
+            let weight = V::splat(weight);
+            for r in 0..4 {
+                for k in 0..K {
+                    rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
+                }
+            }
+        }
+    }
+    for r in 0..4 {
+        store(&rows[r], &mut out[r * width..]);
     }
 }
 
@@ -91,15 +237,11 @@ struct Step {
 }
 
 impl Step {
-    fn by_series(columns: &mut Columns, h: f64) -> Self {
-        let n = columns.model.storeys();
+    /// The step from its columns of rows (dx, dv, a, j).
+    fn new(n: usize, mut rows: impl FnMut(Cause) -> Vec<f64>) -> Self {
         let mut column = |cause: Cause| {
-            let series = columns.form(cause, h);
-            let mut out = DVector::zeros(2 * n);
-            let (dx, dv) = out.as_mut_slice().split_at_mut(n);
-            series.drift_changes(1.0, dx);
-            series.rate_changes(1.0, dv);
-            out
+            let rows = rows(cause);
+            DVector::from_iterator(2 * n, rows[..n].iter().chain(&rows[padded(n)..padded(n) + n]).copied())
         };
         let state: Vec<_> = (0..n).map(Cause::Drift).chain((0..n).map(Cause::DriftRate)).map(&mut column).collect();
         let load: Vec<_> = (0..n).map(|i| column(Cause::Load(i))).collect();
@@ -140,18 +282,32 @@ impl Step {
     }
 }
 
-impl Propagator {
-    /// The step of a regime over `dt`, by one series where it converges fast enough, else by halving.
+impl Steps {
+    /// The steps of a regime over `dt`, by one series where it converges fast enough, else by halving.
     fn new(model: &Model, regime: &Regime, dt: f64, with_ramps: bool) -> Self {
         let n = model.storeys();
-        let mut columns = Columns::new(model, regime);
-        let composed = (regime.frequency * dt > MAX_PHASE).then(|| {
-            let halvings = (regime.frequency * dt / MAX_PHASE).log2().ceil();
-            let mut h = dt * (-halvings).exp2();
-            let mut step = Step::by_series(&mut columns, h);
+        let halvings = (regime.frequency * dt / MAX_PHASE).log2().ceil().max(0.0);
+        let h = dt * (-halvings).exp2();
+        // Parts of a halved interval may be longer than its table's step.
+        let order = terms(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
+        let mut remainders = Remainders { h, order, sums: Vec::new(), terms: Vec::new() };
+        form_remainders(model, regime, &mut remainders);
+        let mut unit = Unit::new(n);
+        let mut push = |cause: Cause, out: &mut Vec<f64>| {
+            unit.set(cause, 1.0);
+            push_rows(model, regime, &remainders, &unit, out);
+            unit.set(cause, 0.0);
+        };
+        let composed = (halvings > 0.0).then(|| {
+            let mut step = Step::new(n, |cause| {
+                let mut rows = Vec::new();
+                push(cause, &mut rows);
+                rows
+            });
+            let mut length = h;
             for _ in 0..halvings as usize {
-                step = step.doubled(h);
-                h *= 2.0;
+                step = step.doubled(length);
+                length *= 2.0;
             }
             step
         });
@@ -159,7 +315,7 @@ impl Propagator {
             let mut out = Vec::new();
             for cause in causes {
                 match &composed {
-                    None => columns.form(cause, dt).push_rows_at_end(&mut out),
+                    None => push(cause, &mut out),
                     Some(step) => push_rows_of_change(model, regime, cause, step.change(cause), dt, &mut out),
                 }
                 if matches!(cause, Cause::Ramp(_) | Cause::GroundRamp) {
@@ -170,20 +326,26 @@ impl Propagator {
             }
             out
         };
-        Self {
+        let propagator = Propagator {
             rows: 4 * padded(n),
             state: gather(&mut (0..n).map(Cause::Drift).chain((0..n).map(Cause::DriftRate))),
             load: gather(&mut (0..n).map(Cause::Load)),
             ramp: gather(&mut (0..if with_ramps { n } else { 0 }).map(Cause::Ramp)),
             ground: gather(&mut std::iter::once(Cause::Ground)),
             ground_ramp: gather(&mut std::iter::once(Cause::GroundRamp)),
-        }
+        };
+        let table = (n <= MAX_TABLE).then_some(Table { h, terms: remainders.terms });
+        Self { table, propagator }
     }
 
     fn bytes(&self) -> usize {
-        8 * (self.state.len() + self.load.len() + self.ramp.len() + 2 * self.rows)
+        let propagator = &self.propagator;
+        let table = self.table.as_ref().map_or(0, |table| table.terms.len());
+        8 * (propagator.state.len() + propagator.load.len() + propagator.ramp.len() + 2 * propagator.rows + table)
     }
+}
 
+impl Propagator {
     /// out = columns * weights.
     fn combine(&self, columns: &[f64], weights: &[f64], out: &mut [f64]) {
         out.fill(0.0);
@@ -250,12 +412,12 @@ struct Entry {
 
 /// The regimes met so far by scenes of equal structure at one time step.
 ///
-/// What a run computes never depends on what is cached: a run takes its first [`RegimeCache::SERIES_VISITS`] intervals
-/// of a regime by series whether or not another run has already paid for the propagator.
+/// What a run computes never depends on what is cached: where the steps of a regime pay only after some time, a run takes
+/// its first [`RegimeCache::SERIES_VISITS`] intervals by series whether or not another run has already paid for them.
 pub(crate) struct RegimeCache {
     dt: f64,
     entries: Vec<Entry>,
-    index: HashMap<Vec<u8>, usize>,
+    index: HashMap<Vec<u8>, usize, FxBuildHasher>,
     run: u64,
     /// Memory taken by all entries.
     bytes: usize,
@@ -270,7 +432,7 @@ impl RegimeCache {
     const DENSE_LIMITS: (usize, usize) = (MAX_LANES, 16);
 
     pub(crate) fn new(dt: f64) -> Self {
-        Self { dt, entries: Vec::new(), index: HashMap::new(), run: 0, bytes: 0, run_bytes: 0 }
+        Self { dt, entries: Vec::new(), index: HashMap::default(), run: 0, bytes: 0, run_bytes: 0 }
     }
 
     /// Time step of the propagators (s).
@@ -326,6 +488,23 @@ impl RegimeCache {
         &self.entries[index].regime
     }
 
+    /// Forms the tables of a regime, where it has any.
+    #[inline]
+    pub(crate) fn prepare_table(&mut self, index: usize, model: &Model, vertical: bool) {
+        let n = model.storeys();
+        if n > 0 && n <= MAX_TABLE && self.entries[index].regime.steps.is_none() {
+            self.form_steps(index, model, vertical);
+        }
+    }
+
+    #[cold]
+    fn form_steps(&mut self, index: usize, model: &Model, vertical: bool) {
+        let entry = &mut self.entries[index];
+        let steps = Steps::new(model, &entry.regime, self.dt, vertical);
+        self.bytes += steps.bytes();
+        entry.regime.steps = Some(Box::new(steps));
+    }
+
     /// Counts a whole interval in a regime; true once its propagator is to be used, which then exists.
     pub(crate) fn visit(&mut self, index: usize, model: &Model, full_damping: bool, vertical: bool) -> bool {
         let entry = &mut self.entries[index];
@@ -334,17 +513,18 @@ impl RegimeCache {
         if n == 0 || n > limit {
             return false;
         }
+        let series_visits = if n <= MAX_TABLE { 0 } else { Self::SERIES_VISITS };
         entry.visits = entry.visits.saturating_add(1);
-        if entry.visits <= Self::SERIES_VISITS {
+        if entry.visits <= series_visits {
             return false;
         }
-        if entry.regime.propagator.as_ref().is_none_or(|p| vertical && p.ramp.is_empty()) {
-            let propagator = Propagator::new(model, &entry.regime, self.dt, vertical);
-            self.bytes += propagator.bytes();
-            entry.regime.propagator = Some(Box::new(propagator));
+        let lacks = |steps: &Steps| vertical && steps.propagator.ramp.is_empty();
+        if entry.regime.steps.as_deref().is_none_or(lacks) {
+            self.form_steps(index, model, vertical);
         }
-        if entry.visits == Self::SERIES_VISITS + 1 {
-            self.run_bytes += entry.regime.propagator.as_ref().map_or(0, |p| p.bytes());
+        let entry = &self.entries[index];
+        if entry.visits == series_visits + 1 {
+            self.run_bytes += entry.regime.steps.as_ref().map_or(0, |steps| steps.bytes());
         }
         true
     }

@@ -5,9 +5,9 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{first_lanes, multiply_add, padded};
+use crate::lanes::{Vector, columns_of, filled, load, prefix_sums};
 use crate::model::{Model, ModelLanes};
-use crate::propagator::Propagator;
+use crate::propagator::Steps;
 
 /// The linear operators of one regime.
 pub(crate) struct Regime {
@@ -19,16 +19,27 @@ pub(crate) struct Regime {
     pub(crate) mass: Vec<f64>,
     /// 1 / mass.
     pub(crate) inverse_mass: Vec<f64>,
-    /// `tangent` and `inverse_mass`, padded to whole vectors with zeros.
-    pub(crate) lanes: (Vec<f64>, Vec<f64>),
+    pub(crate) lanes: RegimeLanes,
     /// Bound on the growth of Taylor coefficients (rad/s).
     pub(crate) frequency: f64,
     /// Bounds on the second, third and fourth derivative of each floor acceleration, per unit of [`Regime::liveliness_of`].
     pub(crate) derivative_bounds: [Vec<f64>; 3],
     /// Exponent (1/s) with which the energy of the derivatives may grow: positive with a negative tangent.
     growth: f64,
-    /// The step of one sample interval, once it pays.
-    pub(crate) propagator: Option<Box<Propagator>>,
+    /// The steps of the cache's time step, once they pay.
+    pub(crate) steps: Option<Box<Steps>>,
+}
+
+/// What the hot loops need of a regime, padded to whole vectors with zeros.
+pub(crate) struct RegimeLanes {
+    pub(crate) tangent: Vec<f64>,
+    pub(crate) inverse_mass: Vec<f64>,
+    /// Roots of mass and of |tangent|.
+    pub(crate) root_mass: Vec<f64>,
+    pub(crate) root_tangent: Vec<f64>,
+    /// Bounds of the fourth derivatives of drift, drift rate, floor acceleration and block velocity, per unit of
+    /// [`Regime::liveliness_of`].
+    pub(crate) fourth: [Vec<f64>; 4],
 }
 
 impl Regime {
@@ -41,54 +52,23 @@ impl Regime {
         let inverse_mass: Vec<f64> = mass.iter().map(|m| 1.0 / m).collect();
         let (frequency, growth) = frequency_and_growth(model, &tangent, &inverse_mass);
         let derivative_bounds = derivative_bounds(model, &tangent, &inverse_mass);
-        let fill = |values: &[f64]| {
-            let mut lanes = values.to_vec();
-            lanes.resize(padded(n), 0.0);
-            lanes
+        let fill = |values: &[f64]| filled(values.iter().copied(), n, 0.0);
+        let [second, third, fourth] = &derivative_bounds;
+        let differences =
+            |bounds: &[f64]| filled((0..n).map(|i| bounds[i] + if i > 0 { bounds[i - 1] } else { 0.0 }), n, 0.0);
+        let lanes = RegimeLanes {
+            tangent: fill(&tangent),
+            inverse_mass: fill(&inverse_mass),
+            root_mass: filled(mass.iter().map(|m| m.sqrt()), n, 0.0),
+            root_tangent: filled(tangent.iter().map(|k| k.abs().sqrt()), n, 0.0),
+            fourth: [differences(second), differences(third), fill(fourth), fill(third)],
         };
-        let lanes = (fill(&tangent), fill(&inverse_mass));
-        Self {
-            tangent,
-            spring_tangent,
-            mass,
-            inverse_mass,
-            lanes,
-            frequency,
-            derivative_bounds,
-            growth,
-            propagator: None,
-        }
+        Self { tangent, spring_tangent, mass, inverse_mass, lanes, frequency, derivative_bounds, growth, steps: None }
     }
 
     /// Floor accelerations (absolute) from drifts, drift rates and floor loads: a_i = (S_(i+1) - S_i + load_i) / mass_i
     /// with S the storey forces of springs, P-Delta and damping. Also serves derivatives of these.
-    #[inline]
     pub(crate) fn accelerations(&self, model: &Model, x: &[f64], v: &[f64], load: &[f64], out: &mut [f64]) {
-        match self.lanes.0.len() {
-            4 => self.accelerations_in_lanes::<4>(model, x, v, load, out),
-            8 => self.accelerations_in_lanes::<8>(model, x, v, load, out),
-            _ => self.accelerations_of_any(model, x, v, load, out),
-        }
-    }
-
-    fn accelerations_in_lanes<const N: usize>(
-        &self,
-        model: &Model,
-        x: &[f64],
-        v: &[f64],
-        load: &[f64],
-        out: &mut [f64],
-    ) {
-        let fill = |values: &[f64]| {
-            let mut lanes = [0.0; N];
-            lanes.iter_mut().zip(values).for_each(|(lane, value)| *lane = *value);
-            lanes
-        };
-        let a = LaneOperator::<N>::new(model, self).accelerations::<false>(&fill(x), &fill(v), fill(load));
-        out.iter_mut().zip(&a).for_each(|(out, a)| *out = *a);
-    }
-
-    fn accelerations_of_any(&self, model: &Model, x: &[f64], v: &[f64], load: &[f64], out: &mut [f64]) {
         let n = out.len();
         storey_forces(&self.tangent, model, x, v, out);
         let mut velocity = 0.0;
@@ -105,7 +85,13 @@ impl Regime {
     /// the sum of mass times relative jerk squared and of tangent (absolute) times drift acceleration squared.
     #[inline]
     pub(crate) fn liveliness_of(&self, square: f64, h: f64) -> f64 {
-        if self.growth > 0.0 { square.sqrt() * (self.growth * h).exp() } else { square.sqrt() }
+        square.sqrt() * self.growth_over(h)
+    }
+
+    /// Factor by which the norm may grow over `h`.
+    #[inline]
+    pub(crate) fn growth_over(&self, h: f64) -> f64 {
+        if self.growth > 0.0 { (self.growth * h).exp() } else { 1.0 }
     }
 
     /// Whether energy cannot grow in this regime: no negative tangent, damping known not to feed it.
@@ -114,44 +100,62 @@ impl Regime {
     }
 }
 
-/// [`Regime::accelerations`] with storeys as `N` lanes, of which those beyond the last storey are zero.
-pub(crate) struct LaneOperator<'a, const N: usize> {
-    tangent: [f64; N],
-    inverse_mass: [f64; N],
+/// [`Regime::accelerations`] with storeys in `K` vectors, of which the lanes beyond the last storey are zero.
+pub(crate) struct Operator<'a, V, const K: usize> {
+    tangent: [V; K],
+    inverse_mass: [V; K],
     model: &'a ModelLanes,
 }
 
-impl<'a, const N: usize> LaneOperator<'a, N> {
+impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
+    #[inline(always)]
     pub(crate) fn new(model: &'a Model, regime: &Regime) -> Self {
-        let (tangent, inverse_mass) = &regime.lanes;
-        Self { tangent: first_lanes(tangent), inverse_mass: first_lanes(inverse_mass), model: &model.lanes }
+        let lanes = &regime.lanes;
+        Self { tangent: load(&lanes.tangent), inverse_mass: load(&lanes.inverse_mass), model: &model.lanes }
     }
 
     /// Floor accelerations from drifts, drift rates and floor loads.
     #[inline(always)]
-    pub(crate) fn accelerations<const FUSED: bool>(&self, x: &[f64; N], v: &[f64; N], mut force: [f64; N]) -> [f64; N] {
-        let mut shear = [0.0; N];
-        for l in 0..N {
-            shear[l] = self.tangent[l] * x[l];
+    pub(crate) fn accelerations(&self, x: &[V; K], v: &[V; K], mut force: [V; K]) -> [V; K] {
+        let zero = V::splat(0.0);
+        let mut shear = [zero; K];
+        for k in 0..K {
+            shear[k] = self.tangent[k].mul(x[k]);
         }
-        for (column, &rate) in self.model.damping.chunks_exact(N).zip(v) {
-            for l in 0..N {
-                shear[l] = multiply_add::<FUSED>(column[l], rate, shear[l]);
+        let columns = columns_of::<K>(&self.model.damping);
+        if K == 1 {
+            if let Some(columns) = columns.first_chunk::<4>() {
+                for c in 0..4 {
+                    shear[0] = V::load(&columns[c][0]).mul_add(v[0].broadcast(c), shear[0]);
+                }
+            }
+        } else {
+            let mut rates = [[0.0; 4]; K];
+            for k in 0..K {
+                v[k].store(&mut rates[k]);
+            }
+            for (column, &rate) in columns.iter().zip(rates.as_flattened()) {
+                let rate = V::splat(rate);
+                for k in 0..K {
+                    shear[k] = V::load(&column[k]).mul_add(rate, shear[k]);
+                }
             }
         }
-        if let Some(storey_damping) = self.model.storey_damping.first_chunk::<N>() {
-            let mut velocity = 0.0;
-            for l in 0..N {
-                shear[l] = multiply_add::<FUSED>(storey_damping[l], v[l], shear[l]);
-                velocity += v[l];
-                force[l] -= self.model.floor_damping[l] * velocity;
+        if !self.model.storey_damping.is_empty() {
+            let (storeys, floors): ([V; K], [V; K]) =
+                (load(&self.model.storey_damping), load(&self.model.floor_damping));
+            let velocity = prefix_sums(v);
+            for k in 0..K {
+                shear[k] = storeys[k].mul_add(v[k], shear[k]);
+                force[k] = force[k].sub(floors[k].mul(velocity[k]));
             }
         }
-        let mut a = [0.0; N];
-        for l in 0..N - 1 {
-            a[l] = (shear[l + 1] - shear[l] + force[l]) * self.inverse_mass[l];
+        let mut a = [zero; K];
+        for k in 0..K {
+            let above = if k + 1 < K { shear[k + 1] } else { zero };
+            let net = shear[k].shifted_down(above).sub(shear[k]).add(force[k]);
+            a[k] = net.mul(self.inverse_mass[k]);
         }
-        a[N - 1] = (force[N - 1] - shear[N - 1]) * self.inverse_mass[N - 1];
         a
     }
 }
@@ -229,10 +233,9 @@ fn damping_row(model: &Model, i: usize, mut visit: impl FnMut(usize, f64)) {
                 visit(i + 1, k(i + 1));
             }
         }
-        StoreyDamping::Dense(d) => {
-            let at = |r: usize, c: usize| if r < n && c < n { d[(r, c)] } else { 0.0 };
-            for j in 0..n {
-                visit(j, (at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1)).abs());
+        StoreyDamping::Dense(_) => {
+            for (j, &size) in model.damping_sizes[n * i..n * (i + 1)].iter().enumerate() {
+                visit(j, size);
             }
         }
     }

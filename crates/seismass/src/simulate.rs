@@ -189,7 +189,7 @@ impl Run<'_> {
         let state = &mut self.state;
         let before = self.observer.keeps_energy().then(|| {
             end = i + 1;
-            (state.x.clone(), state.v.clone(), state.motions.clone())
+            state.moment()
         });
         let reached = state.plain_run(&mut self.observer, motion, i, end);
         self.statistics.intervals += reached - i;
@@ -229,31 +229,38 @@ impl Run<'_> {
                     continue;
                 }
             }
-            self.state.refresh_accelerations(tau);
             self.observer.observe_values(&self.state, self.state.interval.start + tau);
         }
         Ok(None)
     }
 
     /// Advances by a series over at most `h` from `tau`, up to the first event, which is returned with its place.
+    ///
+    /// Accelerations are advanced with the state where there is no event.
     fn series_step(&mut self, tau: f64, h: f64) -> Result<Option<(f64, Guard)>> {
         let state = &mut self.state;
         state.form_series(tau, h);
+        state.form_ranges();
         self.statistics.series_steps += 1;
         let isolated = &mut self.statistics.guards_isolated;
         let event = state.first_event(tau, isolated);
         let end = event.map_or(1.0, |(place, _)| place);
         self.observer.observe_series(state, tau, end, isolated);
         self.observer.add_energy(state, tau, end);
-        state.advance(tau, end);
+        match event {
+            Some((place, _)) => state.advance(tau, place),
+            None => state.advance_to_end(tau),
+        }
         state.check_finite(tau + end * h)?;
         Ok(event)
     }
 
     fn carry_out(&mut self, guard: Guard, tau: f64) -> Outcome {
         let time = self.state.interval.start + tau;
-        self.state.refresh_accelerations(tau);
-        self.observer.observe_values(&self.state, time);
+        if !guard.is_smooth() {
+            self.state.refresh_accelerations(tau);
+            self.observer.observe_values(&self.state, time);
+        }
         let logged = self.log.len();
         let outcome = self.state.carry_out(guard, tau, &mut self.log);
         self.count_events(logged);
@@ -307,6 +314,12 @@ impl Run<'_> {
     }
 }
 
+/// What moves: drifts, drift rates, floor accelerations, their rates, drift accelerations, and blocks.
+struct Moment {
+    lanes: [Vec<f64>; 5],
+    motions: Vec<BlockMotion>,
+}
+
 impl State<'_> {
     /// Slip of a block since the start of the present series, which begins at `tau`.
     pub(crate) fn slip_change(&self, block: usize, tau: f64) -> Polynomial {
@@ -316,43 +329,60 @@ impl State<'_> {
         Polynomial::new(std::iter::once(0.0).chain(terms))
     }
 
-    /// Moves the state to place `s` of the present series, which begins at `tau`.
+    /// Moves drifts, drift rates and blocks to place `s` of the present series, which begins at `tau`.
     fn advance(&mut self, tau: f64, s: f64) {
-        for j in 0..self.motions.len() {
-            if !self.motions[j].is_stuck() {
-                let change = self.slip_change(j, tau).at(s);
-                let velocity = self.relative_velocity(j, tau).at(s);
-                self.motions[j].slip += change;
-                self.motions[j].velocity = velocity;
-            }
-        }
-        self.series.drift_changes(s, &mut self.scratch);
-        self.x.iter_mut().zip(&self.scratch).for_each(|(x, change)| *x += change);
-        self.series.rate_changes(s, &mut self.scratch);
-        self.v.iter_mut().zip(&self.scratch).for_each(|(v, change)| *v += change);
+        self.advance_blocks(tau, s);
+        let [mut drifts, mut rates] = std::mem::take(&mut self.scratch);
+        self.series.changes_at(s, &mut drifts, &mut rates);
+        self.x.iter_mut().zip(&drifts).for_each(|(x, change)| *x += change);
+        self.v.iter_mut().zip(&rates).for_each(|(v, change)| *v += change);
+        self.scratch = [drifts, rates];
     }
 
-    /// Integrates the energies of an interval without events, from drifts, drift rates and blocks at its start, and
-    /// leaves the state at its end as it is.
-    fn add_energy_of_interval(&mut self, start: (Vec<f64>, Vec<f64>, Vec<BlockMotion>), observer: &mut Observer) {
-        let end = (self.x.clone(), self.v.clone(), self.motions.clone());
-        (self.x, self.v, self.motions) = start;
+    /// Moves the state, accelerations included, to the end of the present series, which begins at `tau`. They are formed
+    /// anew: taken from the series, step after step, their errors would add up.
+    fn advance_to_end(&mut self, tau: f64) {
+        self.advance_blocks(tau, 1.0);
+        let (drifts, rates) = self.series.changes();
+        self.x.iter_mut().zip(drifts).for_each(|(x, change)| *x += change);
+        self.v.iter_mut().zip(rates).for_each(|(v, change)| *v += change);
+        self.refresh_accelerations(tau + self.series.h());
+    }
+
+    fn advance_blocks(&mut self, tau: f64, s: f64) {
+        for j in 0..self.motions.len() {
+            if !self.motions[j].is_stuck() {
+                let (velocity, slip) = self.block_change(j, tau, s);
+                self.motions[j].velocity += velocity;
+                self.motions[j].slip += slip;
+            }
+        }
+    }
+
+    /// What moves, at this moment.
+    fn moment(&self) -> Moment {
+        let lanes = [&self.x, &self.v, &self.a, &self.jerk, &self.drift_acceleration].map(Clone::clone);
+        Moment { lanes, motions: self.motions.clone() }
+    }
+
+    fn set_moment(&mut self, moment: Moment) {
+        [self.x, self.v, self.a, self.jerk, self.drift_acceleration] = moment.lanes;
+        self.motions = moment.motions;
+    }
+
+    /// Integrates the energies of an interval without events from its start, and leaves the state at its end as it is.
+    fn add_energy_of_interval(&mut self, start: Moment, observer: &mut Observer) {
+        let end = self.moment();
+        self.set_moment(start);
         let pieces = (self.regime().frequency * self.interval.h / MAX_PHASE).ceil().max(1.0);
         let h = self.interval.h / pieces;
         for piece in 0..pieces as usize {
             let tau = piece as f64 * h;
             self.form_series(tau, h);
             observer.add_energy(self, tau, 1.0);
-            self.advance(tau, 1.0);
+            self.advance_to_end(tau);
         }
-        (self.x, self.v, self.motions) = end;
-    }
-
-    /// Forms the series over `h` from `tau`.
-    fn form_series(&mut self, tau: f64, h: f64) {
-        self.set_drive(tau);
-        let regime = self.cache.regime(self.regime);
-        self.series.form(self.model, regime, &self.x, &self.v, &self.drive, h);
+        self.set_moment(end);
     }
 
     fn check_finite(&self, tau: f64) -> Result<()> {

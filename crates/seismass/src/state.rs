@@ -3,13 +3,13 @@
 use crate::STANDARD_GRAVITY;
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand};
-use crate::lanes::padded;
+use crate::lanes::{MAX_LANES, Vector, WIDTH, differences, filled, for_each_path, load, padded, store};
 use crate::model::Model;
 use crate::propagator::RegimeCache;
-use crate::regime::Regime;
+use crate::regime::{Operator, Regime};
 use crate::scene::Scene;
 use crate::storey::StoreySpring;
-use crate::taylor::{Drive, Series};
+use crate::taylor::{Drive, Series, Start};
 
 /// Ground motion between two samples, linear in time.
 #[derive(Debug, Clone, Copy, Default)]
@@ -60,7 +60,35 @@ pub(crate) struct LoadEffects {
     pub(crate) friction_ramp: Vec<f64>,
 }
 
-/// The state of a run and its working space.
+/// Ranges of the storeys and floors over a step, proved: each quantity stays between its two bounds.
+#[derive(Debug, Default)]
+pub(crate) struct Ranges {
+    /// Of the drift coordinates.
+    pub(crate) drift: Vec<(f64, f64)>,
+    /// Of the drift rates.
+    pub(crate) rate: Vec<(f64, f64)>,
+    /// Of the floor accelerations.
+    pub(crate) acceleration: Vec<(f64, f64)>,
+    /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
+    pub(crate) remainder: f64,
+    /// h^2 / 8 times the liveliness, for bounds of second derivatives.
+    pub(crate) chord: f64,
+}
+
+/// The cubic through values and rates at both ends of a step stays between the least and the largest of its Bezier
+/// points; what deviates from it by at most `margin` stays within these widened by it.
+#[inline(always)]
+pub(crate) fn range(start: f64, start_rate: f64, end: f64, end_rate: f64, third: f64, margin: f64) -> (f64, f64) {
+    let (first, second) = (start + third * start_rate, end - third * end_rate);
+    let smaller = |a: f64, b: f64| if a < b { a } else { b };
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let low = smaller(smaller(start, end), smaller(first, second));
+    let high = larger(larger(start, end), larger(first, second));
+    (low - margin, high + margin)
+}
+
+/// The state of a run and its working space. Vectors of storeys and floors are padded to whole lanes with zeros, from
+/// `x` to `drift_acceleration`, and those of `drive`, `spring_load` and `friction`.
 pub(crate) struct State<'a> {
     pub(crate) model: &'a Model,
     pub(crate) cache: &'a mut RegimeCache,
@@ -94,10 +122,13 @@ pub(crate) struct State<'a> {
     pub(crate) collapse_bounds: Vec<(f64, f64)>,
     /// Spring force of each storey at its base (N).
     pub(crate) base_force: Vec<f64>,
+    /// The same less P-Delta (N).
+    pub(crate) base_load: Vec<f64>,
     pub(crate) effects: LoadEffects,
     pub(crate) drive: Drive,
     pub(crate) series: Series,
-    pub(crate) scratch: Vec<f64>,
+    pub(crate) ranges: Ranges,
+    pub(crate) scratch: [Vec<f64>; 2],
     stuck_mass: Vec<f64>,
     key: Vec<u8>,
     /// Different regimes entered by this run, and changes into a regime already known to it.
@@ -117,35 +148,38 @@ impl<'a> State<'a> {
             .map(|b| BlockMotion::new(b.velocity.map_or(0.0, |w| w - floor_velocity(b.floor))))
             .collect();
         cache.begin_run();
+        let zero = || vec![0.0; padded(n)];
         Self {
             model,
             cache,
             vertical,
             interval: Interval::default(),
-            x: scene.initial_drift().to_vec(),
-            v: (0..n).map(|i| velocity[i] - below(i)).collect(),
-            a: vec![0.0; n],
-            jerk: vec![0.0; n],
-            drift_acceleration: vec![0.0; n],
+            x: filled(scene.initial_drift().iter().copied(), n, 0.0),
+            v: filled((0..n).map(|i| velocity[i] - below(i)), n, 0.0),
+            a: zero(),
+            jerk: zero(),
+            drift_acceleration: zero(),
             springs: vec![StoreySpring::new(); n],
             motions,
             airborne: false,
             regime: 0,
-            spring_load: vec![0.0; n],
-            friction: vec![0.0; n],
+            spring_load: zero(),
+            friction: zero(),
             stuck_mu: vec![f64::INFINITY; n + 1],
             yield_bounds: vec![(f64::NEG_INFINITY, f64::INFINITY); n],
             collapse_bounds: vec![(f64::NEG_INFINITY, f64::INFINITY); n],
             base_force: vec![0.0; n],
+            base_load: vec![0.0; n],
             effects: LoadEffects {
                 valid: false,
                 constant: vec![0.0; 4 * padded(n)],
                 friction: vec![0.0; 4 * padded(n)],
                 friction_ramp: vec![0.0; 4 * padded(n)],
             },
-            drive: Drive { load: vec![0.0; n], load_slope: vec![0.0; n], ..Drive::default() },
+            drive: Drive { load: zero(), load_slope: zero(), ..Drive::default() },
             series: Series::default(),
-            scratch: vec![0.0; n],
+            ranges: Ranges::default(),
+            scratch: [vec![0.0; n], vec![0.0; n]],
             stuck_mass: vec![0.0; n],
             key: Vec::new(),
             regimes: (0, 0),
@@ -155,7 +189,7 @@ impl<'a> State<'a> {
     /// Number of storeys.
     #[inline]
     pub(crate) fn storeys(&self) -> usize {
-        self.x.len()
+        self.model.storeys()
     }
 
     /// The present regime.
@@ -184,10 +218,11 @@ impl<'a> State<'a> {
             let (limit, base) = (law.collapse_drift, spring.drift(0.0));
             self.collapse_bounds[i] = (-limit - base, limit - base);
             self.base_force[i] = spring.base_force(law);
+            self.base_load[i] = spring.base_load(law);
         }
         for i in 0..n {
-            let above = if i + 1 < n { self.springs[i + 1].base_load(&self.model.laws[i + 1]) } else { 0.0 };
-            self.spring_load[i] = above - self.springs[i].base_load(&self.model.laws[i]);
+            let above = if i + 1 < n { self.base_load[i + 1] } else { 0.0 };
+            self.spring_load[i] = above - self.base_load[i];
         }
         self.friction.fill(0.0);
         self.stuck_mass.fill(0.0);
@@ -232,7 +267,7 @@ impl<'a> State<'a> {
         let contact_slope = if self.airborne { 0.0 } else { self.interval.slope(self.interval.contact_change) };
         self.drive.ground = self.interval.ground_at(tau);
         self.drive.ground_slope = self.interval.slope(self.interval.ground_change);
-        for i in 0..self.storeys() {
+        for i in 0..self.spring_load.len() {
             self.drive.load[i] = self.spring_load[i] + self.friction[i] * contact;
             self.drive.load_slope[i] = self.friction[i] * contact_slope;
         }
@@ -241,65 +276,128 @@ impl<'a> State<'a> {
     /// Forms accelerations and their rates at `tau` from the state.
     pub(crate) fn refresh_accelerations(&mut self, tau: f64) {
         self.set_drive(tau);
+        let n = self.storeys();
+        if n <= MAX_LANES {
+            return refresh(self);
+        }
         let regime = self.cache.regime(self.regime);
-        regime.accelerations(self.model, &self.x, &self.v, &self.drive.load, &mut self.a);
-        let mut below = self.drive.ground;
-        for (drift_acceleration, &a) in self.drift_acceleration.iter_mut().zip(&self.a) {
+        regime.accelerations(self.model, &self.x, &self.v, &self.drive.load, &mut self.a[..n]);
+        self.refresh_drift_accelerations(self.drive.ground);
+        let slope = &self.drive.load_slope;
+        let regime = self.cache.regime(self.regime);
+        regime.accelerations(self.model, &self.v, &self.drift_acceleration, slope, &mut self.jerk[..n]);
+    }
+
+    /// Forms the drift accelerations from those of the floors and of the ground.
+    pub(crate) fn refresh_drift_accelerations(&mut self, ground: f64) {
+        let mut below = ground;
+        let n = self.storeys();
+        for (drift_acceleration, &a) in self.drift_acceleration[..n].iter_mut().zip(&self.a) {
             *drift_acceleration = a - below;
             below = a;
         }
-        let slope = &self.drive.load_slope;
-        regime.accelerations(self.model, &self.v, &self.drift_acceleration, slope, &mut self.jerk);
     }
 
-    /// Sum of the sizes of the terms of each floor's acceleration: times rounding, its error.
-    pub(crate) fn acceleration_sizes(&self, contact: f64, out: &mut [f64]) {
+    /// Forms the series over `h` from `tau`, where accelerations and their rates must be those of the state.
+    pub(crate) fn form_series(&mut self, tau: f64, h: f64) {
+        self.set_drive(tau);
+        self.cache.prepare_table(self.regime, self.model, self.vertical);
         let n = self.storeys();
-        let regime = self.regime();
-        for i in 0..n {
-            let law = &self.model.laws[i];
-            out[i] = (regime.tangent[i] * self.x[i]).abs() + self.springs[i].base_load(law).abs();
-        }
-        match self.model.damping() {
-            StoreyDamping::None => {}
-            StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => {
-                for i in 0..n {
-                    let velocity = self.v[i].abs() * mass_factor * self.model.mass[i];
-                    out[i] += (stiffness_factor * self.model.stiffness[i] * self.v[i]).abs() + velocity;
-                }
-            }
-            StoreyDamping::Dense(d) => {
-                for (column, &rate) in d.as_slice().chunks_exact(n).zip(&self.v) {
-                    for (o, c) in out.iter_mut().zip(column) {
-                        *o += (c * rate).abs();
-                    }
-                }
-            }
-        }
-        for i in 0..n {
-            let above = if i + 1 < n { out[i + 1] } else { 0.0 };
-            out[i] = (out[i] + above + self.friction[i].abs() * contact) * regime.inverse_mass[i];
-        }
+        let start = Start { x: &self.x[..n], v: &self.v[..n], a: &self.a[..n], jerk: &self.jerk[..n] };
+        let regime = self.cache.regime(self.regime);
+        self.series.form(self.model, regime, start, &self.drive, h);
     }
 
-    /// What floor `floor` (0: the ground) asks of its blocks at `tau`.
-    pub(crate) fn demand(&mut self, floor: usize, tau: f64) -> Demand {
+    /// A norm of the derivatives that bounds them over a step of length `h` from here (see [`Regime::liveliness_of`]).
+    fn liveliness(&self, h: f64) -> f64 {
+        let regime = self.regime();
+        let slope = self.drive.ground_slope;
+        let mut square = 0.0;
+        for i in 0..self.storeys() {
+            let (jerk, q) = (self.jerk[i] - slope, self.drift_acceleration[i]);
+            square += regime.mass[i] * jerk * jerk + regime.tangent[i].abs() * q * q;
+        }
+        regime.liveliness_of(square, h)
+    }
+
+    /// Forms the ranges over the present series, whose start is the state.
+    pub(crate) fn form_ranges(&mut self) {
+        let mut ranges = std::mem::take(&mut self.ranges);
+        let h = self.series.h();
+        let liveliness = self.liveliness(h);
+        (ranges.remainder, ranges.chord) = (liveliness * (h * h) * (h * h) / 384.0, liveliness * h * h / 8.0);
+        let [drift, rate, acceleration, _] = &self.regime().lanes.fourth;
+        let (dx, dv) = self.series.changes();
+        let (a_end, jerk_end) = self.series.accelerations_at_end();
+        let (third, remainder) = (h / 3.0, ranges.remainder);
+        let mut below = self.drive.ground + self.drive.ground_slope * h;
+        ranges.drift.clear();
+        ranges.rate.clear();
+        ranges.acceleration.clear();
+        for i in 0..self.storeys() {
+            let (x, v, a) = (self.x[i], self.v[i], self.a[i]);
+            let q_end = a_end[i] - below;
+            below = a_end[i];
+            ranges.drift.push(range(x, v, x + dx[i], v + dv[i], third, remainder * drift[i]));
+            ranges.rate.push(range(v, self.drift_acceleration[i], v + dv[i], q_end, third, remainder * rate[i]));
+            ranges.acceleration.push(range(a, self.jerk[i], a_end[i], jerk_end[i], third, remainder * acceleration[i]));
+        }
+        self.ranges = ranges;
+    }
+
+    /// Whether a floor's jerk keeps its sign over the present series: between its ends it differs from its chord by at
+    /// most h^2 / 8 times its largest second derivative.
+    pub(crate) fn is_steady(&self, i: usize) -> bool {
+        let turn = self.ranges.chord * self.regime().lanes.fourth[3][i];
+        let (start, end) = (self.jerk[i], self.series.accelerations_at_end().1[i]);
+        start * end > 0.0 && start.abs().min(end.abs()) > turn
+    }
+
+    /// Sum of the sizes of the terms of a floor's acceleration: times rounding, its error.
+    pub(crate) fn acceleration_size(&self, floor: usize, contact: f64) -> f64 {
+        let Some(i) = floor.checked_sub(1) else { return self.drive.ground.abs() };
+        let above = if i + 1 < self.storeys() { self.shear_size(i + 1) } else { 0.0 };
+        (self.shear_size(i) + above + self.friction[i].abs() * contact) * self.regime().inverse_mass[i]
+            + self.mass_damping_size(i)
+    }
+
+    /// Sum of the sizes of the terms of a storey's force.
+    fn shear_size(&self, i: usize) -> f64 {
+        let elastic = (self.regime().tangent[i] * self.x[i]).abs() + self.base_load[i].abs();
+        let viscous = match self.model.damping() {
+            StoreyDamping::None => 0.0,
+            StoreyDamping::Rayleigh { stiffness_factor, .. } => {
+                (stiffness_factor * self.model.stiffness[i] * self.v[i]).abs()
+            }
+            // The matrix is symmetric: a column is a row.
+            StoreyDamping::Dense(d) => {
+                let n = self.storeys();
+                d.as_slice()[n * i..n * (i + 1)].iter().zip(&self.v).map(|(c, rate)| (c * rate).abs()).sum()
+            }
+        };
+        elastic + viscous
+    }
+
+    /// Size of the mass-proportional damping in a floor's acceleration.
+    fn mass_damping_size(&self, i: usize) -> f64 {
+        let StoreyDamping::Rayleigh { mass_factor, .. } = self.model.damping() else { return 0.0 };
+        let velocity: f64 = self.v[..=i].iter().map(|v| v.abs()).sum();
+        velocity * mass_factor * self.model.mass[i] * self.regime().inverse_mass[i]
+    }
+
+    /// What floor `floor` (0: the ground) asks of its blocks at `tau`, where its acceleration must be that of the state.
+    pub(crate) fn demand(&self, floor: usize, tau: f64) -> Demand {
         if floor == 0 {
             return Demand::Ground { acceleration: self.interval.ground_at(tau) };
         }
         let i = floor - 1;
         let contact = self.contact_at(tau);
-        self.refresh_accelerations(tau);
-        let mut sizes = std::mem::take(&mut self.scratch);
-        self.acceleration_sizes(contact, &mut sizes);
         let mass = self.regime().mass[i];
-        let demand = Demand::Floor {
+        Demand::Floor {
             force: self.a[i] * mass - self.friction[i] * contact,
-            size: sizes[i] * mass,
+            size: self.acceleration_size(floor, contact) * mass,
             mass: self.model.mass[i],
-        };
-        self.scratch = sizes;
-        demand
+        }
     }
 
     /// Velocity of each floor relative to the ground, from the ground upwards.
@@ -330,4 +428,34 @@ pub(crate) fn interval(motion: &crate::scene::Motion, i: usize) -> Interval {
         contact: STANDARD_GRAVITY + vertical,
         contact_change,
     }
+}
+
+for_each_path! {
+    fn refresh(state: &mut State) = refresh_by_width
+}
+
+#[inline(always)]
+fn refresh_by_width<V: Vector>(state: &mut State) {
+    match padded(state.storeys()) {
+        4 => refresh_lanes::<V, 1>(state),
+        8 => refresh_lanes::<V, 2>(state),
+        16 => refresh_lanes::<V, 4>(state),
+        _ => refresh_lanes::<V, { MAX_LANES / WIDTH }>(state),
+    }
+}
+
+#[inline(always)]
+fn refresh_lanes<V: Vector, const K: usize>(state: &mut State) {
+    let operator = Operator::<V, K>::new(state.model, state.cache.regime(state.regime));
+    let inside: [V; K] = load(&state.model.lanes.inside);
+    let (x, v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
+    let a = operator.accelerations(&x, &v, load(&state.drive.load));
+    let mut drift_acceleration = differences(&a, V::splat(state.drive.ground));
+    for k in 0..K {
+        drift_acceleration[k] = drift_acceleration[k].mul(inside[k]);
+    }
+    let jerk = operator.accelerations(&v, &drift_acceleration, load(&state.drive.load_slope));
+    store(&a, &mut state.a);
+    store(&drift_acceleration, &mut state.drift_acceleration);
+    store(&jerk, &mut state.jerk);
 }

@@ -2,13 +2,15 @@
 //!
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
-use crate::bernstein::Polynomial;
-use crate::lanes::{InstructionSet, first_lanes, padded};
+use crate::bernstein::{MAX_DEGREE, Polynomial};
+use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, padded, store};
 use crate::model::Model;
-use crate::regime::{LaneOperator, Regime};
+use crate::propagator::Table;
+use crate::regime::{Operator, Regime};
 
 /// Longest step of one series, as frequency times time: longer intervals are split.
 pub(crate) const MAX_PHASE: f64 = 1.0;
+
 /// What drives the system in a step: ground acceleration and floor loads, linear in time.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Drive {
@@ -34,6 +36,15 @@ impl Drive {
     }
 }
 
+/// The state at the start of a step: drifts, drift rates, floor accelerations and their rates.
+#[derive(Clone, Copy)]
+pub(crate) struct Start<'a> {
+    pub(crate) x: &'a [f64],
+    pub(crate) v: &'a [f64],
+    pub(crate) a: &'a [f64],
+    pub(crate) jerk: &'a [f64],
+}
+
 /// Series of drifts, drift rates and absolute floor accelerations, stored order by order, padded to whole vectors.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Series {
@@ -44,9 +55,9 @@ pub(crate) struct Series {
     x: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
-    /// Sums of the absolute coefficients of x, v and a beside the first.
-    excursion: [Vec<f64>; 3],
-    load: Vec<f64>,
+    /// Changes of drifts and drift rates over the step, floor accelerations and their rates at its end.
+    end: [Vec<f64>; 4],
+    load: [Vec<f64>; 2],
 }
 
 /// Largest phase at which the term of order 3, 4, ... is below 2^-60: phase^k / k! rounded down.
@@ -56,15 +67,21 @@ const PHASE_LIMITS: [f64; 26] = [
 ];
 
 /// Order of the first term that is below rounding.
-fn terms(phase: f64) -> usize {
+pub(crate) fn terms(phase: f64) -> usize {
     3 + PHASE_LIMITS.iter().position(|&limit| phase < limit).unwrap_or(PHASE_LIMITS.len() - 1)
 }
 
 impl Series {
-    /// Forms the series over a step `h` from the state (x, v).
-    pub(crate) fn form(&mut self, model: &Model, regime: &Regime, x: &[f64], v: &[f64], drive: &Drive, h: f64) {
-        let n = x.len();
+    /// Forms the series over a step `h` from its start, whose accelerations must be those of the drive.
+    pub(crate) fn form(&mut self, model: &Model, regime: &Regime, start: Start, drive: &Drive, h: f64) {
+        let n = start.x.len();
         let (order, stride) = (terms(regime.frequency * h), padded(n));
+        if self.stride != stride || self.storeys != n {
+            let zero = || vec![0.0; stride];
+            self.end = [zero(), zero(), zero(), zero()];
+            self.load = [zero(), zero()];
+            (self.x, self.v, self.a) = (zero(), zero(), zero());
+        }
         (self.storeys, self.stride, self.order, self.h) = (n, stride, order, h);
         let length = (order + 1) * stride;
         for buffer in [&mut self.x, &mut self.v, &mut self.a] {
@@ -72,82 +89,157 @@ impl Series {
                 buffer.resize(length, 0.0);
             }
         }
-        if self.load.len() != stride {
-            self.load = vec![0.0; stride];
-            self.excursion = [vec![0.0; stride], vec![0.0; stride], vec![0.0; stride]];
-        }
-        self.x[..stride].fill(0.0);
-        self.v[..stride].fill(0.0);
-        self.x[..n].copy_from_slice(x);
-        self.v[..n].copy_from_slice(v);
-        match InstructionSet::in_use() {
-            // SAFETY: `in_use` returns only what this machine has.
-            #[cfg(target_arch = "x86_64")]
-            #[allow(unsafe_code)]
-            InstructionSet::Avx512 | InstructionSet::Avx2 => unsafe { form_avx2(self, model, regime, drive) },
-            _ => form_baseline(self, model, regime, drive),
-        }
-    }
-
-    /// Sets the load to term `k` of the floor loads over the step.
-    #[inline(always)]
-    fn set_load(&mut self, drive: &Drive, k: usize) {
-        match k {
-            0 => self.load[..self.storeys].copy_from_slice(&drive.load),
-            1 => self.load.iter_mut().zip(&drive.load_slope).for_each(|(load, slope)| *load = slope * self.h),
-            2 => self.load.fill(0.0),
-            _ => {}
-        }
-    }
-
-    /// Forms the orders above the first, with `N` lanes.
-    #[inline(always)]
-    fn form_lanes<const N: usize, const FUSED: bool>(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
-        let operator = LaneOperator::<N>::new(model, regime);
-        let inside: [f64; N] = first_lanes(&model.lanes.inside);
-        let (mut x, mut v): ([f64; N], [f64; N]) = (first_lanes(&self.x), first_lanes(&self.v));
-        let mut excursion = [[0.0; N]; 3];
-        for k in 0..=self.order {
-            self.set_load(drive, k);
-            let a = operator.accelerations::<FUSED>(&x, &v, first_lanes(&self.load));
-            let at = k * N;
-            self.x[at..at + N].copy_from_slice(&x);
-            self.v[at..at + N].copy_from_slice(&v);
-            self.a[at..at + N].copy_from_slice(&a);
-            if k > 0 {
-                for l in 0..N {
-                    excursion[0][l] += x[l].abs();
-                    excursion[1][l] += v[l].abs();
-                    excursion[2][l] += a[l].abs();
+        self.x[..n].copy_from_slice(start.x);
+        self.v[..n].copy_from_slice(start.v);
+        match regime.steps.as_ref().and_then(|steps| steps.table.as_ref()) {
+            Some(table) => {
+                self.a[..n].copy_from_slice(start.a);
+                self.end[3][..n].copy_from_slice(start.jerk);
+                form_by_table(self, model, table, drive);
+            }
+            None if n <= MAX_LANES => {
+                self.load[0].copy_from_slice(&drive.load);
+                for (load, slope) in self.load[1].iter_mut().zip(&drive.load_slope) {
+                    *load = slope * h;
                 }
+                form_by_recursion(self, model, regime, drive);
             }
-            let factor = self.h / (k + 1) as f64;
-            for l in 0..N {
-                x[l] = factor * v[l];
-            }
-            v[0] = factor * (a[0] - drive.ground_term(k, self.h));
-            for l in 1..N {
-                v[l] = factor * (a[l] - a[l - 1]) * inside[l];
-            }
-        }
-        for (kept, formed) in self.excursion.iter_mut().zip(&excursion) {
-            kept.copy_from_slice(formed);
+            None => self.form_any(model, regime, drive),
         }
     }
 
-    /// Forms the orders above the first, for more storeys than lanes are compiled for.
+    /// The coefficients of one order.
+    #[inline(always)]
+    fn put<V: Vector, const K: usize>(&mut self, k: usize, x: &[V; K], v: &[V; K], a: &[V; K]) {
+        let at = k * WIDTH * K;
+        store(x, &mut self.x[at..]);
+        store(v, &mut self.v[at..]);
+        store(a, &mut self.a[at..]);
+    }
+
+    /// From tables: floor accelerations from the second order on are products with drift accelerations and their rates.
+    #[inline(always)]
+    fn by_table<V: Vector, const K: usize>(&mut self, model: &Model, table: &Table, drive: &Drive) {
+        let n = self.storeys;
+        let inside: [V; K] = load(&model.lanes.inside);
+        let h = V::splat(self.h);
+        let (mut x, mut v): ([V; K], [V; K]) = (load(&self.x), load(&self.v));
+        let (mut a, jerk): ([V; K], [V; K]) = (load(&self.a), load(&self.end[3]));
+        let (first, rate) = (differences(&a, V::splat(drive.ground)), differences(&jerk, V::splat(drive.ground_slope)));
+        let mut weights = [[[0.0; WIDTH]; K]; 2];
+        for k in 0..K {
+            first[k].store(&mut weights[0][k]);
+            rate[k].store(&mut weights[1][k]);
+        }
+        let (ratio, mut power) = (self.h / table.h, 1.0);
+        let zero = V::splat(0.0);
+        let mut drift_acceleration = first;
+        let mut end = [[zero; K]; 4];
+        (end[2], end[3]) = (a, [zero; K]);
+        let terms = columns_of::<K>(&table.terms);
+        for order in 1..=self.order {
+            let factor = V::splat(self.h * INVERSE[order]);
+            let (mut next_x, mut next_v) = (x, v);
+            for k in 0..K {
+                next_x[k] = factor.mul(v[k]);
+                next_v[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
+            }
+            (x, v) = (next_x, next_v);
+            power *= ratio;
+            if order == 1 {
+                for k in 0..K {
+                    a[k] = h.mul(jerk[k]);
+                    drift_acceleration[k] = h.mul(rate[k]);
+                }
+            } else {
+                let columns = &terms[(order - 2) * 2 * n..(order - 1) * 2 * n];
+                let (mut even, mut odd) = ([zero; K], [zero; K]);
+                for (c, (of_first, of_rate)) in columns[..n].iter().zip(&columns[n..]).enumerate() {
+                    let (first, rate) =
+                        (V::splat(weights[0].as_flattened()[c]), V::splat(weights[1].as_flattened()[c]));
+                    for k in 0..K {
+                        even[k] = V::load(&of_first[k]).mul_add(first, even[k]);
+                        odd[k] = V::load(&of_rate[k]).mul_add(rate, odd[k]);
+                    }
+                }
+                let power = V::splat(power);
+                for k in 0..K {
+                    a[k] = even[k].add(odd[k]).mul(power);
+                }
+                drift_acceleration = differences(&a, zero);
+            }
+            self.put(order, &x, &v, &a);
+            let weight = V::splat(order as f64);
+            for k in 0..K {
+                end[0][k] = end[0][k].add(x[k]);
+                end[1][k] = end[1][k].add(v[k]);
+                end[2][k] = end[2][k].add(a[k]);
+                end[3][k] = weight.mul_add(a[k], end[3][k]);
+            }
+        }
+        self.put_end(&mut end);
+    }
+
+    #[inline(always)]
+    fn put_end<V: Vector, const K: usize>(&mut self, end: &mut [[V; K]; 4]) {
+        let per_second = V::splat(1.0 / self.h);
+        for k in 0..K {
+            end[3][k] = end[3][k].mul(per_second);
+        }
+        for (values, kept) in end.iter().zip(&mut self.end) {
+            store(values, kept);
+        }
+    }
+
+    /// By the recursion from order to order.
+    #[inline(always)]
+    fn by_recursion<V: Vector, const K: usize>(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
+        let operator = Operator::<V, K>::new(model, regime);
+        let inside: [V; K] = load(&model.lanes.inside);
+        let zero = V::splat(0.0);
+        let (mut x, mut v): ([V; K], [V; K]) = (load(&self.x), load(&self.v));
+        let mut end = [[zero; K]; 4];
+        for order in 0..=self.order {
+            let forces = if order < 2 { load(&self.load[order]) } else { [zero; K] };
+            let a = operator.accelerations(&x, &v, forces);
+            self.put(order, &x, &v, &a);
+            let weight = V::splat(order as f64);
+            for k in 0..K {
+                if order > 0 {
+                    end[0][k] = end[0][k].add(x[k]);
+                    end[1][k] = end[1][k].add(v[k]);
+                }
+                end[2][k] = end[2][k].add(a[k]);
+                end[3][k] = weight.mul_add(a[k], end[3][k]);
+            }
+            let factor = V::splat(self.h * INVERSE[order + 1]);
+            let drift_acceleration = differences(&a, V::splat(drive.ground_term(order, self.h)));
+            for k in 0..K {
+                x[k] = factor.mul(v[k]);
+                v[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
+            }
+        }
+        self.put_end(&mut end);
+    }
+
+    /// By the recursion, for more storeys than vectors hold.
     fn form_any(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
         let (n, stride) = (self.storeys, self.stride);
-        self.excursion.iter_mut().for_each(|sums| sums.fill(0.0));
+        self.end.iter_mut().for_each(|sums| sums.fill(0.0));
+        let zero = vec![0.0; n];
+        let slope: Vec<f64> = drive.load_slope.iter().map(|slope| slope * self.h).collect();
         for k in 0..=self.order {
             let at = k * stride;
-            self.set_load(drive, k);
+            let load = [&drive.load, &slope, &zero][k.min(2)];
             let (xk, vk) = (&self.x[at..at + n], &self.v[at..at + n]);
-            regime.accelerations(model, xk, vk, &self.load[..n], &mut self.a[at..at + n]);
-            if k > 0 {
-                for (sums, data) in self.excursion.iter_mut().zip([&self.x, &self.v, &self.a]) {
-                    sums.iter_mut().zip(&data[at..at + n]).for_each(|(sum, c)| *sum += c.abs());
+            regime.accelerations(model, xk, vk, load, &mut self.a[at..at + n]);
+            for i in 0..n {
+                if k > 0 {
+                    self.end[0][i] += self.x[at + i];
+                    self.end[1][i] += self.v[at + i];
                 }
+                self.end[2][i] += self.a[at + i];
+                self.end[3][i] += k as f64 * self.a[at + i];
             }
             if k == self.order {
                 break;
@@ -162,6 +254,7 @@ impl Series {
                 below = a;
             }
         }
+        self.end[3].iter_mut().for_each(|jerk| *jerk /= self.h);
     }
 
     /// Length of the step (s).
@@ -189,19 +282,34 @@ impl Series {
         self.column(&self.a, i)
     }
 
-    /// Bounds |x - x(0)|.
-    pub(crate) fn drift_excursion(&self, i: usize) -> f64 {
-        self.excursion[0][i]
+    /// Order of the last term.
+    #[inline]
+    pub(crate) fn order(&self) -> usize {
+        self.order
     }
 
-    /// Bounds |v - v(0)|.
-    pub(crate) fn rate_excursion(&self, i: usize) -> f64 {
-        self.excursion[1][i]
+    /// Term `k` of the absolute acceleration of floor `i`.
+    #[inline]
+    pub(crate) fn floor_acceleration_term(&self, k: usize, i: usize) -> f64 {
+        self.a[k * self.stride + i]
     }
 
-    /// Bounds |a - a(0)|.
-    pub(crate) fn acceleration_excursion(&self, i: usize) -> f64 {
-        self.excursion[2][i]
+    /// Changes of drifts and drift rates over the step.
+    #[inline]
+    pub(crate) fn changes(&self) -> (&[f64], &[f64]) {
+        (&self.end[0][..self.storeys], &self.end[1][..self.storeys])
+    }
+
+    /// Floor accelerations and their rates at the end of the step.
+    #[inline]
+    pub(crate) fn accelerations_at_end(&self) -> (&[f64], &[f64]) {
+        (&self.end[2][..self.storeys], &self.end[3][..self.storeys])
+    }
+
+    /// Changes of drifts and drift rates up to `s`.
+    pub(crate) fn changes_at(&self, s: f64, drifts: &mut [f64], rates: &mut [f64]) {
+        self.evaluate(&self.x, s, 1, drifts);
+        self.evaluate(&self.v, s, 1, rates);
     }
 
     /// Sum of the coefficients from order `from` times powers of `s`.
@@ -227,7 +335,7 @@ impl Series {
 
     fn evaluate_lanes<const N: usize>(&self, data: &[f64], s: f64, from: usize, out: &mut [f64]) {
         let mut sums = [0.0; N];
-        for orders in data[from * N..(self.order + 1) * N].chunks_exact(N).rev() {
+        for orders in data[from * N..(self.order + 1) * N].as_chunks::<N>().0.iter().rev() {
             for l in 0..N {
                 sums[l] = sums[l] * s + orders[l];
             }
@@ -236,93 +344,52 @@ impl Series {
         out.iter_mut().zip(&sums).for_each(|(o, sum)| *o = sum * factor);
     }
 
-    /// Change of the drifts up to `s`.
-    pub(crate) fn drift_changes(&self, s: f64, out: &mut [f64]) {
-        self.evaluate(&self.x, s, 1, out);
-    }
-
-    /// Change of the drift rates up to `s`.
-    pub(crate) fn rate_changes(&self, s: f64, out: &mut [f64]) {
-        self.evaluate(&self.v, s, 1, out);
-    }
-
-    /// Appends rows, padded to whole vectors: changes of drifts and drift rates over the step, floor accelerations and
-    /// their rates at its end.
-    pub(crate) fn push_rows_at_end(&self, out: &mut Vec<f64>) {
-        let from = out.len();
-        out.resize(from + 4 * self.stride, 0.0);
-        let rows = &mut out[from..];
-        match self.stride {
-            4 => self.rows_at_end::<4>(rows),
-            8 => self.rows_at_end::<8>(rows),
-            stride => {
-                for block in 0..stride / 8 {
-                    let mut part = [0.0; 32];
-                    self.rows_of_block::<8>(8 * block, &mut part);
-                    for (row, values) in rows.chunks_exact_mut(stride).zip(part.chunks_exact(8)) {
-                        row[8 * block..8 * block + 8].copy_from_slice(values);
-                    }
-                }
-            }
-        }
-    }
-
-    fn rows_at_end<const N: usize>(&self, rows: &mut [f64]) {
-        self.rows_of_block::<N>(0, rows);
-    }
-
-    /// Rows of the `N` storeys from `first`.
-    fn rows_of_block<const N: usize>(&self, first: usize, rows: &mut [f64]) {
-        let mut sums = [[0.0; N]; 4];
-        let orders =
-            |data: &[f64], k: usize| data[k * self.stride + first..].first_chunk::<N>().copied().unwrap_or([0.0; N]);
-        for k in (1..=self.order).rev() {
-            let (x, v, a) = (orders(&self.x, k), orders(&self.v, k), orders(&self.a, k));
-            for l in 0..N {
-                sums[0][l] += x[l];
-                sums[1][l] += v[l];
-                sums[2][l] += a[l];
-                sums[3][l] += k as f64 * a[l];
-            }
-        }
-        let a = orders(&self.a, 0);
-        for l in 0..N {
-            sums[2][l] += a[l];
-            sums[3][l] /= self.h;
-        }
-        for (row, sums) in rows.chunks_exact_mut(N).zip(&sums) {
-            row.copy_from_slice(sums);
-        }
-    }
-
     /// Drift rates at `s`.
     pub(crate) fn rates(&self, s: f64, out: &mut [f64]) {
         self.evaluate(&self.v, s, 0, out);
     }
 }
 
-macro_rules! form_for {
-    ($name:ident, $fused:literal $(, $feature:literal)?) => {
-        $(#[target_feature(enable = $feature)])?
-        fn $name(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) {
-            match series.stride {
-                4 => series.form_lanes::<4, $fused>(model, regime, drive),
-                8 => series.form_lanes::<8, $fused>(model, regime, drive),
-                16 => series.form_lanes::<16, $fused>(model, regime, drive),
-                _ => series.form_any(model, regime, drive),
-            }
-        }
-    };
+/// 1 / k.
+pub(crate) const INVERSE: [f64; MAX_DEGREE + 1] = {
+    let mut table = [0.0; MAX_DEGREE + 1];
+    let mut k = 1;
+    while k <= MAX_DEGREE {
+        table[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    table
+};
+
+for_each_path! {
+    fn form_by_table(series: &mut Series, model: &Model, table: &Table, drive: &Drive) = by_table
 }
 
-form_for!(form_baseline, false);
-#[cfg(target_arch = "x86_64")]
-form_for!(form_avx2, true, "avx2,fma");
+#[inline(always)]
+fn by_table<V: Vector>(series: &mut Series, model: &Model, table: &Table, drive: &Drive) {
+    match series.stride {
+        4 => series.by_table::<V, 1>(model, table, drive),
+        _ => series.by_table::<V, 2>(model, table, drive),
+    }
+}
+
+for_each_path! {
+    fn form_by_recursion(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) = by_recursion
+}
+
+#[inline(always)]
+fn by_recursion<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) {
+    match series.stride {
+        4 => series.by_recursion::<V, 1>(model, regime, drive),
+        8 => series.by_recursion::<V, 2>(model, regime, drive),
+        16 => series.by_recursion::<V, 4>(model, regime, drive),
+        _ => series.by_recursion::<V, { MAX_LANES / WIDTH }>(model, regime, drive),
+    }
+}
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bernstein::MAX_DEGREE;
 
     /// The neglected term is below 2^-60, and the next guard polynomials still fit.
     #[test]

@@ -185,8 +185,9 @@ impl<S: Scheme> Run<'_, S> {
     }
 
     fn save(&mut self) {
-        self.start.x.copy_from_slice(&self.state.x);
-        self.start.v.copy_from_slice(&self.state.v);
+        let n = self.start.x.len();
+        self.start.x.copy_from_slice(&self.state.x[..n]);
+        self.start.v.copy_from_slice(&self.state.v[..n]);
         self.start.motions.clone_from(&self.state.motions);
     }
 
@@ -225,7 +226,7 @@ impl<S: Scheme> Run<'_, S> {
         self.advance_blocks(tau, h);
         let state = &mut self.state;
         let regime = state.cache.regime(state.regime);
-        regime.accelerations(state.model, &state.x, &state.v, &state.drive.load, &mut state.a);
+        regime.accelerations(state.model, &state.x, &state.v, &state.drive.load, &mut state.a[..n]);
         Ok(())
     }
 
