@@ -14,18 +14,21 @@ use crate::scene::{Motion, Scene};
 /// for Ctrl-C; starting a thread would cost more than many such runs.
 const SHORT_RUN: usize = 4_000_000;
 
-/// Solves one scene under one motion; histories at every so many samples (0: none).
+/// Solves one scene under one motion; histories at every so many samples (0: none), of drifts and
+/// slips alone if asked for.
 #[pyfunction]
-#[pyo3(signature = (scene, motion, every, energy, events))]
+#[pyo3(signature = (scene, motion, every, displacements_only, energy, events))]
 pub(crate) fn simulate(
     py: Python<'_>,
     scene: PyRef<'_, Scene>,
     motion: PyRef<'_, Motion>,
     every: usize,
+    displacements_only: bool,
     energy: bool,
     events: bool,
 ) -> PyResult<Response> {
-    let options = Options { histories: NonZeroUsize::new(every), energy, events, peaks_only: false };
+    let histories = NonZeroUsize::new(every);
+    let options = Options { histories, displacements_only, energy, events, peaks_only: false };
     let (scene, motion) = (&scene.0, &motion.0);
     let size = 1 + scene.storeys() + scene.blocks().len();
     let work = motion.acceleration().len().saturating_mul(size * size);
@@ -74,7 +77,8 @@ fn times(peaks: &[Peak]) -> Output<f64> {
 
 impl Response {
     fn history(&self, of: impl Fn(&seismass::Histories) -> &Vec<f64>, columns: usize) -> Option<Output<f64>> {
-        self.0.histories.as_ref().map(|h| Output::shaped(&[h.rows, columns], of(h).clone()))
+        let histories = self.0.histories.as_ref().filter(|h| of(h).len() == h.rows * columns)?;
+        Some(Output::shaped(&[histories.rows, columns], of(histories).clone()))
     }
 
     fn storeys(&self) -> usize {

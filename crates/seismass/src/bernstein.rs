@@ -2,7 +2,7 @@
 //! root and one sign change means exactly one (Descartes' rule).
 
 /// Highest degree: Taylor series of a step never need more terms.
-pub(crate) const MAX_DEGREE: usize = 31;
+pub(crate) const MAX_DEGREE: usize = 23;
 /// Halvings after which an interval is a point.
 const MAX_DEPTH: u32 = 60;
 
@@ -75,6 +75,12 @@ impl Polynomial {
         self.coefficients().iter().skip(1).fold(self.coefficients[0], |bound, &c| bound + c.min(0.0))
     }
 
+    /// Whether the derivative is proved negative on [0, 1], at the cost of one pass.
+    fn falls_throughout(&self) -> bool {
+        let terms = self.coefficients().iter().enumerate().skip(2);
+        terms.fold(self.coefficients[1], |bound, (k, &c)| bound + k as f64 * c.max(0.0)) < 0.0
+    }
+
     /// The first `s` in [0, 1] where the polynomial falls through zero to below `-tolerance`.
     ///
     /// Dips that stay above `-tolerance` are rounding and do not count; the place returned is the zero itself, or 0
@@ -88,6 +94,10 @@ impl Polynomial {
         // A start at exactly zero, without tolerance, is judged by the first derivative that is not.
         if shifted.coefficients().iter().find(|&&c| c != 0.0).is_none_or(|&c| c < 0.0) {
             return Some(0.0);
+        }
+        if shifted.falls_throughout() && self.coefficients[0] > 0.0 {
+            let at_end: f64 = shifted.coefficients().iter().sum();
+            return (at_end < 0.0).then(|| self.refine(0.0, 1.0));
         }
         let (left, right) = Bernstein::new(&shifted).first_sign_change(0.0, 1.0, MAX_DEPTH)?;
         let below = shifted.refine(left, right);
@@ -124,8 +134,10 @@ impl Polynomial {
     /// The root in [left, right], at whose ends the polynomial is positive and not positive, to rounding: Newton kept
     /// inside the bracket by bisection.
     fn refine(&self, mut left: f64, mut right: f64) -> f64 {
-        let falls = self.at(left) > self.at(right);
-        let mut s = 0.5 * (left + right);
+        let (at_left, at_right) = (self.at(left), self.at(right));
+        let falls = at_left > at_right;
+        let secant = left + (right - left) * (at_left / (at_left - at_right));
+        let mut s = if secant > left && secant < right { secant } else { 0.5 * (left + right) };
         for _ in 0..100 {
             let (value, rate) = self.at_with_rate(s);
             if value == 0.0 {

@@ -3,6 +3,7 @@
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
 use crate::friction::{BlockState, Cause, Transition, settle};
+use crate::regime::Row;
 use crate::response::{Event, EventKind};
 use crate::state::{State, range};
 use crate::storey::Sign;
@@ -116,8 +117,9 @@ impl State<'_> {
     }
 
     fn storey_guards(&self, tau: f64, first: &mut First, isolated: &mut usize) {
-        for i in 0..self.storeys() {
-            let (low, high) = self.ranges.drift[i];
+        let [drifts, rates, _] = self.ranges.suspects;
+        for i in self.looked_at(drifts | rates) {
+            let (low, high) = self.ranges.drift(i);
             let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
             if !(high < yields.1 && low > yields.0 && high < collapses.1 && low > collapses.0) {
                 for (limit, sign, guard) in [
@@ -134,7 +136,7 @@ impl State<'_> {
                 }
             }
             if let Some(sign) = self.springs[i].plastic() {
-                let (low, high) = self.ranges.rate[i];
+                let (low, high) = self.ranges.rate(i);
                 if !(if sign == Sign::Positive { low > 0.0 } else { high < 0.0 }) {
                     *isolated += 1;
                     let mut p = self.series.drift_rate(i);
@@ -168,7 +170,8 @@ impl State<'_> {
             return;
         }
         let least_contact = contact.min(contact + contact_change).max(0.0);
-        for (floor, &mu) in self.stuck_mu.iter().enumerate() {
+        for floor in std::iter::once(0).chain(self.looked_at(self.ranges.suspects[2]).map(|i| i + 1)) {
+            let mu = self.stuck_mu[floor];
             if !mu.is_finite() {
                 continue;
             }
@@ -207,7 +210,7 @@ impl State<'_> {
     /// Range of the absolute acceleration of a floor, or of the ground (0), over the present series.
     fn acceleration_range(&self, floor: usize) -> (f64, f64) {
         match floor.checked_sub(1) {
-            Some(i) => self.ranges.acceleration[i],
+            Some(i) => self.ranges.acceleration(i),
             None => {
                 let (start, end) = (self.drive.ground, self.drive.ground + self.drive.ground_slope * self.series.h());
                 (start.min(end), start.max(end))
@@ -223,7 +226,7 @@ impl State<'_> {
         let contact = (self.contact_at(tau), self.contact_at(tau + h));
         let (a, margin) = match law.floor.checked_sub(1) {
             Some(i) => {
-                let margin = self.ranges.remainder * self.regime().lanes.fourth[3][i];
+                let margin = self.ranges.remainder * self.regime().row(Row::ThirdOfAcceleration)[i];
                 ((self.a[i], self.series.accelerations_at_end().0[i]), margin)
             }
             None => ((self.drive.ground, self.drive.ground + self.drive.ground_slope * h), 0.0),
@@ -292,7 +295,10 @@ impl State<'_> {
             }
             Guard::Contact => self.change_contact(tau, log),
         }
-        self.enter_regime();
+        match guard {
+            Guard::Yield { storey, .. } | Guard::Unload { storey } => self.enter_regime_of_spring(storey),
+            _ => self.enter_regime_of_blocks(),
+        }
         self.refresh_accelerations(tau);
         Outcome::Continue
     }
@@ -349,7 +355,7 @@ impl State<'_> {
         self.airborne = !self.airborne;
         if kind == EventKind::Land {
             // Contact has only just returned: the accelerations decide, with no friction yet.
-            self.enter_regime();
+            self.enter_regime_of_blocks();
             self.refresh_accelerations(tau);
             self.settle_all(tau, log);
         }

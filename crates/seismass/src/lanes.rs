@@ -205,6 +205,16 @@ pub(crate) fn store<V: Vector, const K: usize>(vectors: &[V; K], values: &mut [f
     }
 }
 
+/// Vectors as numbers.
+#[inline(always)]
+pub(crate) fn numbers<V: Vector, const K: usize>(vectors: &[V; K]) -> [[f64; WIDTH]; K] {
+    let mut out = [[0.0; WIDTH]; K];
+    for k in 0..K {
+        vectors[k].store(&mut out[k]);
+    }
+    out
+}
+
 /// Padded columns, one after the other.
 #[inline(always)]
 pub(crate) fn columns_of<const K: usize>(values: &[f64]) -> &[[[f64; WIDTH]; K]] {

@@ -49,6 +49,7 @@
 
 pub mod batch;
 mod bernstein;
+mod bounds;
 pub mod columns;
 pub mod damping;
 pub mod error;

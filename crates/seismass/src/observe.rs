@@ -1,10 +1,12 @@
 //! What is kept of a run: peaks in continuous time, histories, energies.
 
 use crate::bernstein::Polynomial;
+use crate::bounds::{Set, only};
 use crate::friction::BlockState;
 use crate::model::Model;
-use crate::regime::viscous_power;
+use crate::regime::{Row, viscous_power};
 use crate::response::{Energy, Histories, Peaks};
+use crate::scene::Options;
 use crate::state::State;
 
 /// Abscissae in [0, 1] and weights of the 12-point Gauss-Legendre rule: exact to degree 23.
@@ -28,6 +30,9 @@ pub(crate) struct Observer {
     pub(crate) peaks: Peaks,
     pub(crate) histories: Option<Histories>,
     energy: Option<EnergyBalance>,
+    displacements_only: bool,
+    /// Storeys whose peaks of drift or shear, and floors whose peaks of acceleration, were beaten since last asked.
+    beaten: (Set, Set),
 }
 
 /// Running energy integrals.
@@ -38,21 +43,23 @@ struct EnergyBalance {
 }
 
 impl Observer {
-    /// An observer of a scene with `storeys` and `blocks`, histories of `rows` rows every `every` samples if asked for.
-    pub(crate) fn new(model: &Model, every: Option<usize>, samples: usize, energy: bool) -> Self {
+    /// An observer of a run over so many samples.
+    pub(crate) fn new(model: &Model, options: &Options, samples: usize) -> Self {
         let (n, blocks) = (model.storeys(), model.blocks.len());
-        let histories = every.map(|every| {
+        let histories = options.histories.map(|every| {
+            let every = every.get();
             let rows = samples.div_ceil(every);
             let empty = |width: usize| Vec::with_capacity(rows * width);
+            let other = |width: usize| if options.displacements_only { Vec::new() } else { empty(width) };
             Histories {
                 every,
                 rows,
                 drift: empty(n),
                 slip: empty(blocks),
-                floor_velocity: empty(n),
-                block_velocity: empty(blocks),
-                floor_acceleration: empty(n),
-                storey_force: empty(n),
+                floor_velocity: other(n),
+                block_velocity: other(blocks),
+                floor_acceleration: other(n),
+                storey_force: other(n),
             }
         });
         let peaks = Peaks {
@@ -61,7 +68,13 @@ impl Observer {
             floor_acceleration: vec![Default::default(); n],
             storey_shear: vec![Default::default(); n],
         };
-        Self { peaks, histories, energy: energy.then(EnergyBalance::default) }
+        Self {
+            peaks,
+            histories,
+            energy: options.energy.then(EnergyBalance::default),
+            displacements_only: options.displacements_only,
+            beaten: (Set::MAX, Set::MAX),
+        }
     }
 
     /// Whether energies are kept: then every step needs its series too.
@@ -77,7 +90,7 @@ impl Observer {
         if drift > self.peaks.drift[i].value {
             return true;
         }
-        let tangent = state.regime().spring_tangent[i];
+        let tangent = state.regime().row(Row::SpringTangent)[i];
         let base = state.base_force[i];
         (base + tangent * low).abs().max((base + tangent * high).abs()) > self.peaks.storey_shear[i].value
     }
@@ -89,27 +102,45 @@ impl Observer {
     }
 
     /// Drift coordinates of storey `i` between which neither its drift nor its shear beats a peak.
+    #[inline]
     pub(crate) fn quiet_drift(&self, state: &State, i: usize) -> (f64, f64) {
         let (peak, base) = (self.peaks.drift[i].value, state.springs[i].drift(0.0));
         let (low, high) = (-peak - base, peak - base);
-        let (tangent, shear, force) =
-            (state.regime().spring_tangent[i], self.peaks.storey_shear[i].value, state.base_force[i]);
-        if tangent > 0.0 {
-            (low.max((-shear - force) / tangent), high.min((shear - force) / tangent))
+        let flexibility = state.regime().row(Row::SpringFlexibility)[i];
+        if flexibility > 0.0 {
+            let (shear, force) = (self.peaks.storey_shear[i].value, state.base_force[i]);
+            (low.max((-shear - force) * flexibility), high.min((shear - force) * flexibility))
         } else {
             (low, high)
         }
     }
 
-    /// Takes values of storey and floor `i` into the peaks; tells whether they beat any.
-    pub(crate) fn take_floor(&mut self, state: &State, i: usize, x: f64, a: f64, time: f64) -> bool {
-        let drift = self.take_drift(state, i, x, time);
-        self.peaks.floor_acceleration[i].take(a, time) || drift
+    /// Takes values of storey and floor `i` into the peaks.
+    pub(crate) fn take_floor(&mut self, state: &State, i: usize, x: f64, a: f64, time: f64) {
+        self.take_drift(state, i, x, time);
+        self.take_acceleration(i, a, time);
     }
 
-    fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) -> bool {
+    fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
         let drift = self.peaks.drift[i].take(state.springs[i].drift(x), time);
-        self.peaks.storey_shear[i].take(state.base_force[i] + state.regime().spring_tangent[i] * x, time) || drift
+        let shear = state.base_force[i] + state.regime().row(Row::SpringTangent)[i] * x;
+        if self.peaks.storey_shear[i].take(shear, time) || drift {
+            self.beaten.0 |= only(i);
+        }
+    }
+
+    /// Takes the acceleration of floor `i` into its peak.
+    #[inline]
+    pub(crate) fn take_acceleration(&mut self, i: usize, a: f64, time: f64) {
+        if self.peaks.floor_acceleration[i].take(a, time) {
+            self.beaten.1 |= only(i);
+        }
+    }
+
+    /// Storeys whose peaks of drift or shear, and floors whose peaks of acceleration, were beaten since last asked.
+    #[inline]
+    pub(crate) fn take_beaten(&mut self) -> (Set, Set) {
+        std::mem::take(&mut self.beaten)
     }
 
     /// Takes the present values into the peaks.
@@ -127,9 +158,10 @@ impl Observer {
     pub(crate) fn observe_series(&mut self, state: &mut State, tau: f64, end: f64, isolated: &mut usize) {
         let h = state.series.h();
         let time = |s: f64| state.interval.start + tau + s * end * h;
-        for i in 0..state.storeys() {
-            let (low, high) = state.ranges.drift[i];
-            let rate = state.ranges.rate[i];
+        let (drifts, accelerations) = (state.ranges.suspects[0], state.ranges.suspects[2]);
+        for i in state.looked_at(drifts) {
+            let (low, high) = state.ranges.drift(i);
+            let rate = state.ranges.rate(i);
             let turns = !(rate.0 > 0.0 || rate.1 < 0.0);
             if turns && self.drift_may_peak(state, i, low, high) {
                 *isolated += 1;
@@ -138,13 +170,14 @@ impl Observer {
                     self.take_drift(state, i, drift.at(s), time(s));
                 });
             }
-            let (low, high) = state.ranges.acceleration[i];
+        }
+        for i in state.looked_at(accelerations) {
+            let (low, high) = state.ranges.acceleration(i);
             if self.acceleration_may_peak(i, low, high) && !state.is_steady(i) {
                 *isolated += 1;
                 let acceleration = state.series.floor_acceleration(i).cut(end);
-                let peak = &mut self.peaks.floor_acceleration[i];
                 acceleration.derivative().sign_changes(&mut |s| {
-                    peak.take(acceleration.at(s), time(s));
+                    self.take_acceleration(i, acceleration.at(s), time(s));
                 });
             }
         }
@@ -189,7 +222,12 @@ impl Observer {
         blocks: impl Iterator<Item = (f64, f64)>,
     ) {
         let Some(histories) = &mut self.histories else { return };
-        let tangent = &state.regime().spring_tangent;
+        if self.displacements_only {
+            histories.drift.extend(state.springs.iter().zip(x).map(|(spring, &x)| spring.drift(x)));
+            histories.slip.extend(blocks.map(|(_, slip)| slip));
+            return;
+        }
+        let tangent = state.regime().row(Row::SpringTangent);
         let n = state.storeys();
         let first = histories.floor_velocity.len();
         let mut velocity = 0.0;
@@ -211,9 +249,12 @@ impl Observer {
     pub(crate) fn fill_histories(&mut self, storeys: usize, blocks: usize) {
         if let Some(h) = &mut self.histories {
             let (n, b) = (h.rows * storeys, h.rows * blocks);
+            h.drift.resize(n, f64::NAN);
+            h.slip.resize(b, f64::NAN);
+            if self.displacements_only {
+                return;
+            }
             for (values, length) in [
-                (&mut h.drift, n),
-                (&mut h.slip, b),
                 (&mut h.floor_velocity, n),
                 (&mut h.block_velocity, b),
                 (&mut h.floor_acceleration, n),

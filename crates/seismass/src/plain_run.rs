@@ -7,15 +7,21 @@
 //! either side. Steps that this does not clear are looked at closer, by the Bezier points themselves.
 
 use crate::STANDARD_GRAVITY;
-use crate::lanes::{FAR, MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, prefix_sums, store};
+use crate::bounds::{self, Set, members, middle_and_reach};
+use crate::lanes::{
+    FAR, MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
+};
 use crate::observe::Observer;
-use crate::regime::Regime;
+use crate::regime::{Regime, Row};
 use crate::scene::Motion;
 use crate::state::{State, range};
 use crate::storey::Sign;
 
 /// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits.
 const SMALL_DIFFERENCE: f64 = 1e-6;
+
+/// What bounds the fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
+const MARGINS: [Row; 4] = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration, Row::ThirdOfAcceleration];
 
 /// Rows (dx, dv, a, j) of a column of the step.
 type Column<const K: usize> = [[[f64; WIDTH]; K]; 4];
@@ -131,36 +137,27 @@ impl<const K: usize> Values<K> {
     }
 }
 
-/// Bounds between which no guard falls and no peak is beaten.
-struct Bounds<V, const K: usize> {
-    /// Drift coordinates: the middle, and how far they may go from it.
+/// The bounds of [`crate::bounds::Bounds`] in vectors.
+struct BoundsInLanes<V, const K: usize> {
     middle: [V; K],
     reach: [V; K],
-    /// Drift rates of plastic storeys: their signs, and what their negative may not reach (0; else far).
     sign: [V; K],
     turn: [V; K],
-    /// Smallest mu_s of the blocks stuck to each floor, far where none is; peak of the floor acceleration.
     stuck_mu: [V; K],
     a_peak: [V; K],
 }
 
-impl<V: Vector, const K: usize> Bounds<V, K> {
+impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
     #[inline(always)]
-    fn new(state: &State, observer: &Observer) -> Self {
-        let n = state.storeys();
-        let (mut middle, mut reach) = ([[0.0; WIDTH]; K], [[FAR; WIDTH]; K]);
-        for i in 0..n {
-            (middle.as_flattened_mut()[i], reach.as_flattened_mut()[i]) =
-                middle_and_reach(quiet_drift(state, observer, i));
-        }
-        let plastic = |i: usize| state.springs[i].plastic().map_or(0.0, Sign::factor);
+    fn of(state: &State) -> Self {
+        let bounds = &state.bounds;
         Self {
-            middle: load(middle.as_flattened()),
-            reach: load(reach.as_flattened()),
-            sign: load_some(n, 0.0, plastic),
-            turn: load_some(n, FAR, |i| if plastic(i) == 0.0 { FAR } else { 0.0 }),
-            stuck_mu: load_some(n, FAR, |i| state.stuck_mu[i + 1].min(FAR)),
-            a_peak: load_some(n, FAR, |i| observer.peaks.floor_acceleration[i].value),
+            middle: load(&bounds.middle),
+            reach: load(&bounds.reach),
+            sign: load(&bounds.sign),
+            turn: load(&bounds.turn),
+            stuck_mu: load(&bounds.stuck_mu),
+            a_peak: load(&bounds.a_peak),
         }
     }
 
@@ -188,64 +185,35 @@ impl<V: Vector, const K: usize> Bounds<V, K> {
         sample: &Sample<V, K>,
         time: f64,
     ) {
-        let (v, a) = (numbers(&sample.v), numbers(&sample.a));
-        let (mut middle, mut reach) = (numbers(&self.middle), numbers(&self.reach));
-        let (mut sign, mut turn) = (numbers(&self.sign), numbers(&self.turn));
-        let mut a_peak = numbers(&self.a_peak);
-        for i in 0..state.storeys() {
-            if peaks.drift >> i & 1 == 1 {
-                (middle.as_flattened_mut()[i], reach.as_flattened_mut()[i]) = middle_and_reach(guarded_drift(state, i));
+        if peaks.acceleration != 0 {
+            let (a, mut a_peak) = (numbers(&sample.a), numbers(&self.a_peak));
+            for i in members(peaks.acceleration) {
+                observer.take_acceleration(i, a.as_flattened()[i], time);
+                a_peak.as_flattened_mut()[i] = observer.peaks.floor_acceleration[i].value;
+            }
+            self.a_peak = load(a_peak.as_flattened());
+        }
+        if peaks.drift != 0 {
+            let v = numbers(&sample.v);
+            let (mut middle, mut reach) = (numbers(&self.middle), numbers(&self.reach));
+            let (mut sign, mut turn) = (numbers(&self.sign), numbers(&self.turn));
+            for i in members(peaks.drift) {
+                (middle.as_flattened_mut()[i], reach.as_flattened_mut()[i]) = middle_and_reach(state.guarded_drift(i));
                 (sign.as_flattened_mut()[i], turn.as_flattened_mut()[i]) = (v.as_flattened()[i].signum(), 0.0);
             }
-            if peaks.acceleration >> i & 1 == 1 {
-                let peak = &mut observer.peaks.floor_acceleration[i];
-                peak.take(a.as_flattened()[i], time);
-                a_peak.as_flattened_mut()[i] = peak.value;
-            }
+            self.middle = load(middle.as_flattened());
+            self.reach = load(reach.as_flattened());
+            self.sign = load(sign.as_flattened());
+            self.turn = load(turn.as_flattened());
         }
-        self.middle = load(middle.as_flattened());
-        self.reach = load(reach.as_flattened());
-        self.sign = load(sign.as_flattened());
-        self.turn = load(turn.as_flattened());
-        self.a_peak = load(a_peak.as_flattened());
     }
-}
-
-#[inline(always)]
-fn middle_and_reach((low, high): (f64, f64)) -> (f64, f64) {
-    let (low, high) = (low.max(-FAR), high.min(FAR));
-    (0.5 * (low + high), 0.5 * (high - low))
 }
 
 /// Storeys and floors, as bits, whose peaks a step beats.
 #[derive(Default)]
 struct BeatenPeaks {
-    drift: u64,
-    acceleration: u64,
-}
-
-/// Lanes of the storeys, and padding.
-#[inline(always)]
-fn load_some<V: Vector, const K: usize>(storeys: usize, padding: f64, value: impl Fn(usize) -> f64) -> [V; K] {
-    let mut values = [[padding; WIDTH]; K];
-    for (i, lane) in values.as_flattened_mut().iter_mut().enumerate().take(storeys) {
-        *lane = value(i);
-    }
-    load(values.as_flattened())
-}
-
-/// Drift coordinates of a storey between which it does not yield or collapse, and which beat no peak.
-#[inline(always)]
-fn quiet_drift(state: &State, observer: &Observer, i: usize) -> (f64, f64) {
-    let (guarded, quiet) = (guarded_drift(state, i), observer.quiet_drift(state, i));
-    (guarded.0.max(quiet.0), guarded.1.min(quiet.1))
-}
-
-/// Drift coordinates of a storey between which it does not yield or collapse.
-#[inline(always)]
-fn guarded_drift(state: &State, i: usize) -> (f64, f64) {
-    let (yields, collapses) = (state.yield_bounds[i], state.collapse_bounds[i]);
-    (yields.0.max(collapses.0), yields.1.min(collapses.1))
+    drift: Set,
+    acceleration: Set,
 }
 
 /// Blocks that slide, at most one of each floor.
@@ -296,49 +264,85 @@ impl Linear {
     }
 }
 
+/// The blocks that slide on floors, in layers, and those on the ground. Most often there is one layer: it needs no
+/// allocation.
 #[inline(always)]
-fn layers<V: Vector, const K: usize>(state: &State) -> (Vec<Layer<V, K>>, Vec<GroundBlock>) {
+fn layers<V: Vector, const K: usize>(state: &State) -> (Layers<V, K>, Vec<GroundBlock>) {
     let mut places: Vec<[[Option<usize>; WIDTH]; K]> = Vec::new();
+    let mut lowest = [[None; WIDTH]; K];
     let mut on_ground = Vec::new();
     for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
         let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
-        match law.floor.checked_sub(1) {
-            None => on_ground.push(GroundBlock {
+        let Some(i) = law.floor.checked_sub(1) else {
+            on_ground.push(GroundBlock {
                 block,
                 friction: sign * law.mu_k,
                 sign,
                 velocity: motion.velocity,
                 slip: motion.slip,
-            }),
-            Some(i) => match places.iter_mut().find(|place| place.as_flattened()[i].is_none()) {
-                Some(place) => place.as_flattened_mut()[i] = Some(block),
-                None => {
-                    let mut place = [[None; WIDTH]; K];
-                    place.as_flattened_mut()[i] = Some(block);
-                    places.push(place);
-                }
-            },
+            });
+            continue;
+        };
+        let taken = |place: &[[Option<usize>; WIDTH]; K]| place.as_flattened()[i].is_some();
+        if !taken(&lowest) {
+            lowest.as_flattened_mut()[i] = Some(block);
+        } else if let Some(place) = places.iter_mut().find(|place| !taken(place)) {
+            place.as_flattened_mut()[i] = Some(block);
+        } else {
+            let mut place = [[None; WIDTH]; K];
+            place.as_flattened_mut()[i] = Some(block);
+            places.push(place);
         }
     }
-    let n = state.storeys();
-    let layer = |block: [[Option<usize>; WIDTH]; K]| {
-        let sign = |j: usize| state.motions[j].sliding().map_or(0.0, Sign::factor);
-        let of = |without: f64, value: &dyn Fn(usize) -> f64| {
-            load_some(n, without, |i| block.as_flattened()[i].map_or(without, value))
-        };
-        Layer {
-            block,
-            friction: of(0.0, &|j| sign(j) * state.model.blocks[j].mu_k),
-            sign: of(0.0, &sign),
-            turn: of(FAR, &|_| 0.0),
-            velocity: of(0.0, &|j| state.motions[j].velocity),
-            slip: of(0.0, &|j| state.motions[j].slip),
-            approach: [V::splat(0.0); K],
-            velocity_after: [V::splat(0.0); K],
-            approach_after: [V::splat(0.0); K],
-        }
-    };
-    (places.into_iter().map(layer).collect(), on_ground)
+    let others = if places.is_empty() { Vec::new() } else { places.into_iter().map(|p| layer(state, p)).collect() };
+    (Layers { lowest: layer(state, lowest), others }, on_ground)
+}
+
+#[inline(always)]
+fn layer<V: Vector, const K: usize>(state: &State, block: [[Option<usize>; WIDTH]; K]) -> Layer<V, K> {
+    let zero = [[0.0; WIDTH]; K];
+    let (mut friction, mut sign, mut turn) = (zero, zero, [[FAR; WIDTH]; K]);
+    let (mut velocity, mut slip) = (zero, zero);
+    for (i, &j) in block.as_flattened().iter().enumerate() {
+        let Some(j) = j else { continue };
+        let motion = &state.motions[j];
+        let factor = motion.sliding().map_or(0.0, Sign::factor);
+        friction.as_flattened_mut()[i] = factor * state.model.blocks[j].mu_k;
+        sign.as_flattened_mut()[i] = factor;
+        turn.as_flattened_mut()[i] = 0.0;
+        velocity.as_flattened_mut()[i] = motion.velocity;
+        slip.as_flattened_mut()[i] = motion.slip;
+    }
+    let nothing = [V::splat(0.0); K];
+    Layer {
+        block,
+        friction: load(friction.as_flattened()),
+        sign: load(sign.as_flattened()),
+        turn: load(turn.as_flattened()),
+        velocity: load(velocity.as_flattened()),
+        slip: load(slip.as_flattened()),
+        approach: nothing,
+        velocity_after: nothing,
+        approach_after: nothing,
+    }
+}
+
+/// Layers of sliding blocks.
+struct Layers<V, const K: usize> {
+    lowest: Layer<V, K>,
+    others: Vec<Layer<V, K>>,
+}
+
+impl<V, const K: usize> Layers<V, K> {
+    #[inline(always)]
+    fn iter(&self) -> impl Iterator<Item = &Layer<V, K>> {
+        std::iter::once(&self.lowest).chain(&self.others)
+    }
+
+    #[inline(always)]
+    fn get(&mut self, which: usize) -> &mut Layer<V, K> {
+        if which == 0 { &mut self.lowest } else { &mut self.others[which - 1] }
+    }
 }
 
 impl<V: Vector, const K: usize> Layer<V, K> {
@@ -350,10 +354,6 @@ impl<V: Vector, const K: usize> Layer<V, K> {
             out[k] = third.mul(rate.abs()).sub(self.sign[k].mul(velocity[k]));
         }
         out
-    }
-
-    fn blocks(&self) -> impl Iterator<Item = (usize, usize)> {
-        self.block.as_flattened().iter().enumerate().filter_map(|(i, block)| block.map(|block| (i, block)))
     }
 }
 
@@ -406,14 +406,13 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
     let Some(course) = Course::<K>::new(state, motion.dt()) else { return first };
     let h = course.h;
     let (length, third, per_second) = (V::splat(h), V::splat(h / 3.0), 1.0 / h);
-    let lanes = &course.regime.lanes;
-    let (mass, tangent): ([V; K], [V; K]) = (load(&lanes.root_mass), load(&lanes.root_tangent));
-    let [of_drift, of_rate, of_acceleration, of_block] = &lanes.fourth;
-    let margins: [[V; K]; 4] = [load(of_drift), load(of_rate), load(of_acceleration), load(of_block)];
+    let regime = course.regime;
+    let (mass, tangent): ([V; K], [V; K]) = (load(regime.row(Row::RootMass)), load(regime.row(Row::RootTangent)));
+    let margins: [[V; K]; 4] = MARGINS.map(|row| load(regime.row(row)));
     let growth = course.regime.growth_over(h);
-    let widening = h * h * h * h / 384.0 * growth;
+    let widening = h * h * h * h / 384.0;
     let mut sample = Sample::<V, K>::of(state);
-    let mut bounds = Bounds::<V, K>::new(state, observer);
+    let mut bounds = BoundsInLanes::<V, K>::of(state);
     let (mut layers, mut on_ground) = layers::<V, K>(state);
     let watches_ground = !on_ground.is_empty() || state.stuck_mu[0].is_finite();
     let samples = motion.acceleration();
@@ -421,12 +420,13 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
     let contact_at = |i: usize| if VERTICAL { STANDARD_GRAVITY + vertical[i] } else { STANDARD_GRAVITY };
     // Rate of the floor accelerations per slope of the contact force: it turns at every sample.
     let mut turning: [V; K] = load(&state.friction);
-    for (turning, inverse_mass) in turning.iter_mut().zip(load::<V, K>(&lanes.inverse_mass)) {
+    for (turning, inverse_mass) in turning.iter_mut().zip(load::<V, K>(regime.row(Row::InverseMass))) {
         *turning = turning.mul(inverse_mass);
     }
     let mut slope_before = if VERTICAL { (contact_at(first + 1) - contact_at(first)) * per_second } else { 0.0 };
     let mut apart_before = bounds.apart(&sample, third);
-    for layer in &mut layers {
+    for which in 0..=layers.others.len() {
+        let layer = layers.get(which);
         layer.approach = layer.approach_at(&layer.velocity, &sample.a, contact_at(first), third);
     }
     // Velocity and slip of all blocks, as histories have them.
@@ -434,6 +434,7 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
         Some(_) => state.motions.iter().map(|m| (m.velocity, m.slip)).collect(),
         None => Vec::new(),
     };
+    let within = bounds::first(state.storeys());
     let mut follows_drifts = false;
     let mut reached = first;
     for (pair, next) in samples[first..=end].windows(2).zip(first + 1..) {
@@ -455,7 +456,8 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
             sizes = mass[k].mul_add(sample.jerk[k].sub(slope).abs(), sizes);
             sizes = tangent[k].mul_add(sample.q[k].abs(), sizes);
         }
-        let margin = V::splat(sizes.sum() * widening);
+        let liveliness = sizes.sum() * growth;
+        let margin = V::splat(liveliness * widening);
         // The step.
         let mut rows = [[V::splat(0.0); K]; 4];
         let (ground, ramp) = (V::splat(before), V::splat(change));
@@ -482,12 +484,12 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
         // The proof.
         let apart_after = bounds.apart(&taken, third);
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
-        let mut suspects = 0;
+        let (mut suspects, mut turning_blocks) = (0, 0);
         for k in 0..K {
             let limit = bounds.stuck_mu[k].mul(least_contact).min(bounds.a_peak[k]);
             for (which, bound) in [(0, bounds.reach[k]), (1, bounds.turn[k]), (2, limit)] {
                 let most = apart_before[which][k].max(apart_after[which][k]);
-                suspects |= margin.mul_add(margins[which][k], most).not_below(bound);
+                suspects |= Set::from(margin.mul_add(margins[which][k], most).not_below(bound)) << (WIDTH * k);
             }
         }
         let (ground, push) = (Linear { start: before, end: after }, Linear { start: contact.0, end: contact.1 });
@@ -496,7 +498,8 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
             floors.velocity = prefix_sums(&dv);
             let displacement = V::splat(push.once(h));
             let shift = V::splat(ground.once(h));
-            for layer in &mut layers {
+            for which in 0..=layers.others.len() {
+                let layer = layers.get(which);
                 for k in 0..K {
                     let pushed = layer.friction[k].mul_add(displacement, shift);
                     layer.velocity_after[k] = layer.velocity[k].sub(pushed.add(floors.velocity[k]));
@@ -507,13 +510,14 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
                 for k in 0..K {
                     let most = layer.approach[k].max(layer.approach_after[k]);
                     let bound = digits.mul_add(floors.velocity[k].abs(), layer.turn[k]);
-                    suspects |= margin.mul_add(margins[3][k], most).not_below(bound);
+                    turning_blocks |= margin.mul_add(margins[3][k], most).not_below(bound);
                 }
             }
         }
         let mut beaten = BeatenPeaks::default();
-        if suspects != 0 {
+        if suspects != 0 || SLIDING && turning_blocks != 0 {
             let (at_start, at_end) = (sample.values(), taken.values());
+            let (middle, reach, sign) = (numbers(&bounds.middle), numbers(&bounds.reach), numbers(&bounds.sign));
             let mut step = Closer {
                 state,
                 observer,
@@ -521,11 +525,15 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
                 end: at_end.as_slices(),
                 h,
                 contact,
-                liveliness: 0.0,
+                liveliness,
+                middle: middle.as_flattened(),
+                reach: reach.as_flattened(),
+                sign: sign.as_flattened(),
                 beaten: BeatenPeaks::default(),
             };
-            step.set_liveliness(change * per_second, growth);
-            if !step.look() || SLIDING && layers.iter().any(|layer| step.may_turn(layer)) {
+            if !step.look(suspects & within)
+                || SLIDING && turning_blocks != 0 && layers.iter().any(|layer| step.may_turn(layer))
+            {
                 break;
             }
             beaten = step.beaten;
@@ -541,7 +549,8 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
             }
             floors.displacement = prefix_sums(&floors.displacement);
             let (push, ground) = (V::splat(push.twice(h)), V::splat(ground.twice(h)));
-            for layer in &mut layers {
+            for which in 0..=layers.others.len() {
+                let layer = layers.get(which);
                 for k in 0..K {
                     let pushed = layer.friction[k].mul_add(push, ground);
                     let own = length.mul(layer.velocity[k]).sub(pushed.add(floors.displacement[k]));
@@ -581,26 +590,22 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
     reached
 }
 
-#[inline(always)]
-fn numbers<V: Vector, const K: usize>(vectors: &[V; K]) -> [[f64; WIDTH]; K] {
-    let mut out = [[0.0; WIDTH]; K];
-    for k in 0..K {
-        vectors[k].store(&mut out[k]);
-    }
-    out
-}
-
 /// Calls `visit(block, velocity, slip)` for all sliding blocks.
 #[inline(always)]
 fn block_values<V: Vector, const K: usize>(
-    layers: &[Layer<V, K>],
+    layers: &Layers<V, K>,
     on_ground: &[GroundBlock],
     mut visit: impl FnMut(usize, f64, f64),
 ) {
-    for layer in layers {
+    for which in 0..=layers.others.len() {
+        let layer = if which == 0 { &layers.lowest } else { &layers.others[which - 1] };
         let (velocity, slip) = (numbers(&layer.velocity), numbers(&layer.slip));
         let (velocity, slip) = (velocity.as_flattened(), slip.as_flattened());
-        layer.blocks().for_each(|(i, block)| visit(block, velocity[i], slip[i]));
+        for (i, &block) in layer.block.as_flattened().iter().enumerate() {
+            if let Some(block) = block {
+                visit(block, velocity[i], slip[i]);
+            }
+        }
     }
     on_ground.iter().for_each(|b| visit(b.block, b.velocity, b.slip));
 }
@@ -639,52 +644,51 @@ struct Closer<'a, 'b> {
     h: f64,
     contact: (f64, f64),
     liveliness: f64,
+    /// Middles of the drifts' bounds, and how far they may go from them.
+    middle: &'a [f64],
+    reach: &'a [f64],
+    /// Signs that drift rates must keep: of plastic storeys, and where a peak is followed; 0 elsewhere.
+    sign: &'a [f64],
     /// Peaks that may be beaten, at the end of the step.
     beaten: BeatenPeaks,
 }
 
 impl Closer<'_, '_> {
-    /// The norm that bounds the higher derivatives, under a ground acceleration with this slope.
-    fn set_liveliness(&mut self, slope: f64, growth: f64) {
-        let lanes = &self.state.regime().lanes;
-        let mut square = 0.0;
-        for i in 0..self.state.storeys() {
-            let (jerk, q) =
-                (lanes.root_mass[i] * (self.start.jerk[i] - slope), lanes.root_tangent[i] * self.start.q[i]);
-            square += jerk * jerk + q * q;
-        }
-        self.liveliness = square.sqrt() * growth;
-    }
-
     /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
     fn remainder(&self) -> f64 {
         let h2 = self.h * self.h;
         self.liveliness * (h2 * h2 / 384.0)
     }
 
-    /// Whether no guard fell and no peak was beaten inside the step.
+    /// Whether no guard of these storeys and floors, as bits, fell and no peak was beaten inside the step.
     #[inline(never)]
-    fn look(&mut self) -> bool {
+    fn look(&mut self, suspects: Set) -> bool {
         let (state, start, end) = (self.state, self.start, self.end);
         let (third, remainder) = (self.h / 3.0, self.remainder());
-        let [of_drift, of_rate, of_acceleration, of_block] = &state.regime().lanes.fourth;
+        let regime = state.regime();
+        let (of_drift, of_rate) = (regime.row(Row::FourthOfDrift), regime.row(Row::FourthOfRate));
+        let of_acceleration = regime.row(Row::FourthOfAcceleration);
+        let of_block = regime.row(Row::ThirdOfAcceleration);
         let contact = self.contact.0.min(self.contact.1);
-        for i in 0..state.storeys() {
+        for i in members(suspects) {
             let drift = range(start.x[i], start.v[i], end.x[i], end.v[i], third, remainder * of_drift[i]);
             let rate = range(start.v[i], start.q[i], end.v[i], end.q[i], third, remainder * of_rate[i]);
             let margin = remainder * of_acceleration[i];
             let (low, high) = range(start.a[i], start.jerk[i], end.a[i], end.jerk[i], third, margin);
             let size = high.max(-low);
             let inside = |(lower, upper): (f64, f64)| drift.1 < upper && drift.0 > lower;
-            let keeps_plastic = match state.springs[i].plastic() {
-                Some(Sign::Positive) => rate.0 > 0.0,
-                Some(Sign::Negative) => rate.1 < 0.0,
-                None => true,
+            let keeps_sign = match self.sign[i] {
+                0.0 => true,
+                sign if sign > 0.0 => rate.0 > 0.0,
+                _ => rate.1 < 0.0,
             };
-            if !(inside(guarded_drift(state, i)) && keeps_plastic && size < state.stuck_mu[i + 1] * contact) {
+            if !(keeps_sign && size < state.stuck_mu[i + 1] * contact) {
                 return false;
             }
-            if !inside(self.observer.quiet_drift(state, i)) {
+            if !inside((self.middle[i] - self.reach[i], self.middle[i] + self.reach[i])) {
+                if !inside(state.guarded_drift(i)) {
+                    return false;
+                }
                 if !(rate.0 > 0.0 || rate.1 < 0.0) {
                     return false;
                 }
@@ -709,8 +713,8 @@ impl Closer<'_, '_> {
     fn may_turn<V: Vector, const K: usize>(&self, layer: &Layer<V, K>) -> bool {
         let (before, after) = (numbers(&layer.velocity), numbers(&layer.velocity_after));
         let (before, after) = (before.as_flattened(), after.as_flattened());
-        let margins = &self.state.regime().lanes.fourth[3];
-        layer.blocks().any(|(i, block)| {
+        let margins = self.state.regime().row(Row::ThirdOfAcceleration);
+        layer.block.as_flattened().iter().enumerate().filter_map(|(i, &block)| Some((i, block?))).any(|(i, block)| {
             let sign = self.state.motions[block].sliding().map_or(0.0, Sign::factor);
             let friction = sign * self.state.model.blocks[block].mu_k;
             let rates = (-friction * self.contact.0 - self.start.a[i], -friction * self.contact.1 - self.end.a[i]);
@@ -765,6 +769,7 @@ impl State<'_> {
             return first;
         }
         self.prepare_effects();
+        self.update_bounds(observer);
         let reached = run(self, observer, motion, first, end);
         let time = reached as f64 * motion.dt();
         for (peak, motion) in observer.peaks.slip.iter_mut().zip(&self.motions) {

@@ -14,13 +14,13 @@ use rustc_hash::FxBuildHasher;
 
 use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, padded, store};
 use crate::model::Model;
-use crate::regime::{Operator, Regime};
+use crate::regime::{Operator, Regime, Row};
 use crate::taylor::{MAX_PHASE, terms};
 
 /// Memory one cache may take before it starts afresh (bytes).
 const CACHE_BYTES: usize = 64 << 20;
 /// Most storeys of which tables of the series are kept.
-const MAX_TABLE: usize = 8;
+pub(crate) const MAX_TABLE: usize = 8;
 
 /// The steps of a regime.
 pub(crate) struct Steps {
@@ -312,7 +312,7 @@ impl Steps {
             step
         });
         let mut gather = |causes: &mut dyn Iterator<Item = Cause>| {
-            let mut out = Vec::new();
+            let mut out = Vec::with_capacity(causes.size_hint().0 * 4 * padded(n));
             for cause in causes {
                 match &composed {
                     None => push(cause, &mut out),
@@ -479,7 +479,7 @@ impl RegimeCache {
     }
 
     fn entry_bytes(regime: &Regime, key: &[u8]) -> usize {
-        8 * 16 * regime.mass.len() + 2 * key.len() + 256
+        8 * regime.row(Row::Mass).len() * 16 + 2 * key.len() + 256
     }
 
     /// The regime at an index.

@@ -5,79 +5,96 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Vector, columns_of, filled, load, prefix_sums};
+use crate::lanes::{Vector, columns_of, load, padded, prefix_sums};
 use crate::model::{Model, ModelLanes};
 use crate::propagator::Steps;
 
 /// The linear operators of one regime.
 pub(crate) struct Regime {
-    /// Storey tangent, P-Delta subtracted (N/m).
-    pub(crate) tangent: Vec<f64>,
-    /// Spring tangent alone (N/m).
-    pub(crate) spring_tangent: Vec<f64>,
-    /// Floor mass with the blocks stuck to it (kg).
-    pub(crate) mass: Vec<f64>,
-    /// 1 / mass.
-    pub(crate) inverse_mass: Vec<f64>,
-    pub(crate) lanes: RegimeLanes,
+    stride: usize,
+    /// One row of each [`Row`], padded to whole vectors with zeros.
+    rows: Vec<f64>,
     /// Bound on the growth of Taylor coefficients (rad/s).
     pub(crate) frequency: f64,
-    /// Bounds on the second, third and fourth derivative of each floor acceleration, per unit of [`Regime::liveliness_of`].
-    pub(crate) derivative_bounds: [Vec<f64>; 3],
     /// Exponent (1/s) with which the energy of the derivatives may grow: positive with a negative tangent.
     growth: f64,
     /// The steps of the cache's time step, once they pay.
     pub(crate) steps: Option<Box<Steps>>,
 }
 
-/// What the hot loops need of a regime, padded to whole vectors with zeros.
-pub(crate) struct RegimeLanes {
-    pub(crate) tangent: Vec<f64>,
-    pub(crate) inverse_mass: Vec<f64>,
-    /// Roots of mass and of |tangent|.
-    pub(crate) root_mass: Vec<f64>,
-    pub(crate) root_tangent: Vec<f64>,
-    /// Bounds of the fourth derivatives of drift, drift rate, floor acceleration and block velocity, per unit of
-    /// [`Regime::liveliness_of`].
-    pub(crate) fourth: [Vec<f64>; 4],
+/// What is known of each storey, or floor, in a regime. Bounds are per unit of [`Regime::liveliness_of`].
+#[derive(Clone, Copy)]
+pub(crate) enum Row {
+    /// Storey tangent, P-Delta subtracted (N/m).
+    Tangent,
+    /// Spring tangent alone (N/m).
+    SpringTangent,
+    /// 1 / spring tangent; 0 where that is not positive.
+    SpringFlexibility,
+    /// Floor mass with the blocks stuck to it (kg).
+    Mass,
+    /// 1 / mass.
+    InverseMass,
+    /// Root of the mass.
+    RootMass,
+    /// Root of |tangent|.
+    RootTangent,
+    /// Bound on the second derivative of the floor acceleration.
+    SecondOfAcceleration,
+    /// Bound on its third derivative: the fourth of a block's relative velocity.
+    ThirdOfAcceleration,
+    /// Bound on its fourth derivative.
+    FourthOfAcceleration,
+    /// Bound on the fourth derivative of the drift.
+    FourthOfDrift,
+    /// Bound on the fourth derivative of the drift rate.
+    FourthOfRate,
 }
+
+/// Number of rows.
+const ROWS: usize = Row::FourthOfRate as usize + 1;
 
 impl Regime {
     /// The regime with `yielded[i]` plastic elements in each storey and `stuck_mass[i]` on each floor.
     pub(crate) fn new(model: &Model, yielded: impl Fn(usize) -> u8, stuck_mass: &[f64]) -> Self {
-        let n = model.storeys();
-        let spring_tangent: Vec<f64> = (0..n).map(|i| model.laws[i].tangent(yielded(i))).collect();
-        let tangent: Vec<f64> = (0..n).map(|i| spring_tangent[i] - model.laws[i].geometric).collect();
-        let mass: Vec<f64> = (0..n).map(|i| model.mass[i] + stuck_mass[i]).collect();
-        let inverse_mass: Vec<f64> = mass.iter().map(|m| 1.0 / m).collect();
-        let (frequency, growth) = frequency_and_growth(model, &tangent, &inverse_mass);
-        let derivative_bounds = derivative_bounds(model, &tangent, &inverse_mass);
-        let fill = |values: &[f64]| filled(values.iter().copied(), n, 0.0);
-        let [second, third, fourth] = &derivative_bounds;
-        let differences =
-            |bounds: &[f64]| filled((0..n).map(|i| bounds[i] + if i > 0 { bounds[i - 1] } else { 0.0 }), n, 0.0);
-        let lanes = RegimeLanes {
-            tangent: fill(&tangent),
-            inverse_mass: fill(&inverse_mass),
-            root_mass: filled(mass.iter().map(|m| m.sqrt()), n, 0.0),
-            root_tangent: filled(tangent.iter().map(|k| k.abs().sqrt()), n, 0.0),
-            fourth: [differences(second), differences(third), fill(fourth), fill(third)],
-        };
-        Self { tangent, spring_tangent, mass, inverse_mass, lanes, frequency, derivative_bounds, growth, steps: None }
+        let stride = padded(model.storeys());
+        let mut regime = Self { stride, rows: vec![0.0; ROWS * stride], frequency: 0.0, growth: 0.0, steps: None };
+        for i in 0..model.storeys() {
+            let mut set = |row: Row, value: f64| regime.rows[row as usize * stride + i] = value;
+            let spring = model.laws[i].tangent(yielded(i));
+            let (tangent, mass) = (spring - model.laws[i].geometric, model.mass[i] + stuck_mass[i]);
+            set(Row::Tangent, tangent);
+            set(Row::SpringTangent, spring);
+            set(Row::SpringFlexibility, if spring > 0.0 { 1.0 / spring } else { 0.0 });
+            set(Row::Mass, mass);
+            set(Row::InverseMass, 1.0 / mass);
+            set(Row::RootMass, mass.sqrt());
+            set(Row::RootTangent, tangent.abs().sqrt());
+        }
+        (regime.frequency, regime.growth) = regime.frequency_and_growth(model);
+        regime.bound_derivatives(model);
+        regime
+    }
+
+    /// A row, padded.
+    #[inline(always)]
+    pub(crate) fn row(&self, row: Row) -> &[f64] {
+        let from = row as usize * self.stride;
+        &self.rows[from..from + self.stride]
     }
 
     /// Floor accelerations (absolute) from drifts, drift rates and floor loads: a_i = (S_(i+1) - S_i + load_i) / mass_i
     /// with S the storey forces of springs, P-Delta and damping. Also serves derivatives of these.
     pub(crate) fn accelerations(&self, model: &Model, x: &[f64], v: &[f64], load: &[f64], out: &mut [f64]) {
         let n = out.len();
-        storey_forces(&self.tangent, model, x, v, out);
+        storey_forces(self.row(Row::Tangent), model, x, v, out);
         let mut velocity = 0.0;
         let mass_factor = mass_factor(model);
         for i in 0..n {
             let above = if i + 1 < n { out[i + 1] } else { 0.0 };
             velocity += v[i];
             let force = above - out[i] + load[i] - mass_factor * model.mass[i] * velocity;
-            out[i] = force * self.inverse_mass[i];
+            out[i] = force * self.row(Row::InverseMass)[i];
         }
     }
 
@@ -110,8 +127,8 @@ pub(crate) struct Operator<'a, V, const K: usize> {
 impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
     #[inline(always)]
     pub(crate) fn new(model: &'a Model, regime: &Regime) -> Self {
-        let lanes = &regime.lanes;
-        Self { tangent: load(&lanes.tangent), inverse_mass: load(&lanes.inverse_mass), model: &model.lanes }
+        let (tangent, inverse_mass) = (load(regime.row(Row::Tangent)), load(regime.row(Row::InverseMass)));
+        Self { tangent, inverse_mass, model: &model.lanes }
     }
 
     /// Floor accelerations from drifts, drift rates and floor loads.
@@ -241,58 +258,72 @@ fn damping_row(model: &Model, i: usize, mut visit: impl FnMut(usize, f64)) {
     }
 }
 
-/// Bounds by Gershgorin on the symmetric forms M^(-1/2) K M^(-1/2) and M^(-1/2) C M^(-1/2): the frequency, and the
-/// exponent of growth.
-fn frequency_and_growth(model: &Model, tangent: &[f64], inverse_mass: &[f64]) -> (f64, f64) {
-    let n = tangent.len();
-    let (mut stiffness_bound, mut damping_bound, mut growth) = (0.0f64, 0.0f64, 0.0f64);
-    for i in 0..n {
-        let inverse_root = inverse_mass[i].sqrt();
-        let mut row = tangent[i].abs() * inverse_mass[i];
-        if i > 0 {
-            row += tangent[i].abs() * inverse_root * inverse_mass[i - 1].sqrt();
-        }
-        if i + 1 < n {
-            row += tangent[i + 1].abs() * inverse_root * (inverse_root + inverse_mass[i + 1].sqrt());
-        }
-        stiffness_bound = stiffness_bound.max(row);
-        let mut damping = 0.0;
-        damping_row(model, i, |j, c| damping += c * inverse_root * inverse_mass[j].sqrt());
-        damping_bound = damping_bound.max(damping);
-        if tangent[i] < 0.0 {
-            let below = if i > 0 { inverse_mass[i - 1].sqrt() } else { 0.0 };
-            growth += 2.0 * tangent[i].abs().sqrt() * (inverse_root + below);
-        }
-    }
-    if model.damping_may_feed() {
-        growth += damping_bound;
-    }
-    (0.5 * damping_bound + (0.25 * damping_bound * damping_bound + stiffness_bound).sqrt(), growth)
-}
-
-/// See [`Regime::derivative_bounds`]: with energy norm e, |v''| <= e / sqrt(mass) and |v'| <= e / sqrt(tangent).
-fn derivative_bounds(model: &Model, tangent: &[f64], inverse_mass: &[f64]) -> [Vec<f64>; 3] {
-    let n = tangent.len();
-    let stiffness = |i: usize| if i < n { tangent[i].abs() } else { 0.0 };
-    let mut bounds = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-    let mut jerk = vec![0.0; n];
-    for i in 0..n {
-        jerk[i] = inverse_mass[i].sqrt();
-        let mut square = 0.0;
-        damping_row(model, i, |j, c| square += c * c * inverse_mass[j]);
-        bounds[0][i] = (stiffness(i).sqrt() + stiffness(i + 1).sqrt() + square.sqrt()) * inverse_mass[i];
-    }
-    for order in 1..3 {
-        // The floor accelerations' derivative of this order comes from relative velocities two orders below.
-        let (lower, upper) = bounds.split_at_mut(order);
-        let two_below = if order == 1 { &jerk } else { &lower[0] };
+impl Regime {
+    /// Bounds by Gershgorin on the symmetric forms M^(-1/2) K M^(-1/2) and M^(-1/2) C M^(-1/2): the frequency, and the
+    /// exponent of growth.
+    fn frequency_and_growth(&self, model: &Model) -> (f64, f64) {
+        let n = model.storeys();
+        let (tangent, root_tangent) = (self.row(Row::Tangent), self.row(Row::RootTangent));
+        let (inverse_mass, root_mass) = (self.row(Row::InverseMass), self.row(Row::RootMass));
+        let (mut stiffness_bound, mut damping_bound, mut growth) = (0.0f64, 0.0f64, 0.0f64);
         for i in 0..n {
-            let below = if i > 0 { two_below[i - 1] } else { 0.0 };
-            let above = if i + 1 < n { two_below[i + 1] } else { 0.0 };
-            let mut sum = stiffness(i) * (two_below[i] + below) + stiffness(i + 1) * (above + two_below[i]);
-            damping_row(model, i, |j, c| sum += c * lower[order - 1][j]);
-            upper[0][i] = sum * inverse_mass[i];
+            let mut row = tangent[i].abs() * inverse_mass[i];
+            if i > 0 {
+                row += tangent[i].abs() / (root_mass[i] * root_mass[i - 1]);
+            }
+            if i + 1 < n {
+                row += tangent[i + 1].abs() * (inverse_mass[i] + 1.0 / (root_mass[i] * root_mass[i + 1]));
+            }
+            stiffness_bound = stiffness_bound.max(row);
+            let mut damping = 0.0;
+            damping_row(model, i, |j, c| damping += c / (root_mass[i] * root_mass[j]));
+            damping_bound = damping_bound.max(damping);
+            if tangent[i] < 0.0 {
+                let below = if i > 0 { 1.0 / root_mass[i - 1] } else { 0.0 };
+                growth += 2.0 * root_tangent[i] * (1.0 / root_mass[i] + below);
+            }
+        }
+        if model.damping_may_feed() {
+            growth += damping_bound;
+        }
+        (0.5 * damping_bound + (0.25 * damping_bound * damping_bound + stiffness_bound).sqrt(), growth)
+    }
+
+    /// Forms the bounds of the derivatives: with energy norm e, |v''| <= e / sqrt(mass) and |v'| <= e / sqrt(tangent).
+    fn bound_derivatives(&mut self, model: &Model) {
+        let n = model.storeys();
+        for i in 0..n {
+            let root = |s: usize| if s < n { self.row(Row::RootTangent)[s] } else { 0.0 };
+            let mut square = 0.0;
+            damping_row(model, i, |j, c| square += c * c * self.row(Row::InverseMass)[j]);
+            let bound = (root(i) + root(i + 1) + square.sqrt()) * self.row(Row::InverseMass)[i];
+            self.rows[Row::SecondOfAcceleration as usize * self.stride + i] = bound;
+        }
+        for (row, one_below) in [
+            (Row::ThirdOfAcceleration, Row::SecondOfAcceleration),
+            (Row::FourthOfAcceleration, Row::ThirdOfAcceleration),
+        ] {
+            for i in 0..n {
+                let stiffness = |s: usize| if s < n { self.row(Row::Tangent)[s].abs() } else { 0.0 };
+                // The floor accelerations' derivative of this order comes from relative velocities two orders below.
+                let two_below = |j: usize| match row {
+                    Row::ThirdOfAcceleration => 1.0 / self.row(Row::RootMass)[j],
+                    _ => self.row(Row::SecondOfAcceleration)[j],
+                };
+                let below = if i > 0 { two_below(i - 1) } else { 0.0 };
+                let above = if i + 1 < n { two_below(i + 1) } else { 0.0 };
+                let mut sum = stiffness(i) * (two_below(i) + below) + stiffness(i + 1) * (above + two_below(i));
+                damping_row(model, i, |j, c| sum += c * self.row(one_below)[j]);
+                self.rows[row as usize * self.stride + i] = sum * self.row(Row::InverseMass)[i];
+            }
+        }
+        for (row, of_acceleration) in
+            [(Row::FourthOfDrift, Row::SecondOfAcceleration), (Row::FourthOfRate, Row::ThirdOfAcceleration)]
+        {
+            for i in 0..n {
+                let below = if i > 0 { self.row(of_acceleration)[i - 1] } else { 0.0 };
+                self.rows[row as usize * self.stride + i] = self.row(of_acceleration)[i] + below;
+            }
         }
     }
-    bounds
 }

@@ -555,6 +555,8 @@ impl Motion {
 pub struct Options {
     /// Histories at every so many samples.
     pub histories: Option<std::num::NonZeroUsize>,
+    /// Histories of drifts and slips alone: those of velocities, accelerations and forces stay empty.
+    pub displacements_only: bool,
     /// Energies and their residual.
     pub energy: bool,
     /// The event log.

@@ -9,6 +9,7 @@ use crate::friction::{BlockMotion, BlockState};
 use crate::model::Model;
 use crate::observe::Observer;
 use crate::propagator::RegimeCache;
+use crate::regime::Row;
 use crate::response::{Event, Response, Statistics, Status};
 use crate::scene::{Motion, Options, Scene};
 use crate::state::{State, interval};
@@ -53,7 +54,7 @@ pub(crate) fn run(
     let peaks_only = options.peaks_only && every.is_none() && !options.energy;
     let mut run = Run {
         state: State::new(scene, model, cache, vertical),
-        observer: Observer::new(model, every, samples, options.energy),
+        observer: Observer::new(model, options, samples),
         statistics: Statistics::default(),
         log: Vec::new(),
         keep_log: options.events,
@@ -151,24 +152,24 @@ impl Run<'_> {
     fn no_peak_can_be_beaten(&self) -> bool {
         let state = &self.state;
         let regime = state.regime();
+        let tangent = &regime.row(Row::Tangent)[..state.storeys()];
         let settled = state.motions.iter().all(BlockMotion::is_stuck)
             && state.springs.iter().all(|s| s.plastic().is_none())
-            && regime.tangent.iter().all(|&k| k > 0.0);
+            && tangent.iter().all(|&k| k > 0.0);
         if !settled || state.vertical || !regime.is_passive() {
             return false;
         }
-        let rest: Vec<f64> = (0..state.storeys())
-            .map(|i| -state.springs[i].base_load(&state.model.laws[i]) / regime.tangent[i])
-            .collect();
-        let kinetic: f64 = regime.mass.iter().zip(state.floor_velocities()).map(|(m, v)| m * v * v).sum();
-        let elastic: f64 = (0..rest.len()).map(|i| regime.tangent[i] * (state.x[i] - rest[i]).powi(2)).sum();
+        let rest: Vec<f64> =
+            (0..state.storeys()).map(|i| -state.springs[i].base_load(&state.model.laws[i]) / tangent[i]).collect();
+        let kinetic: f64 = regime.row(Row::Mass).iter().zip(state.floor_velocities()).map(|(m, v)| m * v * v).sum();
+        let elastic: f64 = (0..rest.len()).map(|i| tangent[i] * (state.x[i] - rest[i]).powi(2)).sum();
         let liveliness = (kinetic + elastic).sqrt();
         let contact = state.interval.contact;
         (0..rest.len()).all(|i| {
-            let reach = liveliness / regime.tangent[i].sqrt();
+            let reach = liveliness / tangent[i].sqrt();
             let (low, high) = (rest[i] - reach, rest[i] + reach);
             let inside = |(lower, upper): (f64, f64)| high < upper && low > lower;
-            let a = liveliness * regime.derivative_bounds[0][i];
+            let a = liveliness * regime.row(Row::SecondOfAcceleration)[i];
             inside(state.yield_bounds[i])
                 && inside(state.collapse_bounds[i])
                 && !self.observer.drift_may_peak(state, i, low, high)
@@ -240,7 +241,8 @@ impl Run<'_> {
     fn series_step(&mut self, tau: f64, h: f64) -> Result<Option<(f64, Guard)>> {
         let state = &mut self.state;
         state.form_series(tau, h);
-        state.form_ranges();
+        state.update_bounds(&mut self.observer);
+        state.form_ranges(tau);
         self.statistics.series_steps += 1;
         let isolated = &mut self.statistics.guards_isolated;
         let event = state.first_event(tau, isolated);

@@ -1,12 +1,13 @@
 //! The state of a run: drifts, drift rates, spring and block machines, and what one sample interval does to them.
 
 use crate::STANDARD_GRAVITY;
+use crate::bounds::{Bounds, Set, first, members};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand};
-use crate::lanes::{MAX_LANES, Vector, WIDTH, differences, filled, for_each_path, load, padded, store};
+use crate::lanes::{FAR, MAX_LANES, Vector, WIDTH, differences, filled, for_each_path, load, padded, store};
 use crate::model::Model;
-use crate::propagator::RegimeCache;
-use crate::regime::{Operator, Regime};
+use crate::propagator::{MAX_TABLE, RegimeCache};
+use crate::regime::{Operator, Regime, Row};
 use crate::scene::Scene;
 use crate::storey::StoreySpring;
 use crate::taylor::{Drive, Series, Start};
@@ -60,19 +61,49 @@ pub(crate) struct LoadEffects {
     pub(crate) friction_ramp: Vec<f64>,
 }
 
-/// Ranges of the storeys and floors over a step, proved: each quantity stays between its two bounds.
+/// Ranges of the storeys and floors over a step, proved: each quantity stays between its two bounds. Padded.
 #[derive(Debug, Default)]
 pub(crate) struct Ranges {
-    /// Of the drift coordinates.
-    pub(crate) drift: Vec<(f64, f64)>,
-    /// Of the drift rates.
-    pub(crate) rate: Vec<(f64, f64)>,
-    /// Of the floor accelerations.
-    pub(crate) acceleration: Vec<(f64, f64)>,
+    /// Lower and upper bounds: of drift coordinates, drift rates, floor accelerations.
+    bounds: [[Vec<f64>; 2]; 3],
+    /// Storeys and floors whose drifts, drift rates and accelerations come to their bounds (see [`Bounds`]).
+    pub(crate) suspects: [Set; 3],
     /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
     pub(crate) remainder: f64,
     /// h^2 / 8 times the liveliness, for bounds of second derivatives.
     pub(crate) chord: f64,
+}
+
+impl Ranges {
+    fn new(storeys: usize) -> Self {
+        let zero = || vec![0.0; padded(storeys)];
+        let pair = || [zero(), zero()];
+        Self { bounds: [pair(), pair(), pair()], suspects: [Set::MAX; 3], remainder: 0.0, chord: 0.0 }
+    }
+
+    #[inline]
+    fn of(&self, which: usize, i: usize) -> (f64, f64) {
+        let [low, high] = &self.bounds[which];
+        (low[i], high[i])
+    }
+
+    /// Range of the drift coordinate of storey `i`.
+    #[inline]
+    pub(crate) fn drift(&self, i: usize) -> (f64, f64) {
+        self.of(0, i)
+    }
+
+    /// Range of the drift rate of storey `i`.
+    #[inline]
+    pub(crate) fn rate(&self, i: usize) -> (f64, f64) {
+        self.of(1, i)
+    }
+
+    /// Range of the absolute acceleration of floor `i`.
+    #[inline]
+    pub(crate) fn acceleration(&self, i: usize) -> (f64, f64) {
+        self.of(2, i)
+    }
 }
 
 /// The cubic through values and rates at both ends of a step stays between the least and the largest of its Bezier
@@ -127,6 +158,7 @@ pub(crate) struct State<'a> {
     pub(crate) effects: LoadEffects,
     pub(crate) drive: Drive,
     pub(crate) series: Series,
+    pub(crate) bounds: Bounds,
     pub(crate) ranges: Ranges,
     pub(crate) scratch: [Vec<f64>; 2],
     stuck_mass: Vec<f64>,
@@ -178,7 +210,8 @@ impl<'a> State<'a> {
             },
             drive: Drive { load: zero(), load_slope: zero(), ..Drive::default() },
             series: Series::default(),
-            ranges: Ranges::default(),
+            bounds: Bounds::new(n),
+            ranges: Ranges::new(n),
             scratch: [vec![0.0; n], vec![0.0; n]],
             stuck_mass: vec![0.0; n],
             key: Vec::new(),
@@ -208,28 +241,53 @@ impl<'a> State<'a> {
         matches!(self.model.damping(), StoreyDamping::Dense(_))
     }
 
-    /// Follows a change of any state machine: bounds, loads, and the regime.
+    /// Follows all state machines: bounds, loads, and the regime.
     pub(crate) fn enter_regime(&mut self) {
-        let n = self.storeys();
-        self.key.clear();
-        for (i, (spring, law)) in self.springs.iter().zip(&self.model.laws).enumerate() {
-            self.key.push(spring.yielded());
-            self.yield_bounds[i] = spring.yield_bounds(law);
-            let (limit, base) = (law.collapse_drift, spring.drift(0.0));
-            self.collapse_bounds[i] = (-limit - base, limit - base);
-            self.base_force[i] = spring.base_force(law);
-            self.base_load[i] = spring.base_load(law);
+        for i in 0..self.storeys() {
+            self.follow_spring(i);
         }
+        self.follow_springs();
+        self.follow_blocks();
+        self.find_regime();
+    }
+
+    /// Follows a change of one storey's spring.
+    pub(crate) fn enter_regime_of_spring(&mut self, i: usize) {
+        self.follow_spring(i);
+        self.follow_springs();
+        self.find_regime();
+    }
+
+    /// Follows changes of blocks.
+    pub(crate) fn enter_regime_of_blocks(&mut self) {
+        self.follow_blocks();
+        self.find_regime();
+    }
+
+    fn follow_spring(&mut self, i: usize) {
+        let (spring, law) = (&self.springs[i], &self.model.laws[i]);
+        self.yield_bounds[i] = spring.yield_bounds(law);
+        let (limit, base) = (law.collapse_drift, spring.drift(0.0));
+        self.collapse_bounds[i] = (-limit - base, limit - base);
+        self.base_force[i] = spring.base_force(law);
+        self.base_load[i] = spring.base_load(law);
+        self.bounds.spring_changed(i);
+    }
+
+    fn follow_springs(&mut self) {
+        let n = self.storeys();
         for i in 0..n {
             let above = if i + 1 < n { self.base_load[i + 1] } else { 0.0 };
             self.spring_load[i] = above - self.base_load[i];
         }
+    }
+
+    fn follow_blocks(&mut self) {
         self.friction.fill(0.0);
         self.stuck_mass.fill(0.0);
         self.stuck_mu.fill(f64::INFINITY);
         for (motion, law) in self.motions.iter().zip(&self.model.blocks) {
             let floor = law.floor;
-            self.key.push(u8::from(motion.is_stuck()));
             match motion.state {
                 BlockState::Stuck => {
                     self.stuck_mu[floor] = self.stuck_mu[floor].min(law.mu_s);
@@ -243,6 +301,15 @@ impl<'a> State<'a> {
                 _ => {}
             }
         }
+        for (bound, mu) in self.bounds.stuck_mu.iter_mut().zip(&self.stuck_mu[1..]) {
+            *bound = mu.min(FAR);
+        }
+    }
+
+    fn find_regime(&mut self) {
+        self.key.clear();
+        self.key.extend(self.springs.iter().map(StoreySpring::yielded));
+        self.key.extend(self.motions.iter().map(|motion| u8::from(motion.is_stuck())));
         let (model, springs, stuck_mass) = (self.model, &self.springs, &self.stuck_mass);
         let form = || Regime::new(model, |i| springs[i].yielded(), stuck_mass);
         let (regime, known) = self.cache.enter(&self.key, form);
@@ -275,11 +342,11 @@ impl<'a> State<'a> {
 
     /// Forms accelerations and their rates at `tau` from the state.
     pub(crate) fn refresh_accelerations(&mut self, tau: f64) {
-        self.set_drive(tau);
         let n = self.storeys();
         if n <= MAX_LANES {
-            return refresh(self);
+            return refresh(self, tau);
         }
+        self.set_drive(tau);
         let regime = self.cache.regime(self.regime);
         regime.accelerations(self.model, &self.x, &self.v, &self.drive.load, &mut self.a[..n]);
         self.refresh_drift_accelerations(self.drive.ground);
@@ -300,7 +367,12 @@ impl<'a> State<'a> {
 
     /// Forms the series over `h` from `tau`, where accelerations and their rates must be those of the state.
     pub(crate) fn form_series(&mut self, tau: f64, h: f64) {
-        self.set_drive(tau);
+        if self.storeys() <= MAX_TABLE {
+            self.drive.ground = self.interval.ground_at(tau);
+            self.drive.ground_slope = self.interval.slope(self.interval.ground_change);
+        } else {
+            self.set_drive(tau);
+        }
         self.cache.prepare_table(self.regime, self.model, self.vertical);
         let n = self.storeys();
         let start = Start { x: &self.x[..n], v: &self.v[..n], a: &self.a[..n], jerk: &self.jerk[..n] };
@@ -308,47 +380,54 @@ impl<'a> State<'a> {
         self.series.form(self.model, regime, start, &self.drive, h);
     }
 
-    /// A norm of the derivatives that bounds them over a step of length `h` from here (see [`Regime::liveliness_of`]).
-    fn liveliness(&self, h: f64) -> f64 {
-        let regime = self.regime();
-        let slope = self.drive.ground_slope;
-        let mut square = 0.0;
-        for i in 0..self.storeys() {
-            let (jerk, q) = (self.jerk[i] - slope, self.drift_acceleration[i]);
-            square += regime.mass[i] * jerk * jerk + regime.tangent[i].abs() * q * q;
-        }
-        regime.liveliness_of(square, h)
+    /// The storeys or floors of a set, or all where there are more than sets hold.
+    pub(crate) fn looked_at(&self, set: Set) -> impl Iterator<Item = usize> + use<> {
+        let all = self.storeys() > MAX_LANES;
+        (0..if all { self.storeys() } else { 0 }).chain(members(if all { 0 } else { set }))
     }
 
-    /// Forms the ranges over the present series, whose start is the state.
-    pub(crate) fn form_ranges(&mut self) {
-        let mut ranges = std::mem::take(&mut self.ranges);
+    /// Forms the ranges over the present series, which starts at `tau` and whose start is the state, and tells which come
+    /// to their bounds.
+    pub(crate) fn form_ranges(&mut self, tau: f64) {
+        let regime = self.cache.regime(self.regime);
         let h = self.series.h();
-        let liveliness = self.liveliness(h);
-        (ranges.remainder, ranges.chord) = (liveliness * (h * h) * (h * h) / 384.0, liveliness * h * h / 8.0);
-        let [drift, rate, acceleration, _] = &self.regime().lanes.fourth;
+        let slope = self.drive.ground_slope;
+        let (root_mass, root_tangent) = (regime.row(Row::RootMass), regime.row(Row::RootTangent));
+        let mut square = 0.0;
+        for i in 0..self.storeys() {
+            let (jerk, q) = (root_mass[i] * (self.jerk[i] - slope), root_tangent[i] * self.drift_acceleration[i]);
+            square += jerk * jerk + q * q;
+        }
+        let liveliness = regime.liveliness_of(square, h);
+        (self.ranges.remainder, self.ranges.chord) = (liveliness * (h * h) * (h * h) / 384.0, liveliness * h * h / 8.0);
+        if self.storeys() <= MAX_LANES {
+            let contact = self.contact_at(tau).min(self.contact_at(tau + h));
+            return form_ranges(self, contact);
+        }
+        let margins = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration].map(|row| regime.row(row));
         let (dx, dv) = self.series.changes();
         let (a_end, jerk_end) = self.series.accelerations_at_end();
-        let (third, remainder) = (h / 3.0, ranges.remainder);
-        let mut below = self.drive.ground + self.drive.ground_slope * h;
-        ranges.drift.clear();
-        ranges.rate.clear();
-        ranges.acceleration.clear();
+        let mut below = self.drive.ground + slope * h;
         for i in 0..self.storeys() {
             let (x, v, a) = (self.x[i], self.v[i], self.a[i]);
-            let q_end = a_end[i] - below;
-            below = a_end[i];
-            ranges.drift.push(range(x, v, x + dx[i], v + dv[i], third, remainder * drift[i]));
-            ranges.rate.push(range(v, self.drift_acceleration[i], v + dv[i], q_end, third, remainder * rate[i]));
-            ranges.acceleration.push(range(a, self.jerk[i], a_end[i], jerk_end[i], third, remainder * acceleration[i]));
+            let q_end = a_end[i] - std::mem::replace(&mut below, a_end[i]);
+            let ends = [
+                (x, v, x + dx[i], v + dv[i]),
+                (v, self.drift_acceleration[i], v + dv[i], q_end),
+                (a, self.jerk[i], a_end[i], jerk_end[i]),
+            ];
+            for (which, (start, start_rate, end, end_rate)) in ends.into_iter().enumerate() {
+                let margin = self.ranges.remainder * margins[which][i];
+                let (low, high) = range(start, start_rate, end, end_rate, h / 3.0, margin);
+                (self.ranges.bounds[which][0][i], self.ranges.bounds[which][1][i]) = (low, high);
+            }
         }
-        self.ranges = ranges;
     }
 
     /// Whether a floor's jerk keeps its sign over the present series: between its ends it differs from its chord by at
     /// most h^2 / 8 times its largest second derivative.
     pub(crate) fn is_steady(&self, i: usize) -> bool {
-        let turn = self.ranges.chord * self.regime().lanes.fourth[3][i];
+        let turn = self.ranges.chord * self.regime().row(Row::ThirdOfAcceleration)[i];
         let (start, end) = (self.jerk[i], self.series.accelerations_at_end().1[i]);
         start * end > 0.0 && start.abs().min(end.abs()) > turn
     }
@@ -357,13 +436,13 @@ impl<'a> State<'a> {
     pub(crate) fn acceleration_size(&self, floor: usize, contact: f64) -> f64 {
         let Some(i) = floor.checked_sub(1) else { return self.drive.ground.abs() };
         let above = if i + 1 < self.storeys() { self.shear_size(i + 1) } else { 0.0 };
-        (self.shear_size(i) + above + self.friction[i].abs() * contact) * self.regime().inverse_mass[i]
+        (self.shear_size(i) + above + self.friction[i].abs() * contact) * self.regime().row(Row::InverseMass)[i]
             + self.mass_damping_size(i)
     }
 
     /// Sum of the sizes of the terms of a storey's force.
     fn shear_size(&self, i: usize) -> f64 {
-        let elastic = (self.regime().tangent[i] * self.x[i]).abs() + self.base_load[i].abs();
+        let elastic = (self.regime().row(Row::Tangent)[i] * self.x[i]).abs() + self.base_load[i].abs();
         let viscous = match self.model.damping() {
             StoreyDamping::None => 0.0,
             StoreyDamping::Rayleigh { stiffness_factor, .. } => {
@@ -382,7 +461,7 @@ impl<'a> State<'a> {
     fn mass_damping_size(&self, i: usize) -> f64 {
         let StoreyDamping::Rayleigh { mass_factor, .. } = self.model.damping() else { return 0.0 };
         let velocity: f64 = self.v[..=i].iter().map(|v| v.abs()).sum();
-        velocity * mass_factor * self.model.mass[i] * self.regime().inverse_mass[i]
+        velocity * mass_factor * self.model.mass[i] * self.regime().row(Row::InverseMass)[i]
     }
 
     /// What floor `floor` (0: the ground) asks of its blocks at `tau`, where its acceleration must be that of the state.
@@ -392,7 +471,7 @@ impl<'a> State<'a> {
         }
         let i = floor - 1;
         let contact = self.contact_at(tau);
-        let mass = self.regime().mass[i];
+        let mass = self.regime().row(Row::Mass)[i];
         Demand::Floor {
             force: self.a[i] * mass - self.friction[i] * contact,
             size: self.acceleration_size(floor, contact) * mass,
@@ -431,31 +510,113 @@ pub(crate) fn interval(motion: &crate::scene::Motion, i: usize) -> Interval {
 }
 
 for_each_path! {
-    fn refresh(state: &mut State) = refresh_by_width
+    fn refresh(state: &mut State, tau: f64) = refresh_by_width
 }
 
 #[inline(always)]
-fn refresh_by_width<V: Vector>(state: &mut State) {
+fn refresh_by_width<V: Vector>(state: &mut State, tau: f64) {
     match padded(state.storeys()) {
-        4 => refresh_lanes::<V, 1>(state),
-        8 => refresh_lanes::<V, 2>(state),
-        16 => refresh_lanes::<V, 4>(state),
-        _ => refresh_lanes::<V, { MAX_LANES / WIDTH }>(state),
+        4 => refresh_lanes::<V, 1>(state, tau),
+        8 => refresh_lanes::<V, 2>(state, tau),
+        16 => refresh_lanes::<V, 4>(state, tau),
+        _ => refresh_lanes::<V, { MAX_LANES / WIDTH }>(state, tau),
     }
 }
 
 #[inline(always)]
-fn refresh_lanes<V: Vector, const K: usize>(state: &mut State) {
+fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     let operator = Operator::<V, K>::new(state.model, state.cache.regime(state.regime));
     let inside: [V; K] = load(&state.model.lanes.inside);
     let (x, v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
-    let a = operator.accelerations(&x, &v, load(&state.drive.load));
-    let mut drift_acceleration = differences(&a, V::splat(state.drive.ground));
+    let (mut forces, friction): ([V; K], [V; K]) = (load(&state.spring_load), load(&state.friction));
+    let contact_slope = if state.airborne { 0.0 } else { state.interval.slope(state.interval.contact_change) };
+    let (contact, contact_slope) = (V::splat(state.contact_at(tau)), V::splat(contact_slope));
+    let mut slopes = friction;
+    for k in 0..K {
+        forces[k] = friction[k].mul(contact).add(forces[k]);
+        slopes[k] = friction[k].mul(contact_slope);
+    }
+    let a = operator.accelerations(&x, &v, forces);
+    let mut drift_acceleration = differences(&a, V::splat(state.interval.ground_at(tau)));
     for k in 0..K {
         drift_acceleration[k] = drift_acceleration[k].mul(inside[k]);
     }
-    let jerk = operator.accelerations(&v, &drift_acceleration, load(&state.drive.load_slope));
+    let jerk = operator.accelerations(&v, &drift_acceleration, slopes);
     store(&a, &mut state.a);
     store(&drift_acceleration, &mut state.drift_acceleration);
     store(&jerk, &mut state.jerk);
+}
+
+for_each_path! {
+    fn form_ranges(state: &mut State, contact: f64) = ranges_by_width
+}
+
+#[inline(always)]
+fn ranges_by_width<V: Vector>(state: &mut State, contact: f64) {
+    match padded(state.storeys()) {
+        4 => ranges_in_lanes::<V, 1>(state, contact),
+        8 => ranges_in_lanes::<V, 2>(state, contact),
+        16 => ranges_in_lanes::<V, 4>(state, contact),
+        _ => ranges_in_lanes::<V, { MAX_LANES / WIDTH }>(state, contact),
+    }
+}
+
+/// See [`range`]; `contact` is the least contact force per unit mass.
+#[inline(always)]
+fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, contact: f64) {
+    let regime = state.cache.regime(state.regime);
+    let h = state.series.h();
+    let (third, remainder) = (V::splat(h / 3.0), V::splat(state.ranges.remainder));
+    let [dx, dv, a_end, jerk_end] = state.series.ends().each_ref().map(|values| values.as_slice());
+    let (dx, dv, a_end): ([V; K], [V; K], [V; K]) = (load(dx), load(dv), load(a_end));
+    let (x, v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
+    let (mut x_end, mut v_end) = (x, v);
+    for k in 0..K {
+        x_end[k] = x[k].add(dx[k]);
+        v_end[k] = v[k].add(dv[k]);
+    }
+    let q_end = differences(&a_end, V::splat(state.drive.ground + state.drive.ground_slope * h));
+    let ends: [[[V; K]; 4]; 3] = [
+        [x, v, x_end, v_end],
+        [v, load(&state.drift_acceleration), v_end, q_end],
+        [load(&state.a), load(&state.jerk), a_end, load(jerk_end)],
+    ];
+    let margins = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration];
+    let (zero, within) = (V::splat(0.0), first(state.storeys()));
+    for which in 0..3 {
+        let [start, start_rate, end, end_rate] = ends[which];
+        let margin: [V; K] = load(regime.row(margins[which]));
+        let (mut lows, mut highs) = (start, start);
+        for k in 0..K {
+            let margin = remainder.mul(margin[k]);
+            let first = third.mul_add(start_rate[k], start[k]);
+            let second = end[k].sub(third.mul(end_rate[k]));
+            lows[k] = start[k].min(end[k]).min(first.min(second)).sub(margin);
+            highs[k] = start[k].max(end[k]).max(first.max(second)).add(margin);
+        }
+        let [low, high] = &mut state.ranges.bounds[which];
+        store(&lows, low);
+        store(&highs, high);
+        let bounds = &state.bounds;
+        let mut suspects = 0;
+        for k in 0..K {
+            let (reached, bound) = match which {
+                0 => {
+                    let middle = load::<V, K>(&bounds.middle)[k];
+                    (highs[k].sub(middle).max(middle.sub(lows[k])), load::<V, K>(&bounds.reach)[k])
+                }
+                1 => {
+                    let sign = load::<V, K>(&bounds.sign)[k];
+                    let falls = zero.sub(sign.mul(lows[k])).max(zero.sub(sign.mul(highs[k])));
+                    (falls, load::<V, K>(&bounds.turn)[k])
+                }
+                _ => {
+                    let stuck = load::<V, K>(&bounds.stuck_mu)[k].mul(V::splat(contact));
+                    (highs[k].max(zero.sub(lows[k])), stuck.min(load::<V, K>(&bounds.a_peak)[k]))
+                }
+            };
+            suspects |= Set::from(reached.not_below(bound)) << (WIDTH * k);
+        }
+        state.ranges.suspects[which] = suspects & within;
+    }
 }

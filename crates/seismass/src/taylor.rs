@@ -3,9 +3,9 @@
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
 use crate::bernstein::{MAX_DEGREE, Polynomial};
-use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, padded, store};
+use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, padded, store};
 use crate::model::Model;
-use crate::propagator::Table;
+use crate::propagator::{MAX_TABLE, Table};
 use crate::regime::{Operator, Regime};
 
 /// Longest step of one series, as frequency times time: longer intervals are split.
@@ -61,9 +61,9 @@ pub(crate) struct Series {
 }
 
 /// Largest phase at which the term of order 3, 4, ... is below 2^-60: phase^k / k! rounded down.
-const PHASE_LIMITS: [f64; 26] = [
+const PHASE_LIMITS: [f64; 19] = [
     0.0000, 0.0000, 0.0006, 0.0029, 0.0088, 0.0207, 0.0408, 0.0707, 0.1119, 0.1652, 0.2312, 0.3099, 0.4014, 0.5054,
-    0.6215, 0.7493, 0.8883, 1.0380, 1.1978, 1.3672, 1.5458, 1.7329, 1.9282, 2.1311, 2.3412, 2.5582,
+    0.6215, 0.7493, 0.8883, 1.0380, 1.1978,
 ];
 
 /// Order of the first term that is below rounding.
@@ -108,74 +108,83 @@ impl Series {
         }
     }
 
-    /// The coefficients of one order.
-    #[inline(always)]
-    fn put<V: Vector, const K: usize>(&mut self, k: usize, x: &[V; K], v: &[V; K], a: &[V; K]) {
-        let at = k * WIDTH * K;
-        store(x, &mut self.x[at..]);
-        store(v, &mut self.v[at..]);
-        store(a, &mut self.a[at..]);
-    }
-
     /// From tables: floor accelerations from the second order on are products with drift accelerations and their rates.
+    /// `S` is the number of storeys where it is known, else 0, and `D` its double.
     #[inline(always)]
-    fn by_table<V: Vector, const K: usize>(&mut self, model: &Model, table: &Table, drive: &Drive) {
-        let n = self.storeys;
+    fn by_table<V: Vector, const K: usize, const S: usize, const D: usize>(
+        &mut self,
+        model: &Model,
+        table: &Table,
+        drive: &Drive,
+    ) {
+        let (n, h, order) = (self.storeys, self.h, self.order);
         let inside: [V; K] = load(&model.lanes.inside);
-        let h = V::splat(self.h);
-        let (mut x, mut v): ([V; K], [V; K]) = (load(&self.x), load(&self.v));
-        let (mut a, jerk): ([V; K], [V; K]) = (load(&self.a), load(&self.end[3]));
-        let (first, rate) = (differences(&a, V::splat(drive.ground)), differences(&jerk, V::splat(drive.ground_slope)));
-        let mut weights = [[[0.0; WIDTH]; K]; 2];
-        for k in 0..K {
-            first[k].store(&mut weights[0][k]);
-            rate[k].store(&mut weights[1][k]);
-        }
-        let (ratio, mut power) = (self.h / table.h, 1.0);
         let zero = V::splat(0.0);
-        let mut drift_acceleration = first;
-        let mut end = [[zero; K]; 4];
-        (end[2], end[3]) = (a, [zero; K]);
-        let terms = columns_of::<K>(&table.terms);
-        for order in 1..=self.order {
-            let factor = V::splat(self.h * INVERSE[order]);
-            let (mut next_x, mut next_v) = (x, v);
-            for k in 0..K {
-                next_x[k] = factor.mul(v[k]);
-                next_v[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
+        let v: [V; K] = load(&self.v);
+        let (a, jerk): ([V; K], [V; K]) = (load(&self.a), load(&self.end[3]));
+        let (first, rate) = (differences(&a, V::splat(drive.ground)), differences(&jerk, V::splat(drive.ground_slope)));
+        // Powers of the step over that of the table.
+        let (ratio, mut power) = (h / table.h, h / table.h);
+        let terms = &columns_of::<K>(&table.terms)[..(order - 1) * 2 * n];
+        let of_floors = &mut columns_mut::<K>(&mut self.a)[1..=order];
+        for k in 0..K {
+            V::splat(h).mul(jerk[k]).store(&mut of_floors[0][k]);
+        }
+        if S > 0 {
+            let (mut firsts, mut rates) = ([zero; S], [zero; S]);
+            for c in 0..S {
+                (firsts[c], rates[c]) = (first[0].broadcast(c), rate[0].broadcast(c));
             }
-            (x, v) = (next_x, next_v);
-            power *= ratio;
-            if order == 1 {
-                for k in 0..K {
-                    a[k] = h.mul(jerk[k]);
-                    drift_acceleration[k] = h.mul(rate[k]);
+            for (columns, out) in terms.as_chunks::<D>().0.iter().zip(&mut of_floors[1..]) {
+                let (mut even, mut odd) = (zero, zero);
+                for c in 0..S {
+                    even = V::load(&columns[c][0]).mul_add(firsts[c], even);
+                    odd = V::load(&columns[S + c][0]).mul_add(rates[c], odd);
                 }
-            } else {
-                let columns = &terms[(order - 2) * 2 * n..(order - 1) * 2 * n];
-                let (mut even, mut odd) = ([zero; K], [zero; K]);
-                for (c, (of_first, of_rate)) in columns[..n].iter().zip(&columns[n..]).enumerate() {
-                    let (first, rate) =
-                        (V::splat(weights[0].as_flattened()[c]), V::splat(weights[1].as_flattened()[c]));
+                power *= ratio;
+                even.add(odd).mul(V::splat(power)).store(&mut out[0]);
+            }
+        } else {
+            let weights = [numbers(&first), numbers(&rate)];
+            let weights = || weights[0].as_flattened()[..n].iter().chain(&weights[1].as_flattened()[..n]);
+            for (columns, out) in terms.chunks_exact(2 * n).zip(&mut of_floors[1..]) {
+                let mut sums = [zero; K];
+                for (column, &weight) in columns.iter().zip(weights()) {
+                    let weight = V::splat(weight);
                     for k in 0..K {
-                        even[k] = V::load(&of_first[k]).mul_add(first, even[k]);
-                        odd[k] = V::load(&of_rate[k]).mul_add(rate, odd[k]);
+                        sums[k] = V::load(&column[k]).mul_add(weight, sums[k]);
                     }
                 }
-                let power = V::splat(power);
+                power *= ratio;
                 for k in 0..K {
-                    a[k] = even[k].add(odd[k]).mul(power);
+                    sums[k].mul(V::splat(power)).store(&mut out[k]);
                 }
-                drift_acceleration = differences(&a, zero);
             }
-            self.put(order, &x, &v, &a);
-            let weight = V::splat(order as f64);
+        }
+        // Drift rates and drifts by integration.
+        let mut end = [[zero; K]; 4];
+        end[2] = a;
+        let (mut rates, mut drift_acceleration) = (v, first);
+        // The ground's acceleration is linear.
+        let mut bottom = V::splat(drive.ground_slope * h);
+        let of_drifts = columns_mut::<K>(&mut self.x)[1..=order].iter_mut();
+        let of_rates = columns_mut::<K>(&mut self.v)[1..=order].iter_mut();
+        for (((x_out, v_out), a), weights) in of_drifts.zip(of_rates).zip(&*of_floors).zip(&WEIGHTS) {
+            let (factor, weight) = (V::splat(h * weights[1]), V::splat(weights[0]));
+            let mut floors = [zero; K];
             for k in 0..K {
-                end[0][k] = end[0][k].add(x[k]);
-                end[1][k] = end[1][k].add(v[k]);
-                end[2][k] = end[2][k].add(a[k]);
-                end[3][k] = weight.mul_add(a[k], end[3][k]);
+                let drifts = factor.mul(rates[k]);
+                rates[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
+                floors[k] = V::load(&a[k]);
+                drifts.store(&mut x_out[k]);
+                rates[k].store(&mut v_out[k]);
+                end[0][k] = end[0][k].add(drifts);
+                end[1][k] = end[1][k].add(rates[k]);
+                end[2][k] = end[2][k].add(floors[k]);
+                end[3][k] = weight.mul_add(floors[k], end[3][k]);
             }
+            drift_acceleration = differences(&floors, bottom);
+            bottom = zero;
         }
         self.put_end(&mut end);
     }
@@ -196,13 +205,17 @@ impl Series {
     fn by_recursion<V: Vector, const K: usize>(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
         let operator = Operator::<V, K>::new(model, regime);
         let inside: [V; K] = load(&model.lanes.inside);
-        let zero = V::splat(0.0);
+        let (zero, h) = (V::splat(0.0), self.h);
         let (mut x, mut v): ([V; K], [V; K]) = (load(&self.x), load(&self.v));
         let mut end = [[zero; K]; 4];
-        for order in 0..=self.order {
+        let terms = columns_mut::<K>(&mut self.x).iter_mut().zip(columns_mut::<K>(&mut self.v));
+        let terms = terms.zip(columns_mut::<K>(&mut self.a)).take(self.order + 1);
+        for (order, ((x_term, v_term), a_term)) in terms.enumerate() {
             let forces = if order < 2 { load(&self.load[order]) } else { [zero; K] };
             let a = operator.accelerations(&x, &v, forces);
-            self.put(order, &x, &v, &a);
+            put(&x, x_term);
+            put(&v, v_term);
+            put(&a, a_term);
             let weight = V::splat(order as f64);
             for k in 0..K {
                 if order > 0 {
@@ -212,8 +225,8 @@ impl Series {
                 end[2][k] = end[2][k].add(a[k]);
                 end[3][k] = weight.mul_add(a[k], end[3][k]);
             }
-            let factor = V::splat(self.h * INVERSE[order + 1]);
-            let drift_acceleration = differences(&a, V::splat(drive.ground_term(order, self.h)));
+            let factor = V::splat(h * INVERSE[order + 1]);
+            let drift_acceleration = differences(&a, V::splat(drive.ground_term(order, h)));
             for k in 0..K {
                 x[k] = factor.mul(v[k]);
                 v[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
@@ -300,6 +313,12 @@ impl Series {
         (&self.end[0][..self.storeys], &self.end[1][..self.storeys])
     }
 
+    /// The same, with floor accelerations and their rates at the end of the step, padded.
+    #[inline]
+    pub(crate) fn ends(&self) -> &[Vec<f64>; 4] {
+        &self.end
+    }
+
     /// Floor accelerations and their rates at the end of the step.
     #[inline]
     pub(crate) fn accelerations_at_end(&self) -> (&[f64], &[f64]) {
@@ -308,8 +327,32 @@ impl Series {
 
     /// Changes of drifts and drift rates up to `s`.
     pub(crate) fn changes_at(&self, s: f64, drifts: &mut [f64], rates: &mut [f64]) {
+        if self.stride <= MAX_TABLE {
+            return changes_by_path(self, s, drifts, rates);
+        }
         self.evaluate(&self.x, s, 1, drifts);
         self.evaluate(&self.v, s, 1, rates);
+    }
+
+    #[inline(always)]
+    fn changes_in_lanes<V: Vector, const K: usize>(&self, s: f64, drifts: &mut [f64], rates: &mut [f64]) {
+        let place = V::splat(s);
+        let mut sums = [[V::splat(0.0); K]; 2];
+        let (x, v) = (columns_of::<K>(&self.x), columns_of::<K>(&self.v));
+        for (x, v) in x[1..=self.order].iter().zip(&v[1..=self.order]).rev() {
+            for k in 0..K {
+                sums[0][k] = sums[0][k].mul_add(place, V::load(&x[k]));
+                sums[1][k] = sums[1][k].mul_add(place, V::load(&v[k]));
+            }
+        }
+        for (sum, out) in sums.iter_mut().zip([drifts, rates]) {
+            for k in 0..K {
+                sum[k] = sum[k].mul(place);
+            }
+            for (out, value) in out.iter_mut().zip(numbers(sum).as_flattened()) {
+                *out = *value;
+            }
+        }
     }
 
     /// Sum of the coefficients from order `from` times powers of `s`.
@@ -350,6 +393,30 @@ impl Series {
     }
 }
 
+/// Orders from the first on, and 1 over each.
+const WEIGHTS: [[f64; 2]; MAX_DEGREE] = {
+    let mut table = [[0.0; 2]; MAX_DEGREE];
+    let mut k = 0;
+    while k < MAX_DEGREE {
+        table[k] = [(k + 1) as f64, INVERSE[k + 1]];
+        k += 1;
+    }
+    table
+};
+
+/// Terms of a series, order by order.
+#[inline(always)]
+fn columns_mut<const K: usize>(values: &mut [f64]) -> &mut [[[f64; WIDTH]; K]] {
+    values.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0
+}
+
+#[inline(always)]
+fn put<V: Vector, const K: usize>(vectors: &[V; K], term: &mut [[f64; WIDTH]; K]) {
+    for k in 0..K {
+        vectors[k].store(&mut term[k]);
+    }
+}
+
 /// 1 / k.
 pub(crate) const INVERSE: [f64; MAX_DEGREE + 1] = {
     let mut table = [0.0; MAX_DEGREE + 1];
@@ -367,9 +434,24 @@ for_each_path! {
 
 #[inline(always)]
 fn by_table<V: Vector>(series: &mut Series, model: &Model, table: &Table, drive: &Drive) {
+    match series.storeys {
+        1 => series.by_table::<V, 1, 1, 2>(model, table, drive),
+        2 => series.by_table::<V, 1, 2, 4>(model, table, drive),
+        3 => series.by_table::<V, 1, 3, 6>(model, table, drive),
+        4 => series.by_table::<V, 1, 4, 8>(model, table, drive),
+        _ => series.by_table::<V, 2, 0, 0>(model, table, drive),
+    }
+}
+
+for_each_path! {
+    fn changes_by_path(series: &Series, s: f64, drifts: &mut [f64], rates: &mut [f64]) = changes_by_width
+}
+
+#[inline(always)]
+fn changes_by_width<V: Vector>(series: &Series, s: f64, drifts: &mut [f64], rates: &mut [f64]) {
     match series.stride {
-        4 => series.by_table::<V, 1>(model, table, drive),
-        _ => series.by_table::<V, 2>(model, table, drive),
+        4 => series.changes_in_lanes::<V, 1>(s, drifts, rates),
+        _ => series.changes_in_lanes::<V, 2>(s, drifts, rates),
     }
 }
 

@@ -28,7 +28,8 @@ pub struct Case {
 }
 
 /// Peaks only, as a study asks for them.
-pub const PEAKS: Options = Options { histories: None, energy: false, events: false, peaks_only: true };
+pub const PEAKS: Options =
+    Options { histories: None, displacements_only: false, energy: false, events: false, peaks_only: true };
 
 /// A scene by name.
 pub fn case(name: &str) -> Result<Case> {

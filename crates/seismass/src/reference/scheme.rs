@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::regime::Regime;
+use crate::regime::{Regime, Row};
 use crate::state::State;
 
 /// The linear system of a regime.
@@ -77,12 +77,12 @@ impl StepMap {
     pub(super) fn new(scheme: &impl Scheme, system: &System, regime: &Regime, h: f64) -> Option<Self> {
         let columns = scheme.change(system, h, &Columns::units(system.storeys()))?;
         let columns = columns.as_slice().to_vec();
-        Some(Self { columns, tangent: regime.tangent.clone(), mass: regime.mass.clone() })
+        Some(Self { columns, tangent: regime.row(Row::Tangent).to_vec(), mass: regime.row(Row::Mass).to_vec() })
     }
 
     /// Whether this is the map of a regime.
     pub(super) fn belongs_to(&self, regime: &Regime) -> bool {
-        self.tangent == regime.tangent && self.mass == regime.mass
+        self.tangent == regime.row(Row::Tangent) && self.mass == regime.row(Row::Mass)
     }
 
     /// `change` = map of (x, v, q at the start, q at the end).

@@ -15,6 +15,7 @@ use crate::events::{Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
 use crate::model::Model;
 use crate::propagator::RegimeCache;
+use crate::regime::Row;
 use crate::response::{Event, Status};
 use crate::scene::{Motion, Scene};
 use crate::state::{State, interval};
@@ -274,7 +275,7 @@ fn load(state: &mut State, tau: f64, q: &mut [f64]) {
     let mut below = state.drive.ground;
     let regime = state.cache.regime(state.regime);
     for i in 0..q.len() {
-        let a = state.drive.load[i] * regime.inverse_mass[i];
+        let a = state.drive.load[i] * regime.row(Row::InverseMass)[i];
         q[i] = a - below;
         below = a;
     }
