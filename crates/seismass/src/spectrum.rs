@@ -16,6 +16,7 @@ use rayon::prelude::*;
 
 use crate::batch::Control;
 use crate::error::{Domain, Error, Result};
+use crate::lanes::InstructionSet;
 use crate::scene::Motion;
 
 mod oscillator;
@@ -23,9 +24,9 @@ mod oscillator;
 use oscillator::{Oscillator, SMALL_STEP};
 
 /// Oscillators advanced together.
-const LANES: usize = 8;
+const LANES: usize = 16;
 /// Steps that share one bound of |u|.
-const BLOCK: usize = 16;
+const BLOCK: usize = 32;
 /// Blocks between two searches for peaks inside steps; what is kept of them fits the second-level cache.
 const BLOCKS_PER_SEARCH: usize = 256;
 /// Shortest and longest period over the time step.
@@ -189,7 +190,8 @@ impl Lanes {
 
     /// Carries `u` and `v` through a block. Returns the largest |u| after a step, and the largest |v| where s is
     /// `SMALL`, otherwise the largest squared amplitude of the free vibration about the particular solution.
-    fn advance<const SMALL: bool>(
+    #[inline(always)]
+    fn advance<const SMALL: bool, const FUSED: bool>(
         &self,
         u: &mut [f64; LANES],
         v: &mut [f64; LANES],
@@ -205,8 +207,12 @@ impl Lanes {
             let increment = b1 - b0;
             for lane in 0..LANES {
                 let (from_u, from_v) = (u[lane], v[lane]);
-                u[lane] = from_u + (uu[lane] * from_u + uv[lane] * from_v + (u0[lane] * b0 + u1[lane] * b1));
-                v[lane] = from_v + (vu[lane] * from_u + vv[lane] * from_v + (v0[lane] * b0 + v1[lane] * b1));
+                let of_load = multiply_add::<FUSED>(u0[lane], b0, u1[lane] * b1);
+                let of_state = multiply_add::<FUSED>(uv[lane], from_v, of_load);
+                u[lane] = from_u + multiply_add::<FUSED>(uu[lane], from_u, of_state);
+                let of_load = multiply_add::<FUSED>(v0[lane], b0, v1[lane] * b1);
+                let of_state = multiply_add::<FUSED>(vu[lane], from_u, of_load);
+                v[lane] = from_v + multiply_add::<FUSED>(vv[lane], from_v, of_state);
                 most_u[lane] = larger(u[lane].abs(), most_u[lane]);
                 let other = if SMALL {
                     v[lane].abs()
@@ -223,7 +229,14 @@ impl Lanes {
     }
 }
 
+/// a b + c, fused or not.
+#[inline(always)]
+fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
+}
+
 /// `f64::max` without its care for NaN, which costs a second comparison.
+#[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
@@ -236,8 +249,36 @@ struct Block {
     bound: [f64; LANES],
 }
 
-/// Peak displacement of each oscillator.
+/// Peak displacement of each oscillator, by the widest vectors of the machine.
+#[allow(unsafe_code)]
 fn advance(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<[f64; LANES]> {
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
+    fn avx512(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<[f64; LANES]> {
+        advance_on::<true>(load, oscillators, control)
+    }
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,fma")]
+    fn avx2(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<[f64; LANES]> {
+        advance_on::<true>(load, oscillators, control)
+    }
+    match InstructionSet::in_use() {
+        // SAFETY: `in_use` returns only what this machine has.
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx512 => unsafe { avx512(load, oscillators, control) },
+        // SAFETY: as above.
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx2 => unsafe { avx2(load, oscillators, control) },
+        _ => advance_on::<false>(load, oscillators, control),
+    }
+}
+
+#[inline(always)]
+fn advance_on<const FUSED: bool>(
+    load: &Load,
+    oscillators: &[Oscillator; LANES],
+    control: &Control,
+) -> Result<[f64; LANES]> {
     let small = oscillators.iter().all(|oscillator| oscillator.s <= SMALL_STEP);
     let lanes = Lanes::new(oscillators, small);
     let [of_u, of_other, of_load, of_increment] = &lanes.screen;
@@ -253,9 +294,9 @@ fn advance(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) ->
             let start = [u, v];
             let LoadBounds { sample, increment } = load.blocks[index];
             let [most_u, other] = if small {
-                lanes.advance::<true>(&mut u, &mut v, load.block(index))
+                lanes.advance::<true, FUSED>(&mut u, &mut v, load.block(index))
             } else {
-                let [most_u, square] = lanes.advance::<false>(&mut u, &mut v, load.block(index));
+                let [most_u, square] = lanes.advance::<false, FUSED>(&mut u, &mut v, load.block(index));
                 [most_u, square.map(f64::sqrt)]
             };
             let bound = std::array::from_fn(|lane| {
@@ -268,8 +309,12 @@ fn advance(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) ->
             });
             blocks.push(Block { start, bound });
         }
-        for (lane, peak) in peak.iter_mut().enumerate() {
-            for (index, block) in blocks.iter().enumerate() {
+        for (index, block) in blocks.iter().enumerate() {
+            // Most blocks beat no lane's peak: asked of all lanes at once.
+            if !(0..LANES).fold(false, |any, lane| any | (block.bound[lane] > peak[lane])) {
+                continue;
+            }
+            for (lane, peak) in peak.iter_mut().enumerate() {
                 if block.bound[lane] > *peak {
                     let start = block.start.map(|values| values[lane]);
                     *peak = oscillators[lane].peak_inside_steps(start, load.block(first + index), *peak);

@@ -4,6 +4,18 @@
 pub(super) const SMALL_STEP: f64 = 1.0;
 /// Terms of the power series: s^k / k! is below 1e-19 at s = 1 beyond them, and k of them at zeta = 1.
 const SERIES_TERMS: usize = 23;
+/// Terms that change no sum any more: the smallest, `phi2`, is above 0.1.
+const NEGLIGIBLE: f64 = 1e-19;
+/// 1 / k.
+const INVERSES: [f64; SERIES_TERMS + 3] = {
+    let mut inverses = [0.0; SERIES_TERMS + 3];
+    let mut k = 1;
+    while k < inverses.len() {
+        inverses[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    inverses
+};
 /// A zero of the velocity is known well enough when the phase moves by less: the peak changes by its square.
 const PHASE_TOLERANCE: f64 = 1e-9;
 /// Bisection alone would end within this many steps.
@@ -32,14 +44,17 @@ impl ImpulseResponse {
             let (mut previous, mut c) = (0.0, 1.0);
             let (mut gamma, mut phi1, mut phi2, mut psi) = (0.0, 0.0, 0.0, 0.0);
             for k in 1..=SERIES_TERMS {
-                let k = k as f64;
+                let (next_inverse, second_inverse) = (INVERSES[k + 1], INVERSES[k + 2]);
                 gamma += c;
-                phi1 += c / (k + 1.0);
-                phi2 += c / ((k + 1.0) * (k + 2.0));
-                psi += c / (k + 2.0);
-                let next = -(2.0 * zeta * s * c + s * s * previous / k) / (k + 1.0);
+                phi1 += c * next_inverse;
+                phi2 += c * next_inverse * second_inverse;
+                psi += c * second_inverse;
+                let next = -(2.0 * zeta * s * c + s * s * previous * INVERSES[k]) * next_inverse;
                 previous = c;
                 c = next;
+                if c.abs() + previous.abs() < NEGLIGIBLE {
+                    break;
+                }
             }
             return Self { gamma, phi1, phi2, psi };
         }
@@ -139,11 +154,15 @@ impl Oscillator {
 
     /// Largest |u| at a zero of u' inside a step.
     fn interior_peak(&self, step: &Step) -> f64 {
-        let [u0, _] = step.u;
+        let [u0, u1] = step.u;
         let [v0, v1] = step.v;
         let [b0, b1] = step.b;
-        let (theta, decay) = (self.q * self.s, self.zeta * self.s);
         let y0 = self.second_derivative(u0, v0, b0);
+        // The zeros of u'' are half a period apart, so a small step has at most one.
+        if self.s <= SMALL_STEP && y0 * self.second_derivative(u1, v1, b1) > 0.0 {
+            return if v0 * v1 < 0.0 { self.monotone_peak(step, [0.0, 1.0], [v0, v1]) } else { 0.0 };
+        }
+        let (theta, decay) = (self.q * self.s, self.zeta * self.s);
         let y_rate = -(b1 - b0) - 2.0 * decay * y0 - self.s * self.s * v0;
         let mut phase = (-y0).atan2((y_rate + decay * y0) / theta);
         while phase <= 0.0 {
@@ -155,7 +174,7 @@ impl Oscillator {
             let right = (phase / theta).min(1.0);
             let v_right = if right < 1.0 { self.within(step, right)[1] } else { v1 };
             if v_left * v_right < 0.0 {
-                peak = peak.max(self.monotone_peak(step, [left, right], v_right));
+                peak = peak.max(self.monotone_peak(step, [left, right], [v_left, v_right]));
             }
             (left, v_left) = (right, v_right);
             phase += std::f64::consts::PI;
@@ -164,8 +183,8 @@ impl Oscillator {
     }
 
     /// |u| at the zero of u' in an interval in which u' is monotone and changes sign: Newton, kept inside its bracket.
-    fn monotone_peak(&self, step: &Step, [mut left, mut right]: [f64; 2], v_right: f64) -> f64 {
-        let mut time = 0.5 * (left + right);
+    fn monotone_peak(&self, step: &Step, [mut left, mut right]: [f64; 2], [v_left, v_right]: [f64; 2]) -> f64 {
+        let mut time = left + (right - left) * (v_left / (v_left - v_right));
         let tolerance = PHASE_TOLERANCE / self.s.max(1.0);
         for _ in 0..MAX_ITERATIONS {
             let [u, v] = self.within(step, time);
