@@ -21,6 +21,7 @@ test: lint docs test-wheel test-rust test-python
 
 bench: build $(BENCH_VENV)/made
 	$(BENCH_VENV)/bin/python benchmarks/study.py
+	$(BENCH_VENV)/bin/python benchmarks/performance.py $(filter --quick,$(BENCH_OPTIONS))
 	$(BENCH_VENV)/bin/python benchmarks/work_precision.py $(BENCH_OPTIONS)
 
 # Wall times of the kernel alone; BENCH_OPTIONS goes to divan (a filter, --sample-count).

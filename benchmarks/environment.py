@@ -6,6 +6,9 @@ import importlib.metadata
 import os
 import platform
 import re
+import shutil
+import subprocess
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
@@ -22,10 +25,10 @@ def cpu() -> str:
     return f"{name}, {os.cpu_count()} cores"
 
 
-def versions() -> dict[str, str]:
+def versions(packages: Sequence[str] = PACKAGES) -> dict[str, str]:
     """Return the version of Python and of each package, or "absent"."""
     found = {"seismass": seismass.__version__, "Python": platform.python_version()}
-    for package in PACKAGES:
+    for package in packages:
         try:
             found[package] = importlib.metadata.version(package)
         except importlib.metadata.PackageNotFoundError:
@@ -33,7 +36,21 @@ def versions() -> dict[str, str]:
     return found
 
 
-def summary() -> str:
+def program_versions(*programs: str) -> dict[str, str]:
+    """Return the version that each program says it has, or "absent"."""
+    found = {}
+    for program in programs:
+        if shutil.which(program) is None:
+            found[program] = "absent"
+        else:
+            told = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout
+            number = re.search(r"\d+(?:\.\d+)+", told)
+            found[program] = number.group() if number else told.strip()
+    return found
+
+
+def summary(packages: Sequence[str] = PACKAGES, programs: Sequence[str] = ()) -> str:
     """Return both in one line, and how busy the machine is besides."""
+    found = versions(packages) | program_versions(*programs)
     load = f" (load before: {os.getloadavg()[0]:.1f})" if hasattr(os, "getloadavg") else ""
-    return f"{cpu()}{load}; " + ", ".join(f"{name} {version}" for name, version in versions().items())
+    return f"{cpu()}{load}; " + ", ".join(f"{name} {version}" for name, version in found.items())

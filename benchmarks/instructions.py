@@ -151,14 +151,14 @@ def comparison(table: pl.DataFrame) -> str:
     """Return counts side by side, a column per label, and the last over the first."""
     labels = table["label"].unique(maintain_order=True).to_list()
     lines = [f"{letter}: {label}" for letter, label in zip(_letters(labels), labels, strict=True)]
-    head = "".join(f"{letter:>13}" for letter in _letters(labels))
+    head = "".join(f"{letter:>15}" for letter in _letters(labels))
     lines.append(f"{'':40}{'':26}{head}{'last / first':>14}")
     for scene, quantity in table.select("scene", "quantity").unique(maintain_order=True).iter_rows():
         rows = table.filter((pl.col("scene") == scene) & (pl.col("quantity") == quantity))
         found = dict(rows.select("label", "value").iter_rows())
         values = [found.get(label) for label in labels]
         known = [value for value in values if value is not None]
-        cells = "".join(f"{'-' if value is None else f'{value:,.1f}':>13}" for value in values)
+        cells = "".join(f"{'-' if value is None else f'{value:,.1f}':>15}" for value in values)
         ratio = f"{known[-1] / known[0]:14.3f}" if len(known) > 1 and known[0] else ""
         lines.append(f"{scene:40}{quantity:26}{cells}{ratio}")
     return "\n".join(lines)

@@ -29,7 +29,8 @@ class Reference:
     events: int
 
 
-def _input(bench: BenchmarkScene) -> str:
+def scene_text(bench: BenchmarkScene) -> str:
+    """Return a scene and its motion as the programs of the crate seismass-judge read them."""
     building = bench.building
     springs = ("mass", "stiffness", "yield_shear", "overstrength", "second_slope", "third_slope")
     lines = [(name, [float(value) for value in getattr(building, name)]) for name in springs]
@@ -45,7 +46,7 @@ def _input(bench: BenchmarkScene) -> str:
 
 def reference(bench: BenchmarkScene) -> Reference:
     """Return the reference solution, kept under out/ by the digest of its input and of the sources of the judge."""
-    text = _input(bench)
+    text = scene_text(bench)
     sources = sorted((ROOT / "crates").glob("seismass*/src/**/*.rs"))
     digest = hashlib.sha256(text.encode() + b"".join(path.read_bytes() for path in sources)).hexdigest()[:20]
     FOLDER.mkdir(parents=True, exist_ok=True)

@@ -9,7 +9,8 @@ import statistics
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, Final, TypeVar
@@ -18,11 +19,12 @@ import numpy as np
 
 import seismass as sm
 from environment import summary
-from scenes import suite
+from scenes import FloatArray, suite
 from seismass.report.write import write_study
 from seismass.study import MODELS, StudyParameters, StudyResult, run_study, study_buildings
 
 REPEATS: Final = 5
+TOTAL: Final = "total without figures"
 TARGET: Final = sm.TargetSpectrum.asce7(1.07, 0.61, 8.0)
 Run = tuple[sm.Scene, sm.Motion]
 T = TypeVar("T")
@@ -51,26 +53,33 @@ def distinct_runs(motions: sm.records.Suite) -> list[Run]:
     return [(scene, motion) for scene in scenes for motion in scaled]
 
 
-def phases(motions: sm.records.Suite, runs: list[Run]) -> None:
-    """Print the wall time of the study by phase; figures apart."""
+def phases(
+    motions: sm.records.Suite, runs: list[Run], repeats: int = REPEATS, *, figures: bool = True
+) -> dict[str, float]:
+    """Return the wall time of the study by phase (s), their sum, and the figures apart where they are wanted."""
     threads = 2
-    reading, _ = timed(suite)
-    scaling, _ = timed(lambda: sm.scale_asce7_10(motions, TARGET, 1.0, threads=threads))
-    whole, result = timed(lambda: run_study(motions, TARGET, threads=threads))
-    batch, _ = timed(lambda: simulate_all(runs, threads))
+    reading, _ = timed(suite, repeats)
+    scaling, _ = timed(lambda: sm.scale_asce7_10(motions, TARGET, 1.0, threads=threads), repeats)
+    whole, result = timed(lambda: run_study(motions, TARGET, threads=threads), repeats)
+    batch, _ = timed(lambda: simulate_all(runs, threads), repeats)
     with tempfile.TemporaryDirectory() as folder:
-        tables, _ = timed(lambda: _write(result, Path(folder), figures=False))
-        figures, _ = timed(lambda: _write(result, Path(folder), figures=True), repeats=1)
-    print(f"study on {threads} threads (s)")
-    for name, spent in (
-        ("reading the motions", reading),
-        ("scaling", scaling),
-        ("runs", batch),
-        ("design, spectra, tables in memory", whole - scaling - batch),
-        ("writing tables", tables),
-        ("total without figures", reading + whole + tables),
-        ("figures, apart", figures - tables),
-    ):
+        tables, _ = timed(lambda: _write(result, Path(folder), figures=False), repeats)
+        drawn = timed(lambda: _write(result, Path(folder), figures=True), repeats=1)[0] if figures else None
+    found = {
+        "reading the motions": reading,
+        "scaling": scaling,
+        "runs": batch,
+        "design, spectra, tables in memory": whole - scaling - batch,
+        "writing tables": tables,
+        TOTAL: reading + whole + tables,
+    }
+    return found if drawn is None else found | {"figures, apart": drawn - tables}
+
+
+def print_phases(motions: sm.records.Suite, runs: list[Run]) -> None:
+    """Print the wall time of the study by phase; figures apart."""
+    print("study on 2 threads (s)")
+    for name, spent in phases(motions, runs).items():
         print(f"  {name:36} {spent:8.3f}")
 
 
@@ -102,24 +111,48 @@ def throughput(runs: list[Run]) -> None:
         )
 
 
+@dataclass(frozen=True)
+class RunTime:
+    """Time of a single run, peaks only, on one thread (median, s), and the work it did."""
+
+    storeys: int
+    model: str
+    time: float
+    samples: int
+    events: int
+    regimes: int
+
+
+def run_times(runs: list[Run], repeats: int = REPEATS) -> list[RunTime]:
+    """Return the time of each run."""
+    found = []
+    for scene, motion in runs:
+        spent, response = timed(partial(sm.simulate, scene, motion, events=False, energy=False), repeats)
+        storeys = 0 if scene.building is None else scene.building.storeys
+        model = "real" if scene.blocks else "asce"
+        events = sum(response.counts.values())
+        found.append(RunTime(storeys, model, spent, motion.samples, events, response.statistics["regimes"]))
+    return found
+
+
+def split(rows: list[RunTime], work: Sequence[str]) -> FloatArray:
+    """Return the time of each kind of work (s) by least squares over runs, each weighted to count alike."""
+    weights = 1.0 / np.array([row.time for row in rows])
+    columns = np.array([[getattr(row, name) for name in work] for row in rows]) * weights[:, None]
+    return np.asarray(np.linalg.lstsq(columns, np.ones(len(rows)), rcond=None)[0], dtype=np.float64)
+
+
 def kernel_times(runs: list[Run]) -> None:
     """Print the time of single runs by size and model, and its split in samples and events by least squares."""
     print("single runs, peaks only, one thread (medians over the runs; a and b: time = a samples + b events)")
     print("  storeys  model   runs   us per run   events   a: ns per sample   b: us per event")
-    groups: dict[tuple[int, str], list[tuple[float, int, int]]] = {}
-    for scene, motion in runs:
-        spent, response = timed(partial(sm.simulate, scene, motion, events=False, energy=False))
-        storeys = 0 if scene.building is None else scene.building.storeys
-        model = "real" if scene.blocks else "asce"
-        groups.setdefault((storeys, model), []).append((spent, motion.samples, sum(response.counts.values())))
-    for (storeys, model), rows in sorted(groups.items()):
-        times, samples, events = np.array(rows).T
-        weights = 1.0 / times
-        columns = np.stack([samples, events], axis=1) * weights[:, None]
-        (a, b), *_ = np.linalg.lstsq(columns, np.ones(len(times)), rcond=None)
+    found = run_times(runs)
+    for storeys, model in sorted({(row.storeys, row.model) for row in found}):
+        rows = [row for row in found if (row.storeys, row.model) == (storeys, model)]
+        a, b = split(rows, ("samples", "events"))
         print(
-            f"  {storeys:7}  {model:5} {len(rows):6} {1e6 * np.median(times):12.1f} {np.median(events):8.0f} "
-            f"{1e9 * a:18.1f} {1e6 * b:17.2f}"
+            f"  {storeys:7}  {model:5} {len(rows):6} {1e6 * statistics.median(row.time for row in rows):12.1f} "
+            f"{statistics.median(row.events for row in rows):8.0f} {1e9 * a:18.1f} {1e6 * b:17.2f}"
         )
 
 
@@ -129,7 +162,7 @@ def main() -> int:
     motions = suite()
     print(f"suite: {motions.name}, {len(motions)} motions")
     runs = distinct_runs(motions)
-    phases(motions, runs)
+    print_phases(motions, runs)
     throughput(runs)
     kernel_times(runs)
     return 0

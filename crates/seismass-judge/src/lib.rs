@@ -24,6 +24,7 @@ mod polynomial;
 pub mod random_scene;
 mod real;
 mod record;
+pub mod scene_text;
 mod series;
 mod solve;
 mod state;

@@ -1,0 +1,1 @@
+"""What `performance.py` measures, a file per section of its page: each has `section(quick=...)`."""

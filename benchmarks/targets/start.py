@@ -1,0 +1,74 @@
+"""What it costs to begin: the import, and a call on a short record."""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import sys
+from typing import Final
+
+import numpy as np
+
+import seismass as sm
+from targets.base import RUNS, Section, Target, four_storeys, median_time, strong_motions, table
+
+SAMPLES: Final = 10
+IMPORT: Final = """
+from time import perf_counter as now
+start = now()
+import numpy, polars
+between = now()
+import seismass
+print(between - start, now() - between)
+"""
+TEXT: Final = """\
+`import seismass` in fresh processes, after numpy and polars, which it builds on; medians of {starts} starts with warm
+file caches. One call of `sm.simulate` on {samples} samples of the building of 4 storeys with blocks: everything that
+does not grow with the motion.
+
+{table}
+Modules that take longest to import, by `python -X importtime`: {slowest}.
+"""
+
+
+def _slowest() -> str:
+    """Modules below seismass by the time that they take themselves."""
+    command = [sys.executable, "-X", "importtime", "-c", "import numpy, polars, seismass"]
+    lines = subprocess.run(command, check=True, capture_output=True, text=True).stderr.splitlines()
+    rows = [[part.strip() for part in line.removeprefix("import time:").split("|")] for line in lines if "|" in line]
+    modules = [name for _, _, name in rows]
+    ours = rows[modules.index("polars") + 1 :] if "polars" in modules else rows
+    timed = sorted(((int(own), name) for own, _, name in ours if own.isdigit()), reverse=True)
+    return ", ".join(f"`{name}` {own / 1000.0:.1f} ms" for own, name in timed[:6])
+
+
+def section(*, quick: bool) -> Section:
+    """Measure both."""
+    starts = 3 if quick else 25
+    command = [sys.executable, "-c", IMPORT]
+    times = [
+        [float(word) for word in subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()]
+        for _ in range(starts)
+    ]
+    below, ours = (statistics.median(column) for column in zip(*times, strict=True))
+    name, motion = strong_motions()[0]
+    bench = four_storeys(motion, name)
+    short = sm.Motion(np.array(motion.acceleration[:SAMPLES]), motion.dt)
+    seconds = 0.05 if quick else 1.0
+    call = median_time(lambda: sm.simulate(bench.scene, short, **RUNS), seconds)
+    histories = median_time(lambda: sm.simulate(bench.scene, short, histories=True, energy=True), seconds)
+    targets = [
+        Target("import beyond numpy and polars", 1e3 * ours, 150.0, "ms"),
+        Target(f"one call on {SAMPLES} samples", 1e6 * call, 20.0, "us"),
+    ]
+    shown = table(
+        ("", "time"),
+        [
+            ["import numpy, polars", f"{1e3 * below:.0f} ms"],
+            ["import seismass after them", f"{1e3 * ours:.0f} ms"],
+            [f"sm.simulate, {SAMPLES} samples, peaks only", f"{1e6 * call:.1f} us"],
+            ["the same with histories, events and energies", f"{1e6 * histories:.1f} us"],
+        ],
+    )
+    text = TEXT.format(starts=starts, samples=SAMPLES, table=shown, slowest=_slowest())
+    return Section("Starting", targets, text)

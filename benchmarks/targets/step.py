@@ -1,0 +1,100 @@
+"""The plain step beside the bare chain of the same size, and the event."""
+
+from __future__ import annotations
+
+import statistics
+
+import instructions
+from scenes import suite
+from study import distinct_runs, run_times, split
+from targets.base import Section, Target, four_storeys, strong_motions, table
+from targets.program import timings
+
+CLOCK = 2.5e9
+"""Frequency at which the target of the plain step is meant (Hz)."""
+TEXT = """\
+A plain step of the building of 4 storeys with a block on each floor: what a run without events costs more when its
+motion goes on, over its samples. Beside it, in the same run, the bare chain y = P x + c: a dense matrix on the 8
+numbers of the state, and on these with the 8 rows of floor accelerations and their rates, which the proof of a plain
+step needs.
+
+{steps}
+The processor ran at {frequency:.2f} GHz, by a chain of dependent multiplications; the target of 20 ns is meant at 2.5
+GHz.
+
+An event, by least squares over the {runs} runs of the study with 4 storeys and blocks, each run by itself, so that it
+pays for its regimes: time = a samples + b events + c regimes.
+
+{events}
+{counts}"""
+
+COUNTS = """\
+Instructions by callgrind, on the path for AVX2 (valgrind knows no AVX-512); "per event" is all that is neither a plain
+step nor a regime, over the events. Recorded states of the code are compared below.
+
+"""
+
+
+def _counts() -> str:
+    try:
+        counted = instructions.measured()
+    except instructions.Missing as missing:
+        return f"Instructions: {missing}.\n"
+    found = {(scene, quantity): value for _, scene, quantity, value in counted.iter_rows()}
+    quantities = (instructions.STEP, instructions.EVENT, instructions.REGIME)
+    rows = [[scene, *(f"{found[scene, name]:,.0f}" for name in quantities)] for scene in instructions.STEPPED]
+    return COUNTS + table(("scene", *quantities), rows)
+
+
+def section(*, quick: bool) -> Section:
+    """Measure both; instructions too where valgrind is installed, unless quick."""
+    name, motion = strong_motions()[0]
+    found = timings("steps", four_storeys(motion, name), 0.3 if quick else 5.0)
+    at_clock = found["step"] * found["frequency"] / CLOCK
+    runs = [
+        (scene, motion)
+        for scene, motion in distinct_runs(suite())
+        if scene.blocks and scene.building is not None and scene.building.storeys == 4
+    ]
+    rows = run_times(runs[:: 3 if quick else 1], 1 if quick else 9)
+    sample, event, regime = split(rows, ("samples", "events", "regimes"))
+    targets = [
+        Target("plain step / bare chain of the state, 4 storeys", found["step"] / found["chain"], 2.0),
+        Target("plain step, 4 storeys, at 2.5 GHz", 1e9 * at_clock, 20.0, "ns"),
+        Target("event, 4 storeys", 1e6 * event, 0.5, "us"),
+    ]
+    steps = table(
+        ("", "ns", "ns at 2.5 GHz", "plain step over it"),
+        [
+            [what, f"{1e9 * found[key]:.1f}", f"{1e9 * found[key] * found['frequency'] / CLOCK:.1f}", ratio]
+            for what, key, ratio in (
+                ("plain step", "step", ""),
+                ("bare chain, 8 x 8", "chain", f"{found['step'] / found['chain']:.2f}"),
+                (
+                    "bare chain with rates, 16 x 8",
+                    "chain_with_rates",
+                    f"{found['step'] / found['chain_with_rates']:.2f}",
+                ),
+            )
+        ],
+    )
+    events = table(
+        ("a: sample (ns)", "b: event (us)", "c: regime (us)", "median run (us)", "median events"),
+        [
+            [
+                f"{1e9 * sample:.1f}",
+                f"{1e6 * event:.2f}",
+                f"{1e6 * regime:.2f}",
+                f"{1e6 * statistics.median(row.time for row in rows):.0f}",
+                f"{statistics.median(row.events for row in rows):.0f}",
+            ]
+        ],
+    )
+    text = TEXT.format(
+        steps=steps,
+        frequency=found["frequency"] / 1e9,
+        runs=len(rows),
+        events=events,
+        counts="" if quick else _counts(),
+    )
+    return Section("The plain step and the event", targets, text)

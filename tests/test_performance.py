@@ -1,0 +1,116 @@
+"""The performance benchmark: its arithmetic, and its quick mode from end to end; no time is judged."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from pathlib import Path
+from typing import Any
+
+import polars as pl
+import pytest
+
+FOLDER = Path(__file__).parents[1] / "benchmarks"
+TIMINGS = {
+    "runs": {
+        "samples": 100.0,
+        "events": 3.0,
+        "peaks": 2e-5,
+        "displacements": 3e-5,
+        "histories": 5e-5,
+        "leapfrog": 4e-5,
+    },
+    "steps": {"step": 3e-8, "chain": 1e-8, "chain_with_rates": 2e-8, "frequency": 5e9},
+    "threads": {"one": 1.0, "two": 1.0},
+}
+"""What the program in Rust could print: it is not built here."""
+ANNOTATED = """\
+Ir                 file:function
+--------------------------------------------------------------------------------
+1,000 (50.00%)  crates/seismass/src/taylor.rs:seismass::simulate::run [/somewhere/count]
+  600 (30.00%)  /rustc/59807/library/core/src/num/f64.rs:seismass::simulate::run
+  300 (15.00%)  ./malloc/./malloc/malloc.c:_int_free [/usr/lib/libc.so.6]
+  100 ( 5.00%)  ???:std::time::now [/usr/lib/libc.so.6]
+2,000 (100.0%)  PROGRAM TOTALS
+"""
+
+
+@pytest.fixture
+def module(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Import a module of benchmarks/, which is no package."""
+    monkeypatch.syspath_prepend(str(FOLDER))
+    before = set(sys.modules)
+    yield importlib.import_module
+    for name in set(sys.modules) - before:
+        if getattr(sys.modules[name], "__file__", None) and str(FOLDER) in str(sys.modules[name].__file__):
+            del sys.modules[name]
+
+
+def test_targets_say_what_is_missed(module: Any) -> None:
+    base = module("targets.base")
+    assert base.Target("time", 2.0, 2.0).verdict == "met"
+    assert base.Target("time", 2.1, 2.0).verdict == "missed"
+    assert base.Target("speed-up", 1.9, 1.95, at_most=False).verdict == "missed"
+    assert base.Target("peer", None, 1.0, note="absent").verdict == "not measured"
+    section = base.Section("One", [base.Target("a_b", 2.1, 2.0, "s"), base.Target("peer", None, 1.0)], "Words.\n")
+    page = module("performance_page").page({"one": section}, "a machine", recorded=False)
+    assert "Of 2 targets: 1 missed, 1 not measured." in page
+    assert r"| a\_b | <= 2 s | 2.1 s | **missed** |" in page
+
+
+def test_instructions_by_module_and_by_function(module: Any) -> None:
+    modules, functions = module("targets.profile").shares(ANNOTATED)
+    assert modules == {
+        "taylor": 1000,
+        "simulate": 600,
+        "memory: allocated, copied, cleared": 300,
+        "other libraries": 100,
+    }
+    assert functions["seismass::simulate::run"] == 1600
+
+
+def test_instruction_counts_are_appended_under_new_labels(
+    module: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    instructions = module("instructions")
+    monkeypatch.setattr(instructions, "RECORDED", tmp_path / "instructions.csv")
+    rows = [("now", "scene, one", "per run", 200.04), ("now", "scene, one", "events", 3.0)]
+    counts = pl.DataFrame(rows, schema=instructions.SCHEMA, orient="row")
+    instructions.record(counts, "before, with a comma")
+    instructions.record(counts.with_columns(value=pl.col("value") / 2.0), "after")
+    assert instructions.recorded()["value"].to_list() == [200.0, 3.0, 100.0, 1.5]
+    with pytest.raises(ValueError, match="label must be new; got after"):
+        instructions.record(counts, "after")
+    printed = instructions.comparison(instructions.recorded()).splitlines()
+    assert printed[0] == "A: before, with a comma"
+    assert printed[-2].split() == ["scene,", "one", "per", "run", "200.0", "100.0", "0.500"]
+
+
+def test_without_valgrind_nothing_is_counted_and_that_is_said(
+    module: Any, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    instructions = module("instructions")
+    monkeypatch.setattr(instructions.shutil, "which", lambda program: None)
+    monkeypatch.setattr(sys, "argv", ["instructions.py"])
+    assert instructions.main() == 1
+    assert "valgrind is not installed" in capsys.readouterr().err
+
+
+def test_recorded_counts_have_every_column_of_the_page(module: Any) -> None:
+    found = {tuple(row) for row in module("instructions").recorded().select("scene", "quantity").iter_rows()}
+    assert {(scene, quantity) for _, scene, quantity in module("targets.profile").HIGHLIGHTS} <= found
+
+
+def test_quick_mode_writes_the_page(module: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    performance = module("performance")
+    for name in ("leapfrog", "step", "threads"):
+        monkeypatch.setattr(module(f"targets.{name}"), "timings", lambda work, *_: TIMINGS[work])
+    monkeypatch.setattr(performance, "ROOT", tmp_path)
+    assert performance.main(["--quick"]) == 0
+    docs = tmp_path / "out" / "bench" / "docs"
+    page = (docs / "performance.md").read_text(encoding="utf-8")
+    assert (docs / "figures" / "performance_storeys.png").stat().st_size > 10_000
+    assert page.count("\n## ") == 1 + len(performance.SECTIONS)
+    assert "{" not in page
+    assert page.count("| exact run / leapfrog pass") == 12
+    assert "| plain step / bare chain of the state, 4 storeys | <= 2 | 3 | **missed** |" in page
