@@ -67,7 +67,8 @@ pub(crate) fn padded(storeys: usize) -> usize {
         0..=4 => 4,
         5..=8 => 8,
         9..=16 => 16,
-        17..=MAX_LANES => MAX_LANES,
+        17..=32 => 32,
+        33..=MAX_LANES => MAX_LANES,
         _ => storeys.next_multiple_of(8),
     }
 }

@@ -752,10 +752,12 @@ fn run_by_width<V: Vector>(
         (4, true, false) => run_lanes::<V, 1, 4, true, false>(state, observer, motion, first, end),
         (5..=8, _, false) => run_lanes::<V, 2, 0, true, false>(state, observer, motion, first, end),
         (9..=16, _, false) => run_lanes::<V, 4, 0, true, false>(state, observer, motion, first, end),
+        (17..=32, _, false) => run_lanes::<V, 8, 0, true, false>(state, observer, motion, first, end),
         (_, _, false) => run_lanes::<V, WIDEST, 0, true, false>(state, observer, motion, first, end),
         (..=4, _, true) => run_lanes::<V, 1, 0, true, true>(state, observer, motion, first, end),
         (5..=8, _, true) => run_lanes::<V, 2, 0, true, true>(state, observer, motion, first, end),
         (9..=16, _, true) => run_lanes::<V, 4, 0, true, true>(state, observer, motion, first, end),
+        (17..=32, _, true) => run_lanes::<V, 8, 0, true, true>(state, observer, motion, first, end),
         (_, _, true) => run_lanes::<V, WIDEST, 0, true, true>(state, observer, motion, first, end),
     }
 }
@@ -764,8 +766,7 @@ impl State<'_> {
     /// Takes plain steps from interval `first` until `end`, or until one is not plain, and records their histories;
     /// returns the interval reached, whose start the state is then at.
     pub(crate) fn plain_run(&mut self, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize {
-        let full_damping = self.has_full_damping();
-        if self.airborne || !self.cache.visit(self.regime, self.model, full_damping, self.vertical) {
+        if self.airborne || !self.cache.visit(self.regime, self.model, self.vertical) {
             return first;
         }
         self.prepare_effects();

@@ -84,6 +84,7 @@ fn remainders_by_width<V: Vector>(model: &Model, regime: &Regime, out: &mut Rema
         4 => remainders::<V, 1>(model, regime, out),
         8 => remainders::<V, 2>(model, regime, out),
         16 => remainders::<V, 4>(model, regime, out),
+        32 => remainders::<V, 8>(model, regime, out),
         _ => remainders::<V, { MAX_LANES / WIDTH }>(model, regime, out),
     }
 }
@@ -182,6 +183,7 @@ fn rows_by_width<V: Vector>(model: &Model, regime: &Regime, remainders: &Remaind
         4 => form_rows::<V, 1>(model, regime, remainders, unit, rows),
         8 => form_rows::<V, 2>(model, regime, remainders, unit, rows),
         16 => form_rows::<V, 4>(model, regime, remainders, unit, rows),
+        32 => form_rows::<V, 8>(model, regime, remainders, unit, rows),
         _ => form_rows::<V, { MAX_LANES / WIDTH }>(model, regime, remainders, unit, rows),
     }
 }
@@ -413,7 +415,7 @@ struct Entry {
 /// The regimes met so far by scenes of equal structure at one time step.
 ///
 /// What a run computes never depends on what is cached: where the steps of a regime pay only after some time, a run takes
-/// its first [`RegimeCache::SERIES_VISITS`] intervals by series whether or not another run has already paid for them.
+/// its first [`RegimeCache::series_visits`] intervals by series whether or not another run has already paid for them.
 pub(crate) struct RegimeCache {
     dt: f64,
     entries: Vec<Entry>,
@@ -426,10 +428,12 @@ pub(crate) struct RegimeCache {
 }
 
 impl RegimeCache {
-    /// Whole intervals of a regime that a run solves by series before a propagator is formed.
-    const SERIES_VISITS: u32 = 2;
-    /// Storeys above which a series is cheaper than the dense step: with full damping matrices, and with others.
-    const DENSE_LIMITS: (usize, usize) = (MAX_LANES, 16);
+    /// Whole intervals of a regime that a run solves by series before its steps are formed. To form them costs like
+    /// n^3, a series saved like n^2 with full damping matrices and like n with others: about as many series as there are
+    /// storeys pay for them. Where tables serve the series too they are formed at once.
+    fn series_visits(storeys: usize) -> u32 {
+        if storeys <= MAX_TABLE { 0 } else { storeys as u32 }
+    }
 
     pub(crate) fn new(dt: f64) -> Self {
         Self { dt, entries: Vec::new(), index: HashMap::default(), run: 0, bytes: 0, run_bytes: 0 }
@@ -506,14 +510,13 @@ impl RegimeCache {
     }
 
     /// Counts a whole interval in a regime; true once its propagator is to be used, which then exists.
-    pub(crate) fn visit(&mut self, index: usize, model: &Model, full_damping: bool, vertical: bool) -> bool {
+    pub(crate) fn visit(&mut self, index: usize, model: &Model, vertical: bool) -> bool {
         let entry = &mut self.entries[index];
         let n = model.storeys();
-        let limit = if full_damping { Self::DENSE_LIMITS.0 } else { Self::DENSE_LIMITS.1 };
-        if n == 0 || n > limit {
+        if n == 0 || n > MAX_LANES {
             return false;
         }
-        let series_visits = if n <= MAX_TABLE { 0 } else { Self::SERIES_VISITS };
+        let series_visits = Self::series_visits(n);
         entry.visits = entry.visits.saturating_add(1);
         if entry.visits <= series_visits {
             return false;

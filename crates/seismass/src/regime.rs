@@ -85,6 +85,7 @@ impl Regime {
 
     /// Floor accelerations (absolute) from drifts, drift rates and floor loads: a_i = (S_(i+1) - S_i + load_i) / mass_i
     /// with S the storey forces of springs, P-Delta and damping. Also serves derivatives of these.
+    #[inline(always)]
     pub(crate) fn accelerations(&self, model: &Model, x: &[f64], v: &[f64], load: &[f64], out: &mut [f64]) {
         let n = out.len();
         storey_forces(self.row(Row::Tangent), model, x, v, out);
@@ -184,7 +185,7 @@ fn mass_factor(model: &Model) -> f64 {
 }
 
 /// Storey forces S_i = tangent_i x_i + (D v)_i, without the mass-proportional part of Rayleigh damping.
-#[inline]
+#[inline(always)]
 fn storey_forces(tangent: &[f64], model: &Model, x: &[f64], v: &[f64], out: &mut [f64]) {
     let n = out.len();
     for i in 0..n {

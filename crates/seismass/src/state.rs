@@ -236,11 +236,6 @@ impl<'a> State<'a> {
         self.x.iter().chain(&self.v).all(|&value| value == 0.0) && self.motions.iter().all(BlockMotion::is_stuck)
     }
 
-    /// Whether the series of a full damping matrix has to be formed.
-    pub(crate) fn has_full_damping(&self) -> bool {
-        matches!(self.model.damping(), StoreyDamping::Dense(_))
-    }
-
     /// Follows all state machines: bounds, loads, and the regime.
     pub(crate) fn enter_regime(&mut self) {
         for i in 0..self.storeys() {
@@ -519,6 +514,7 @@ fn refresh_by_width<V: Vector>(state: &mut State, tau: f64) {
         4 => refresh_lanes::<V, 1>(state, tau),
         8 => refresh_lanes::<V, 2>(state, tau),
         16 => refresh_lanes::<V, 4>(state, tau),
+        32 => refresh_lanes::<V, 8>(state, tau),
         _ => refresh_lanes::<V, { MAX_LANES / WIDTH }>(state, tau),
     }
 }
@@ -557,6 +553,7 @@ fn ranges_by_width<V: Vector>(state: &mut State, contact: f64) {
         4 => ranges_in_lanes::<V, 1>(state, contact),
         8 => ranges_in_lanes::<V, 2>(state, contact),
         16 => ranges_in_lanes::<V, 4>(state, contact),
+        32 => ranges_in_lanes::<V, 8>(state, contact),
         _ => ranges_in_lanes::<V, { MAX_LANES / WIDTH }>(state, contact),
     }
 }
@@ -598,22 +595,17 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, contact: f64) {
         store(&lows, low);
         store(&highs, high);
         let bounds = &state.bounds;
+        let (about, bound): ([V; K], [V; K]) = match which {
+            0 => (load(&bounds.middle), load(&bounds.reach)),
+            1 => (load(&bounds.sign), load(&bounds.turn)),
+            _ => (load(&bounds.stuck_mu), load(&bounds.a_peak)),
+        };
         let mut suspects = 0;
         for k in 0..K {
             let (reached, bound) = match which {
-                0 => {
-                    let middle = load::<V, K>(&bounds.middle)[k];
-                    (highs[k].sub(middle).max(middle.sub(lows[k])), load::<V, K>(&bounds.reach)[k])
-                }
-                1 => {
-                    let sign = load::<V, K>(&bounds.sign)[k];
-                    let falls = zero.sub(sign.mul(lows[k])).max(zero.sub(sign.mul(highs[k])));
-                    (falls, load::<V, K>(&bounds.turn)[k])
-                }
-                _ => {
-                    let stuck = load::<V, K>(&bounds.stuck_mu)[k].mul(V::splat(contact));
-                    (highs[k].max(zero.sub(lows[k])), stuck.min(load::<V, K>(&bounds.a_peak)[k]))
-                }
+                0 => (highs[k].sub(about[k]).max(about[k].sub(lows[k])), bound[k]),
+                1 => (zero.sub(about[k].mul(lows[k])).max(zero.sub(about[k].mul(highs[k]))), bound[k]),
+                _ => (highs[k].max(zero.sub(lows[k])), about[k].mul(V::splat(contact)).min(bound[k])),
             };
             suspects |= Set::from(reached.not_below(bound)) << (WIDTH * k);
         }

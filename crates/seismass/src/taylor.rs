@@ -104,7 +104,7 @@ impl Series {
                 }
                 form_by_recursion(self, model, regime, drive);
             }
-            None => self.form_any(model, regime, drive),
+            None => form_any(self, model, regime, drive),
         }
     }
 
@@ -236,6 +236,7 @@ impl Series {
     }
 
     /// By the recursion, for more storeys than vectors hold.
+    #[inline(always)]
     fn form_any(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
         let (n, stride) = (self.storeys, self.stride);
         self.end.iter_mut().for_each(|sums| sums.fill(0.0));
@@ -456,6 +457,16 @@ fn changes_by_width<V: Vector>(series: &Series, s: f64, drifts: &mut [f64], rate
 }
 
 for_each_path! {
+    fn form_any(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) = any_by_path
+}
+
+/// The compiler makes vectors of the path's width.
+#[inline(always)]
+fn any_by_path<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) {
+    series.form_any(model, regime, drive);
+}
+
+for_each_path! {
     fn form_by_recursion(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) = by_recursion
 }
 
@@ -465,6 +476,7 @@ fn by_recursion<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, 
         4 => series.by_recursion::<V, 1>(model, regime, drive),
         8 => series.by_recursion::<V, 2>(model, regime, drive),
         16 => series.by_recursion::<V, 4>(model, regime, drive),
+        32 => series.by_recursion::<V, 8>(model, regime, drive),
         _ => series.by_recursion::<V, { MAX_LANES / WIDTH }>(model, regime, drive),
     }
 }
