@@ -571,6 +571,19 @@ CASES: list[Case] = [
         r"histories of simulate must be a whole number of at least 1; got 0",
     ),
     (
+        "history left out",
+        lambda: (
+            sm.simulate(
+                sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)]),
+                sm.Motion([1.0, 2.0], dt=0.1),
+                histories=True,
+                displacements_only=True,
+            ).block_velocity
+        ),
+        sm.InvalidOption,
+        r"displacements_only of simulate must be False, if block_velocity is wanted; got True",
+    ),
+    (
         "history not asked for",
         lambda: sm.simulate(block(), QUIET).drift,
         sm.InvalidOption,

@@ -117,6 +117,17 @@ def test_ground_blocks_alone() -> None:
     assert np.isnan(response.peak_base_shear)
 
 
+def test_histories_of_displacements_alone_are_those_of_all() -> None:
+    for every in (True, 7):
+        everything = sm.simulate(scene(), shaking(), histories=every)
+        displacements = sm.simulate(scene(), shaking(), histories=every, displacements_only=True)
+        np.testing.assert_array_equal(displacements.drift, everything.drift)
+        np.testing.assert_array_equal(displacements.slip, everything.slip)
+        np.testing.assert_array_equal(displacements.time, everything.time)
+        with pytest.raises(sm.InvalidOption, match="displacements_only of simulate must be False"):
+            displacements.storey_force  # noqa: B018
+
+
 def test_a_batch_is_one_row_per_run_in_the_order_asked_for() -> None:
     scenes = [scene(3), sm.Scene(storeys(2, heights=3.0)), scene(4), sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)])]
     motions = [shaking(seed) for seed in (1, 2)]

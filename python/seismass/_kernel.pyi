@@ -498,9 +498,12 @@ def response_spectra(
     Peak relative displacement (m) of linear oscillators from rest: motions x damping ratios x periods.
     """
 
-def simulate(scene: Scene, motion: Motion, every: SupportsIndex, energy: bool, events: bool) -> Response:
+def simulate(
+    scene: Scene, motion: Motion, every: SupportsIndex, displacements_only: bool, energy: bool, events: bool
+) -> Response:
     """
-    Solves one scene under one motion; histories at every so many samples (0: none).
+    Solves one scene under one motion; histories at every so many samples (0: none), of drifts and
+    slips alone if asked for.
     """
 
 def simulate_columns(

@@ -367,6 +367,9 @@ class Response:
         return array
 
     def _history(self, name: str) -> FloatArray:
+        displacement = name in ("drift", "slip")
+        if not displacement and self._get(name) is None and self._get("drift") is not None:
+            raise refusal(InvalidOption, "displacements_only", "simulate", f"False, if {name} is wanted", "True")
         array: FloatArray = self._asked(name, "histories")
         return array
 

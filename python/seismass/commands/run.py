@@ -56,7 +56,9 @@ def run(args: argparse.Namespace) -> int:
         raise InvalidOption(f"folder of --histories must exist; got {args.histories.absolute().parent}")
     file = read_scene(args.scene)
     try:
-        response = simulate(file.scene, file.motion, histories=args.histories is not None, displacements_only=True, energy=True)
+        response = simulate(
+            file.scene, file.motion, histories=args.histories is not None, displacements_only=True, energy=True
+        )
     except SimulationError as error:
         print(f"seismass: run failed: {error}", file=sys.stderr)
         return 1
