@@ -30,22 +30,23 @@ fn random_scenes_are_consistent_and_agree_with_the_judge() {
     assert!(tally.judged > 0 && tally.balanced > 0 && tally.hard > 0);
 }
 
-/// Seeds that once failed: chatter at the start of a run, a breakaway at N = 0 within rounding, a lift at an arrival.
+/// Seeds that once failed: chatter at the start of a run, a breakaway at N = 0 within rounding, a lift at an arrival, a
+/// frictionless block on a floor whose acceleration begins below rounding, an arrival just before a lift.
 #[test]
 fn seeds_that_once_failed_hold() {
-    for seed in [14749, 22984, 24647, 55104, 71144, 130_978, 144_318, 219_850] {
+    for seed in [1209, 14749, 22984, 24647, 29706, 55104, 71144, 130_978, 144_318, 219_850, 297_876] {
         let mut tally = Tally::default();
         random::run(Selection { first: seed, scenes: 1, judged: 1.0 }, &mut tally);
         assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
     }
 }
 
-/// A frictionless block on a floor whose acceleration begins below rounding: the log has a touch and a reversal within
-/// 1e-15 s that the judge does not have (docs/limitations.md); everything else must hold.
+/// Blocks that come to rest within rounding of a landing, among accelerations of 1e-36 m/s2: the order of events differs
+/// from the judge's, but the run goes on.
 #[test]
-fn a_frictionless_start_below_rounding_runs() {
+fn a_landing_below_all_rounding_runs() {
     let mut tally = Tally::default();
-    random::run(Selection { first: 29706, scenes: 1, judged: 0.0 }, &mut tally);
+    random::run(Selection { first: 354_294, scenes: 1, judged: 0.0 }, &mut tally);
     assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
 }
 

@@ -2,7 +2,7 @@
 
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
-use crate::friction::{BlockState, Cause, Transition, settle};
+use crate::friction::{self, BlockState, Cause, Transition, settle};
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
 use crate::state::{State, range};
@@ -11,7 +11,7 @@ use crate::taylor::INVERSE;
 
 /// A guard falls when it is below zero by more than this fraction of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Relative velocities below this fraction of their terms, on their way to zero, have arrived.
+/// Relative velocities below this fraction of their terms, which nothing but rounding drives on, have arrived.
 const ARRIVED: f64 = 64.0 * f64::EPSILON;
 
 /// What happens when a guard falls.
@@ -183,7 +183,8 @@ impl State<'_> {
             let acceleration = self.acceleration_of(floor, tau);
             let limit = mu * contact.max(0.0);
             let size = acceleration.norm() + (mu * contact_change).abs() + self.acceleration_size(floor, contact);
-            let tolerance = ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size);
+            // Not below what a decision takes as equal: what has just stuck must not break away for that.
+            let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size);
             for sign in [Sign::Positive, Sign::Negative] {
                 let mut p = acceleration;
                 p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign.factor());
@@ -223,7 +224,9 @@ impl State<'_> {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let h = self.series.h();
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
-        let contact = (self.contact_at(tau), self.contact_at(tau + h));
+        // Linear up to the end, also where contact is lost before: as the change below is.
+        let start = self.contact_at(tau);
+        let contact = (start, start + self.interval.slope(self.interval.contact_change) * h);
         let (a, margin) = match law.floor.checked_sub(1) {
             Some(i) => {
                 let margin = self.ranges.remainder * self.regime().row(Row::ThirdOfAcceleration)[i];
@@ -314,7 +317,7 @@ impl State<'_> {
             let velocity = self.motions[j].velocity;
             let slowing = sign.factor() * a + self.model.blocks[j].mu_k * contact;
             let size = a.abs() + self.model.blocks[j].mu_k * contact.max(STANDARD_GRAVITY);
-            if velocity != 0.0 && slowing >= 0.0 && velocity.abs() <= ARRIVED * size * self.interval.h {
+            if velocity != 0.0 && slowing >= -ARRIVED * size && velocity.abs() <= ARRIVED * size * self.interval.h {
                 self.motions[j].velocity = 0.0;
             }
         }

@@ -9,7 +9,7 @@ use crate::scene::Block;
 use crate::storey::Sign;
 
 /// Forces and accelerations that agree to this fraction of their terms are equal.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The constant data of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
