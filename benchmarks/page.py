@@ -42,7 +42,7 @@ Measured on: {machine}.
 
 NOTES: Final = """## Who is who
 
-- **seismass, exact**: the kernel, histories of everything; and peaks only, as a study asks for.
+- **seismass, exact**: the kernel, histories of drifts and slips; and peaks only, as a study asks for.
 - **leapfrog**: what a good engineer writes by hand (half-explicit, friction impulses clipped, return mapping), in the
   kernel's own `reference` module and in numba. A block that reverses inside a step has its impulse divided there:
   without that the method is of order 1 where blocks slide much.
