@@ -138,7 +138,7 @@ def _losses(table: pl.DataFrame, benches: list[BenchmarkScene]) -> str:
     reason = (
         "The leapfrog takes one cheap step per sample and pays nothing to find events: where little accuracy is asked\n"
         "for, that is enough, and it gives no sign of how wrong it is. The exact kernel buys every error level at\n"
-        "once, and with histories it fills six of them, where the others fill two."
+        "once."
     )
     return f"{text}. It is beaten in the other {lost}:\n\n" + "\n".join(lines) + f"\n\n{reason}\n"
 
