@@ -3,7 +3,6 @@
 import itertools
 import json
 import re
-import signal
 from pathlib import Path
 
 import numpy as np
@@ -368,7 +367,10 @@ def test_failed_runs_give_exit_code_1(small: StudyResult, tmp_path: Path, monkey
 def test_interrupt_exits_with_130_and_writes_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("seismass.study.simulate_many", lambda *_, **__: signal.raise_signal(signal.SIGINT))
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("seismass.study.simulate_many", interrupted)
     assert command("study", "--out", tmp_path / "out") == 130
     assert "interrupted" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
