@@ -120,6 +120,17 @@ pub fn compare_events(found: &[Event], expected: &[Event]) -> Result<f64, String
     Ok(worst)
 }
 
+/// Compares how two runs ended: the difference in time (s), or the mismatch.
+pub(crate) fn compare_endings(found: &Status, expected: &Status) -> Result<f64, String> {
+    match (found, expected) {
+        (Status::Completed, Status::Completed) => Ok(0.0),
+        (Status::Collapsed { storey: a, time: s }, Status::Collapsed { storey: b, time: t }) if a == b => {
+            Ok((s - t).abs())
+        }
+        _ => Err(format!("{found:?} for {expected:?}")),
+    }
+}
+
 impl Solution {
     /// Compares another solution with this one, taken as exact.
     pub fn judge(&self, other: &Solution) -> Comparison {
@@ -152,13 +163,7 @@ impl Solution {
             (difference(drift, &self.drift, &drift_scale), difference(slip, &self.slip, &slip_scale))
         });
         let events = events.map_or(Ok(0.0), |events| compare_events(events, &self.events));
-        let ending = match (status, &self.status) {
-            (Status::Completed, Status::Completed) => Ok(0.0),
-            (Status::Collapsed { storey: a, time: s }, Status::Collapsed { storey: b, time: t }) if a == b => {
-                Ok((s - t).abs())
-            }
-            (found, expected) => Err(format!("{found:?} for {expected:?}")),
-        };
+        let ending = compare_endings(status, &self.status);
         let event_time = larger(*events.as_ref().unwrap_or(&f64::NAN), *ending.as_ref().unwrap_or(&f64::NAN));
         Comparison {
             drift,

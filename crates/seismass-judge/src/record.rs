@@ -35,6 +35,11 @@ pub struct Solution {
     pub events: Vec<Event>,
     /// Energies at the end.
     pub energy: Energy,
+    /// Condition of the energy balance against cancellation in the contact force: the most by which the work of
+    /// friction along this motion changes if g and each a_v change by a fraction, over that fraction and the scale of
+    /// the energy residual. Of the order of 1 where friction takes most of the energy and g and a_v do not cancel,
+    /// large where they do.
+    pub contact_condition: f64,
 }
 
 /// Work done since the start.
@@ -45,6 +50,8 @@ struct Work<R> {
     viscous: R,
     hysteretic: R,
     friction: R,
+    /// The work of friction with g + |a_v| for g + a_v.
+    friction_sizes: R,
 }
 
 pub(crate) struct Recorder<R> {
@@ -82,6 +89,7 @@ impl<R: Real> Recorder<R> {
                 viscous: R::zero(),
                 hysteretic: R::zero(),
                 friction: R::zero(),
+                friction_sizes: R::zero(),
             },
             every,
             drift: Vec::new(),
@@ -114,17 +122,19 @@ impl<R: Real> Recorder<R> {
             beat(&mut self.peaks.storey_shear[i], &shear);
             beat(&mut self.peaks.floor_acceleration[i], &series.acceleration[i + 1]);
         }
+        let mut paths = vec![R::zero(); series.slip.len()];
         for (j, slip) in series.slip.iter().enumerate() {
             beat(&mut self.peaks.slip[j], slip);
             if state.blocks[j].contact != Contact::Stuck {
-                self.path[j] = self.path[j] + series.length * series.velocity[j].absolute_integral();
+                paths[j] = series.length * series.velocity[j].absolute_integral();
+                self.path[j] = self.path[j] + paths[j];
             }
         }
-        self.add_work(model, state, series);
+        self.add_work(model, state, series, &paths);
     }
 
-    /// Integrals of the powers, exact for the polynomials.
-    fn add_work(&mut self, model: &Model<R>, state: &State<R>, series: &Series<R>) {
+    /// Integrals of the powers, exact for the polynomials; `paths` are those of the blocks on this stretch.
+    fn add_work(&mut self, model: &Model<R>, state: &State<R>, series: &Series<R>, paths: &[R]) {
         let n = model.mass.len();
         let length = series.length;
         let orders = series.rate.iter().map(|r| r.0.len()).max().unwrap_or(0);
@@ -155,6 +165,9 @@ impl<R: Real> Recorder<R> {
             if let Contact::Sliding(sign) = state.blocks[j].contact {
                 let force = series.contact.scaled(sign.times(data.mu_k * data.mass));
                 work.friction = work.friction + length * force.times(relative).integral();
+                let vertical = |contact: R| (contact - model.gravity).abs();
+                let size = model.gravity + vertical(series.contact.start()).max(vertical(series.contact.end()));
+                work.friction_sizes = work.friction_sizes + data.mu_k * data.mass * size * paths[j];
             }
         }
         work.input = work.input - length * momentum.times(&series.ground).integral();
@@ -174,11 +187,12 @@ impl<R: Real> Recorder<R> {
         let rows = (samples - 1) / self.every + 1;
         self.drift.resize(rows * state.drift.len(), f64::NAN);
         self.slip.resize(rows * state.blocks.len(), f64::NAN);
-        let Work { initial, input, largest_input, viscous, hysteretic, friction } = self.work;
+        let Work { initial, input, largest_input, viscous, hysteretic, friction, friction_sizes } = self.work;
         let (kinetic, elastic) = (state.kinetic_energy(model), state.elastic_energy(model));
         let residual = initial + input - kinetic - elastic - viscous - hysteretic - friction;
         let scale = initial.abs() + largest_input;
-        let relative_residual = if residual == R::zero() { residual } else { residual / scale };
+        let relative = |energy: R| if energy == R::zero() { energy } else { energy / scale };
+        let relative_residual = relative(residual);
         Solution {
             status,
             end_time,
@@ -201,6 +215,7 @@ impl<R: Real> Recorder<R> {
                 friction: friction.to_f64(),
                 relative_residual: relative_residual.to_f64(),
             },
+            contact_condition: relative(friction_sizes).to_f64(),
         }
     }
 }

@@ -66,6 +66,16 @@ fn drive<R: Real>(motion: &Motion, i: usize) -> Drive<R> {
 /// # Errors
 /// [`JudgeError`] when the state machines chatter, numbers overflow, or the scene is far too stiff for the time step.
 pub fn solve<R: Real>(scene: &Scene, motion: &Motion, every: usize) -> Result<Solution, JudgeError> {
+    solve_disturbed::<R>(scene, motion, every, |_, _| {})
+}
+
+/// As [`solve`], with something done to the state at the beginning of every piece, of which it is told both ends (s).
+pub(crate) fn solve_disturbed<R: Real>(
+    scene: &Scene,
+    motion: &Motion,
+    every: usize,
+    mut disturb: impl FnMut([f64; 2], &mut State<R>),
+) -> Result<Solution, JudgeError> {
     if every == 0 {
         return Err(JudgeError::NoDecimation);
     }
@@ -94,6 +104,7 @@ pub fn solve<R: Real>(scene: &Scene, motion: &Motion, every: usize) -> Result<So
         run.start = R::of(i as f64) * dt;
         for piece in 0..pieces {
             let ends = [piece, piece + 1].map(|p| dt * R::of(p as f64) / R::of(pieces as f64));
+            disturb(ends.map(|tau| (run.start + tau).to_f64()), &mut run.state);
             if let Some((storey, time)) = run.solve_piece(ends, &mut recorder)? {
                 status = Status::Collapsed { storey: storey + 1, time };
                 break 'run;

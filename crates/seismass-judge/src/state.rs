@@ -178,6 +178,23 @@ impl<R: Real> State<R> {
         R::of(0.5) * twice
     }
 
+    /// Multiplies the numbers of the state by factors, each storey's drift, rate and elastic forces by its own. All
+    /// blocks share theirs, so that those that move together still do. Plastic forces, which are no result of
+    /// rounding, stay.
+    pub(crate) fn scale(&mut self, mut factor: impl FnMut() -> R) {
+        for number in self.drift.iter_mut().chain(&mut self.rate) {
+            *number = *number * factor();
+        }
+        for element in self.elements.iter_mut().flatten().filter(|e| e.plastic.is_none()) {
+            element.force = element.force * factor();
+        }
+        let (velocity, slip) = (factor(), factor());
+        for block in &mut self.blocks {
+            block.velocity = block.velocity * velocity;
+            block.slip = block.slip * slip;
+        }
+    }
+
     pub(crate) fn is_finite(&self) -> bool {
         let blocks = self.blocks.iter().flat_map(|b| [b.velocity, b.slip]);
         self.drift.iter().chain(&self.rate).copied().chain(blocks).all(|x| x.to_f64().is_finite())

@@ -56,6 +56,20 @@ fn rectangular_pulse() {
     assert_eq!((solution.events.len(), solution.residual_slip[0]), (0, 0.0));
 }
 
+/// Along a given motion friction's work is proportional to g + a_v, and changes with g and a_v by their sizes: relative
+/// to the energy it is (g + |a_v|) / (g + a_v) times the share of friction in the only input.
+#[test]
+fn condition_of_the_energy_balance() {
+    let scene = ground_block(0.2, 0.2);
+    for vertical in [0.0, 1.0, -5.0, 1e-6 - STANDARD_GRAVITY] {
+        let motion = Motion::new(vec![5.0; 101], 0.01, Some(vec![vertical; 101].into())).unwrap();
+        let solution = run::<DoubleDouble>(&scene, &motion);
+        let share = solution.energy.friction / solution.energy.input;
+        let condition = share * (STANDARD_GRAVITY + vertical.abs()) / (STANDARD_GRAVITY + vertical);
+        assert!((solution.contact_condition / condition - 1.0).abs() < 1e-8, "{vertical}: {condition:e}");
+    }
+}
+
 /// The half-sine pulse of 0.5 g and 0.4 s: slip and time of stopping, seven digits tabulated.
 #[test]
 fn half_sine_pulse() {

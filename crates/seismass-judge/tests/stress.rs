@@ -41,6 +41,18 @@ fn seeds_that_once_failed_hold() {
     }
 }
 
+/// Undamped storeys that turn at their yield force cycle after cycle, and a block under g + a_v that nearly vanishes:
+/// rounding decides whether they are to be explained, but they are no defects.
+#[test]
+fn grazes_of_undamped_storeys_and_cancelled_gravity_are_no_defects() {
+    for seed in [887_908, 900_235, 700_482] {
+        let mut tally = Tally::default();
+        random::run(Selection { first: seed, scenes: 1, judged: 1.0 }, &mut tally);
+        println!("{}", report::distribution(&tally));
+        assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
+    }
+}
+
 /// Blocks that come to rest within rounding of a landing, among accelerations of 1e-36 m/s2: the order of events differs
 /// from the judge's, but the run goes on.
 #[test]
@@ -55,6 +67,11 @@ fn a_tally_goes_on_where_it_stopped() {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tally.tsv");
     let mut tally = Tally::default();
     random::run(Selection { first: 0, scenes: 60, judged: 0.2 }, &mut tally);
+    tally.grazing.push((1, 1.0, "a graze".into()));
+    tally.sensitive.push((2, 4.0, "a sensitive scene".into()));
+    tally.pairs.push((3, 16.0, "pairs".into()));
+    tally.cancelled.push((4, 9.3e-9, 1.1e-11));
+    tally.defects.push((5, "a defect".into()));
     tally.save(&path).unwrap();
     let again = Tally::load(&path).unwrap();
     assert_eq!(report::distribution(&again), report::distribution(&tally));

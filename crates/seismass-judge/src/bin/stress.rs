@@ -83,7 +83,7 @@ fn stress(arguments: &Arguments) -> Result<bool, Box<dyn std::error::Error>> {
         let scenes = arguments.chunk.min(arguments.scenes - tally.scenes);
         random::run(Selection { first: offset + tally.scenes, scenes, judged }, &mut tally);
         tally.save(&arguments.tally)?;
-        let explained = tally.grazing.len() + tally.sensitive.len();
+        let explained = tally.grazing.len() + tally.sensitive.len() + tally.pairs.len() + tally.cancelled.len();
         println!(
             "{} scenes, {} judged, {explained} explained, {} defects, {:.0} s",
             tally.scenes,

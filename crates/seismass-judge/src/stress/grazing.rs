@@ -1,18 +1,20 @@
 //! Where kernel and judge part: is it a true grazing? The judge is asked with its input changed in the last digits.
+//! And where the kernel's energies do not balance: does the input carry the digits that are missing?
 
 use std::sync::Arc;
 
 use seismass::{Block, Building, Damping, GravityEffect, Motion, Response, Scene};
 
+use super::pairs;
 use crate::random_scene::Draw;
 use crate::{Comparison, DoubleDouble, Solution, compare, solve};
 
 /// Relative differences below this are agreement.
 pub const AGREEMENT: f64 = 1e-9;
 /// Changes of the input tried, in units of the last digit of a double (2^-52).
-const LAST_DIGITS: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
+pub(super) const LAST_DIGITS: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 /// Different changes of each size.
-const TRIALS: u64 = 6;
+pub(super) const TRIALS: u64 = 6;
 /// Events this close (s) are at one instant.
 const ONE_INSTANT: f64 = 1e-10;
 /// Without a difference in the events, the kernel may be this many times as far from the judge as the judge is from
@@ -38,7 +40,15 @@ pub enum Verdict {
         /// How the two differed.
         difference: String,
     },
-    /// Neither: a defect of one of them.
+    /// The logs differ by pairs of events that begin and end at a graze, and nothing else differs: the judge, with its
+    /// state changed in the last digits, comes to have or to lack each of them (see [`pairs`]).
+    GrazingPairs {
+        /// The change, in units of the last digit.
+        digits: f64,
+        /// How the two differed.
+        difference: String,
+    },
+    /// None of these: a defect of one of them.
     Unexplained(String),
 }
 
@@ -68,6 +78,9 @@ pub fn judge_precisely(scene: &Scene, motion: &Motion, response: &Response) -> V
 }
 
 fn explain(scene: &Scene, motion: &Motion, response: &Response, exact: &Solution, parted: &Comparison) -> Verdict {
+    if let Some(verdict) = pairs::explain(scene, motion, response, exact, parted) {
+        return verdict;
+    }
     let difference = parted.mismatch.clone().unwrap_or_else(|| format!("relative difference {:.1e}", parted.worst()));
     for digits in LAST_DIGITS {
         for trial in 0..TRIALS {
@@ -88,6 +101,20 @@ fn explain(scene: &Scene, motion: &Motion, response: &Response, exact: &Solution
         }
     }
     Verdict::Unexplained(difference)
+}
+
+/// The energy residual that the last digits of g and a_v explain, relative as the residual is; nothing if the
+/// kernel's is larger, or if its events or numbers are not those of the judge in double-double.
+///
+/// The contact force is the sum of g and a_v, and where they nearly cancel it is known to the last digit of g, not to
+/// its own. The judge finds by how much the work of friction along its motion changes with one last digit (2^-52) of
+/// g and of the samples of a_v. No balance of energies in doubles, of which this work is a part, can be better than
+/// that; nothing else is granted to it.
+pub fn explained_residual(scene: &Scene, motion: &Motion, response: &Response) -> Option<f64> {
+    let residual = response.energy?.relative_residual.abs();
+    let exact = solve::<DoubleDouble>(scene, motion, 1).ok()?;
+    let explained = f64::EPSILON * exact.contact_condition;
+    (compare(response, &exact).agrees(AGREEMENT) && residual <= explained).then_some(explained)
 }
 
 /// Whether the changed judge leaves the judge at the instant at which the kernel does.
@@ -165,4 +192,47 @@ fn changed_building(building: &Building, mass: f64, stiffness: f64, strength: f6
         other => other.clone(),
     };
     Building::new(masses, storeys, damping).ok()?.with_gravity(gravity).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::stress::random::{LARGEST_RESIDUAL, scene_of, solve_checked};
+
+    /// The kernel's response, as if its energies did not balance by this.
+    fn with_residual(response: &Response, relative_residual: f64) -> Response {
+        let mut response = response.clone();
+        response.energy.as_mut().unwrap().relative_residual = relative_residual;
+        response
+    }
+
+    /// Seed 700482: a block slips by 1e-24 m while g + a_v is below 1e-6 m/s2, so that one last digit of g is 1e-9 of
+    /// the contact force and more.
+    #[test]
+    fn a_residual_of_cancelled_gravity_is_explained_and_a_larger_one_is_not() {
+        let (scene, motion) = scene_of(700_482).1.unwrap();
+        let response = solve_checked(&scene, &motion).unwrap();
+        let residual = response.energy.unwrap().relative_residual;
+        let explained = explained_residual(&scene, &motion, &response).unwrap();
+        assert!(residual.abs() <= explained && explained < 1e-7, "{residual:e} {explained:e}");
+        for planted in [3e-5, -3e-5, f64::NAN] {
+            assert_eq!(explained_residual(&scene, &motion, &with_residual(&response, planted)), None);
+        }
+        let mut elsewhere = response;
+        elsewhere.residual_slip[0] *= 1.0 + 1e-6;
+        assert_eq!(explained_residual(&scene, &motion, &elsewhere), None);
+    }
+
+    /// Where g and a_v do not cancel, no residual beyond the limit is explained.
+    #[test]
+    fn a_residual_of_an_ordinary_scene_is_not_explained() {
+        for seed in 0..20 {
+            let (scene, motion) = scene_of(seed).1.unwrap();
+            let response = solve_checked(&scene, &motion).unwrap();
+            let planted = with_residual(&response, 2.0 * LARGEST_RESIDUAL);
+            assert_eq!(explained_residual(&scene, &motion, &planted), None, "seed {seed}");
+        }
+    }
 }

@@ -4,6 +4,7 @@ pub mod cases;
 mod consistency;
 mod grazing;
 mod hard_scene;
+mod pairs;
 pub mod random;
 pub mod report;
 mod tally_file;

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use seismass::{Error, EventCounts, EventKind, Motion, Options, Response, Scene, Status, simulate};
 
 use super::consistency;
-use super::grazing::{Verdict, judge};
+use super::grazing::{Verdict, explained_residual, judge};
 use super::hard_scene::hard_scene;
 use crate::random_scene::{Draw, random_scene};
 
@@ -49,6 +49,8 @@ struct Found {
     collapsed: bool,
     events: EventCounts,
     residual: Option<f64>,
+    /// The residual beyond the limit that the contact force explains.
+    explained_residual: Option<f64>,
     verdict: Option<Verdict>,
     defect: Option<String>,
 }
@@ -71,8 +73,11 @@ fn examine(seed: u64, judged: bool) -> Found {
     found.events = response.statistics.events;
     found.residual = response.energy.map(|e| e.relative_residual.abs());
     found.defect = consistency::check(&scene, &motion, &response).err();
-    if found.residual.is_some_and(|r| r > LARGEST_RESIDUAL || r.is_nan()) {
-        found.defect.get_or_insert(format!("energy residual {:?}", found.residual));
+    if let Some(residual) = found.residual.filter(|r| *r > LARGEST_RESIDUAL || r.is_nan()) {
+        found.explained_residual = explained_residual(&scene, &motion, &response);
+        if found.explained_residual.is_none() {
+            found.defect.get_or_insert(format!("energy residual {residual:e}"));
+        }
     }
     if judged && affordable(&scene, &motion) {
         let verdict = judge(&scene, &motion, &response);
@@ -123,6 +128,12 @@ pub struct Tally {
     pub grazing: Vec<(u64, f64, String)>,
     /// Sensitive scenes, explained: seed, change in last digits, difference.
     pub sensitive: Vec<(u64, f64, String)>,
+    /// Logs that differ by pairs of events at grazes alone, each shown to be one: seed, change in last digits,
+    /// difference.
+    pub pairs: Vec<(u64, f64, String)>,
+    /// Energy residuals beyond the limit, explained: seed, the residual that the last digits of g and a_v explain, the
+    /// residual found.
+    pub cancelled: Vec<(u64, f64, f64)>,
     /// Defects: seed, what is wrong.
     pub defects: Vec<(u64, String)>,
 }
@@ -149,7 +160,11 @@ impl Tally {
             Some(Verdict::Agrees(difference)) => raise(&mut self.worst_difference[family], difference),
             Some(Verdict::Grazing { digits, difference }) => self.grazing.push((found.seed, digits, difference)),
             Some(Verdict::Sensitive { digits, difference }) => self.sensitive.push((found.seed, digits, difference)),
+            Some(Verdict::GrazingPairs { digits, difference }) => self.pairs.push((found.seed, digits, difference)),
             Some(Verdict::Unexplained(_)) | None => {}
+        }
+        if let (Some(explained), Some(residual)) = (found.explained_residual, found.residual) {
+            self.cancelled.push((found.seed, explained, residual));
         }
         if let Some(defect) = found.defect {
             self.defects.push((found.seed, defect));

@@ -31,6 +31,8 @@ pub fn distribution(tally: &Tally) -> String {
     row("worst relative difference where the events agree (limit 1e-9)", worst(tally.worst_difference));
     row("parted at a grazing, explained", tally.grazing.len().to_string());
     row("parted by sensitivity, explained", tally.sensitive.len().to_string());
+    row("logs differ by pairs of events at a graze alone, explained", tally.pairs.len().to_string());
+    row("residuals beyond the limit where g + a_v cancels, explained", tally.cancelled.len().to_string());
     row("defects: panics, NaN, errors, residuals, illegal sequences, unexplained", tally.defects.len().to_string());
     for (heading, list) in [("Grazings", &tally.grazing), ("Sensitive scenes", &tally.sensitive)] {
         if !list.is_empty() {
@@ -39,6 +41,24 @@ pub fn distribution(tally: &Tally) -> String {
         for (seed, digits, difference) in list {
             let _ = writeln!(text, "- seed {seed}, {digits}: `{difference}`");
         }
+    }
+    if !tally.pairs.is_empty() {
+        let _ = writeln!(
+            text,
+            "\nPairs at a graze, with the change of the state, in last digits, that brings or takes each:\n"
+        );
+    }
+    for (seed, digits, difference) in &tally.pairs {
+        let _ = writeln!(text, "- seed {seed}, {digits}: `{difference}`");
+    }
+    if !tally.cancelled.is_empty() {
+        let _ = writeln!(
+            text,
+            "\nEnergy residuals where g + a_v cancels, with what the last digit of g moves friction work:\n"
+        );
+    }
+    for (seed, explained, residual) in &tally.cancelled {
+        let _ = writeln!(text, "- seed {seed}: residual {residual:.1e}, explained up to {explained:.1e}");
     }
     if !tally.defects.is_empty() {
         let _ = writeln!(text, "\nDefects:\n");
@@ -79,7 +99,10 @@ pub fn page(findings: &[Finding], tally: &Tally) -> String {
          buildings have (`random_scene.rs`, `stress/hard_scene.rs` of `crates/seismass-judge`). Every run is checked by \
          itself, a tenth with energies, a random part against the judge. Where the two part, the judge is asked again with \
          its input changed in the last digits: a grazing is explained if it then comes to the same events and numbers as \
-         the kernel, and a scene is sensitive if it then moves as far.\n\n{}",
+         the kernel, and a scene is sensitive if it then moves as far. Where all numbers agree and the logs \
+         differ by pairs of events alone (a yield and its unload, a slip and its stick), the judge's state is changed in the \
+         last digits just before each pair: it is explained if every pair thus comes or goes (`stress/pairs.rs`). An energy \
+         residual beyond the limit is explained as far as one last digit of g and a_v changes the work of friction.\n\n{}",
         findings.len(),
         table(findings),
         distribution(tally),

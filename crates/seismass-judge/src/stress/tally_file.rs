@@ -29,10 +29,13 @@ impl Tally {
         for (events, runs) in &self.events {
             line("events", &[events.to_string(), runs.to_string()]);
         }
-        for (key, list) in [("grazing", &self.grazing), ("sensitive", &self.sensitive)] {
+        for (key, list) in [("grazing", &self.grazing), ("sensitive", &self.sensitive), ("pairs", &self.pairs)] {
             for (seed, digits, difference) in list {
                 line(key, &[seed.to_string(), digits.to_string(), difference.clone()]);
             }
+        }
+        for (seed, explained, residual) in &self.cancelled {
+            line("cancelled", &[seed.to_string(), format!("{explained:e}"), format!("{residual:e}")]);
         }
         for (seed, defect) in &self.defects {
             line("defect", &[seed.to_string(), defect.clone()]);
@@ -94,6 +97,8 @@ impl Tally {
             }
             "grazing" => self.grazing.push((whole(0)?, real(1)?, text(2)?)),
             "sensitive" => self.sensitive.push((whole(0)?, real(1)?, text(2)?)),
+            "pairs" => self.pairs.push((whole(0)?, real(1)?, text(2)?)),
+            "cancelled" => self.cancelled.push((whole(0)?, real(1)?, real(2)?)),
             "defect" => self.defects.push((whole(0)?, text(1)?)),
             _ => return None,
         }
