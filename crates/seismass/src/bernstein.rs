@@ -1,12 +1,16 @@
 //! Roots of polynomials on [0, 1] with proof: Bernstein coefficients bound a polynomial, so no sign change means no
 //! root and one sign change means exactly one (Descartes' rule).
 
+use crate::lanes::{Plain, Vector};
+
 /// Highest degree: Taylor series of a step never need more terms.
 pub(crate) const MAX_DEGREE: usize = 23;
 /// Halvings after which an interval is a point.
 const MAX_DEPTH: u32 = 60;
 
 /// A polynomial on [0, 1] by its power coefficients, lowest first.
+///
+/// What the hot loops need is inlined into the code of their path and takes the path's fused operations (`V`).
 #[derive(Clone, Copy)]
 pub(crate) struct Polynomial {
     coefficients: [f64; MAX_DEGREE + 1],
@@ -15,89 +19,127 @@ pub(crate) struct Polynomial {
 
 impl Polynomial {
     /// The polynomial with these coefficients.
+    #[inline(always)]
     pub(crate) fn new(coefficients: impl IntoIterator<Item = f64>) -> Self {
         let mut p = Self { coefficients: [0.0; MAX_DEGREE + 1], length: 0 };
-        for c in coefficients {
-            p.coefficients[p.length] = c;
+        for (out, c) in p.coefficients.iter_mut().zip(coefficients) {
+            *out = c;
             p.length += 1;
         }
         p
     }
 
+    /// The polynomial with this many coefficients.
+    #[inline(always)]
+    pub(crate) fn from_fn(length: usize, coefficient: impl Fn(usize) -> f64) -> Self {
+        let mut p = Self { coefficients: [0.0; MAX_DEGREE + 1], length: length.min(MAX_DEGREE + 1) };
+        for k in 0..p.length {
+            p.coefficients[k] = coefficient(k);
+        }
+        p
+    }
+
     /// The coefficients, lowest first.
+    #[inline(always)]
     pub(crate) fn coefficients(&self) -> &[f64] {
-        &self.coefficients[..self.length]
+        &self.coefficients[..self.length.min(MAX_DEGREE + 1)]
     }
 
     /// The coefficients, to be changed in place.
+    #[inline(always)]
     pub(crate) fn coefficients_mut(&mut self) -> &mut [f64] {
-        &mut self.coefficients[..self.length]
+        &mut self.coefficients[..self.length.min(MAX_DEGREE + 1)]
     }
 
     /// Sum of the absolute coefficients: a bound on [0, 1].
+    #[inline(always)]
     pub(crate) fn norm(&self) -> f64 {
         self.coefficients().iter().map(|c| c.abs()).sum()
     }
 
     /// Value at `s`.
-    pub(crate) fn at(&self, s: f64) -> f64 {
-        self.coefficients().iter().rev().fold(0.0, |value, &c| value * s + c)
+    #[inline(always)]
+    pub(crate) fn at<V: Vector>(&self, s: f64) -> f64 {
+        let mut value = 0.0;
+        for &c in self.coefficients().iter().rev() {
+            value = V::fused(value, s, c);
+        }
+        value
     }
 
     /// Value and derivative at `s`.
-    fn at_with_rate(&self, s: f64) -> (f64, f64) {
+    #[inline(always)]
+    fn at_with_rate<V: Vector>(&self, s: f64) -> (f64, f64) {
         let mut value = 0.0;
         let mut rate = 0.0;
         for &c in self.coefficients().iter().rev() {
-            rate = rate * s + value;
-            value = value * s + c;
+            rate = V::fused(rate, s, value);
+            value = V::fused(value, s, c);
         }
         (value, rate)
     }
 
     /// The derivative.
+    #[inline(always)]
     pub(crate) fn derivative(&self) -> Self {
-        Self::new(self.coefficients().iter().enumerate().skip(1).map(|(k, &c)| k as f64 * c))
+        Self::new(self.coefficients().iter().zip(&ORDERS).skip(1).map(|(&c, &k)| k * c))
     }
 
     /// The same polynomial on [0, end], rescaled to [0, 1].
+    #[inline(always)]
     pub(crate) fn cut(&self, end: f64) -> Self {
-        let mut power = 1.0;
-        Self::new(self.coefficients().iter().map(|&c| {
-            let scaled = c * power;
-            power *= end;
-            scaled
-        }))
+        let mut cut = *self;
+        if end < 1.0 {
+            let mut power = 1.0;
+            for c in cut.coefficients_mut() {
+                *c *= power;
+                power *= end;
+            }
+        }
+        cut
     }
 
-    /// A lower bound on [0, 1] that costs one pass.
-    fn lower_bound(&self) -> f64 {
-        self.coefficients().iter().skip(1).fold(self.coefficients[0], |bound, &c| bound + c.min(0.0))
-    }
-
-    /// Whether the derivative is proved negative on [0, 1], at the cost of one pass.
-    fn falls_throughout(&self) -> bool {
-        let terms = self.coefficients().iter().enumerate().skip(2);
-        terms.fold(self.coefficients[1], |bound, (k, &c)| bound + k as f64 * c.max(0.0)) < 0.0
+    /// The sum of the coefficients, which is the value at 1, and bounds of the derivative on [0, 1].
+    #[inline(always)]
+    fn end_and_rates(&self) -> (f64, [f64; 2]) {
+        let (mut end, mut slowest, mut fastest) = (0.0, 0.0, 0.0);
+        for (&c, &k) in self.coefficients().iter().zip(&ORDERS).skip(2) {
+            end += c;
+            slowest += k * if c < 0.0 { c } else { 0.0 };
+            fastest += k * if c > 0.0 { c } else { 0.0 };
+        }
+        let [start, rate, ..] = self.coefficients;
+        (start + (rate + end), [rate + slowest, rate + fastest])
     }
 
     /// The first `s` in [0, 1] where the polynomial falls through zero to below `-tolerance`.
     ///
     /// Dips that stay above `-tolerance` are rounding and do not count; the place returned is the zero itself, or 0
     /// when the polynomial starts at or below zero and never rises above it before.
-    pub(crate) fn first_fall(&self, tolerance: f64) -> Option<f64> {
-        if self.lower_bound() >= -tolerance {
+    #[inline(always)]
+    pub(crate) fn first_fall<V: Vector>(&self, tolerance: f64) -> Option<f64> {
+        let mut least = self.coefficients[0];
+        for &c in self.coefficients().iter().skip(1) {
+            least += if c < 0.0 { c } else { 0.0 };
+        }
+        if least >= -tolerance {
             return None;
         }
+        let (end, rates) = self.end_and_rates();
+        if self.coefficients[0] > 0.0 && rates[1] < 0.0 {
+            return if end < -tolerance { Some(self.only_root::<V>(end)) } else { None };
+        }
+        self.first_of_falls(tolerance)
+    }
+
+    /// [`Polynomial::first_fall`] of a polynomial that is not known to fall throughout.
+    #[inline(never)]
+    fn first_of_falls(&self, tolerance: f64) -> Option<f64> {
         let mut shifted = *self;
         shifted.coefficients[0] += tolerance;
         // A start at exactly zero, without tolerance, is judged by the first derivative that is not.
         if shifted.coefficients().iter().find(|&&c| c != 0.0).is_none_or(|&c| c < 0.0) {
             return Some(0.0);
-        }
-        if shifted.falls_throughout() && self.coefficients[0] > 0.0 {
-            let at_end: f64 = shifted.coefficients().iter().sum();
-            return (at_end < 0.0).then(|| self.refine(0.0, 1.0));
         }
         let (left, right) = Bernstein::new(&shifted).first_sign_change(0.0, 1.0, MAX_DEPTH)?;
         let below = shifted.refine(left, right);
@@ -106,7 +148,7 @@ impl Polynomial {
 
     /// The zero of the polynomial just before `end`, where it is slightly negative; 0 if there is none.
     fn zero_before(&self, end: f64) -> f64 {
-        let (value, rate) = self.at_with_rate(end);
+        let (value, rate) = self.at_with_rate::<Plain>(end);
         if value >= 0.0 {
             return end;
         }
@@ -116,7 +158,7 @@ impl Polynomial {
             if start.is_nan() || start <= 0.0 {
                 return self.without_zeros_at_start().map_or(0.0, |rising| rising.refine(0.0, end));
             }
-            if self.at(start) >= 0.0 {
+            if self.at::<Plain>(start) >= 0.0 {
                 return self.refine(start, end);
             }
             back *= 4.0;
@@ -131,15 +173,32 @@ impl Polynomial {
         (rest[0] > 0.0).then(|| Self::new(rest.iter().copied()))
     }
 
-    /// The root in [left, right], at whose ends the polynomial is positive and not positive, to rounding: Newton kept
-    /// inside the bracket by bisection.
-    fn refine(&self, mut left: f64, mut right: f64) -> f64 {
-        let (at_left, at_right) = (self.at(left), self.at(right));
-        let falls = at_left > at_right;
+    /// The root in [left, right], at whose ends the polynomial has different signs, to rounding.
+    fn refine(&self, left: f64, right: f64) -> f64 {
+        let (at_left, at_right) = (self.at::<Plain>(left), self.at::<Plain>(right));
         let secant = left + (right - left) * (at_left / (at_left - at_right));
-        let mut s = if secant > left && secant < right { secant } else { 0.5 * (left + right) };
+        self.newton::<Plain>(secant, left, right, at_left > at_right)
+    }
+
+    /// The root in [0, 1] of a polynomial whose derivative keeps its sign and whose value at 1, `end`, has not that of its
+    /// start.
+    #[inline(always)]
+    fn only_root<V: Vector>(&self, end: f64) -> f64 {
+        let [start, rate, ..] = self.coefficients;
+        // First guess: the root of the parabola with this start, rate and end.
+        let curvature = end - start - rate;
+        let discriminant = V::fused(rate, rate, -4.0 * curvature * start);
+        let guess = 2.0 * start.abs() / (discriminant.sqrt() - rate.copysign(rate * start));
+        self.newton::<V>(guess, 0.0, 1.0, start > 0.0)
+    }
+
+    /// The root in [left, right] by Newton's method from a guess, kept inside the bracket by bisection, to rounding.
+    #[inline(always)]
+    fn newton<V: Vector>(&self, guess: f64, mut left: f64, mut right: f64, falls: bool) -> f64 {
+        let mut s = if guess > left && guess < right { guess } else { 0.5 * (left + right) };
+        let mut last_step = 0.0;
         for _ in 0..100 {
-            let (value, rate) = self.at_with_rate(s);
+            let (value, rate) = self.at_with_rate::<V>(s);
             if value == 0.0 {
                 return s;
             }
@@ -149,24 +208,56 @@ impl Polynomial {
                 right = s;
             }
             let newton = s - value / rate;
-            let next = if newton > left && newton < right { newton } else { 0.5 * (left + right) };
-            if (next - s).abs() <= f64::EPSILON * s.abs() || right - left <= f64::EPSILON * right {
+            let inside = newton > left && newton < right;
+            let next = if inside { newton } else { 0.5 * (left + right) };
+            let step = (next - s).abs();
+            // Steps of Newton's method square: the next would be step^3 / last_step^2.
+            let is_last = inside && step * (step * step) <= f64::EPSILON * s * (last_step * last_step);
+            if is_last || step <= f64::EPSILON * s.abs() || right - left <= f64::EPSILON * right {
                 return next;
             }
+            last_step = if inside { step } else { 0.0 };
             s = next;
         }
         s
     }
 
-    /// Calls `visit` with every place in (0, 1) where the polynomial changes sign, in order.
-    pub(crate) fn sign_changes(&self, visit: &mut impl FnMut(f64)) {
-        let rest: f64 = self.coefficients().iter().skip(1).map(|c| c.abs()).sum();
-        if self.length == 0 || self.coefficients[0].abs() > rest {
-            return;
+    /// The places in (0, 1) where the polynomial changes sign, in order: the first, and the others.
+    #[inline(always)]
+    pub(crate) fn sign_changes<V: Vector>(&self) -> (Option<f64>, Vec<f64>) {
+        let start = self.coefficients[0];
+        let (end, rates) = self.end_and_rates();
+        if rates[0] > 0.0 || rates[1] < 0.0 {
+            return (if start * end < 0.0 { Some(self.only_root::<V>(end)) } else { None }, Vec::new());
         }
-        Bernstein::new(self).all_sign_changes(0.0, 1.0, MAX_DEPTH, &mut |left, right| visit(self.refine(left, right)));
+        self.all_sign_changes()
+    }
+
+    /// [`Polynomial::sign_changes`] of a polynomial that is not known to be monotonic.
+    #[inline(never)]
+    fn all_sign_changes(&self) -> (Option<f64>, Vec<f64>) {
+        let rest: f64 = self.coefficients().iter().skip(1).map(|c| c.abs()).sum();
+        let (mut first, mut others) = (None, Vec::new());
+        if self.length > 0 && self.coefficients[0].abs() <= rest {
+            Bernstein::new(self).all_sign_changes(0.0, 1.0, MAX_DEPTH, &mut |left, right| {
+                let place = self.refine(left, right);
+                if first.is_none() { first = Some(place) } else { others.push(place) }
+            });
+        }
+        (first, others)
     }
 }
+
+/// 0, 1, 2, ...
+const ORDERS: [f64; MAX_DEGREE + 1] = {
+    let mut table = [0.0; MAX_DEGREE + 1];
+    let mut k = 1;
+    while k <= MAX_DEGREE {
+        table[k] = k as f64;
+        k += 1;
+    }
+    table
+};
 
 /// 1 / C(n, k), by degree n and order k.
 const INVERSE_BINOMIALS: [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1] = {
@@ -290,45 +381,64 @@ mod tests {
     #[test]
     fn finds_the_first_of_several_roots() {
         let p = from_roots(-1.0, &[0.3, 0.31, 0.7]);
-        assert!((p.first_fall(1e-15).unwrap() - 0.3).abs() < 1e-13);
-        let mut all = Vec::new();
-        p.sign_changes(&mut |s| all.push(s));
+        assert!((p.first_fall::<Plain>(1e-15).unwrap() - 0.3).abs() < 1e-13);
+        let (first, others) = p.sign_changes::<Plain>();
+        let all: Vec<f64> = first.into_iter().chain(others).collect();
         assert_eq!(all.len(), 3);
         for (s, root) in all.iter().zip([0.3, 0.31, 0.7]) {
             assert!((s - root).abs() < 1e-13);
         }
     }
 
+    /// The root of a monotonic polynomial, falling or rising, near either end and far from its first guess.
+    #[test]
+    fn finds_the_only_root_of_monotonic_polynomials() {
+        for root in [1e-14, 1e-9, 0.01, 0.37, 0.5, 0.93, 1.0 - 1e-9] {
+            for (linear, cubic) in [(1.0, 0.0), (1.0, 0.5), (1e-3, 1.0), (1.0, 1e3)] {
+                // linear (s - root) + cubic (s^3 - root^3) and its negative.
+                let rising = Polynomial::new([-linear * root - cubic * root * root * root, linear, 0.0, cubic]);
+                let falling = Polynomial::new(rising.coefficients().iter().map(|c| -c));
+                let size = root.max(1e-300) * 8.0 * f64::EPSILON * (1.0 + cubic * root * root / linear);
+                let fall = falling.first_fall::<Plain>(0.0).unwrap();
+                assert!((fall - root).abs() <= size, "{fall:e} for {root:e}, {linear}, {cubic}");
+                for p in [rising, falling] {
+                    let (first, others) = p.sign_changes::<Plain>();
+                    assert!((first.unwrap() - root).abs() <= size && others.is_empty());
+                }
+            }
+        }
+    }
+
     #[test]
     fn a_touch_is_no_fall() {
         let p = from_roots(1.0, &[0.4, 0.4]);
-        assert_eq!(p.first_fall(1e-15), None);
+        assert_eq!(p.first_fall::<Plain>(1e-15), None);
         let dips = from_roots(1.0, &[0.4, 0.4 + 1e-6]);
-        assert!((dips.first_fall(1e-15).unwrap() - 0.4).abs() < 1e-8);
+        assert!((dips.first_fall::<Plain>(1e-15).unwrap() - 0.4).abs() < 1e-8);
     }
 
     #[test]
     fn a_start_at_zero_is_judged_by_what_follows() {
-        assert_eq!(Polynomial::new([0.0, 1.0, 0.5]).first_fall(1e-15), None);
-        assert_eq!(Polynomial::new([0.0, -1.0, 0.5]).first_fall(1e-15), Some(0.0));
-        assert_eq!(Polynomial::new([0.0, 0.0, -1.0]).first_fall(1e-15), Some(0.0));
-        assert_eq!(Polynomial::new([0.0, 0.0, -1.0]).first_fall(0.0), Some(0.0));
-        assert_eq!(Polynomial::new([0.0, 0.0, 0.0]).first_fall(0.0), None);
-        assert_eq!(Polynomial::new([0.0, 0.0, 1.0]).first_fall(0.0), None);
+        assert_eq!(Polynomial::new([0.0, 1.0, 0.5]).first_fall::<Plain>(1e-15), None);
+        assert_eq!(Polynomial::new([0.0, -1.0, 0.5]).first_fall::<Plain>(1e-15), Some(0.0));
+        assert_eq!(Polynomial::new([0.0, 0.0, -1.0]).first_fall::<Plain>(1e-15), Some(0.0));
+        assert_eq!(Polynomial::new([0.0, 0.0, -1.0]).first_fall::<Plain>(0.0), Some(0.0));
+        assert_eq!(Polynomial::new([0.0, 0.0, 0.0]).first_fall::<Plain>(0.0), None);
+        assert_eq!(Polynomial::new([0.0, 0.0, 1.0]).first_fall::<Plain>(0.0), None);
         // Leaves zero upwards and comes back.
-        let s = Polynomial::new([0.0, 1.0, -2.0]).first_fall(1e-15).unwrap();
+        let s = Polynomial::new([0.0, 1.0, -2.0]).first_fall::<Plain>(1e-15).unwrap();
         assert!((s - 0.5).abs() < 1e-15);
         // Rises off zero by less than the tolerance, and falls: the fall is where it comes back, not the start.
-        let s = Polynomial::new([0.0, 1e-9, 0.0, -1e3]).first_fall(1e-12).unwrap();
+        let s = Polynomial::new([0.0, 1e-9, 0.0, -1e3]).first_fall::<Plain>(1e-12).unwrap();
         assert!((s - 1e-6).abs() < 1e-20, "{s}");
         // Noise below zero at the start, then rises.
-        assert_eq!(Polynomial::new([-1e-17, -1e-17, 1.0]).first_fall(1e-15), None);
+        assert_eq!(Polynomial::new([-1e-17, -1e-17, 1.0]).first_fall::<Plain>(1e-15), None);
     }
 
     #[test]
     fn cut_keeps_values() {
         let p = Polynomial::new([1.0, -2.0, 0.5, 3.0]);
-        assert!((p.cut(0.25).at(0.8) - p.at(0.2)).abs() < 1e-15);
-        assert!((p.derivative().at(0.3) - (-2.0 + 0.3 + 9.0 * 0.09)).abs() < 1e-15);
+        assert!((p.cut(0.25).at::<Plain>(0.8) - p.at::<Plain>(0.2)).abs() < 1e-15);
+        assert!((p.derivative().at::<Plain>(0.3) - (-2.0 + 0.3 + 9.0 * 0.09)).abs() < 1e-15);
     }
 }

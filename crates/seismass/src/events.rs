@@ -3,6 +3,7 @@
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
 use crate::friction::{self, BlockState, Cause, Transition, settle};
+use crate::lanes::Vector;
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
 use crate::state::{State, range};
@@ -54,8 +55,9 @@ struct First {
 }
 
 impl First {
-    fn consider(&mut self, guard: Guard, polynomial: &Polynomial, tolerance: f64) {
-        if let Some(place) = polynomial.first_fall(tolerance)
+    #[inline(always)]
+    fn consider<V: Vector>(&mut self, guard: Guard, polynomial: &Polynomial, tolerance: f64) {
+        if let Some(place) = polynomial.first_fall::<V>(tolerance)
             && place < self.place
         {
             *self = Self { place, guard: Some(guard) };
@@ -64,44 +66,60 @@ impl First {
 }
 
 impl State<'_> {
-    /// Relative velocity of a block over the present series, which starts at `tau`.
-    pub(crate) fn relative_velocity(&self, block: usize, tau: f64) -> Polynomial {
+    /// `factor`, 1 or -1, times the relative velocity of a block over the present series, which starts at `tau`.
+    #[inline(always)]
+    pub(crate) fn relative_velocity(&self, block: usize, tau: f64, factor: f64) -> Polynomial {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
-        let h = self.series.h();
+        let h = factor * self.series.h();
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
-        let contact = [self.contact_at(tau), self.interval.slope(self.interval.contact_change) * h];
-        let acceleration = self.acceleration_of(law.floor, tau);
-        let rates = acceleration.coefficients().iter().enumerate().map(|(k, a)| {
-            let friction = if k < 2 { friction * contact[k] } else { 0.0 };
-            -h * (a + friction) / (k + 1) as f64
+        let contact = [self.contact_at(tau), self.interval.contact_slope * self.series.h()];
+        let acceleration = self.acceleration_of(law.floor, tau, 1.0);
+        let terms = acceleration.coefficients();
+        let mut p = Polynomial::from_fn(terms.len() + 1, |k| match k {
+            0 => factor * motion.velocity,
+            _ => -h * INVERSE[k] * terms[k - 1],
         });
-        Polynomial::new(std::iter::once(motion.velocity).chain(rates))
+        // Added before they are multiplied, so that small sums keep their digits.
+        if let ([a0, a1, ..], [_, c1, c2, ..]) = (terms, p.coefficients_mut()) {
+            *c1 = -h * (a0 + friction * contact[0]);
+            *c2 = -0.5 * h * (a1 + friction * contact[1]);
+        }
+        p
     }
 
-    /// Absolute acceleration of a floor, or of the ground (0), over the present series, which starts at `tau`.
-    pub(crate) fn acceleration_of(&self, floor: usize, tau: f64) -> Polynomial {
+    /// `factor`, 1 or -1, times the absolute acceleration of a floor, or of the ground (0), over the present series, which
+    /// starts at `tau`.
+    #[inline(always)]
+    pub(crate) fn acceleration_of(&self, floor: usize, tau: f64, factor: f64) -> Polynomial {
         if floor > 0 {
-            return self.series.floor_acceleration(floor - 1);
+            return self.series.floor_acceleration(floor - 1, factor);
         }
-        let slope = self.interval.slope(self.interval.ground_change);
-        Polynomial::new([self.interval.ground_at(tau), slope * self.series.h()])
+        let change = self.interval.ground_slope * self.series.h();
+        Polynomial::new([factor * self.interval.ground_at(tau), factor * change])
     }
 
     /// The first guard that falls within the present series, which starts at `tau` and whose ranges are formed: its place
     /// in [0, 1], and what it is.
     ///
     /// `isolated` counts the guards that could not be cleared by a bound.
-    pub(crate) fn first_event(&self, tau: f64, isolated: &mut usize) -> Option<(f64, Guard)> {
+    #[inline(always)]
+    pub(crate) fn first_event<V: Vector>(&self, tau: f64, isolated: &mut usize) -> Option<(f64, Guard)> {
         let mut first = First { place: f64::INFINITY, guard: None };
         let h = self.series.h();
-        self.storey_guards(tau, &mut first, isolated);
+        self.storey_guards::<V>(tau, &mut first, isolated);
         if !self.motions.is_empty() {
-            self.block_guards(tau, &mut first, isolated);
+            if self.vertical || self.airborne {
+                first.consider::<V>(Guard::Contact, &self.contact_guard(tau), ROUNDING * STANDARD_GRAVITY);
+            }
+            if !self.airborne {
+                self.breakaway_guards::<V>(tau, &mut first, isolated);
+                self.arrival_guards::<V>(tau, &mut first, isolated);
+            }
         }
         // A block whose floor's acceleration is below rounding lifts off stuck.
         if let Some(Guard::Breakaway { .. }) = first.guard
             && self.vertical
-            && let Some(lift) = self.contact_guard(tau).first_fall(ROUNDING * STANDARD_GRAVITY)
+            && let Some(lift) = self.contact_guard(tau).first_fall::<V>(ROUNDING * STANDARD_GRAVITY)
             && self.interval.contact_at(tau + first.place * h) <= ROUNDING * STANDARD_GRAVITY
         {
             return Some((lift, Guard::Contact));
@@ -112,87 +130,90 @@ impl State<'_> {
     /// The contact force per unit mass while there is contact, its negative while there is none.
     fn contact_guard(&self, tau: f64) -> Polynomial {
         let sign = if self.airborne { -1.0 } else { 1.0 };
-        let change = self.interval.slope(self.interval.contact_change) * self.series.h();
+        let change = self.interval.contact_slope * self.series.h();
         Polynomial::new([sign * self.interval.contact_at(tau), sign * change])
     }
 
-    fn storey_guards(&self, tau: f64, first: &mut First, isolated: &mut usize) {
+    #[inline(always)]
+    fn storey_guards<V: Vector>(&self, tau: f64, first: &mut First, isolated: &mut usize) {
         let [drifts, rates, _] = self.ranges.suspects;
-        for i in self.looked_at(drifts | rates) {
+        for i in self.looked_at(drifts) {
             let (low, high) = self.ranges.drift(i);
             let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
-            if !(high < yields.1 && low > yields.0 && high < collapses.1 && low > collapses.0) {
-                for (limit, sign, guard) in [
-                    (yields.1, Sign::Positive, Guard::Yield { storey: i, sign: Sign::Positive }),
-                    (yields.0, Sign::Negative, Guard::Yield { storey: i, sign: Sign::Negative }),
-                    (collapses.1, Sign::Positive, Guard::Collapse { storey: i }),
-                    (collapses.0, Sign::Negative, Guard::Collapse { storey: i }),
-                ] {
-                    let clear = if sign == Sign::Positive { high < limit } else { low > limit };
-                    if !clear && limit.is_finite() {
-                        *isolated += 1;
-                        self.drift_guard(i, limit, sign, guard, first);
-                    }
-                }
-            }
-            if let Some(sign) = self.springs[i].plastic() {
-                let (low, high) = self.ranges.rate(i);
-                if !(if sign == Sign::Positive { low > 0.0 } else { high < 0.0 }) {
+            for (sign, reached, yields, collapses) in
+                [(Sign::Positive, high, yields.1, collapses.1), (Sign::Negative, -low, -yields.0, -collapses.0)]
+            {
+                if reached >= yields && yields < f64::INFINITY {
                     *isolated += 1;
-                    let mut p = self.series.drift_rate(i);
-                    p.coefficients_mut().iter_mut().for_each(|c| *c *= sign.factor());
-                    let contact = self.contact_at(tau);
-                    let sizes = self.acceleration_size(i + 1, contact) + self.acceleration_size(i, contact);
-                    let tolerance = ROUNDING * (p.norm() + self.series.h() * sizes);
-                    first.consider(Guard::Unload { storey: i }, &p, tolerance);
+                    self.drift_guard::<V>(i, yields, sign, Guard::Yield { storey: i, sign }, first);
+                }
+                if reached >= collapses && collapses < f64::INFINITY {
+                    *isolated += 1;
+                    self.drift_guard::<V>(i, collapses, sign, Guard::Collapse { storey: i }, first);
                 }
             }
         }
-    }
-
-    fn drift_guard(&self, i: usize, limit: f64, sign: Sign, guard: Guard, first: &mut First) {
-        let mut p = self.series.drift(i);
-        p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign.factor());
-        p.coefficients_mut()[0] = sign.factor() * (limit - self.x[i]);
-        let size = self.model.laws[i].yield_range(self.springs[i].yielded());
-        let excursion: f64 = p.coefficients()[1..].iter().map(|c| c.abs()).sum();
-        first.consider(guard, &p, ROUNDING * (limit.abs() + self.x[i].abs() + excursion + size));
-    }
-
-    fn block_guards(&self, tau: f64, first: &mut First, isolated: &mut usize) {
-        let h = self.series.h();
-        let contact = self.interval.contact_at(tau);
-        let contact_change = self.interval.slope(self.interval.contact_change) * h;
-        if self.vertical || self.airborne {
-            first.consider(Guard::Contact, &self.contact_guard(tau), ROUNDING * STANDARD_GRAVITY);
-        }
-        if self.airborne {
-            return;
-        }
-        let least_contact = contact.min(contact + contact_change).max(0.0);
-        for floor in std::iter::once(0).chain(self.looked_at(self.ranges.suspects[2]).map(|i| i + 1)) {
-            let mu = self.stuck_mu[floor];
-            if !mu.is_finite() {
-                continue;
-            }
-            let (low, high) = self.acceleration_range(floor);
-            if high < mu * least_contact && low > -mu * least_contact {
+        for i in self.looked_at(rates) {
+            let Some(sign) = self.springs[i].plastic() else { continue };
+            let (low, high) = self.ranges.rate(i);
+            if if sign == Sign::Positive { low > 0.0 } else { high < 0.0 } {
                 continue;
             }
             *isolated += 1;
-            let acceleration = self.acceleration_of(floor, tau);
+            let p = self.series.drift_rate(i, sign.factor());
+            let contact = self.contact_at(tau);
+            let sizes = self.acceleration_size(i + 1, contact) + self.acceleration_size(i, contact);
+            let tolerance = ROUNDING * (p.norm() + self.series.h() * sizes);
+            first.consider::<V>(Guard::Unload { storey: i }, &p, tolerance);
+        }
+    }
+
+    /// Considers the guard of a drift coordinate that, times `sign`, must stay below `limit`.
+    #[inline(always)]
+    fn drift_guard<V: Vector>(&self, i: usize, limit: f64, sign: Sign, guard: Guard, first: &mut First) {
+        let mut p = self.series.drift(i, -sign.factor());
+        p.coefficients_mut()[0] = 0.0;
+        let excursion = p.norm();
+        p.coefficients_mut()[0] = limit - sign.factor() * self.x[i];
+        let size = self.model.laws[i].yield_range(self.springs[i].yielded());
+        first.consider::<V>(guard, &p, ROUNDING * (limit.abs() + self.x[i].abs() + excursion + size));
+    }
+
+    #[inline(always)]
+    fn breakaway_guards<V: Vector>(&self, tau: f64, first: &mut First, isolated: &mut usize) {
+        let contact = self.interval.contact_at(tau);
+        let contact_change = self.interval.contact_slope * self.series.h();
+        let least_contact = contact.min(contact + contact_change).max(0.0);
+        for floor in std::iter::once(0).chain(self.looked_at(self.ranges.suspects[2]).map(|i| i + 1)) {
+            let mu = self.stuck_mu[floor];
+            if mu == f64::INFINITY {
+                continue;
+            }
+            let (low, high) = self.acceleration_range(floor);
+            let reached = [(Sign::Positive, high), (Sign::Negative, -low)];
+            if reached.iter().all(|&(_, size)| size < mu * least_contact) {
+                continue;
+            }
+            *isolated += 1;
             let limit = mu * contact.max(0.0);
-            let size = acceleration.norm() + (mu * contact_change).abs() + self.acceleration_size(floor, contact);
-            // Not below what a decision takes as equal: what has just stuck must not break away for that.
-            let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size);
-            for sign in [Sign::Positive, Sign::Negative] {
-                let mut p = acceleration;
-                p.coefficients_mut().iter_mut().for_each(|c| *c *= -sign.factor());
-                p.coefficients_mut()[0] += limit;
-                p.coefficients_mut()[1] += mu * contact_change;
-                first.consider(Guard::Breakaway { floor, sign }, &p, tolerance);
+            let sizes = (mu * contact_change).abs() + self.acceleration_size(floor, contact);
+            for (sign, size) in reached {
+                if size < mu * least_contact {
+                    continue;
+                }
+                let mut p = self.acceleration_of(floor, tau, -sign.factor());
+                // Not below what a decision takes as equal: what has just stuck must not break away for that.
+                let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + p.norm() + sizes);
+                if let [c0, c1, ..] = p.coefficients_mut() {
+                    (*c0, *c1) = (*c0 + limit, *c1 + mu * contact_change);
+                }
+                first.consider::<V>(Guard::Breakaway { floor, sign }, &p, tolerance);
             }
         }
+    }
+
+    #[inline(always)]
+    fn arrival_guards<V: Vector>(&self, tau: f64, first: &mut First, isolated: &mut usize) {
         for (j, motion) in self.motions.iter().enumerate() {
             let Some(sign) = motion.sliding() else { continue };
             let (low, high) = self.velocity_range(j, tau);
@@ -200,11 +221,11 @@ impl State<'_> {
                 continue;
             }
             *isolated += 1;
-            let mut p = self.relative_velocity(j, tau);
-            p.coefficients_mut().iter_mut().for_each(|c| *c *= sign.factor());
+            let p = self.relative_velocity(j, tau, sign.factor());
             let law = &self.model.blocks[j];
+            let contact = self.interval.contact_at(tau);
             let size = self.acceleration_size(law.floor, contact) + law.mu_k * STANDARD_GRAVITY;
-            first.consider(Guard::Arrival { block: j }, &p, ROUNDING * (p.norm() + h * size));
+            first.consider::<V>(Guard::Arrival { block: j }, &p, ROUNDING * (p.norm() + self.series.h() * size));
         }
     }
 
@@ -220,43 +241,41 @@ impl State<'_> {
     }
 
     /// Range of the relative velocity of a sliding block over the present series, which starts at `tau`.
+    #[inline(always)]
     fn velocity_range(&self, block: usize, tau: f64) -> (f64, f64) {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let h = self.series.h();
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
         // Linear up to the end, also where contact is lost before: as the change below is.
         let start = self.contact_at(tau);
-        let contact = (start, start + self.interval.slope(self.interval.contact_change) * h);
+        let contact = (start, start + self.interval.contact_slope * h);
         let (a, margin) = match law.floor.checked_sub(1) {
             Some(i) => {
                 let margin = self.ranges.remainder * self.regime().row(Row::ThirdOfAcceleration)[i];
-                ((self.a[i], self.series.accelerations_at_end().0[i]), margin)
+                ((self.a[i], self.series.accelerations_at_end()[0][i]), margin)
             }
             None => ((self.drive.ground, self.drive.ground + self.drive.ground_slope * h), 0.0),
         };
-        let (velocity, _) = self.block_change(block, tau, 1.0);
+        let (velocity, _) = self.block_change(block, tau);
         let rates = (-friction * contact.0 - a.0, -friction * contact.1 - a.1);
         range(motion.velocity, rates.0, motion.velocity + velocity, rates.1, h / 3.0, margin)
     }
 
-    /// Changes of relative velocity and slip of a block up to place `s` of the present series, which starts at `tau`:
-    /// integrals of its floor's absolute acceleration and its own, so that small ones keep their digits.
-    pub(crate) fn block_change(&self, block: usize, tau: f64, s: f64) -> (f64, f64) {
+    /// Changes of relative velocity and slip of a block over the present series, which starts at `tau`, up to its place:
+    /// integrals of its floor's absolute acceleration and its own, added term by term so that small ones keep their digits.
+    #[inline]
+    pub(crate) fn block_change(&self, block: usize, tau: f64) -> (f64, f64) {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
-        let h = self.series.h();
+        let (s, h) = (self.series.place(), self.series.h());
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
-        let contact = [self.contact_at(tau), self.interval.slope(self.interval.contact_change) * h];
-        let ground = [self.drive.ground, self.drive.ground_slope * h];
-        let order = if law.floor > 0 { self.series.order() } else { 1 };
-        let (mut velocity, mut slip) = (0.0, 0.0);
-        for k in (0..=order).rev() {
-            let mut a = if law.floor > 0 { self.series.floor_acceleration_term(k, law.floor - 1) } else { ground[k] };
-            if k < 2 {
-                a += friction * contact[k];
-            }
-            velocity = velocity * s + a * INVERSE[k + 1];
-            slip = slip * s + a * (INVERSE[k + 1] * INVERSE[k + 2]);
-        }
+        let (terms, integrals) = match law.floor.checked_sub(1) {
+            Some(i) => self.series.terms_and_integrals(i),
+            None => ([self.drive.ground, self.drive.ground_slope * h], [0.0; 2]),
+        };
+        let start = terms[0] + friction * self.contact_at(tau);
+        let change = terms[1] + friction * self.interval.contact_slope * h;
+        let velocity = (integrals[0] * s + 0.5 * change) * s + start;
+        let slip = (integrals[1] * s + (1.0 / 6.0) * change) * s + 0.5 * start;
         let h = h * s;
         (-h * velocity, h * motion.velocity - h * h * slip)
     }

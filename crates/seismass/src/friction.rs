@@ -78,6 +78,13 @@ impl BlockMotion {
         if self.velocity == 0.0 { 0 } else { Sign::of(self.velocity).as_i8() }
     }
 
+    /// Changes velocity and slip.
+    #[inline]
+    pub(crate) fn move_by(&mut self, (velocity, slip): (f64, f64)) {
+        self.velocity += velocity;
+        self.slip += slip;
+    }
+
     /// Closes a monotonic stretch of the slip path at `slip`.
     pub(crate) fn turn_at(&mut self, slip: f64) {
         self.path += (slip - self.turn).abs();

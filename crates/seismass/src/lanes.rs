@@ -102,6 +102,8 @@ pub(crate) trait Vector: Copy {
     /// Bits of the lanes that are not below those of `other`; lanes that are no numbers are not.
     fn not_below(self, other: Self) -> u32;
     fn sum(self) -> f64;
+    /// a * b + c of numbers, fused where the path has it.
+    fn fused(a: f64, b: f64, c: f64) -> f64;
 }
 
 /// What every architecture has; the compiler makes vectors of it.
@@ -181,6 +183,10 @@ impl Vector for Plain {
     #[inline(always)]
     fn sum(self) -> f64 {
         (self.0[0] + self.0[2]) + (self.0[1] + self.0[3])
+    }
+    #[inline(always)]
+    fn fused(a: f64, b: f64, c: f64) -> f64 {
+        a * b + c
     }
 }
 
@@ -367,6 +373,10 @@ mod x86 {
         #[inline(always)]
         fn not_below(self, other: Self) -> u32 {
             unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_NLT_UQ>(self.0, other.0)) as u32 }
+        }
+        #[inline(always)]
+        fn fused(a: f64, b: f64, c: f64) -> f64 {
+            a.mul_add(b, c)
         }
         #[inline(always)]
         fn sum(self) -> f64 {

@@ -3,6 +3,7 @@
 use crate::bernstein::Polynomial;
 use crate::bounds::{Set, only};
 use crate::friction::BlockState;
+use crate::lanes::{Plain, Vector};
 use crate::model::Model;
 use crate::regime::{Row, viscous_power};
 use crate::response::{Energy, Histories, Peaks};
@@ -115,12 +116,8 @@ impl Observer {
         }
     }
 
-    /// Takes values of storey and floor `i` into the peaks.
-    pub(crate) fn take_floor(&mut self, state: &State, i: usize, x: f64, a: f64, time: f64) {
-        self.take_drift(state, i, x, time);
-        self.take_acceleration(i, a, time);
-    }
-
+    /// Takes drift and shear at a drift coordinate of storey `i` into their peaks.
+    #[inline]
     fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
         let drift = self.peaks.drift[i].take(state.springs[i].drift(x), time);
         let shear = state.base_force[i] + state.regime().row(Row::SpringTangent)[i] * x;
@@ -146,8 +143,34 @@ impl Observer {
     /// Takes the present values into the peaks.
     pub(crate) fn observe_values(&mut self, state: &State, time: f64) {
         for i in 0..state.storeys() {
-            self.take_floor(state, i, state.x[i], state.a[i], time);
+            self.take_drift(state, i, state.x[i], time);
         }
+        self.observe_accelerations(state, time);
+        self.observe_slips(state, time);
+    }
+
+    /// Takes the present floor accelerations into their peaks.
+    pub(crate) fn observe_accelerations(&mut self, state: &State, time: f64) {
+        for (i, &a) in state.a[..state.storeys()].iter().enumerate() {
+            self.take_acceleration(i, a, time);
+        }
+    }
+
+    /// Takes the values at the end of the present series, or at its event, into the peaks, where they may beat them.
+    #[inline]
+    pub(crate) fn observe_suspects(&mut self, state: &State, time: f64) {
+        let [drifts, _, accelerations] = state.ranges.suspects;
+        for i in state.looked_at(drifts) {
+            self.take_drift(state, i, state.x[i], time);
+        }
+        for i in state.looked_at(accelerations) {
+            self.take_acceleration(i, state.a[i], time);
+        }
+        self.observe_slips(state, time);
+    }
+
+    #[inline]
+    fn observe_slips(&mut self, state: &State, time: f64) {
         for (peak, motion) in self.peaks.slip.iter_mut().zip(&state.motions) {
             peak.take(motion.slip, time);
         }
@@ -155,44 +178,51 @@ impl Observer {
 
     /// Takes the extremes inside the present series, whose ranges are formed, from `tau` to its place `end`, before the
     /// state is advanced.
-    pub(crate) fn observe_series(&mut self, state: &mut State, tau: f64, end: f64, isolated: &mut usize) {
+    #[inline(always)]
+    pub(crate) fn observe_series<V: Vector>(&mut self, state: &State, tau: f64, end: f64, isolated: &mut usize) {
         let h = state.series.h();
-        let time = |s: f64| state.interval.start + tau + s * end * h;
-        let (drifts, accelerations) = (state.ranges.suspects[0], state.ranges.suspects[2]);
+        let (start, length) = (state.interval.start + tau, end * h);
+        let [drifts, _, accelerations] = state.ranges.suspects;
         for i in state.looked_at(drifts) {
             let (low, high) = state.ranges.drift(i);
             let rate = state.ranges.rate(i);
             let turns = !(rate.0 > 0.0 || rate.1 < 0.0);
             if turns && self.drift_may_peak(state, i, low, high) {
                 *isolated += 1;
-                let drift = state.series.drift(i).cut(end);
-                drift.derivative().sign_changes(&mut |s| {
-                    self.take_drift(state, i, drift.at(s), time(s));
-                });
+                let drift = state.series.drift(i, 1.0).cut(end);
+                let (first, others) = drift.derivative().sign_changes::<V>();
+                for s in first.into_iter().chain(others) {
+                    self.take_drift(state, i, drift.at::<V>(s), start + s * length);
+                }
             }
         }
         for i in state.looked_at(accelerations) {
             let (low, high) = state.ranges.acceleration(i);
             if self.acceleration_may_peak(i, low, high) && !state.is_steady(i) {
                 *isolated += 1;
-                let acceleration = state.series.floor_acceleration(i).cut(end);
-                acceleration.derivative().sign_changes(&mut |s| {
-                    self.take_acceleration(i, acceleration.at(s), time(s));
-                });
+                let acceleration = state.series.floor_acceleration(i, 1.0).cut(end);
+                let (first, others) = acceleration.derivative().sign_changes::<V>();
+                for s in first.into_iter().chain(others) {
+                    self.take_acceleration(i, acceleration.at::<V>(s), start + s * length);
+                }
             }
         }
-        if state.airborne {
-            for j in 0..state.motions.len() {
-                let velocity = state.relative_velocity(j, tau).cut(end);
-                let slip = state.slip_change(j, tau).cut(end);
-                let start = state.motions[j].slip;
-                let times = (state.interval.start + tau, end * h);
-                let (peak, motion) = (&mut self.peaks.slip[j], &mut state.motions[j]);
-                velocity.sign_changes(&mut |s| {
-                    let value = start + slip.at(s);
-                    peak.take(value, times.0 + s * times.1);
-                    motion.turn_at(value);
-                });
+    }
+
+    /// Takes the turns of airborne blocks inside the present series, from `tau` to its place `end`, before the state is
+    /// advanced.
+    pub(crate) fn observe_flights(&mut self, state: &mut State, tau: f64, end: f64) {
+        let (start, length) = (state.interval.start + tau, end * state.series.h());
+        for j in 0..state.motions.len() {
+            let velocity = state.relative_velocity(j, tau, 1.0).cut(end);
+            let slip = state.slip_change(j, tau).cut(end);
+            let at_start = state.motions[j].slip;
+            let (peak, motion) = (&mut self.peaks.slip[j], &mut state.motions[j]);
+            let (first, others) = velocity.sign_changes::<Plain>();
+            for s in first.into_iter().chain(others) {
+                let value = at_start + slip.at::<Plain>(s);
+                peak.take(value, start + s * length);
+                motion.turn_at(value);
             }
         }
     }
@@ -279,12 +309,12 @@ impl Observer {
         let length = state.series.h() * end;
         let (mut rates, mut scratch) = (vec![0.0; n], vec![0.0; n]);
         let velocities: Vec<Option<Polynomial>> = (0..state.motions.len())
-            .map(|j| (!state.motions[j].is_stuck()).then(|| state.relative_velocity(j, tau)))
+            .map(|j| (!state.motions[j].is_stuck()).then(|| state.relative_velocity(j, tau, 1.0)))
             .collect();
         for (node, weight) in GAUSS {
             let s = node * end;
             let at = tau + s * state.series.h();
-            state.series.rates(s, &mut rates);
+            state.series.rates_at(s, &mut rates);
             let energy = &mut balance.energy;
             energy.viscous += weight * length * viscous_power(state.model, &rates, &mut scratch);
             let mut velocity = 0.0;
@@ -294,7 +324,7 @@ impl Observer {
             }
             let mut momentum: f64 = state.model.mass.iter().zip(&scratch).map(|(m, v)| m * v).sum();
             for (j, law) in state.model.blocks.iter().enumerate() {
-                let relative = velocities[j].as_ref().map_or(0.0, |p| p.at(s));
+                let relative = velocities[j].as_ref().map_or(0.0, |p| p.at::<Plain>(s));
                 let floor = if law.floor > 0 { scratch[law.floor - 1] } else { 0.0 };
                 momentum += law.mass * (floor + relative);
                 if let BlockState::Sliding(sign) = state.motions[j].state {
@@ -304,9 +334,7 @@ impl Observer {
             }
             energy.input -= weight * length * momentum * state.interval.ground_at(at);
         }
-        let mut changes = vec![0.0; n];
-        state.series.changes_at(end, &mut changes, &mut rates);
-        for (spring, change) in state.springs.iter().zip(&changes) {
+        for (spring, change) in state.springs.iter().zip(state.series.changes()[0]) {
             balance.energy.hysteretic += spring.plastic_force() * change;
         }
         balance.largest_input = balance.largest_input.max(balance.energy.input);

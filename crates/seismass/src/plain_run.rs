@@ -407,8 +407,11 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
     let h = course.h;
     let (length, third, per_second) = (V::splat(h), V::splat(h / 3.0), 1.0 / h);
     let regime = course.regime;
-    let (mass, tangent): ([V; K], [V; K]) = (load(regime.row(Row::RootMass)), load(regime.row(Row::RootTangent)));
-    let margins: [[V; K]; 4] = MARGINS.map(|row| load(regime.row(row)));
+    let (mass, tangent): ([V; K], [V; K]) = (regime.lanes(Row::RootMass), regime.lanes(Row::RootTangent));
+    let mut margins = [[V::splat(0.0); K]; 4];
+    for which in 0..4 {
+        margins[which] = regime.lanes(MARGINS[which]);
+    }
     let growth = course.regime.growth_over(h);
     let widening = h * h * h * h / 384.0;
     let mut sample = Sample::<V, K>::of(state);
@@ -420,7 +423,7 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
     let contact_at = |i: usize| if VERTICAL { STANDARD_GRAVITY + vertical[i] } else { STANDARD_GRAVITY };
     // Rate of the floor accelerations per slope of the contact force: it turns at every sample.
     let mut turning: [V; K] = load(&state.friction);
-    for (turning, inverse_mass) in turning.iter_mut().zip(load::<V, K>(regime.row(Row::InverseMass))) {
+    for (turning, inverse_mass) in turning.iter_mut().zip(regime.lanes::<V, K>(Row::InverseMass)) {
         *turning = turning.mul(inverse_mass);
     }
     let mut slope_before = if VERTICAL { (contact_at(first + 1) - contact_at(first)) * per_second } else { 0.0 };
@@ -484,12 +487,12 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
         // The proof.
         let apart_after = bounds.apart(&taken, third);
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
-        let (mut suspects, mut turning_blocks) = (0, 0);
+        let (mut suspects, mut turning_blocks) = ([0; 3], 0);
         for k in 0..K {
             let limit = bounds.stuck_mu[k].mul(least_contact).min(bounds.a_peak[k]);
             for (which, bound) in [(0, bounds.reach[k]), (1, bounds.turn[k]), (2, limit)] {
                 let most = apart_before[which][k].max(apart_after[which][k]);
-                suspects |= Set::from(margin.mul_add(margins[which][k], most).not_below(bound)) << (WIDTH * k);
+                suspects[which] |= Set::from(margin.mul_add(margins[which][k], most).not_below(bound)) << (WIDTH * k);
             }
         }
         let (ground, push) = (Linear { start: before, end: after }, Linear { start: contact.0, end: contact.1 });
@@ -515,7 +518,7 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
             }
         }
         let mut beaten = BeatenPeaks::default();
-        if suspects != 0 || SLIDING && turning_blocks != 0 {
+        if suspects[0] | suspects[1] | suspects[2] != 0 || SLIDING && turning_blocks != 0 {
             let (at_start, at_end) = (sample.values(), taken.values());
             let (middle, reach, sign) = (numbers(&bounds.middle), numbers(&bounds.reach), numbers(&bounds.sign));
             let mut step = Closer {
@@ -531,7 +534,7 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
                 sign: sign.as_flattened(),
                 beaten: BeatenPeaks::default(),
             };
-            if !step.look(suspects & within)
+            if !step.look(suspects, within)
                 || SLIDING && turning_blocks != 0 && layers.iter().any(|layer| step.may_turn(layer))
             {
                 break;
@@ -660,52 +663,65 @@ impl Closer<'_, '_> {
         self.liveliness * (h2 * h2 / 384.0)
     }
 
-    /// Whether no guard of these storeys and floors, as bits, fell and no peak was beaten inside the step.
+    /// Whether no guard of these storeys and floors fell and no peak was beaten inside the step. Suspects are those whose
+    /// drifts, drift rates and accelerations the loop did not clear.
     #[inline(never)]
-    fn look(&mut self, suspects: Set) -> bool {
-        let (state, start, end) = (self.state, self.start, self.end);
-        let (third, remainder) = (self.h / 3.0, self.remainder());
-        let regime = state.regime();
-        let (of_drift, of_rate) = (regime.row(Row::FourthOfDrift), regime.row(Row::FourthOfRate));
-        let of_acceleration = regime.row(Row::FourthOfAcceleration);
-        let of_block = regime.row(Row::ThirdOfAcceleration);
-        let contact = self.contact.0.min(self.contact.1);
-        for i in members(suspects) {
-            let drift = range(start.x[i], start.v[i], end.x[i], end.v[i], third, remainder * of_drift[i]);
-            let rate = range(start.v[i], start.q[i], end.v[i], end.q[i], third, remainder * of_rate[i]);
-            let margin = remainder * of_acceleration[i];
-            let (low, high) = range(start.a[i], start.jerk[i], end.a[i], end.jerk[i], third, margin);
-            let size = high.max(-low);
-            let inside = |(lower, upper): (f64, f64)| drift.1 < upper && drift.0 > lower;
-            let keeps_sign = match self.sign[i] {
-                0.0 => true,
-                sign if sign > 0.0 => rate.0 > 0.0,
-                _ => rate.1 < 0.0,
-            };
-            if !(keeps_sign && size < state.stuck_mu[i + 1] * contact) {
-                return false;
-            }
-            if !inside((self.middle[i] - self.reach[i], self.middle[i] + self.reach[i])) {
-                if !inside(state.guarded_drift(i)) {
-                    return false;
-                }
-                if !(rate.0 > 0.0 || rate.1 < 0.0) {
-                    return false;
-                }
-                self.beaten.drift |= 1 << i;
-            }
-            let below_peak = size < self.observer.peaks.floor_acceleration[i].value;
-            if !below_peak {
-                // Between its ends the jerk differs from its chord by at most h^2 / 8 times its second derivative.
-                let turn = 0.125 * self.h * self.h * self.liveliness * of_block[i];
-                let (jerk, jerk_end) = (start.jerk[i], end.jerk[i]);
-                if !(jerk * jerk_end > 0.0 && jerk.abs().min(jerk_end.abs()) > turn) {
-                    return false;
-                }
-                self.beaten.acceleration |= 1 << i;
-            }
+    fn look(&mut self, [drifts, rates, accelerations]: [Set; 3], within: Set) -> bool {
+        members(rates & within).all(|i| self.keeps_direction(i))
+            && members(drifts & within).all(|i| self.stays_in_bounds(i))
+            && members(accelerations & within).all(|i| self.holds_blocks(i))
+    }
+
+    #[inline]
+    fn rate_range(&self, i: usize) -> (f64, f64) {
+        let (start, end) = (self.start, self.end);
+        let margin = self.remainder() * self.state.regime().row(Row::FourthOfRate)[i];
+        range(start.v[i], start.q[i], end.v[i], end.q[i], self.h / 3.0, margin)
+    }
+
+    /// Whether the drift rate of a storey keeps the sign that it must keep.
+    #[inline]
+    fn keeps_direction(&self, i: usize) -> bool {
+        let (low, high) = self.rate_range(i);
+        match self.sign[i] {
+            0.0 => true,
+            sign if sign > 0.0 => low > 0.0,
+            _ => high < 0.0,
         }
-        true
+    }
+
+    /// Whether a storey neither yields nor collapses, and beats no peak, or at the end of the step.
+    #[inline]
+    fn stays_in_bounds(&mut self, i: usize) -> bool {
+        let (start, end) = (self.start, self.end);
+        let margin = self.remainder() * self.state.regime().row(Row::FourthOfDrift)[i];
+        let (low, high) = range(start.x[i], start.v[i], end.x[i], end.v[i], self.h / 3.0, margin);
+        if high < self.middle[i] + self.reach[i] && low > self.middle[i] - self.reach[i] {
+            return true;
+        }
+        let (lower, upper) = self.state.guarded_drift(i);
+        let rate = self.rate_range(i);
+        self.beaten.drift |= 1 << i;
+        high < upper && low > lower && (rate.0 > 0.0 || rate.1 < 0.0)
+    }
+
+    /// Whether no block breaks away from a floor, and its acceleration beats no peak, or at the end of the step.
+    #[inline]
+    fn holds_blocks(&mut self, i: usize) -> bool {
+        let (start, end) = (self.start, self.end);
+        let regime = self.state.regime();
+        let margin = self.remainder() * regime.row(Row::FourthOfAcceleration)[i];
+        let (low, high) = range(start.a[i], start.jerk[i], end.a[i], end.jerk[i], self.h / 3.0, margin);
+        let size = high.max(-low);
+        let below_limit = size < self.state.stuck_mu[i + 1] * self.contact.0.min(self.contact.1);
+        if !below_limit || size < self.observer.peaks.floor_acceleration[i].value {
+            return below_limit;
+        }
+        // Between its ends the jerk differs from its chord by at most h^2 / 8 times its second derivative.
+        let turn = 0.125 * self.h * self.h * self.liveliness * regime.row(Row::ThirdOfAcceleration)[i];
+        let (jerk, jerk_end) = (start.jerk[i], end.jerk[i]);
+        self.beaten.acceleration |= 1 << i;
+        jerk * jerk_end > 0.0 && jerk.abs().min(jerk_end.abs()) > turn
     }
 
     /// Whether the relative velocity of a block may have turned.
@@ -786,14 +802,16 @@ impl State<'_> {
         }
         let Some(steps) = self.cache.regime(self.regime).steps.as_deref() else { return };
         let (propagator, effects) = (&steps.propagator, &mut self.effects);
-        propagator.of_load(&self.spring_load, &mut effects.constant);
-        propagator.of_load(&self.friction, &mut effects.friction);
         if self.vertical {
+            propagator.of_load(&self.spring_load, &mut effects.constant);
+            propagator.of_load(&self.friction, &mut effects.friction);
             propagator.of_ramp(&self.friction, &mut effects.friction_ramp);
         } else {
-            for (constant, friction) in effects.constant.iter_mut().zip(&effects.friction) {
-                *constant += friction * STANDARD_GRAVITY;
+            let loads = &mut self.scratch[0];
+            for ((load, spring), friction) in loads.iter_mut().zip(&self.spring_load).zip(&self.friction) {
+                *load = spring + friction * STANDARD_GRAVITY;
             }
+            propagator.of_load(loads, &mut effects.constant);
         }
         effects.valid = true;
     }

@@ -15,7 +15,7 @@ use rustc_hash::FxBuildHasher;
 use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, padded, store};
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
-use crate::taylor::{MAX_PHASE, terms};
+use crate::taylor::{INVERSE, MAX_PHASE, terms};
 
 /// Memory one cache may take before it starts afresh (bytes).
 const CACHE_BYTES: usize = 64 << 20;
@@ -99,44 +99,41 @@ fn remainders<V: Vector, const K: usize>(model: &Model, regime: &Regime, out: &m
     let inside: [V; K] = load(&model.lanes.inside);
     let keeps_terms = n <= MAX_TABLE;
     out.sums.resize(2 * n * 4 * width, 0.0);
-    let mut states = vec![0.0; 2 * n * 2 * width];
-    for i in 0..n {
-        states[2 * i * width + i] = 1.0;
-        states[(2 * (n + i) + 1) * width + i] = 1.0;
-    }
     if keeps_terms {
         out.terms.resize((out.order - 1) * 2 * n * width, 0.0);
     }
-    for k in 0..=out.order {
-        let (once, twice) = (h / (k + 1) as f64, h * h / ((k + 1) * (k + 2)) as f64);
-        let (first, second) = (V::splat(once), V::splat(twice));
-        for c in 0..2 * n {
-            let state = &mut states[2 * c * width..2 * (c + 1) * width];
-            let (x, v): ([V; K], [V; K]) = (load(state), load(&state[width..]));
-            let a = operator.accelerations(&x, &v, zero);
-            let drift_acceleration = differences(&a, V::splat(0.0));
-            let (mut next_x, mut next_v, mut term) = (zero, zero, zero);
-            let mut rows = [zero; 4];
-            let sums = &mut out.sums[4 * c * width..4 * (c + 1) * width];
+    // Two columns at a time, which keeps both the vectors in registers and the processor busy.
+    for i in 0..n {
+        let (mut x, mut v) = ([zero; 2], [zero; 2]);
+        let mut unit = [[0.0; WIDTH]; K];
+        unit.as_flattened_mut()[i] = 1.0;
+        (x[0], v[1]) = (load(unit.as_flattened()), load(unit.as_flattened()));
+        let mut rows = [[zero; 4]; 2];
+        for k in 0..=out.order {
+            let (once, twice) = (h * INVERSE[k + 1], h * h * (INVERSE[k + 1] * INVERSE[k + 2]));
+            let (first, second) = (V::splat(once), V::splat(twice));
+            for side in 0..2 {
+                let a = operator.accelerations(&x[side], &v[side], zero);
+                let drift_acceleration = differences(&a, V::splat(0.0));
+                let mut term = zero;
+                for l in 0..K {
+                    term[l] = second.mul(a[l]);
+                    rows[side][0][l] = second.mul_add(x[side][l], rows[side][0][l]);
+                    rows[side][1][l] = first.mul_add(x[side][l], rows[side][1][l]);
+                    rows[side][2][l] = rows[side][2][l].add(term[l]);
+                    rows[side][3][l] = first.mul_add(a[l], rows[side][3][l]);
+                    x[side][l] = first.mul(v[side][l]);
+                    v[side][l] = first.mul(drift_acceleration[l]).mul(inside[l]);
+                }
+                if keeps_terms && k + 2 <= out.order {
+                    store(&term, &mut out.terms[(k * 2 * n + side * n + i) * width..]);
+                }
+            }
+        }
+        for side in 0..2 {
+            let sums = &mut out.sums[4 * (side * n + i) * width..];
             for r in 0..4 {
-                rows[r] = load(&sums[r * width..]);
-            }
-            for l in 0..K {
-                term[l] = second.mul(a[l]);
-                rows[0][l] = second.mul_add(x[l], rows[0][l]);
-                rows[1][l] = first.mul_add(x[l], rows[1][l]);
-                rows[2][l] = rows[2][l].add(term[l]);
-                rows[3][l] = first.mul_add(a[l], rows[3][l]);
-                next_x[l] = first.mul(v[l]);
-                next_v[l] = first.mul(drift_acceleration[l]).mul(inside[l]);
-            }
-            for r in 0..4 {
-                store(&rows[r], &mut sums[r * width..]);
-            }
-            store(&next_x, state);
-            store(&next_v, &mut state[width..]);
-            if keeps_terms && k + 2 <= out.order {
-                store(&term, &mut out.terms[(k * 2 * n + c) * width..]);
+                store(&rows[side][r], &mut sums[r * width..]);
             }
         }
     }
@@ -347,25 +344,36 @@ impl Steps {
     }
 }
 
-impl Propagator {
-    /// out = columns * weights.
-    fn combine(&self, columns: &[f64], weights: &[f64], out: &mut [f64]) {
-        out.fill(0.0);
-        for (column, &weight) in columns.chunks_exact(self.rows).zip(weights) {
-            for (o, c) in out.iter_mut().zip(column) {
-                *o += c * weight;
-            }
-        }
-    }
+for_each_path! {
+    /// out = columns * weights; columns are as long as `out`, in whole vectors.
+    fn combine(columns: &[f64], weights: &[f64], out: &mut [f64]) = combine_by_path
+}
 
+#[inline(always)]
+fn combine_by_path<V: Vector>(columns: &[f64], weights: &[f64], out: &mut [f64]) {
+    let (columns, out) = (columns.as_chunks::<WIDTH>().0, out.as_chunks_mut::<WIDTH>().0);
+    let rows = out.len();
+    for (r, out) in out.iter_mut().enumerate() {
+        let mut sum = V::splat(0.0);
+        let mut at = r;
+        for &weight in weights {
+            let Some(column) = columns.get(at) else { break };
+            sum = V::load(column).mul_add(V::splat(weight), sum);
+            at += rows;
+        }
+        sum.store(out);
+    }
+}
+
+impl Propagator {
     /// Effect of constant floor loads (N) over the interval.
     pub(crate) fn of_load(&self, load: &[f64], out: &mut [f64]) {
-        self.combine(&self.load, load, out);
+        combine(&self.load, load, out);
     }
 
     /// Effect of floor loads that grow from zero to `load` (N) over the interval.
     pub(crate) fn of_ramp(&self, load: &[f64], out: &mut [f64]) {
-        self.combine(&self.ramp, load, out);
+        combine(&self.ramp, load, out);
     }
 
     /// Columns of the state (x, v), one after the other.
@@ -419,7 +427,7 @@ struct Entry {
 pub(crate) struct RegimeCache {
     dt: f64,
     entries: Vec<Entry>,
-    index: HashMap<Vec<u8>, usize, FxBuildHasher>,
+    index: HashMap<Vec<u64>, usize, FxBuildHasher>,
     run: u64,
     /// Memory taken by all entries.
     bytes: usize,
@@ -458,7 +466,7 @@ impl RegimeCache {
     }
 
     /// The regime of a key, formed by `form` when it is new. Returns its index and whether this run knew it.
-    pub(crate) fn enter(&mut self, key: &[u8], form: impl FnOnce() -> Regime) -> (usize, bool) {
+    pub(crate) fn enter(&mut self, key: &[u64], form: impl FnOnce() -> Regime) -> (usize, bool) {
         if self.run_bytes > CACHE_BYTES {
             self.clear();
         }
@@ -482,8 +490,8 @@ impl RegimeCache {
         (index, known)
     }
 
-    fn entry_bytes(regime: &Regime, key: &[u8]) -> usize {
-        8 * regime.row(Row::Mass).len() * 16 + 2 * key.len() + 256
+    fn entry_bytes(regime: &Regime, key: &[u64]) -> usize {
+        8 * regime.row(Row::Mass).len() * 16 + 16 * key.len() + 256
     }
 
     /// The regime at an index.

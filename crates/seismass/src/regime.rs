@@ -5,7 +5,7 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Vector, columns_of, load, padded, prefix_sums};
+use crate::lanes::{Vector, WIDTH, columns_of, load, padded, prefix_sums};
 use crate::model::{Model, ModelLanes};
 use crate::propagator::Steps;
 
@@ -83,6 +83,18 @@ impl Regime {
         &self.rows[from..from + self.stride]
     }
 
+    /// A row in `K` vectors, of which a scene must have as many.
+    #[inline(always)]
+    pub(crate) fn lanes<V: Vector, const K: usize>(&self, row: Row) -> [V; K] {
+        let mut vectors = [V::splat(0.0); K];
+        if let Some(lanes) = self.rows.as_chunks::<WIDTH>().0.as_chunks::<K>().0.get(row as usize) {
+            for k in 0..K {
+                vectors[k] = V::load(&lanes[k]);
+            }
+        }
+        vectors
+    }
+
     /// Floor accelerations (absolute) from drifts, drift rates and floor loads: a_i = (S_(i+1) - S_i + load_i) / mass_i
     /// with S the storey forces of springs, P-Delta and damping. Also serves derivatives of these.
     #[inline(always)]
@@ -128,7 +140,7 @@ pub(crate) struct Operator<'a, V, const K: usize> {
 impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
     #[inline(always)]
     pub(crate) fn new(model: &'a Model, regime: &Regime) -> Self {
-        let (tangent, inverse_mass) = (load(regime.row(Row::Tangent)), load(regime.row(Row::InverseMass)));
+        let (tangent, inverse_mass) = (regime.lanes(Row::Tangent), regime.lanes(Row::InverseMass));
         Self { tangent, inverse_mass, model: &model.lanes }
     }
 

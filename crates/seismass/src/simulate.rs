@@ -6,6 +6,7 @@ use crate::bernstein::Polynomial;
 use crate::error::{Error, Result};
 use crate::events::{Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
+use crate::lanes::{Vector, for_each_path};
 use crate::model::Model;
 use crate::observe::Observer;
 use crate::propagator::RegimeCache;
@@ -97,6 +98,26 @@ pub(crate) fn run(
         Status::Collapsed { time, .. } => time,
     };
     Ok(run.finish(status, end_time, peaks_only))
+}
+
+for_each_path! {
+    /// Forms the ranges over the present series, finds its first event and takes the peaks before it.
+    fn look_into_series(state: &mut State, observer: &mut Observer, tau: f64, isolated: &mut usize)
+        -> Option<(f64, Guard)> = look_by_path
+}
+
+#[inline(always)]
+fn look_by_path<V: Vector>(
+    state: &mut State,
+    observer: &mut Observer,
+    tau: f64,
+    isolated: &mut usize,
+) -> Option<(f64, Guard)> {
+    state.form_ranges::<V>(tau);
+    let event = state.first_event::<V>(tau, isolated);
+    let end = event.map_or(1.0, |(place, _)| place);
+    observer.observe_series::<V>(state, tau, end, isolated);
+    event
 }
 
 struct Run<'a> {
@@ -204,16 +225,14 @@ impl Run<'_> {
     /// Solves the present interval by series; returns the storey that collapsed, and when.
     fn series_interval(&mut self) -> Result<Option<(usize, f64)>> {
         self.statistics.intervals += 1;
-        let state = &self.state;
-        let h = state.interval.h;
-        let vibrations = 1 + (state.regime().frequency * h) as usize;
-        let machines = state.storeys() + state.motions.len();
-        let limit = EVENTS_PER_INTERVAL + EVENTS_PER_MACHINE * machines * vibrations;
+        let h = self.state.interval.h;
+        let phase_at_start = self.state.regime().frequency * h;
         let mut events = 0;
         let mut tau = 0.0;
         while tau < h {
             let remaining = h - tau;
-            let pieces = (self.state.regime().frequency * remaining / MAX_PHASE).ceil().max(1.0);
+            let phase = self.state.regime().frequency * remaining;
+            let pieces = if phase > MAX_PHASE { (phase / MAX_PHASE).ceil() } else { 1.0 };
             let event = self.series_step(tau, remaining / pieces)?;
             match event {
                 None if pieces == 1.0 => tau = h,
@@ -224,33 +243,47 @@ impl Run<'_> {
                     if let Outcome::Collapse(storey) = self.carry_out(guard, tau) {
                         return Ok(Some((storey, self.state.interval.start + tau)));
                     }
-                    if events > limit {
-                        return Err(self.too_many_events(guard, tau, limit));
+                    if events > EVENTS_PER_INTERVAL {
+                        let limit = self.event_limit(phase_at_start);
+                        if events > limit {
+                            return Err(self.too_many_events(guard, tau, limit));
+                        }
                     }
                     continue;
                 }
             }
-            self.observer.observe_values(&self.state, self.state.interval.start + tau);
+            self.observer.observe_suspects(&self.state, self.state.interval.start + tau);
         }
         Ok(None)
+    }
+
+    /// Events that an interval may have, of so many radians of the stiffest mode.
+    fn event_limit(&self, phase: f64) -> usize {
+        let machines = self.state.storeys() + self.state.motions.len();
+        EVENTS_PER_INTERVAL + EVENTS_PER_MACHINE * machines * (1 + phase as usize)
     }
 
     /// Advances by a series over at most `h` from `tau`, up to the first event, which is returned with its place.
     ///
     /// Accelerations are advanced with the state where there is no event.
     fn series_step(&mut self, tau: f64, h: f64) -> Result<Option<(f64, Guard)>> {
-        let state = &mut self.state;
-        state.form_series(tau, h);
-        state.update_bounds(&mut self.observer);
-        state.form_ranges(tau);
         self.statistics.series_steps += 1;
-        let isolated = &mut self.statistics.guards_isolated;
-        let event = state.first_event(tau, isolated);
+        let (state, observer) = (&mut self.state, &mut self.observer);
+        state.form_series(tau, h);
+        state.update_bounds(observer);
+        let event = look_into_series(state, observer, tau, &mut self.statistics.guards_isolated);
         let end = event.map_or(1.0, |(place, _)| place);
-        self.observer.observe_series(state, tau, end, isolated);
-        self.observer.add_energy(state, tau, end);
+        if state.airborne {
+            observer.observe_flights(state, tau, end);
+        }
+        if event.is_some() {
+            state.series.stop_at(end);
+        }
+        if observer.keeps_energy() {
+            observer.add_energy(state, tau, end);
+        }
         match event {
-            Some((place, _)) => state.advance(tau, place),
+            Some(_) => state.advance(tau),
             None => state.advance_to_end(tau),
         }
         state.check_finite(tau + end * h)?;
@@ -261,12 +294,15 @@ impl Run<'_> {
         let time = self.state.interval.start + tau;
         if !guard.is_smooth() {
             self.state.refresh_accelerations(tau);
-            self.observer.observe_values(&self.state, time);
+            self.observer.observe_accelerations(&self.state, time);
         }
         let logged = self.log.len();
         let outcome = self.state.carry_out(guard, tau, &mut self.log);
         self.count_events(logged);
-        self.observer.observe_values(&self.state, time);
+        self.observer.observe_suspects(&self.state, time);
+        if !guard.is_smooth() {
+            self.observer.observe_accelerations(&self.state, time);
+        }
         outcome
     }
 
@@ -325,40 +361,32 @@ struct Moment {
 impl State<'_> {
     /// Slip of a block since the start of the present series, which begins at `tau`.
     pub(crate) fn slip_change(&self, block: usize, tau: f64) -> Polynomial {
-        let velocity = self.relative_velocity(block, tau);
+        let velocity = self.relative_velocity(block, tau, 1.0);
         let h = self.series.h();
         let terms = velocity.coefficients().iter().enumerate().map(|(k, c)| h * c / (k + 1) as f64);
         Polynomial::new(std::iter::once(0.0).chain(terms))
     }
 
-    /// Moves drifts, drift rates and blocks to place `s` of the present series, which begins at `tau`.
-    fn advance(&mut self, tau: f64, s: f64) {
-        self.advance_blocks(tau, s);
-        let [mut drifts, mut rates] = std::mem::take(&mut self.scratch);
-        self.series.changes_at(s, &mut drifts, &mut rates);
-        self.x.iter_mut().zip(&drifts).for_each(|(x, change)| *x += change);
-        self.v.iter_mut().zip(&rates).for_each(|(v, change)| *v += change);
-        self.scratch = [drifts, rates];
+    /// Moves drifts, drift rates and blocks to the place of the present series, which begins at `tau`.
+    #[inline]
+    fn advance(&mut self, tau: f64) {
+        for j in 0..self.motions.len() {
+            if !self.motions[j].is_stuck() {
+                let change = self.block_change(j, tau);
+                self.motions[j].move_by(change);
+            }
+        }
+        let [drifts, rates] = self.series.changes();
+        self.x.iter_mut().zip(drifts).for_each(|(x, change)| *x += change);
+        self.v.iter_mut().zip(rates).for_each(|(v, change)| *v += change);
     }
 
     /// Moves the state, accelerations included, to the end of the present series, which begins at `tau`. They are formed
     /// anew: taken from the series, step after step, their errors would add up.
+    #[inline]
     fn advance_to_end(&mut self, tau: f64) {
-        self.advance_blocks(tau, 1.0);
-        let (drifts, rates) = self.series.changes();
-        self.x.iter_mut().zip(drifts).for_each(|(x, change)| *x += change);
-        self.v.iter_mut().zip(rates).for_each(|(v, change)| *v += change);
+        self.advance(tau);
         self.refresh_accelerations(tau + self.series.h());
-    }
-
-    fn advance_blocks(&mut self, tau: f64, s: f64) {
-        for j in 0..self.motions.len() {
-            if !self.motions[j].is_stuck() {
-                let (velocity, slip) = self.block_change(j, tau, s);
-                self.motions[j].velocity += velocity;
-                self.motions[j].slip += slip;
-            }
-        }
     }
 
     /// What moves, at this moment.
@@ -387,14 +415,27 @@ impl State<'_> {
         self.set_moment(end);
     }
 
+    #[inline]
     fn check_finite(&self, tau: f64) -> Result<()> {
+        let (mut storeys, mut blocks) = (0.0, 0.0);
+        for (x, v) in self.x.iter().zip(&self.v) {
+            storeys += 0.0 * (x + v);
+        }
+        for motion in &self.motions {
+            blocks += 0.0 * (motion.slip + motion.velocity);
+        }
+        // No number times zero is zero but a finite one.
+        if storeys + blocks == 0.0 { Ok(()) } else { Err(self.not_finite(tau)) }
+    }
+
+    #[cold]
+    fn not_finite(&self, tau: f64) -> Error {
         let storey = self.x.iter().zip(&self.v).position(|(x, v)| !(x + v).is_finite());
         let block = self.motions.iter().position(|m| !(m.slip + m.velocity).is_finite());
         let element = match (storey, block) {
             (Some(i), _) => format!("storey {}", i + 1),
-            (None, Some(j)) => format!("block {}", j + 1),
-            (None, None) => return Ok(()),
+            (None, j) => format!("block {}", j.map_or(0, |j| j + 1)),
         };
-        Err(Error::NotFinite { time: self.interval.start + tau, element })
+        Error::NotFinite { time: self.interval.start + tau, element }
     }
 }

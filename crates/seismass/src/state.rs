@@ -1,7 +1,7 @@
 //! The state of a run: drifts, drift rates, spring and block machines, and what one sample interval does to them.
 
 use crate::STANDARD_GRAVITY;
-use crate::bounds::{Bounds, Set, first, members};
+use crate::bounds::{Bounds, Set, first};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand};
 use crate::lanes::{FAR, MAX_LANES, Vector, WIDTH, differences, filled, for_each_path, load, padded, store};
@@ -23,10 +23,14 @@ pub(crate) struct Interval {
     pub(crate) ground: f64,
     /// Its change over the interval (m/s2).
     pub(crate) ground_change: f64,
+    /// Its slope (m/s3).
+    pub(crate) ground_slope: f64,
     /// Contact force per unit mass g + a_v at the start (m/s2).
     pub(crate) contact: f64,
     /// Its change over the interval (m/s2).
     pub(crate) contact_change: f64,
+    /// Its slope (m/s3).
+    pub(crate) contact_slope: f64,
 }
 
 impl Interval {
@@ -41,12 +45,6 @@ impl Interval {
     pub(crate) fn contact_at(&self, tau: f64) -> f64 {
         if self.h > 0.0 { self.contact + self.contact_change * (tau / self.h) } else { self.contact }
     }
-
-    /// Slope of a quantity with this change over the interval.
-    #[inline]
-    pub(crate) fn slope(&self, change: f64) -> f64 {
-        if self.h > 0.0 { change / self.h } else { 0.0 }
-    }
 }
 
 /// Effect of the floor loads of the present state on the step of the regime's propagator.
@@ -55,9 +53,9 @@ pub(crate) struct LoadEffects {
     pub(crate) valid: bool,
     /// Of the springs' base forces (and of friction, without vertical motion).
     pub(crate) constant: Vec<f64>,
-    /// Of friction at unit contact force.
+    /// With vertical motion: of friction at unit contact force.
     pub(crate) friction: Vec<f64>,
-    /// Of friction with the contact force growing from zero to one.
+    /// With vertical motion: of friction with the contact force growing from zero to one.
     pub(crate) friction_ramp: Vec<f64>,
 }
 
@@ -103,6 +101,29 @@ impl Ranges {
     #[inline]
     pub(crate) fn acceleration(&self, i: usize) -> (f64, f64) {
         self.of(2, i)
+    }
+}
+
+/// See [`State::looked_at`].
+pub(crate) struct LookedAt {
+    set: Set,
+    next: usize,
+    end: usize,
+}
+
+impl Iterator for LookedAt {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        if self.set != 0 {
+            let lowest = self.set.trailing_zeros() as usize;
+            self.set &= self.set - 1;
+            return Some(lowest);
+        }
+        let i = self.next;
+        self.next += 1;
+        (i < self.end).then_some(i)
     }
 }
 
@@ -162,7 +183,8 @@ pub(crate) struct State<'a> {
     pub(crate) ranges: Ranges,
     pub(crate) scratch: [Vec<f64>; 2],
     stuck_mass: Vec<f64>,
-    key: Vec<u8>,
+    /// Plastic elements of each storey, and which blocks are stuck, as bits.
+    key: Vec<u64>,
     /// Different regimes entered by this run, and changes into a regime already known to it.
     pub(crate) regimes: (usize, usize),
 }
@@ -303,8 +325,12 @@ impl<'a> State<'a> {
 
     fn find_regime(&mut self) {
         self.key.clear();
-        self.key.extend(self.springs.iter().map(StoreySpring::yielded));
-        self.key.extend(self.motions.iter().map(|motion| u8::from(motion.is_stuck())));
+        for springs in self.springs.chunks(32) {
+            self.key.push(springs.iter().fold(0, |word, spring| word << 2 | u64::from(spring.yielded())));
+        }
+        for motions in self.motions.chunks(64) {
+            self.key.push(motions.iter().fold(0, |word, motion| word << 1 | u64::from(motion.is_stuck())));
+        }
         let (model, springs, stuck_mass) = (self.model, &self.springs, &self.stuck_mass);
         let form = || Regime::new(model, |i| springs[i].yielded(), stuck_mass);
         let (regime, known) = self.cache.enter(&self.key, form);
@@ -326,9 +352,9 @@ impl<'a> State<'a> {
     /// Sets the drive of a series that starts at `tau`.
     pub(crate) fn set_drive(&mut self, tau: f64) {
         let contact = self.contact_at(tau);
-        let contact_slope = if self.airborne { 0.0 } else { self.interval.slope(self.interval.contact_change) };
+        let contact_slope = if self.airborne { 0.0 } else { self.interval.contact_slope };
         self.drive.ground = self.interval.ground_at(tau);
-        self.drive.ground_slope = self.interval.slope(self.interval.ground_change);
+        self.drive.ground_slope = self.interval.ground_slope;
         for i in 0..self.spring_load.len() {
             self.drive.load[i] = self.spring_load[i] + self.friction[i] * contact;
             self.drive.load_slope[i] = self.friction[i] * contact_slope;
@@ -364,45 +390,64 @@ impl<'a> State<'a> {
     pub(crate) fn form_series(&mut self, tau: f64, h: f64) {
         if self.storeys() <= MAX_TABLE {
             self.drive.ground = self.interval.ground_at(tau);
-            self.drive.ground_slope = self.interval.slope(self.interval.ground_change);
+            self.drive.ground_slope = self.interval.ground_slope;
         } else {
             self.set_drive(tau);
         }
         self.cache.prepare_table(self.regime, self.model, self.vertical);
-        let n = self.storeys();
-        let start = Start { x: &self.x[..n], v: &self.v[..n], a: &self.a[..n], jerk: &self.jerk[..n] };
+        let start = Start { x: &self.x, v: &self.v, a: &self.a, jerk: &self.jerk };
         let regime = self.cache.regime(self.regime);
         self.series.form(self.model, regime, start, &self.drive, h);
     }
 
     /// The storeys or floors of a set, or all where there are more than sets hold.
-    pub(crate) fn looked_at(&self, set: Set) -> impl Iterator<Item = usize> + use<> {
+    #[inline(always)]
+    pub(crate) fn looked_at(&self, set: Set) -> LookedAt {
         let all = self.storeys() > MAX_LANES;
-        (0..if all { self.storeys() } else { 0 }).chain(members(if all { 0 } else { set }))
+        LookedAt { set: if all { 0 } else { set }, next: 0, end: if all { self.storeys() } else { 0 } }
     }
 
     /// Forms the ranges over the present series, which starts at `tau` and whose start is the state, and tells which come
     /// to their bounds.
-    pub(crate) fn form_ranges(&mut self, tau: f64) {
-        let regime = self.cache.regime(self.regime);
+    #[inline(always)]
+    pub(crate) fn form_ranges<V: Vector>(&mut self, tau: f64) {
+        match padded(self.storeys()) {
+            4 => ranges_in_lanes::<V, 1>(self, tau),
+            8 => ranges_in_lanes::<V, 2>(self, tau),
+            16 => ranges_in_lanes::<V, 4>(self, tau),
+            32 => ranges_in_lanes::<V, 8>(self, tau),
+            MAX_LANES => ranges_in_lanes::<V, { MAX_LANES / WIDTH }>(self, tau),
+            _ => self.form_ranges_singly(),
+        }
+    }
+
+    /// Keeps what the bounds of the present series' higher derivatives are multiplied with, from the square of the norm
+    /// that [`Regime::liveliness_of`] takes.
+    #[inline]
+    fn bound_derivatives(&mut self, square: f64) {
         let h = self.series.h();
+        let liveliness = self.regime().liveliness_of(square, h);
+        let square = h * h;
+        (self.ranges.remainder, self.ranges.chord) = (liveliness * square * square / 384.0, liveliness * square / 8.0);
+    }
+
+    /// [`State::form_ranges`] for more storeys than vectors hold.
+    #[inline(never)]
+    fn form_ranges_singly(&mut self) {
         let slope = self.drive.ground_slope;
-        let (root_mass, root_tangent) = (regime.row(Row::RootMass), regime.row(Row::RootTangent));
+        let (root_mass, root_tangent) = (self.regime().row(Row::RootMass), self.regime().row(Row::RootTangent));
         let mut square = 0.0;
         for i in 0..self.storeys() {
             let (jerk, q) = (root_mass[i] * (self.jerk[i] - slope), root_tangent[i] * self.drift_acceleration[i]);
             square += jerk * jerk + q * q;
         }
-        let liveliness = regime.liveliness_of(square, h);
-        (self.ranges.remainder, self.ranges.chord) = (liveliness * (h * h) * (h * h) / 384.0, liveliness * h * h / 8.0);
-        if self.storeys() <= MAX_LANES {
-            let contact = self.contact_at(tau).min(self.contact_at(tau + h));
-            return form_ranges(self, contact);
-        }
+        self.bound_derivatives(square);
+        let regime = self.cache.regime(self.regime);
+        let h = self.series.h();
         let margins = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration].map(|row| regime.row(row));
-        let (dx, dv) = self.series.changes();
-        let (a_end, jerk_end) = self.series.accelerations_at_end();
-        let mut below = self.drive.ground + slope * h;
+        let [dx, dv] = self.series.changes();
+        let [a_end, jerk_end] = self.series.accelerations_at_end();
+        let mut below = self.drive.ground + self.drive.ground_slope * h;
         for i in 0..self.storeys() {
             let (x, v, a) = (self.x[i], self.v[i], self.a[i]);
             let q_end = a_end[i] - std::mem::replace(&mut below, a_end[i]);
@@ -423,7 +468,7 @@ impl<'a> State<'a> {
     /// most h^2 / 8 times its largest second derivative.
     pub(crate) fn is_steady(&self, i: usize) -> bool {
         let turn = self.ranges.chord * self.regime().row(Row::ThirdOfAcceleration)[i];
-        let (start, end) = (self.jerk[i], self.series.accelerations_at_end().1[i]);
+        let (start, end) = (self.jerk[i], self.series.accelerations_at_end()[1][i]);
         start * end > 0.0 && start.abs().min(end.abs()) > turn
     }
 
@@ -494,13 +539,16 @@ pub(crate) fn interval(motion: &crate::scene::Motion, i: usize) -> Interval {
     let pair = |samples: &[f64]| (samples[i], samples[(i + 1).min(last)] - samples[i]);
     let (ground, ground_change) = pair(motion.acceleration());
     let (vertical, contact_change) = motion.vertical().map_or((0.0, 0.0), pair);
+    let (h, per_second) = if i < last { (motion.dt(), 1.0 / motion.dt()) } else { (0.0, 0.0) };
     Interval {
         start: i as f64 * motion.dt(),
-        h: if i < last { motion.dt() } else { 0.0 },
+        h,
         ground,
         ground_change,
+        ground_slope: ground_change * per_second,
         contact: STANDARD_GRAVITY + vertical,
         contact_change,
+        contact_slope: contact_change * per_second,
     }
 }
 
@@ -525,7 +573,7 @@ fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     let inside: [V; K] = load(&state.model.lanes.inside);
     let (x, v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
     let (mut forces, friction): ([V; K], [V; K]) = (load(&state.spring_load), load(&state.friction));
-    let contact_slope = if state.airborne { 0.0 } else { state.interval.slope(state.interval.contact_change) };
+    let contact_slope = if state.airborne { 0.0 } else { state.interval.contact_slope };
     let (contact, contact_slope) = (V::splat(state.contact_at(tau)), V::splat(contact_slope));
     let mut slopes = friction;
     for k in 0..K {
@@ -543,28 +591,23 @@ fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     store(&jerk, &mut state.jerk);
 }
 
-for_each_path! {
-    fn form_ranges(state: &mut State, contact: f64) = ranges_by_width
-}
-
+/// See [`range`].
 #[inline(always)]
-fn ranges_by_width<V: Vector>(state: &mut State, contact: f64) {
-    match padded(state.storeys()) {
-        4 => ranges_in_lanes::<V, 1>(state, contact),
-        8 => ranges_in_lanes::<V, 2>(state, contact),
-        16 => ranges_in_lanes::<V, 4>(state, contact),
-        32 => ranges_in_lanes::<V, 8>(state, contact),
-        _ => ranges_in_lanes::<V, { MAX_LANES / WIDTH }>(state, contact),
-    }
-}
-
-/// See [`range`]; `contact` is the least contact force per unit mass.
-#[inline(always)]
-fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, contact: f64) {
-    let regime = state.cache.regime(state.regime);
+fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     let h = state.series.h();
+    let (jerk, q): ([V; K], [V; K]) = (load(&state.jerk), load(&state.drift_acceleration));
+    let (mass, tangent) = (state.regime().lanes::<V, K>(Row::RootMass), state.regime().lanes::<V, K>(Row::RootTangent));
+    let mut squares = V::splat(0.0);
+    for k in 0..K {
+        let kinetic = mass[k].mul(jerk[k].sub(V::splat(state.drive.ground_slope)));
+        let elastic = tangent[k].mul(q[k]);
+        squares = elastic.mul_add(elastic, kinetic.mul_add(kinetic, squares));
+    }
+    state.bound_derivatives(squares.sum());
+    let contact = state.contact_at(tau).min(state.contact_at(tau + h));
+    let regime = state.cache.regime(state.regime);
     let (third, remainder) = (V::splat(h / 3.0), V::splat(state.ranges.remainder));
-    let [dx, dv, a_end, jerk_end] = state.series.ends().each_ref().map(|values| values.as_slice());
+    let ([dx, dv], [a_end, jerk_end]) = (state.series.changes(), state.series.accelerations_at_end());
     let (dx, dv, a_end): ([V; K], [V; K], [V; K]) = (load(dx), load(dv), load(a_end));
     let (x, v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
     let (mut x_end, mut v_end) = (x, v);
@@ -573,16 +616,13 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, contact: f64) {
         v_end[k] = v[k].add(dv[k]);
     }
     let q_end = differences(&a_end, V::splat(state.drive.ground + state.drive.ground_slope * h));
-    let ends: [[[V; K]; 4]; 3] = [
-        [x, v, x_end, v_end],
-        [v, load(&state.drift_acceleration), v_end, q_end],
-        [load(&state.a), load(&state.jerk), a_end, load(jerk_end)],
-    ];
+    let ends: [[[V; K]; 4]; 3] =
+        [[x, v, x_end, v_end], [v, q, v_end, q_end], [load(&state.a), jerk, a_end, load(jerk_end)]];
     let margins = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration];
     let (zero, within) = (V::splat(0.0), first(state.storeys()));
     for which in 0..3 {
         let [start, start_rate, end, end_rate] = ends[which];
-        let margin: [V; K] = load(regime.row(margins[which]));
+        let margin: [V; K] = regime.lanes(margins[which]);
         let (mut lows, mut highs) = (start, start);
         for k in 0..K {
             let margin = remainder.mul(margin[k]);

@@ -3,9 +3,11 @@
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
 use crate::bernstein::{MAX_DEGREE, Polynomial};
-use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, padded, store};
+use crate::lanes::{
+    MAX_LANES, Plain, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, padded, store,
+};
 use crate::model::Model;
-use crate::propagator::{MAX_TABLE, Table};
+use crate::propagator::Table;
 use crate::regime::{Operator, Regime};
 
 /// Longest step of one series, as frequency times time: longer intervals are split.
@@ -24,19 +26,7 @@ pub(crate) struct Drive {
     pub(crate) load_slope: Vec<f64>,
 }
 
-impl Drive {
-    /// Term `k` of the ground acceleration over a step `h`.
-    #[inline]
-    fn ground_term(&self, k: usize, h: f64) -> f64 {
-        match k {
-            0 => self.ground,
-            1 => self.ground_slope * h,
-            _ => 0.0,
-        }
-    }
-}
-
-/// The state at the start of a step: drifts, drift rates, floor accelerations and their rates.
+/// The state at the start of a step: drifts, drift rates, floor accelerations and their rates, padded.
 #[derive(Clone, Copy)]
 pub(crate) struct Start<'a> {
     pub(crate) x: &'a [f64],
@@ -45,18 +35,29 @@ pub(crate) struct Start<'a> {
     pub(crate) jerk: &'a [f64],
 }
 
-/// Series of drifts, drift rates and absolute floor accelerations, stored order by order, padded to whole vectors.
+/// Series of the absolute floor accelerations, stored order by order, padded to whole vectors. What drifts and drift
+/// rates do follows by integration of their differences.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Series {
     storeys: usize,
     stride: usize,
     order: usize,
     h: f64,
+    /// Drifts and drift rates at the start.
     x: Vec<f64>,
     v: Vec<f64>,
+    /// Terms of the ground acceleration.
+    ground: [f64; 2],
     a: Vec<f64>,
-    /// Changes of drifts and drift rates over the step, floor accelerations and their rates at its end.
-    end: [Vec<f64>; 4],
+    /// Floor accelerations and their rates at the end of the step.
+    end: [Vec<f64>; 2],
+    /// Place in [0, 1] that changes and integrals go up to.
+    place: f64,
+    /// Changes of drifts and drift rates.
+    changes: [Vec<f64>; 2],
+    /// First and second integrals over [0, place] of the floor accelerations' terms from the second order on, divided by
+    /// the third and fourth power of the place.
+    integrals: [Vec<f64>; 2],
     load: [Vec<f64>; 2],
 }
 
@@ -74,37 +75,31 @@ pub(crate) fn terms(phase: f64) -> usize {
 impl Series {
     /// Forms the series over a step `h` from its start, whose accelerations must be those of the drive.
     pub(crate) fn form(&mut self, model: &Model, regime: &Regime, start: Start, drive: &Drive, h: f64) {
-        let n = start.x.len();
+        let n = model.storeys();
         let (order, stride) = (terms(regime.frequency * h), padded(n));
         if self.stride != stride || self.storeys != n {
             let zero = || vec![0.0; stride];
-            self.end = [zero(), zero(), zero(), zero()];
-            self.load = [zero(), zero()];
             (self.x, self.v, self.a) = (zero(), zero(), zero());
+            for pair in [&mut self.end, &mut self.changes, &mut self.integrals, &mut self.load] {
+                *pair = [zero(), zero()];
+            }
         }
-        (self.storeys, self.stride, self.order, self.h) = (n, stride, order, h);
+        (self.storeys, self.stride, self.order, self.h, self.place) = (n, stride, order, h, 1.0);
+        self.ground = [drive.ground, drive.ground_slope * h];
         let length = (order + 1) * stride;
-        for buffer in [&mut self.x, &mut self.v, &mut self.a] {
-            if buffer.len() < length {
-                buffer.resize(length, 0.0);
-            }
+        if self.a.len() < length {
+            self.a.resize(length, 0.0);
         }
-        self.x[..n].copy_from_slice(start.x);
-        self.v[..n].copy_from_slice(start.v);
-        match regime.steps.as_ref().and_then(|steps| steps.table.as_ref()) {
-            Some(table) => {
-                self.a[..n].copy_from_slice(start.a);
-                self.end[3][..n].copy_from_slice(start.jerk);
-                form_by_table(self, model, table, drive);
+        if let Some(table) = regime.steps.as_ref().and_then(|steps| steps.table.as_ref()) {
+            form_by_table(self, model, table, &start, drive);
+        } else if n <= MAX_LANES {
+            self.load[0].copy_from_slice(&drive.load);
+            for (load, slope) in self.load[1].iter_mut().zip(&drive.load_slope) {
+                *load = slope * h;
             }
-            None if n <= MAX_LANES => {
-                self.load[0].copy_from_slice(&drive.load);
-                for (load, slope) in self.load[1].iter_mut().zip(&drive.load_slope) {
-                    *load = slope * h;
-                }
-                form_by_recursion(self, model, regime, drive);
-            }
-            None => form_any(self, model, regime, drive),
+            form_by_recursion(self, model, regime, &start);
+        } else {
+            form_any(self, model, regime, &start, drive);
         }
     }
 
@@ -115,160 +110,205 @@ impl Series {
         &mut self,
         model: &Model,
         table: &Table,
+        start: &Start,
         drive: &Drive,
     ) {
         let (n, h, order) = (self.storeys, self.h, self.order);
         let inside: [V; K] = load(&model.lanes.inside);
         let zero = V::splat(0.0);
-        let v: [V; K] = load(&self.v);
-        let (a, jerk): ([V; K], [V; K]) = (load(&self.a), load(&self.end[3]));
+        let (x, v): ([V; K], [V; K]) = (load(start.x), load(start.v));
+        let (a, jerk): ([V; K], [V; K]) = (load(start.a), load(start.jerk));
         let (first, rate) = (differences(&a, V::splat(drive.ground)), differences(&jerk, V::splat(drive.ground_slope)));
+        let mut linear = jerk;
+        for k in 0..K {
+            linear[k] = V::splat(h).mul(jerk[k]);
+        }
+        store(&x, &mut self.x);
+        store(&v, &mut self.v);
+        let (starts, of_floors) = columns_mut::<K>(&mut self.a)[..=order].split_at_mut(2);
+        put(&a, &mut starts[0]);
+        put(&linear, &mut starts[1]);
         // Powers of the step over that of the table.
         let (ratio, mut power) = (h / table.h, h / table.h);
         let terms = &columns_of::<K>(&table.terms)[..(order - 1) * 2 * n];
-        let of_floors = &mut columns_mut::<K>(&mut self.a)[1..=order];
+        let mut sums = Sums { value: a, rate: linear, integrals: [[zero; K]; 2] };
         for k in 0..K {
-            V::splat(h).mul(jerk[k]).store(&mut of_floors[0][k]);
+            sums.value[k] = a[k].add(linear[k]);
         }
         if S > 0 {
             let (mut firsts, mut rates) = ([zero; S], [zero; S]);
             for c in 0..S {
                 (firsts[c], rates[c]) = (first[0].broadcast(c), rate[0].broadcast(c));
             }
-            for (columns, out) in terms.as_chunks::<D>().0.iter().zip(&mut of_floors[1..]) {
+            for ((columns, out), weights) in terms.as_chunks::<D>().0.iter().zip(of_floors).zip(&WEIGHTS[2..]) {
                 let (mut even, mut odd) = (zero, zero);
                 for c in 0..S {
                     even = V::load(&columns[c][0]).mul_add(firsts[c], even);
                     odd = V::load(&columns[S + c][0]).mul_add(rates[c], odd);
                 }
                 power *= ratio;
-                even.add(odd).mul(V::splat(power)).store(&mut out[0]);
+                let mut term = [zero; K];
+                term[0] = even.add(odd).mul(V::splat(power));
+                put(&term, out);
+                sums.add(&term, weights);
             }
         } else {
             let weights = [numbers(&first), numbers(&rate)];
-            let weights = || weights[0].as_flattened()[..n].iter().chain(&weights[1].as_flattened()[..n]);
-            for (columns, out) in terms.chunks_exact(2 * n).zip(&mut of_floors[1..]) {
-                let mut sums = [zero; K];
-                for (column, &weight) in columns.iter().zip(weights()) {
-                    let weight = V::splat(weight);
+            let causes = || weights[0].as_flattened()[..n].iter().chain(&weights[1].as_flattened()[..n]);
+            for ((columns, out), weights) in terms.chunks_exact(2 * n).zip(of_floors).zip(&WEIGHTS[2..]) {
+                let mut term = [zero; K];
+                for (column, &cause) in columns.iter().zip(causes()) {
+                    let cause = V::splat(cause);
                     for k in 0..K {
-                        sums[k] = V::load(&column[k]).mul_add(weight, sums[k]);
+                        term[k] = V::load(&column[k]).mul_add(cause, term[k]);
                     }
                 }
                 power *= ratio;
                 for k in 0..K {
-                    sums[k].mul(V::splat(power)).store(&mut out[k]);
+                    term[k] = term[k].mul(V::splat(power));
                 }
+                put(&term, out);
+                sums.add(&term, weights);
             }
         }
-        // Drift rates and drifts by integration.
-        let mut end = [[zero; K]; 4];
-        end[2] = a;
-        let (mut rates, mut drift_acceleration) = (v, first);
-        // The ground's acceleration is linear.
-        let mut bottom = V::splat(drive.ground_slope * h);
-        let of_drifts = columns_mut::<K>(&mut self.x)[1..=order].iter_mut();
-        let of_rates = columns_mut::<K>(&mut self.v)[1..=order].iter_mut();
-        for (((x_out, v_out), a), weights) in of_drifts.zip(of_rates).zip(&*of_floors).zip(&WEIGHTS) {
-            let (factor, weight) = (V::splat(h * weights[1]), V::splat(weights[0]));
-            let mut floors = [zero; K];
-            for k in 0..K {
-                let drifts = factor.mul(rates[k]);
-                rates[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
-                floors[k] = V::load(&a[k]);
-                drifts.store(&mut x_out[k]);
-                rates[k].store(&mut v_out[k]);
-                end[0][k] = end[0][k].add(drifts);
-                end[1][k] = end[1][k].add(rates[k]);
-                end[2][k] = end[2][k].add(floors[k]);
-                end[3][k] = weight.mul_add(floors[k], end[3][k]);
-            }
-            drift_acceleration = differences(&floors, bottom);
-            bottom = zero;
-        }
-        self.put_end(&mut end);
+        self.put_sums(&sums, &v, &a, &linear, &inside);
     }
 
+    /// Keeps what the sums give at the end of the step: `a` and `linear` are the first two terms.
     #[inline(always)]
-    fn put_end<V: Vector, const K: usize>(&mut self, end: &mut [[V; K]; 4]) {
-        let per_second = V::splat(1.0 / self.h);
+    fn put_sums<V: Vector, const K: usize>(
+        &mut self,
+        sums: &Sums<V, K>,
+        v: &[V; K],
+        a: &[V; K],
+        linear: &[V; K],
+        inside: &[V; K],
+    ) {
+        let (h, [ground, change]) = (self.h, self.ground);
+        let (mut once, mut twice, mut jerk) = (*a, *a, *a);
         for k in 0..K {
-            end[3][k] = end[3][k].mul(per_second);
+            once[k] = V::splat(0.5).mul_add(linear[k], sums.integrals[0][k]).add(a[k]);
+            let from_first = V::splat(1.0 / 6.0).mul_add(linear[k], sums.integrals[1][k]);
+            twice[k] = V::splat(0.5).mul_add(a[k], from_first);
+            jerk[k] = V::splat(1.0 / h).mul(sums.rate[k]);
         }
-        for (values, kept) in end.iter().zip(&mut self.end) {
-            store(values, kept);
+        let of_rate = differences(&once, V::splat(ground + 0.5 * change));
+        let of_drift = differences(&twice, V::splat(0.5 * ground + (1.0 / 6.0) * change));
+        let (mut dx, mut dv) = (*v, *v);
+        for k in 0..K {
+            let length = V::splat(h);
+            dv[k] = length.mul(of_rate[k]).mul(inside[k]);
+            dx[k] = length.mul_add(of_drift[k], v[k]).mul(length).mul(inside[k]);
         }
+        store(&dx, &mut self.changes[0]);
+        store(&dv, &mut self.changes[1]);
+        store(&sums.value, &mut self.end[0]);
+        store(&jerk, &mut self.end[1]);
+        store(&sums.integrals[0], &mut self.integrals[0]);
+        store(&sums.integrals[1], &mut self.integrals[1]);
     }
 
     /// By the recursion from order to order.
     #[inline(always)]
-    fn by_recursion<V: Vector, const K: usize>(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
+    fn by_recursion<V: Vector, const K: usize>(&mut self, model: &Model, regime: &Regime, start: &Start) {
         let operator = Operator::<V, K>::new(model, regime);
         let inside: [V; K] = load(&model.lanes.inside);
         let (zero, h) = (V::splat(0.0), self.h);
-        let (mut x, mut v): ([V; K], [V; K]) = (load(&self.x), load(&self.v));
-        let mut end = [[zero; K]; 4];
-        let terms = columns_mut::<K>(&mut self.x).iter_mut().zip(columns_mut::<K>(&mut self.v));
-        let terms = terms.zip(columns_mut::<K>(&mut self.a)).take(self.order + 1);
-        for (order, ((x_term, v_term), a_term)) in terms.enumerate() {
+        let (mut x, mut v): ([V; K], [V; K]) = (load(start.x), load(start.v));
+        let rates = v;
+        store(&x, &mut self.x);
+        store(&v, &mut self.v);
+        let mut first = [[zero; K]; 2];
+        let mut sums = Sums { value: [zero; K], rate: [zero; K], integrals: [[zero; K]; 2] };
+        let terms = columns_mut::<K>(&mut self.a)[..=self.order].iter_mut();
+        for ((order, out), weights) in terms.enumerate().zip(&WEIGHTS) {
             let forces = if order < 2 { load(&self.load[order]) } else { [zero; K] };
             let a = operator.accelerations(&x, &v, forces);
-            put(&x, x_term);
-            put(&v, v_term);
-            put(&a, a_term);
-            let weight = V::splat(order as f64);
-            for k in 0..K {
-                if order > 0 {
-                    end[0][k] = end[0][k].add(x[k]);
-                    end[1][k] = end[1][k].add(v[k]);
-                }
-                end[2][k] = end[2][k].add(a[k]);
-                end[3][k] = weight.mul_add(a[k], end[3][k]);
+            put(&a, out);
+            sums.add(&a, weights);
+            if order < 2 {
+                first[order] = a;
             }
             let factor = V::splat(h * INVERSE[order + 1]);
-            let drift_acceleration = differences(&a, V::splat(drive.ground_term(order, h)));
+            let ground = if order < 2 { self.ground[order] } else { 0.0 };
+            let drift_acceleration = differences(&a, V::splat(ground));
             for k in 0..K {
                 x[k] = factor.mul(v[k]);
                 v[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
             }
         }
-        self.put_end(&mut end);
+        self.put_sums(&sums, &rates, &first[0], &first[1], &inside);
     }
 
     /// By the recursion, for more storeys than vectors hold.
     #[inline(always)]
-    fn form_any(&mut self, model: &Model, regime: &Regime, drive: &Drive) {
+    fn form_any(&mut self, model: &Model, regime: &Regime, start: &Start, drive: &Drive) {
         let (n, stride) = (self.storeys, self.stride);
-        self.end.iter_mut().for_each(|sums| sums.fill(0.0));
+        self.x.copy_from_slice(start.x);
+        self.v.copy_from_slice(start.v);
+        let (mut x, mut v) = (start.x[..n].to_vec(), start.v[..n].to_vec());
         let zero = vec![0.0; n];
         let slope: Vec<f64> = drive.load_slope.iter().map(|slope| slope * self.h).collect();
-        for k in 0..=self.order {
-            let at = k * stride;
+        self.end.iter_mut().chain(&mut self.integrals).for_each(|sums| sums.fill(0.0));
+        for (k, &[order, once, twice]) in WEIGHTS.iter().enumerate().take(self.order + 1) {
             let load = [&drive.load, &slope, &zero][k.min(2)];
-            let (xk, vk) = (&self.x[at..at + n], &self.v[at..at + n]);
-            regime.accelerations(model, xk, vk, load, &mut self.a[at..at + n]);
-            for i in 0..n {
-                if k > 0 {
-                    self.end[0][i] += self.x[at + i];
-                    self.end[1][i] += self.v[at + i];
-                }
-                self.end[2][i] += self.a[at + i];
-                self.end[3][i] += k as f64 * self.a[at + i];
-            }
-            if k == self.order {
-                break;
-            }
-            let factor = self.h / (k + 1) as f64;
-            let mut below = drive.ground_term(k, self.h);
-            let next = at + stride;
-            for i in 0..n {
-                let a = self.a[at + i];
-                self.v[next + i] = factor * (a - below);
-                self.x[next + i] = factor * self.v[at + i];
+            let a = &mut self.a[k * stride..k * stride + n];
+            regime.accelerations(model, &x, &v, load, a);
+            let factor = self.h * INVERSE[k + 1];
+            let mut below = if k < 2 { self.ground[k] } else { 0.0 };
+            for (i, &a) in a.iter().enumerate() {
+                self.end[0][i] += a;
+                self.end[1][i] += order * a;
+                self.integrals[0][i] += once * a;
+                self.integrals[1][i] += twice * a;
+                x[i] = factor * v[i];
+                v[i] = factor * (a - below);
                 below = a;
             }
         }
-        self.end[3].iter_mut().for_each(|jerk| *jerk /= self.h);
+        self.end[1].iter_mut().for_each(|jerk| *jerk /= self.h);
+        self.integrate_differences();
+    }
+
+    /// Takes changes and integrals up to place `s` only.
+    pub(crate) fn stop_at(&mut self, s: f64) {
+        self.place = s;
+        integrate_up_to(self, s);
+        self.integrate_differences();
+    }
+
+    #[inline(always)]
+    fn integrate_up_to<V: Vector>(&mut self, s: f64) {
+        let place = V::splat(s);
+        let stride = self.stride / WIDTH;
+        let terms = &self.a.as_chunks::<WIDTH>().0[..(self.order + 1) * stride];
+        let [once, twice] = &mut self.integrals;
+        let integrals = once.as_chunks_mut::<WIDTH>().0.iter_mut().zip(twice.as_chunks_mut::<WIDTH>().0);
+        for (lane, (once, twice)) in integrals.enumerate() {
+            let mut sums = [V::splat(0.0); 2];
+            for (column, weights) in terms.chunks_exact(stride).zip(&WEIGHTS).skip(2).rev() {
+                let term = V::load(&column[lane]);
+                sums[0] = sums[0].mul_add(place, term.mul(V::splat(weights[1])));
+                sums[1] = sums[1].mul_add(place, term.mul(V::splat(weights[2])));
+            }
+            sums[0].store(once);
+            sums[1].store(twice);
+        }
+    }
+
+    /// Forms the changes of drifts and drift rates up to the place from the integrals of floor accelerations.
+    fn integrate_differences(&mut self) {
+        let (s, h) = (self.place, self.place * self.h);
+        let [ground, change] = self.ground;
+        let mut below = (ground + 0.5 * s * change, 0.5 * ground + (1.0 / 6.0) * s * change);
+        for i in 0..self.storeys {
+            let (a, linear) = (self.a[i], self.a[self.stride + i]);
+            let once = (self.integrals[0][i] * s + 0.5 * linear) * s + a;
+            let twice = (self.integrals[1][i] * s + (1.0 / 6.0) * linear) * s + 0.5 * a;
+            self.changes[0][i] = h * (self.v[i] + h * (twice - below.1));
+            self.changes[1][i] = h * (once - below.0);
+            below = (once, twice);
+        }
     }
 
     /// Length of the step (s).
@@ -277,129 +317,107 @@ impl Series {
         self.h
     }
 
-    fn column(&self, data: &[f64], i: usize) -> Polynomial {
-        Polynomial::new((0..=self.order).map(|k| data[k * self.stride + i]))
-    }
-
-    /// Drift coordinate of storey `i`.
-    pub(crate) fn drift(&self, i: usize) -> Polynomial {
-        self.column(&self.x, i)
-    }
-
-    /// Drift rate of storey `i`.
-    pub(crate) fn drift_rate(&self, i: usize) -> Polynomial {
-        self.column(&self.v, i)
-    }
-
-    /// Absolute acceleration of floor `i`.
-    pub(crate) fn floor_acceleration(&self, i: usize) -> Polynomial {
-        self.column(&self.a, i)
-    }
-
-    /// Order of the last term.
+    /// Place in [0, 1] that changes and integrals go up to.
     #[inline]
-    pub(crate) fn order(&self) -> usize {
-        self.order
+    pub(crate) fn place(&self) -> f64 {
+        self.place
     }
 
-    /// Term `k` of the absolute acceleration of floor `i`.
-    #[inline]
-    pub(crate) fn floor_acceleration_term(&self, k: usize, i: usize) -> f64 {
-        self.a[k * self.stride + i]
-    }
-
-    /// Changes of drifts and drift rates over the step.
-    #[inline]
-    pub(crate) fn changes(&self) -> (&[f64], &[f64]) {
-        (&self.end[0][..self.storeys], &self.end[1][..self.storeys])
-    }
-
-    /// The same, with floor accelerations and their rates at the end of the step, padded.
-    #[inline]
-    pub(crate) fn ends(&self) -> &[Vec<f64>; 4] {
-        &self.end
-    }
-
-    /// Floor accelerations and their rates at the end of the step.
-    #[inline]
-    pub(crate) fn accelerations_at_end(&self) -> (&[f64], &[f64]) {
-        (&self.end[2][..self.storeys], &self.end[3][..self.storeys])
-    }
-
-    /// Changes of drifts and drift rates up to `s`.
-    pub(crate) fn changes_at(&self, s: f64, drifts: &mut [f64], rates: &mut [f64]) {
-        if self.stride <= MAX_TABLE {
-            return changes_by_path(self, s, drifts, rates);
-        }
-        self.evaluate(&self.x, s, 1, drifts);
-        self.evaluate(&self.v, s, 1, rates);
-    }
-
+    /// Term `k` of the difference between the accelerations of floor `i` and of that below.
     #[inline(always)]
-    fn changes_in_lanes<V: Vector, const K: usize>(&self, s: f64, drifts: &mut [f64], rates: &mut [f64]) {
-        let place = V::splat(s);
-        let mut sums = [[V::splat(0.0); K]; 2];
-        let (x, v) = (columns_of::<K>(&self.x), columns_of::<K>(&self.v));
-        for (x, v) in x[1..=self.order].iter().zip(&v[1..=self.order]).rev() {
-            for k in 0..K {
-                sums[0][k] = sums[0][k].mul_add(place, V::load(&x[k]));
-                sums[1][k] = sums[1][k].mul_add(place, V::load(&v[k]));
-            }
-        }
-        for (sum, out) in sums.iter_mut().zip([drifts, rates]) {
-            for k in 0..K {
-                sum[k] = sum[k].mul(place);
-            }
-            for (out, value) in out.iter_mut().zip(numbers(sum).as_flattened()) {
-                *out = *value;
-            }
-        }
+    fn difference_term(&self, k: usize, i: usize) -> f64 {
+        let at = k * self.stride + i;
+        let below = match i {
+            0 if k < 2 => self.ground[k],
+            0 => 0.0,
+            _ => self.a[at - 1],
+        };
+        self.a[at] - below
     }
 
-    /// Sum of the coefficients from order `from` times powers of `s`.
-    fn evaluate(&self, data: &[f64], s: f64, from: usize, out: &mut [f64]) {
-        match self.stride {
-            4 => self.evaluate_lanes::<4>(data, s, from, out),
-            8 => self.evaluate_lanes::<8>(data, s, from, out),
-            _ => {
-                for (block, out) in out.chunks_mut(16).enumerate() {
-                    let mut sums = [0.0; 16];
-                    for k in (from..=self.order).rev() {
-                        let at = k * self.stride + 16 * block;
-                        for (sum, c) in sums.iter_mut().zip(&data[at..]).take(out.len()) {
-                            *sum = *sum * s + c;
-                        }
-                    }
-                    let factor = if from == 1 { s } else { 1.0 };
-                    out.iter_mut().zip(&sums).for_each(|(o, sum)| *o = sum * factor);
-                }
-            }
-        }
+    /// `factor` times the drift coordinate of storey `i`.
+    #[inline(always)]
+    pub(crate) fn drift(&self, i: usize, factor: f64) -> Polynomial {
+        let once = factor * self.h;
+        let twice = once * self.h;
+        Polynomial::from_fn(self.order + 1, |k| match k {
+            0 => factor * self.x[i],
+            1 => once * self.v[i],
+            _ => twice * (INVERSE[k - 1] * INVERSE[k]) * self.difference_term(k - 2, i),
+        })
     }
 
-    fn evaluate_lanes<const N: usize>(&self, data: &[f64], s: f64, from: usize, out: &mut [f64]) {
-        let mut sums = [0.0; N];
-        for orders in data[from * N..(self.order + 1) * N].as_chunks::<N>().0.iter().rev() {
-            for l in 0..N {
-                sums[l] = sums[l] * s + orders[l];
-            }
-        }
-        let factor = if from == 1 { s } else { 1.0 };
-        out.iter_mut().zip(&sums).for_each(|(o, sum)| *o = sum * factor);
+    /// `factor` times the drift rate of storey `i`.
+    #[inline(always)]
+    pub(crate) fn drift_rate(&self, i: usize, factor: f64) -> Polynomial {
+        let once = factor * self.h;
+        Polynomial::from_fn(self.order + 1, |k| match k {
+            0 => factor * self.v[i],
+            _ => once * INVERSE[k] * self.difference_term(k - 1, i),
+        })
+    }
+
+    /// `factor` times the absolute acceleration of floor `i`.
+    #[inline(always)]
+    pub(crate) fn floor_acceleration(&self, i: usize, factor: f64) -> Polynomial {
+        let terms = &self.a[i..];
+        Polynomial::from_fn(self.order + 1, |k| factor * terms[k * self.stride])
+    }
+
+    /// The first two terms of the absolute acceleration of floor `i`, and the first and second integrals of the others up
+    /// to the place s, divided by s^3 and s^4.
+    #[inline]
+    pub(crate) fn terms_and_integrals(&self, i: usize) -> ([f64; 2], [f64; 2]) {
+        ([self.a[i], self.a[self.stride + i]], [self.integrals[0][i], self.integrals[1][i]])
+    }
+
+    /// Changes of drifts and drift rates up to the place, padded.
+    #[inline]
+    pub(crate) fn changes(&self) -> [&[f64]; 2] {
+        [&self.changes[0], &self.changes[1]]
+    }
+
+    /// Floor accelerations and their rates at the end of the step, padded.
+    #[inline]
+    pub(crate) fn accelerations_at_end(&self) -> [&[f64]; 2] {
+        [&self.end[0], &self.end[1]]
     }
 
     /// Drift rates at `s`.
-    pub(crate) fn rates(&self, s: f64, out: &mut [f64]) {
-        self.evaluate(&self.v, s, 0, out);
+    pub(crate) fn rates_at(&self, s: f64, out: &mut [f64]) {
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = self.drift_rate(i, 1.0).at::<Plain>(s);
+        }
     }
 }
 
-/// Orders from the first on, and 1 over each.
-const WEIGHTS: [[f64; 2]; MAX_DEGREE] = {
-    let mut table = [[0.0; 2]; MAX_DEGREE];
-    let mut k = 0;
-    while k < MAX_DEGREE {
-        table[k] = [(k + 1) as f64, INVERSE[k + 1]];
+/// Sums of terms: value and rate at the end of a step of unit length, first and second integrals from the second order on.
+struct Sums<V, const K: usize> {
+    value: [V; K],
+    rate: [V; K],
+    integrals: [[V; K]; 2],
+}
+
+impl<V: Vector, const K: usize> Sums<V, K> {
+    #[inline(always)]
+    fn add(&mut self, term: &[V; K], &[order, once, twice]: &[f64; 3]) {
+        let (order, once, twice) = (V::splat(order), V::splat(once), V::splat(twice));
+        for k in 0..K {
+            self.value[k] = self.value[k].add(term[k]);
+            self.rate[k] = order.mul_add(term[k], self.rate[k]);
+            self.integrals[0][k] = once.mul_add(term[k], self.integrals[0][k]);
+            self.integrals[1][k] = twice.mul_add(term[k], self.integrals[1][k]);
+        }
+    }
+}
+
+/// Orders k, and from the second on the first and second integrals of s^k over [0, 1].
+const WEIGHTS: [[f64; 3]; MAX_DEGREE + 1] = {
+    let mut table = [[0.0; 3]; MAX_DEGREE + 1];
+    let mut k = 1;
+    while k <= MAX_DEGREE {
+        let once = if k > 1 { 1.0 / (k + 1) as f64 } else { 0.0 };
+        table[k] = [k as f64, once, once / (k + 2) as f64];
         k += 1;
     }
     table
@@ -430,54 +448,51 @@ pub(crate) const INVERSE: [f64; MAX_DEGREE + 1] = {
 };
 
 for_each_path! {
-    fn form_by_table(series: &mut Series, model: &Model, table: &Table, drive: &Drive) = by_table
+    fn form_by_table(series: &mut Series, model: &Model, table: &Table, start: &Start, drive: &Drive) = by_table
 }
 
 #[inline(always)]
-fn by_table<V: Vector>(series: &mut Series, model: &Model, table: &Table, drive: &Drive) {
+fn by_table<V: Vector>(series: &mut Series, model: &Model, table: &Table, start: &Start, drive: &Drive) {
     match series.storeys {
-        1 => series.by_table::<V, 1, 1, 2>(model, table, drive),
-        2 => series.by_table::<V, 1, 2, 4>(model, table, drive),
-        3 => series.by_table::<V, 1, 3, 6>(model, table, drive),
-        4 => series.by_table::<V, 1, 4, 8>(model, table, drive),
-        _ => series.by_table::<V, 2, 0, 0>(model, table, drive),
+        1 => series.by_table::<V, 1, 1, 2>(model, table, start, drive),
+        2 => series.by_table::<V, 1, 2, 4>(model, table, start, drive),
+        3 => series.by_table::<V, 1, 3, 6>(model, table, start, drive),
+        4 => series.by_table::<V, 1, 4, 8>(model, table, start, drive),
+        _ => series.by_table::<V, 2, 0, 0>(model, table, start, drive),
     }
 }
 
 for_each_path! {
-    fn changes_by_path(series: &Series, s: f64, drifts: &mut [f64], rates: &mut [f64]) = changes_by_width
+    fn integrate_up_to(series: &mut Series, s: f64) = integrate_up_to_by_path
 }
 
 #[inline(always)]
-fn changes_by_width<V: Vector>(series: &Series, s: f64, drifts: &mut [f64], rates: &mut [f64]) {
-    match series.stride {
-        4 => series.changes_in_lanes::<V, 1>(s, drifts, rates),
-        _ => series.changes_in_lanes::<V, 2>(s, drifts, rates),
-    }
+fn integrate_up_to_by_path<V: Vector>(series: &mut Series, s: f64) {
+    series.integrate_up_to::<V>(s);
 }
 
 for_each_path! {
-    fn form_any(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) = any_by_path
+    fn form_any(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) = any_by_path
 }
 
 /// The compiler makes vectors of the path's width.
 #[inline(always)]
-fn any_by_path<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) {
-    series.form_any(model, regime, drive);
+fn any_by_path<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) {
+    series.form_any(model, regime, start, drive);
 }
 
 for_each_path! {
-    fn form_by_recursion(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) = by_recursion
+    fn form_by_recursion(series: &mut Series, model: &Model, regime: &Regime, start: &Start) = by_recursion
 }
 
 #[inline(always)]
-fn by_recursion<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, drive: &Drive) {
+fn by_recursion<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, start: &Start) {
     match series.stride {
-        4 => series.by_recursion::<V, 1>(model, regime, drive),
-        8 => series.by_recursion::<V, 2>(model, regime, drive),
-        16 => series.by_recursion::<V, 4>(model, regime, drive),
-        32 => series.by_recursion::<V, 8>(model, regime, drive),
-        _ => series.by_recursion::<V, { MAX_LANES / WIDTH }>(model, regime, drive),
+        4 => series.by_recursion::<V, 1>(model, regime, start),
+        8 => series.by_recursion::<V, 2>(model, regime, start),
+        16 => series.by_recursion::<V, 4>(model, regime, start),
+        32 => series.by_recursion::<V, 8>(model, regime, start),
+        _ => series.by_recursion::<V, { MAX_LANES / WIDTH }>(model, regime, start),
     }
 }
 
