@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use seismass::{Domain, Error, EventKind, Options, Peak, Run, SceneColumns};
+use seismass::{Domain, Error, EventKind, Options, Peak, Peaks, Response, Run, SceneColumns};
 
 use crate::arrays::{Output, Table, Values};
 use crate::errors::from_kernel;
@@ -82,10 +82,10 @@ fn solve(
     run_watched(py, report, move |control| {
         let (scenes, runs) = prepare()?;
         let options = Options { peaks_only, ..Options::default() };
-        let results = seismass::simulate_many(&scenes, &motions, &runs, &options, threads, control)?;
+        let rows = seismass::simulate_each(&scenes, &motions, &runs, &options, threads, control, Row::new)?;
         let mut batch = Batch::default();
-        for (run, result) in results.iter().enumerate() {
-            batch.push(run, result);
+        for (run, row) in rows.iter().enumerate() {
+            batch.push(run, row);
         }
         Ok(batch)
     })
@@ -183,6 +183,42 @@ pub(crate) struct Batch {
     slips: Vec<u32>,
 }
 
+/// What a batch keeps of a run, in little memory: lists one after the other.
+#[derive(Clone)]
+struct Row {
+    status: u8,
+    collapsed_storey: u32,
+    storeys: usize,
+    blocks: usize,
+    events: u32,
+    yields: u32,
+    slips: u32,
+    end_time: f64,
+    /// Of drift, floor acceleration and storey shear by storey, then of slip by block.
+    peaks: Box<[Peak]>,
+    /// Residual drift by storey, then residual slip and path slipped by block.
+    values: Box<[f64]>,
+}
+
+impl Row {
+    fn new(response: Response) -> Self {
+        let Peaks { drift, slip, floor_acceleration, storey_shear } = &response.peaks;
+        let events = &response.statistics.events;
+        Self {
+            status: u8::from(status_name(response.status) == STATUS_NAMES[1]),
+            collapsed_storey: collapsed_storey(response.status).map_or(0, count),
+            storeys: drift.len(),
+            blocks: slip.len(),
+            events: count(events.total()),
+            yields: count(events.of(EventKind::Yield)),
+            slips: count(events.of(EventKind::Slip)),
+            end_time: response.end_time,
+            peaks: [&drift[..], floor_acceleration, storey_shear, slip].concat().into(),
+            values: [&response.residual_drift[..], &response.residual_slip, &response.slip_path].concat().into(),
+        }
+    }
+}
+
 /// A count as it is stored; no run has 2^32 storeys, blocks or events.
 fn count(value: usize) -> u32 {
     u32::try_from(value).unwrap_or(u32::MAX)
@@ -193,9 +229,9 @@ const FAILED: u8 = 2;
 const STATUS_NAMES: [&str; 3] = ["completed", "collapsed", "failed"];
 
 impl Batch {
-    fn push(&mut self, run: usize, result: &seismass::Result<seismass::Response>) {
-        let response = match result {
-            Ok(response) => response,
+    fn push(&mut self, run: usize, result: &seismass::Result<Row>) {
+        let row = match result {
+            Ok(row) => row,
             Err(error) => {
                 self.failures.push((run, error.to_string()));
                 self.status.push(FAILED);
@@ -213,22 +249,31 @@ impl Batch {
                 return;
             }
         };
-        self.status.push(u8::from(status_name(response.status) == STATUS_NAMES[1]));
-        self.end_time.push(response.end_time);
-        self.collapsed_storey.push(collapsed_storey(response.status).map_or(0, count));
-        self.storeys.push(count(response.peaks.drift.len()));
-        self.blocks.push(count(response.peaks.slip.len()));
-        self.peak_drift.extend(&response.peaks.drift);
-        self.residual_drift.extend(&response.residual_drift);
-        self.peak_floor_acceleration.extend(&response.peaks.floor_acceleration);
-        self.peak_storey_shear.extend(&response.peaks.storey_shear);
-        self.peak_slip.extend(&response.peaks.slip);
-        self.residual_slip.extend(&response.residual_slip);
-        self.slip_path.extend(&response.slip_path);
-        let events = &response.statistics.events;
-        self.events.push(count(events.total()));
-        self.yields.push(count(events.of(EventKind::Yield)));
-        self.slips.push(count(events.of(EventKind::Slip)));
+        self.status.push(row.status);
+        self.end_time.push(row.end_time);
+        self.collapsed_storey.push(row.collapsed_storey);
+        self.storeys.push(count(row.storeys));
+        self.blocks.push(count(row.blocks));
+        self.events.push(row.events);
+        self.yields.push(row.yields);
+        self.slips.push(row.slips);
+        let mut peaks = &row.peaks[..];
+        for (column, length) in [
+            (&mut self.peak_drift, row.storeys),
+            (&mut self.peak_floor_acceleration, row.storeys),
+            (&mut self.peak_storey_shear, row.storeys),
+            (&mut self.peak_slip, row.blocks),
+        ] {
+            column.extend(peaks.split_off(..length).unwrap_or_default());
+        }
+        let mut values = &row.values[..];
+        for (column, length) in [
+            (&mut self.residual_drift, row.storeys),
+            (&mut self.residual_slip, row.blocks),
+            (&mut self.slip_path, row.blocks),
+        ] {
+            column.extend(values.split_off(..length).unwrap_or_default());
+        }
     }
 }
 
