@@ -1,10 +1,10 @@
 //! Scenes described by columns, one row each, for batches too large to hold an object per scene.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::error::{Domain, Error, Result};
-use crate::scene::{Block, Building, Scene};
+use crate::plan::Classes;
+use crate::scene::{Block, Building, Nth, Scene};
 
 /// Rows of scenes that differ in their building and in what their blocks are; all start at rest.
 ///
@@ -38,10 +38,12 @@ impl SceneColumns {
     /// # Errors
     /// [`Error::Invalid`] when a column is too short, or a row describes no valid scene.
     pub fn scenes(&self) -> Result<(Vec<Scene>, Vec<usize>)> {
-        let mut known = HashMap::new();
+        let mut classes = Classes::default();
         let mut scenes = Vec::new();
+        let mut key = Vec::new();
         let of_row = (0..self.rows()).map(|row| {
-            let index = *known.entry(self.key(row)?).or_insert(scenes.len());
+            self.set_key(row, &mut key)?;
+            let index = classes.number(&key);
             if index == scenes.len() {
                 scenes.push(self.scene(row)?);
             }
@@ -60,20 +62,20 @@ impl SceneColumns {
         let (mass, columns) = (building.mass(), self.of_blocks(row)?);
         let mut blocks = Vec::with_capacity(self.floors.len());
         for (j, &floor) in self.floors.iter().enumerate() {
-            let owner = format!("block {}", j + 1);
+            let owner = Nth("block", j);
             let [ratio, mu_s, mu_k] = columns.map(|column| column[j]);
             if !(ratio.is_finite() && ratio >= 0.0) {
                 let requirement = "a positive number, or 0 for no block";
-                return Err(Error::invalid(Domain::Scene, "mass_ratio", owner, requirement, ratio));
+                return Err(Error::invalid(Domain::Scene, "mass_ratio", owner.to_string(), requirement, ratio));
             }
             if floor == 0 {
                 let requirement = "a floor of the building, as its mass is a ratio";
-                return Err(Error::invalid(Domain::Scene, "floor", owner, requirement, floor));
+                return Err(Error::invalid(Domain::Scene, "floor", owner.to_string(), requirement, floor));
             }
             // Friction is judged whether or not the row has the block; what it does not have needs no floor.
             let present = ratio > 0.0;
             let block = Block { floor, mass: 1.0, mu_s, mu_k, velocity: None };
-            block.validate(&owner, if present { mass.len() } else { floor })?;
+            block.validate(owner, if present { mass.len() } else { floor })?;
             if present {
                 blocks.push(Block { mass: ratio * mass[floor - 1], ..block });
             }
@@ -113,11 +115,15 @@ impl SceneColumns {
         ])
     }
 
-    /// What the scene of a row depends on, bit for bit.
-    fn key(&self, row: usize) -> Result<Vec<u64>> {
+    /// Makes `key` what the scene of a row depends on, bit for bit.
+    fn set_key(&self, row: usize, key: &mut Vec<u64>) -> Result<()> {
         self.building_of(row)?;
-        let blocks = self.of_blocks(row)?.into_iter().flatten().map(|value| value.to_bits());
-        Ok(std::iter::once(self.building[row] as u64).chain(blocks).collect())
+        key.clear();
+        key.push(self.building[row] as u64);
+        for column in self.of_blocks(row)? {
+            key.extend(column.iter().map(|value| value.to_bits()));
+        }
+        Ok(())
     }
 }
 

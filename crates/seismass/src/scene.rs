@@ -1,5 +1,6 @@
 //! Validated input of a run: building, blocks, scene, motion and options. What exists is valid.
 
+use std::fmt::{Display, Formatter};
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
@@ -13,12 +14,28 @@ const MAX_SAMPLES: usize = 100_000_000;
 /// Most storeys of a building: a full damping matrix takes 8 MB.
 const MAX_STOREYS: usize = 1000;
 
-fn check(ok: bool, parameter: &str, owner: &str, requirement: &str, value: f64) -> Result<()> {
-    if ok { Ok(()) } else { Err(Error::invalid(Domain::Scene, parameter, owner, requirement, value)) }
+/// A storey, floor or block by its index, named by its number where an error is written: a grid has a scene per row,
+/// and names formed in advance would cost more than its checks.
+#[derive(Clone, Copy)]
+pub(crate) struct Nth(pub(crate) &'static str, pub(crate) usize);
+
+impl Display for Nth {
+    fn fmt(&self, out: &mut Formatter) -> std::fmt::Result {
+        write!(out, "{} {}", self.0, self.1 + 1)
+    }
+}
+
+fn check(ok: bool, parameter: &str, owner: impl Display, requirement: impl Display, value: f64) -> Result<()> {
+    if ok { Ok(()) } else { Err(refusal(parameter, &owner, &requirement, value)) }
+}
+
+#[cold]
+fn refusal(parameter: &str, owner: &dyn Display, requirement: &dyn Display, value: f64) -> Error {
+    Error::invalid(Domain::Scene, parameter, owner.to_string(), requirement.to_string(), value)
 }
 
 fn check_storeys(count: usize) -> Result<()> {
-    check(count <= MAX_STOREYS, "storeys", "building", &format!("at most {MAX_STOREYS}"), count as f64)
+    check(count <= MAX_STOREYS, "storeys", "building", format_args!("at most {MAX_STOREYS}"), count as f64)
 }
 
 fn check_length(parameter: &str, owner: &str, expected: usize, of: &str, got: usize) -> Result<()> {
@@ -77,13 +94,13 @@ impl Storey {
         }
     }
 
-    fn validate(&self, owner: &str) -> Result<()> {
+    fn validate(&self, owner: impl Display + Copy) -> Result<()> {
         let Self { stiffness: k, yield_shear: vy, overstrength: omega, second_slope: r2, third_slope: r3 } = *self;
         check(k.is_finite() && k > 0.0, "stiffness", owner, "a positive number", k)?;
         check(vy > 0.0, "yield_shear", owner, "positive (infinite: elastic)", vy)?;
         check(omega.is_finite() && omega >= 1.0, "overstrength", owner, "finite and at least 1", omega)?;
         check((0.0..=1.0).contains(&r2), "second_slope", owner, "between 0 and 1", r2)?;
-        check((0.0..=r2).contains(&r3), "third_slope", owner, &format!("between 0 and the second slope {r2}"), r3)
+        check((0.0..=r2).contains(&r3), "third_slope", owner, format_args!("between 0 and the second slope {r2}"), r3)
     }
 }
 
@@ -145,8 +162,8 @@ impl Building {
         check_storeys(mass.len())?;
         check_length("stiffness", "building", mass.len(), "storey", storeys.len())?;
         for (i, (&m, storey)) in mass.iter().zip(&storeys).enumerate() {
-            check(m.is_finite() && m > 0.0, "mass", &format!("floor {}", i + 1), "a positive number", m)?;
-            storey.validate(&format!("storey {}", i + 1))?;
+            check(m.is_finite() && m > 0.0, "mass", Nth("floor", i), "a positive number", m)?;
+            storey.validate(Nth("storey", i))?;
         }
         let stiffness: Vec<f64> = storeys.iter().map(|s| s.stiffness).collect();
         let storey_damping = StoreyDamping::new(&mass, &stiffness, &damping)?;
@@ -183,17 +200,17 @@ impl Building {
             GravityEffect::GeometricStiffness(values) => {
                 check_length("geometric_stiffness", "building", n, "storey", values.len())?;
                 for (i, &value) in values.iter().enumerate() {
-                    let owner = format!("storey {}", i + 1);
-                    check(value.is_finite() && value >= 0.0, "geometric_stiffness", &owner, "zero or positive", value)?;
+                    let owner = Nth("storey", i);
+                    check(value.is_finite() && value >= 0.0, "geometric_stiffness", owner, "zero or positive", value)?;
                 }
             }
             GravityEffect::Loads { heights, floor_loads } => {
                 check_length("heights", "building", n, "storey", heights.len())?;
                 check_length("gravity_load", "building", n, "floor", floor_loads.len())?;
                 for (i, (&height, &load)) in heights.iter().zip(floor_loads).enumerate() {
-                    let (storey, floor) = (format!("storey {}", i + 1), format!("floor {}", i + 1));
-                    check(height.is_finite() && height > 0.0, "heights", &storey, "a positive number", height)?;
-                    check(load.is_finite() && load >= 0.0, "gravity_load", &floor, "zero or positive", load)?;
+                    let (storey, floor) = (Nth("storey", i), Nth("floor", i));
+                    check(height.is_finite() && height > 0.0, "heights", storey, "a positive number", height)?;
+                    check(load.is_finite() && load >= 0.0, "gravity_load", floor, "zero or positive", load)?;
                 }
             }
         }
@@ -287,19 +304,19 @@ impl Block {
         Self { floor, mass, mu_s: mu, mu_k: mu, velocity: None }
     }
 
-    pub(crate) fn validate(&self, owner: &str, floors: usize) -> Result<()> {
+    pub(crate) fn validate(&self, owner: impl Display + Copy, floors: usize) -> Result<()> {
         let Self { floor, mass, mu_s, mu_k, velocity } = *self;
         if floor > floors {
             let requirement = match floors {
                 0 => "0, the ground, where there is no building".to_string(),
                 _ => format!("a floor of the building, 1 to {floors}, or 0 for the ground"),
             };
-            return Err(Error::invalid(Domain::Scene, "floor", owner, requirement, floor));
+            return Err(Error::invalid(Domain::Scene, "floor", owner.to_string(), requirement, floor));
         }
         check(mass.is_finite() && mass > 0.0, "mass", owner, "a positive number", mass)?;
         check(mu_s.is_finite() && mu_s >= 0.0, "mu_s", owner, "finite and not negative", mu_s)?;
         check(mu_k >= 0.0, "mu_k", owner, "finite and not negative", mu_k)?;
-        check(mu_k <= mu_s, "mu_k", owner, &format!("at most mu_s = {mu_s}"), mu_k)?;
+        check(mu_k <= mu_s, "mu_k", owner, format_args!("at most mu_s = {mu_s}"), mu_k)?;
         velocity.map_or(Ok(()), |v| check(v.is_finite(), "velocity", owner, "a finite number", v))
     }
 }
@@ -332,7 +349,7 @@ impl Scene {
             ));
         }
         for (j, block) in blocks.iter().enumerate() {
-            block.validate(&format!("block {}", j + 1), n)?;
+            block.validate(Nth("block", j), n)?;
         }
         let geometric_stiffness = building.as_ref().map_or(Ok(Vec::new()), |b| geometric_stiffness(b, &blocks))?;
         Ok(Self {
@@ -355,16 +372,15 @@ impl Scene {
         check_length("drift", "initial state", storeys.len(), "storey", drift.len())?;
         check_length("velocity", "initial state", storeys.len(), "floor", velocity.len())?;
         for (i, ((&d, &v), storey)) in drift.iter().zip(&velocity).zip(storeys).enumerate() {
-            let owner = format!("storey {}", i + 1);
             let limit = storey.yield_shear / storey.stiffness;
             check(
                 d.is_finite() && d.abs() <= limit,
                 "initial drift",
-                &owner,
-                &format!("within {limit} m, its elastic range"),
+                Nth("storey", i),
+                format_args!("within {limit} m, its elastic range"),
                 d,
             )?;
-            check(v.is_finite(), "initial velocity", &format!("floor {}", i + 1), "a finite number", v)?;
+            check(v.is_finite(), "initial velocity", Nth("floor", i), "a finite number", v)?;
         }
         self.initial_drift = drift;
         self.initial_velocity = velocity;
@@ -385,9 +401,9 @@ impl Scene {
 
     fn check_collapse(&self) -> Result<()> {
         for (i, (&limit, &start)) in self.collapse_drift.iter().flatten().zip(&self.initial_drift).enumerate() {
-            let owner = format!("storey {}", i + 1);
-            check(limit > 0.0, "collapse_drift", &owner, "a positive number", limit)?;
-            check(start.abs() < limit, "initial drift", &owner, &format!("below the collapse drift {limit} m"), start)?;
+            let (owner, requirement) = (Nth("storey", i), format_args!("below the collapse drift {limit} m"));
+            check(limit > 0.0, "collapse_drift", owner, "a positive number", limit)?;
+            check(start.abs() < limit, "initial drift", owner, requirement, start)?;
         }
         Ok(())
     }
@@ -446,8 +462,8 @@ fn geometric_stiffness(building: &Building, blocks: &[Block]) -> Result<Vec<f64>
         }
     };
     for (i, (&value, storey)) in values.iter().zip(building.storeys()).enumerate() {
-        let requirement = format!("below its stiffness {} N/m", storey.stiffness);
-        check(value < storey.stiffness, "geometric stiffness P/h", &format!("storey {}", i + 1), &requirement, value)?;
+        let requirement = format_args!("below its stiffness {} N/m", storey.stiffness);
+        check(value < storey.stiffness, "geometric stiffness P/h", Nth("storey", i), requirement, value)?;
     }
     Ok(values)
 }
