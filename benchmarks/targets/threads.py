@@ -1,17 +1,74 @@
-"""Two threads beside one, and beside what two copies of pure arithmetic reach on the same cores."""
+"""Two threads beside one, two processes of one thread each, and two copies of pure arithmetic on the same cores."""
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+from functools import partial
+from typing import Any, Final
+
 from targets.base import Section, Target, alternating, four_storeys, strong_motions, table
-from targets.batches import random_batch, study_batch
+from targets.batches import Batch, random_batch, study_batch
 from targets.program import timings
 
-TEXT = """\
+TEXT: Final = """\
 The same batch on one thread and on two, taking turns; the kernel alone, no table made. A machine that is shared, or
-lowers its clock when both cores work, gives less than two to anybody: a loop of pure arithmetic in registers and its
-two copies on two threads show what these two cores give.
+lowers its clock when both cores work, gives less than two to anybody. What these two cores give is shown twice: by two
+processes that each solve the whole batch on one thread at the same time and share nothing, and by a loop of pure
+arithmetic in registers and its two copies on two threads.
 
 {table}"""
+PROCESSES: Final = 2
+
+
+def make_batch(what: str, size: int) -> Batch:
+    """Return the study's batch, every so-manieth run of it, or so many random runs."""
+    return study_batch(size) if what == "study" else random_batch(size)
+
+
+def serve(what: str, size: int) -> None:
+    """Solve the batch on one thread for each line of standard input, and answer with a line."""
+    work = make_batch(what, size).on(1)
+    for _ in sys.stdin:
+        work()
+        print(flush=True)
+
+
+class Processes:
+    """Processes that solve a batch on one thread each, at the same time."""
+
+    def __init__(self, what: str, size: int) -> None:
+        """Start them."""
+        code = f"from targets.threads import serve; serve({what!r}, {size})"
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+        start = partial(
+            subprocess.Popen[str],
+            [sys.executable, "-c", code],
+            env=environment,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        self._processes = [start() for _ in range(PROCESSES)]
+
+    def solve(self) -> None:
+        """Let each of them solve the batch once."""
+        for process in self._processes:
+            assert process.stdin is not None
+            process.stdin.write("\n")
+            process.stdin.flush()
+        for process in self._processes:
+            assert process.stdout is not None
+            if not process.stdout.readline():
+                raise RuntimeError(f"the process that solves a batch ended with status {process.wait()}")
+
+    def __enter__(self) -> Processes:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        for process in self._processes:
+            process.communicate()
 
 
 def section(*, quick: bool) -> Section:
@@ -20,16 +77,22 @@ def section(*, quick: bool) -> Section:
     arithmetic = timings("threads", four_storeys(motion, name), 1.0 if quick else 5.0)
     limit = 2.0 * arithmetic["one"] / arithmetic["two"]
     targets, rows = [], []
-    batches = {
-        "the study's batch": study_batch(10 if quick else 1),
-        "a random batch": random_batch(100 if quick else 2000),
-    }
-    for what, batch in batches.items():
-        one, two = alternating([batch.on(1), batch.on(2)], 0.0, least=1 if quick else 7)
+
+    def add(what: str, runs: str, one: float, two: float, speed_up: float) -> None:
+        share = f"{100.0 * speed_up / limit:.0f} %"
+        rows.append([what, runs, f"{one:.3f}", f"{two:.3f}", f"{speed_up:.3f}", share])
+
+    for what, kind, size in (
+        ("the study's batch", "study", 10 if quick else 1),
+        ("a random batch", "random", 100 if quick else 2000),
+    ):
+        batch = make_batch(kind, size)
+        with Processes(kind, size) as processes:
+            works = [batch.on(1), batch.on(2), processes.solve]
+            one, two, both = alternating(works, 0.0, least=1 if quick else 7)
         targets.append(Target(f"1 thread / 2 threads, {what}", one / two, 1.95, at_most=False))
-        share = f"{100.0 * one / two / limit:.0f} %"
-        rows.append([what, str(len(batch.pairs)), f"{one:.3f}", f"{two:.3f}", f"{one / two:.3f}", share])
-    one, two = arithmetic["one"], arithmetic["two"]
-    rows.append(["arithmetic, twice as much on 2", "", f"{one:.3f}", f"{two:.3f}", f"{limit:.3f}", "100 %"])
-    header = ("", "runs", "1 thread (s)", "2 threads (s)", "speed-up", "of what two cores give")
+        add(what, str(len(batch.pairs)), one, two, one / two)
+        add(f"{what}, once in each of two processes", str(2 * len(batch.pairs)), one, both, 2.0 * one / both)
+    add("arithmetic, twice as much on 2", "", arithmetic["one"], arithmetic["two"], limit)
+    header = ("", "runs", "1 thread (s)", "2 threads (s)", "speed-up", "of what arithmetic gets")
     return Section("Threads", targets, TEXT.format(table=table(header, rows)))
