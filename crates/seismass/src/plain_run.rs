@@ -47,16 +47,17 @@ impl<'a, const K: usize> Course<'a, K> {
     fn new(state: &'a State, h: f64) -> Option<Self> {
         let regime = state.regime();
         let propagator = &regime.steps.as_deref()?.propagator;
-        let (of_drift, of_rate) = four_rows(propagator.state_columns()).split_at_checked(state.storeys())?;
-        let (of_ground, of_change) = propagator.motion_columns();
+        let (of_drift, others) = four_rows(propagator.state_and_motion_columns()).split_at_checked(state.storeys())?;
+        let (of_rate, others) = others.split_at_checked(state.storeys())?;
+        let [of_ground, of_change, ..] = others else { return None };
         let first = |values: &'a [f64]| four_rows(values).first();
         Some(Self {
             regime,
             h,
             of_drift,
             of_rate,
-            of_ground: first(of_ground)?,
-            of_change: first(of_change)?,
+            of_ground,
+            of_change,
             constant: first(&state.effects.constant)?,
             friction: first(&state.effects.friction)?,
             friction_ramp: first(&state.effects.friction_ramp)?,

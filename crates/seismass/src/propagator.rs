@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use nalgebra::{DMatrix, DVector};
 use rustc_hash::FxBuildHasher;
 
-use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, padded, store};
+use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, padded, store};
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
 use crate::taylor::{INVERSE, MAX_PHASE, terms};
@@ -37,19 +37,14 @@ pub(crate) struct Table {
 }
 
 /// The step of a regime over one sample interval, acting on rows (dx, dv, a, j): changes of drifts and drift rates,
-/// floor accelerations and their rates at the end, each padded to whole vectors. Columns are stored one after the other.
+/// floor accelerations and their rates at the end, each padded to whole vectors.
 pub(crate) struct Propagator {
+    storeys: usize,
     rows: usize,
-    /// Columns of the state (x, v).
-    state: Vec<f64>,
-    /// Columns of constant floor loads.
-    load: Vec<f64>,
-    /// Columns of floor loads that grow from zero by one per interval; empty where no vertical motion needs them.
-    ramp: Vec<f64>,
-    /// Column of a constant ground acceleration.
-    ground: Vec<f64>,
-    /// Column of a ground acceleration that grows from zero by one per interval.
-    ground_ramp: Vec<f64>,
+    /// Columns, one after the other: of the state (x, v); of a constant ground acceleration and of one that grows from
+    /// zero by one per interval; of constant floor loads; where vertical motion needs them, of floor loads that grow from
+    /// zero by one per interval.
+    columns: Vec<f64>,
 }
 
 /// What a column of the step is the effect of, all else being zero.
@@ -65,43 +60,47 @@ enum Cause {
     GroundRamp,
 }
 
-/// What a step of length `h` adds to (dx, dv, a, j) beyond the first order, of unit drift accelerations and of unit
-/// rates of these: columns of four padded rows.
-struct Remainders {
-    h: f64,
-    order: usize,
-    sums: Vec<f64>,
-    terms: Vec<f64>,
-}
-
 for_each_path! {
-    fn form_remainders(model: &Model, regime: &Regime, out: &mut Remainders) = remainders_by_width
+    /// What a step of length `h` adds to (dx, dv, a, j) beyond the first order, of unit drift accelerations and of unit
+    /// rates of these: `sums` gets columns of four padded rows. `terms` gets those of a [`Table`], if it has room.
+    fn form_remainders(model: &Model, regime: &Regime, h: f64, order: usize, sums: &mut [f64], terms: &mut [f64])
+        = remainders_by_width
 }
 
 #[inline(always)]
-fn remainders_by_width<V: Vector>(model: &Model, regime: &Regime, out: &mut Remainders) {
+fn remainders_by_width<V: Vector>(
+    model: &Model,
+    regime: &Regime,
+    h: f64,
+    order: usize,
+    sums: &mut [f64],
+    terms: &mut [f64],
+) {
     match padded(model.storeys()) {
-        4 => remainders::<V, 1>(model, regime, out),
-        8 => remainders::<V, 2>(model, regime, out),
-        16 => remainders::<V, 4>(model, regime, out),
-        32 => remainders::<V, 8>(model, regime, out),
-        _ => remainders::<V, { MAX_LANES / WIDTH }>(model, regime, out),
+        4 => remainders::<V, 1>(model, regime, h, order, sums, terms),
+        8 => remainders::<V, 2>(model, regime, h, order, sums, terms),
+        16 => remainders::<V, 4>(model, regime, h, order, sums, terms),
+        32 => remainders::<V, 8>(model, regime, h, order, sums, terms),
+        _ => remainders::<V, { MAX_LANES / WIDTH }>(model, regime, h, order, sums, terms),
     }
 }
 
 /// The series of (q, q') = unit vectors, as drifts and drift rates of the homogeneous system, whose accelerations then
 /// are the second derivatives of the floor accelerations.
 #[inline(always)]
-fn remainders<V: Vector, const K: usize>(model: &Model, regime: &Regime, out: &mut Remainders) {
-    let (n, h, width) = (model.storeys(), out.h, WIDTH * K);
+fn remainders<V: Vector, const K: usize>(
+    model: &Model,
+    regime: &Regime,
+    h: f64,
+    order: usize,
+    sums: &mut [f64],
+    terms: &mut [f64],
+) {
+    let (n, width) = (model.storeys(), WIDTH * K);
     let zero = [V::splat(0.0); K];
     let operator = Operator::<V, K>::new(model, regime);
     let inside: [V; K] = load(&model.lanes.inside);
-    let keeps_terms = n <= MAX_TABLE;
-    out.sums.resize(2 * n * 4 * width, 0.0);
-    if keeps_terms {
-        out.terms.resize((out.order - 1) * 2 * n * width, 0.0);
-    }
+    let keeps_terms = !terms.is_empty();
     // Two columns at a time, which keeps both the vectors in registers and the processor busy.
     for i in 0..n {
         let (mut x, mut v) = ([zero; 2], [zero; 2]);
@@ -109,7 +108,7 @@ fn remainders<V: Vector, const K: usize>(model: &Model, regime: &Regime, out: &m
         unit.as_flattened_mut()[i] = 1.0;
         (x[0], v[1]) = (load(unit.as_flattened()), load(unit.as_flattened()));
         let mut rows = [[zero; 4]; 2];
-        for k in 0..=out.order {
+        for k in 0..=order {
             let (once, twice) = (h * INVERSE[k + 1], h * h * (INVERSE[k + 1] * INVERSE[k + 2]));
             let (first, second) = (V::splat(once), V::splat(twice));
             for side in 0..2 {
@@ -125,94 +124,81 @@ fn remainders<V: Vector, const K: usize>(model: &Model, regime: &Regime, out: &m
                     x[side][l] = first.mul(v[side][l]);
                     v[side][l] = first.mul(drift_acceleration[l]).mul(inside[l]);
                 }
-                if keeps_terms && k + 2 <= out.order {
-                    store(&term, &mut out.terms[(k * 2 * n + side * n + i) * width..]);
+                if keeps_terms && k + 2 <= order {
+                    store(&term, &mut terms[(k * 2 * n + side * n + i) * width..]);
                 }
             }
         }
         for side in 0..2 {
-            let sums = &mut out.sums[4 * (side * n + i) * width..];
+            let column = &mut sums[4 * (side * n + i) * width..];
             for r in 0..4 {
-                store(&rows[side][r], &mut sums[r * width..]);
+                store(&rows[side][r], &mut column[r * width..]);
             }
-        }
-    }
-}
-
-/// The cause of a column: drifts, drift rates, loads and their slopes, padded; ground acceleration and its slope.
-#[derive(Default)]
-struct Unit {
-    state: [Vec<f64>; 2],
-    load: [Vec<f64>; 2],
-    ground: [f64; 2],
-}
-
-impl Unit {
-    fn new(storeys: usize) -> Self {
-        let zero = || vec![0.0; padded(storeys)];
-        Self { state: [zero(), zero()], load: [zero(), zero()], ground: [0.0; 2] }
-    }
-
-    fn set(&mut self, cause: Cause, value: f64) {
-        match cause {
-            Cause::Drift(i) => self.state[0][i] = value,
-            Cause::DriftRate(i) => self.state[1][i] = value,
-            Cause::Load(i) => self.load[0][i] = value,
-            Cause::Ramp(i) => self.load[1][i] = value,
-            Cause::Ground => self.ground[0] = value,
-            Cause::GroundRamp => self.ground[1] = value,
         }
     }
 }
 
 for_each_path! {
-    /// Appends the rows of a column over the step of `remainders`.
-    fn push_rows(model: &Model, regime: &Regime, remainders: &Remainders, unit: &Unit, out: &mut Vec<f64>)
-        = rows_by_width
+    /// Appends the columns of causes over a step of length `h`, whose remainders are `sums`: rows (dx, dv, a, j).
+    fn push_columns(model: &Model, regime: &Regime, h: f64, sums: &[f64], causes: &[Cause], out: &mut Vec<f64>)
+        = columns_by_width
 }
 
 #[inline(always)]
-fn rows_by_width<V: Vector>(model: &Model, regime: &Regime, remainders: &Remainders, unit: &Unit, out: &mut Vec<f64>) {
-    let from = out.len();
-    out.resize(from + 4 * padded(model.storeys()), 0.0);
-    let rows = &mut out[from..];
-    match padded(model.storeys()) {
-        4 => form_rows::<V, 1>(model, regime, remainders, unit, rows),
-        8 => form_rows::<V, 2>(model, regime, remainders, unit, rows),
-        16 => form_rows::<V, 4>(model, regime, remainders, unit, rows),
-        32 => form_rows::<V, 8>(model, regime, remainders, unit, rows),
-        _ => form_rows::<V, { MAX_LANES / WIDTH }>(model, regime, remainders, unit, rows),
-    }
-}
-
-#[inline(always)]
-fn form_rows<V: Vector, const K: usize>(
+fn columns_by_width<V: Vector>(
     model: &Model,
     regime: &Regime,
-    remainders: &Remainders,
-    unit: &Unit,
-    out: &mut [f64],
+    h: f64,
+    sums: &[f64],
+    causes: &[Cause],
+    out: &mut Vec<f64>,
 ) {
-    let (n, width) = (model.storeys(), WIDTH * K);
-    let operator = Operator::<V, K>::new(model, regime);
-    let (x, v): ([V; K], [V; K]) = (load(&unit.state[0]), load(&unit.state[1]));
-    let a = operator.accelerations(&x, &v, load(&unit.load[0]));
-    let q = differences(&a, V::splat(unit.ground[0]));
-    let jerk = operator.accelerations(&v, &q, load(&unit.load[1]));
-    let rate = differences(&jerk, V::splat(unit.ground[1]));
-    let h = V::splat(remainders.h);
-    let mut rows = [[V::splat(0.0); K]; 4];
-    for k in 0..K {
-        rows[0][k] = h.mul(v[k]);
-        rows[2][k] = h.mul_add(jerk[k], a[k]);
-        rows[3][k] = jerk[k];
+    match padded(model.storeys()) {
+        4 => columns::<V, 1>(model, regime, h, sums, causes, out),
+        8 => columns::<V, 2>(model, regime, h, sums, causes, out),
+        16 => columns::<V, 4>(model, regime, h, sums, causes, out),
+        32 => columns::<V, 8>(model, regime, h, sums, causes, out),
+        _ => columns::<V, { MAX_LANES / WIDTH }>(model, regime, h, sums, causes, out),
     }
-    for (weights, columns) in [q, rate].iter().zip(columns_of::<K>(&remainders.sums).chunks_exact(4 * n)) {
-        let mut values = [[0.0; WIDTH]; K];
-        for k in 0..K {
-            weights[k].store(&mut values[k]);
+}
+
+#[inline(always)]
+fn columns<V: Vector, const K: usize>(
+    model: &Model,
+    regime: &Regime,
+    h: f64,
+    sums: &[f64],
+    causes: &[Cause],
+    out: &mut Vec<f64>,
+) {
+    let n = model.storeys();
+    let operator = Operator::<V, K>::new(model, regime);
+    let zero = [[0.0; WIDTH]; K];
+    for &cause in causes {
+        let [mut x, mut v, mut force, mut slope] = [zero; 4];
+        let (mut ground, mut ground_slope) = (0.0, 0.0);
+        match cause {
+            Cause::Drift(i) => x.as_flattened_mut()[i] = 1.0,
+            Cause::DriftRate(i) => v.as_flattened_mut()[i] = 1.0,
+            Cause::Load(i) => force.as_flattened_mut()[i] = 1.0,
+            Cause::Ramp(i) => slope.as_flattened_mut()[i] = 1.0,
+            Cause::Ground => ground = 1.0,
+            Cause::GroundRamp => ground_slope = 1.0,
         }
-        for (column, &weight) in columns.as_chunks::<4>().0.iter().zip(values.as_flattened()) {
+        let (x, v): ([V; K], [V; K]) = (load(x.as_flattened()), load(v.as_flattened()));
+        let a = operator.accelerations(&x, &v, load(force.as_flattened()));
+        let q = differences(&a, V::splat(ground));
+        let jerk = operator.accelerations(&v, &q, load(slope.as_flattened()));
+        let rate = differences(&jerk, V::splat(ground_slope));
+        let mut rows = [[V::splat(0.0); K]; 4];
+        for k in 0..K {
+            rows[0][k] = V::splat(h).mul(v[k]);
+            rows[2][k] = V::splat(h).mul_add(jerk[k], a[k]);
+            rows[3][k] = jerk[k];
+        }
+        let weights = [numbers(&q), numbers(&rate)];
+        let weights = weights[0].as_flattened()[..n].iter().chain(&weights[1].as_flattened()[..n]);
+        for (column, &weight) in columns_of::<K>(sums).as_chunks::<4>().0.iter().zip(weights) {
             let weight = V::splat(weight);
             for r in 0..4 {
                 for k in 0..K {
@@ -220,9 +206,9 @@ fn form_rows<V: Vector, const K: usize>(
                 }
             }
         }
-    }
-    for r in 0..4 {
-        store(&rows[r], &mut out[r * width..]);
+        for row in &rows {
+            out.extend_from_slice(numbers(row).as_flattened());
+        }
     }
 }
 
@@ -282,25 +268,23 @@ impl Step {
 }
 
 impl Steps {
-    /// The steps of a regime over `dt`, by one series where it converges fast enough, else by halving.
-    fn new(model: &Model, regime: &Regime, dt: f64, with_ramps: bool) -> Self {
+    /// The steps of a regime over `dt`, by one series where it converges fast enough, else by halving. `sums` is working
+    /// space.
+    fn new(model: &Model, regime: &Regime, dt: f64, with_ramps: bool, sums: &mut Vec<f64>) -> Self {
         let n = model.storeys();
+        let width = padded(n);
         let halvings = (regime.frequency * dt / MAX_PHASE).log2().ceil().max(0.0);
         let h = dt * (-halvings).exp2();
         // Parts of a halved interval may be longer than its table's step.
         let order = terms(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
-        let mut remainders = Remainders { h, order, sums: Vec::new(), terms: Vec::new() };
-        form_remainders(model, regime, &mut remainders);
-        let mut unit = Unit::new(n);
-        let mut push = |cause: Cause, out: &mut Vec<f64>| {
-            unit.set(cause, 1.0);
-            push_rows(model, regime, &remainders, &unit, out);
-            unit.set(cause, 0.0);
-        };
+        sums.resize(2 * n * 4 * width, 0.0);
+        let mut table = vec![0.0; if n <= MAX_TABLE { (order - 1) * 2 * n * width } else { 0 }];
+        form_remainders(model, regime, h, order, sums, &mut table);
+        let mut columns = Vec::with_capacity((if with_ramps { 4 } else { 3 } * n + 2) * 4 * width);
         let composed = (halvings > 0.0).then(|| {
             let mut step = Step::new(n, |cause| {
                 let mut rows = Vec::new();
-                push(cause, &mut rows);
+                push_columns(model, regime, h, sums, &[cause], &mut rows);
                 rows
             });
             let mut length = h;
@@ -310,37 +294,33 @@ impl Steps {
             }
             step
         });
-        let mut gather = |causes: &mut dyn Iterator<Item = Cause>| {
-            let mut out = Vec::with_capacity(causes.size_hint().0 * 4 * padded(n));
-            for cause in causes {
-                match &composed {
-                    None => push(cause, &mut out),
-                    Some(step) => push_rows_of_change(model, regime, cause, step.change(cause), dt, &mut out),
-                }
-                if matches!(cause, Cause::Ramp(_) | Cause::GroundRamp) {
-                    // Per interval instead of per second.
-                    let from = out.len() - 4 * padded(n);
-                    out[from..].iter_mut().for_each(|entry| *entry /= dt);
+        let causes: Vec<Cause> = (0..n)
+            .map(Cause::Drift)
+            .chain((0..n).map(Cause::DriftRate))
+            .chain([Cause::Ground, Cause::GroundRamp])
+            .chain((0..n).map(Cause::Load))
+            .chain((0..if with_ramps { n } else { 0 }).map(Cause::Ramp))
+            .collect();
+        match &composed {
+            None => push_columns(model, regime, h, sums, &causes, &mut columns),
+            Some(step) => {
+                for &cause in &causes {
+                    push_rows_of_change(model, regime, cause, step.change(cause), dt, &mut columns);
                 }
             }
-            out
-        };
-        let propagator = Propagator {
-            rows: 4 * padded(n),
-            state: gather(&mut (0..n).map(Cause::Drift).chain((0..n).map(Cause::DriftRate))),
-            load: gather(&mut (0..n).map(Cause::Load)),
-            ramp: gather(&mut (0..if with_ramps { n } else { 0 }).map(Cause::Ramp)),
-            ground: gather(&mut std::iter::once(Cause::Ground)),
-            ground_ramp: gather(&mut std::iter::once(Cause::GroundRamp)),
-        };
-        let table = (n <= MAX_TABLE).then_some(Table { h, terms: remainders.terms });
-        Self { table, propagator }
+        }
+        for (column, cause) in columns.chunks_exact_mut(4 * width).zip(&causes) {
+            if matches!(cause, Cause::Ramp(_) | Cause::GroundRamp) {
+                // Per interval instead of per second.
+                column.iter_mut().for_each(|entry| *entry /= dt);
+            }
+        }
+        let table = (n <= MAX_TABLE).then_some(Table { h, terms: table });
+        Self { table, propagator: Propagator { storeys: n, rows: 4 * width, columns } }
     }
 
     fn bytes(&self) -> usize {
-        let propagator = &self.propagator;
-        let table = self.table.as_ref().map_or(0, |table| table.terms.len());
-        8 * (propagator.state.len() + propagator.load.len() + propagator.ramp.len() + 2 * propagator.rows + table)
+        8 * (self.propagator.columns.len() + self.table.as_ref().map_or(0, |table| table.terms.len()))
     }
 }
 
@@ -366,26 +346,32 @@ fn combine_by_path<V: Vector>(columns: &[f64], weights: &[f64], out: &mut [f64])
 }
 
 impl Propagator {
+    /// Columns from the given one on.
+    #[inline(always)]
+    fn columns_from(&self, column: usize) -> &[f64] {
+        self.columns.get(column * self.rows..).unwrap_or(&[])
+    }
+
     /// Effect of constant floor loads (N) over the interval.
     pub(crate) fn of_load(&self, load: &[f64], out: &mut [f64]) {
-        combine(&self.load, load, out);
+        combine(self.columns_from(2 * self.storeys + 2), &load[..self.storeys], out);
     }
 
     /// Effect of floor loads that grow from zero to `load` (N) over the interval.
     pub(crate) fn of_ramp(&self, load: &[f64], out: &mut [f64]) {
-        combine(&self.ramp, load, out);
+        combine(self.columns_from(3 * self.storeys + 2), &load[..self.storeys], out);
     }
 
-    /// Columns of the state (x, v), one after the other.
-    #[inline]
-    pub(crate) fn state_columns(&self) -> &[f64] {
-        &self.state
+    /// Whether it knows the effect of loads that grow.
+    pub(crate) fn has_ramps(&self) -> bool {
+        !self.columns_from(3 * self.storeys + 2).is_empty()
     }
 
-    /// Columns of a constant ground acceleration, and of one that grows from zero by one.
-    #[inline]
-    pub(crate) fn motion_columns(&self) -> (&[f64], &[f64]) {
-        (&self.ground, &self.ground_ramp)
+    /// Columns of the state (x, v), one after the other, and those of the motion after them: of a constant ground
+    /// acceleration, and of one that grows from zero by one.
+    #[inline(always)]
+    pub(crate) fn state_and_motion_columns(&self) -> &[f64] {
+        &self.columns
     }
 }
 
@@ -433,6 +419,8 @@ pub(crate) struct RegimeCache {
     bytes: usize,
     /// Memory taken by what the present run has met.
     run_bytes: usize,
+    /// Working space of forming steps.
+    sums: Vec<f64>,
 }
 
 impl RegimeCache {
@@ -444,7 +432,7 @@ impl RegimeCache {
     }
 
     pub(crate) fn new(dt: f64) -> Self {
-        Self { dt, entries: Vec::new(), index: HashMap::default(), run: 0, bytes: 0, run_bytes: 0 }
+        Self { dt, entries: Vec::new(), index: HashMap::default(), run: 0, bytes: 0, run_bytes: 0, sums: Vec::new() }
     }
 
     /// Time step of the propagators (s).
@@ -512,7 +500,7 @@ impl RegimeCache {
     #[cold]
     fn form_steps(&mut self, index: usize, model: &Model, vertical: bool) {
         let entry = &mut self.entries[index];
-        let steps = Steps::new(model, &entry.regime, self.dt, vertical);
+        let steps = Steps::new(model, &entry.regime, self.dt, vertical, &mut self.sums);
         self.bytes += steps.bytes();
         entry.regime.steps = Some(Box::new(steps));
     }
@@ -529,7 +517,7 @@ impl RegimeCache {
         if entry.visits <= series_visits {
             return false;
         }
-        let lacks = |steps: &Steps| vertical && steps.propagator.ramp.is_empty();
+        let lacks = |steps: &Steps| vertical && !steps.propagator.has_ramps();
         if entry.regime.steps.as_deref().is_none_or(lacks) {
             self.form_steps(index, model, vertical);
         }

@@ -11,9 +11,10 @@ use crate::propagator::Steps;
 
 /// The linear operators of one regime.
 pub(crate) struct Regime {
-    stride: usize,
+    /// Vectors of a row.
+    vectors: usize,
     /// One row of each [`Row`], padded to whole vectors with zeros.
-    rows: Vec<f64>,
+    rows: Vec<[f64; WIDTH]>,
     /// Bound on the growth of Taylor coefficients (rad/s).
     pub(crate) frequency: f64,
     /// Exponent (1/s) with which the energy of the derivatives may grow: positive with a negative tangent.
@@ -57,10 +58,11 @@ const ROWS: usize = Row::FourthOfRate as usize + 1;
 impl Regime {
     /// The regime with `yielded[i]` plastic elements in each storey and `stuck_mass[i]` on each floor.
     pub(crate) fn new(model: &Model, yielded: impl Fn(usize) -> u8, stuck_mass: &[f64]) -> Self {
-        let stride = padded(model.storeys());
-        let mut regime = Self { stride, rows: vec![0.0; ROWS * stride], frequency: 0.0, growth: 0.0, steps: None };
+        let vectors = padded(model.storeys()) / WIDTH;
+        let rows = vec![[0.0; WIDTH]; ROWS * vectors];
+        let mut regime = Self { vectors, rows, frequency: 0.0, growth: 0.0, steps: None };
         for i in 0..model.storeys() {
-            let mut set = |row: Row, value: f64| regime.rows[row as usize * stride + i] = value;
+            let mut set = |row: Row, value: f64| regime.set(row, i, value);
             let spring = model.laws[i].tangent(yielded(i));
             let (tangent, mass) = (spring - model.laws[i].geometric, model.mass[i] + stuck_mass[i]);
             set(Row::Tangent, tangent);
@@ -76,18 +78,22 @@ impl Regime {
         regime
     }
 
+    fn set(&mut self, row: Row, i: usize, value: f64) {
+        self.rows[row as usize * self.vectors + i / WIDTH][i % WIDTH] = value;
+    }
+
     /// A row, padded.
     #[inline(always)]
     pub(crate) fn row(&self, row: Row) -> &[f64] {
-        let from = row as usize * self.stride;
-        &self.rows[from..from + self.stride]
+        let from = row as usize * self.vectors;
+        self.rows[from..from + self.vectors].as_flattened()
     }
 
     /// A row in `K` vectors, of which a scene must have as many.
     #[inline(always)]
     pub(crate) fn lanes<V: Vector, const K: usize>(&self, row: Row) -> [V; K] {
         let mut vectors = [V::splat(0.0); K];
-        if let Some(lanes) = self.rows.as_chunks::<WIDTH>().0.as_chunks::<K>().0.get(row as usize) {
+        if let Some(lanes) = self.rows.as_chunks::<K>().0.get(row as usize) {
             for k in 0..K {
                 vectors[k] = V::load(&lanes[k]);
             }
@@ -310,7 +316,7 @@ impl Regime {
             let mut square = 0.0;
             damping_row(model, i, |j, c| square += c * c * self.row(Row::InverseMass)[j]);
             let bound = (root(i) + root(i + 1) + square.sqrt()) * self.row(Row::InverseMass)[i];
-            self.rows[Row::SecondOfAcceleration as usize * self.stride + i] = bound;
+            self.set(Row::SecondOfAcceleration, i, bound);
         }
         for (row, one_below) in [
             (Row::ThirdOfAcceleration, Row::SecondOfAcceleration),
@@ -327,7 +333,7 @@ impl Regime {
                 let above = if i + 1 < n { two_below(i + 1) } else { 0.0 };
                 let mut sum = stiffness(i) * (two_below(i) + below) + stiffness(i + 1) * (above + two_below(i));
                 damping_row(model, i, |j, c| sum += c * self.row(one_below)[j]);
-                self.rows[row as usize * self.stride + i] = sum * self.row(Row::InverseMass)[i];
+                self.set(row, i, sum * self.row(Row::InverseMass)[i]);
             }
         }
         for (row, of_acceleration) in
@@ -335,7 +341,7 @@ impl Regime {
         {
             for i in 0..n {
                 let below = if i > 0 { self.row(of_acceleration)[i - 1] } else { 0.0 };
-                self.rows[row as usize * self.stride + i] = self.row(of_acceleration)[i] + below;
+                self.set(row, i, self.row(of_acceleration)[i] + below);
             }
         }
     }
