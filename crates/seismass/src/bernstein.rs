@@ -1,14 +1,14 @@
 //! Roots of polynomials on [0, 1] with proof: Bernstein coefficients bound a polynomial, so no sign change means no
 //! root and one sign change means exactly one (Descartes' rule).
 
-use crate::lanes::{Plain, Vector};
+use crate::lanes::{Plain, Vector, WIDTH};
 
 /// Highest degree: Taylor series of a step never need more terms.
 pub(crate) const MAX_DEGREE: usize = 23;
 /// Halvings after which an interval is a point.
 const MAX_DEPTH: u32 = 60;
 
-/// A polynomial on [0, 1] by its power coefficients, lowest first.
+/// A polynomial on [0, 1] by its power coefficients, lowest first, and zeros beyond.
 ///
 /// What the hot loops need is inlined into the code of their path and takes the path's fused operations (`V`).
 #[derive(Clone, Copy)]
@@ -53,8 +53,19 @@ impl Polynomial {
 
     /// Sum of the absolute coefficients: a bound on [0, 1].
     #[inline(always)]
-    pub(crate) fn norm(&self) -> f64 {
-        self.coefficients().iter().map(|c| c.abs()).sum()
+    pub(crate) fn norm<V: Vector>(&self) -> f64 {
+        let mut sum = V::splat(0.0);
+        for four in self.fours() {
+            sum = sum.add(V::load(four).abs());
+        }
+        sum.sum()
+    }
+
+    /// The coefficients, and zeros beyond, in whole vectors.
+    #[inline(always)]
+    fn fours(&self) -> &[[f64; WIDTH]] {
+        let fours = self.coefficients.as_chunks::<WIDTH>().0;
+        &fours[..self.length.div_ceil(WIDTH).min(fours.len())]
     }
 
     /// Value at `s`.
@@ -99,17 +110,28 @@ impl Polynomial {
         cut
     }
 
-    /// The sum of the coefficients, which is the value at 1, and bounds of the derivative on [0, 1].
+    /// What the coefficients say of values and derivatives on [0, 1].
     #[inline(always)]
-    fn end_and_rates(&self) -> (f64, [f64; 2]) {
-        let (mut end, mut slowest, mut fastest) = (0.0, 0.0, 0.0);
-        for (&c, &k) in self.coefficients().iter().zip(&ORDERS).skip(2) {
-            end += c;
-            slowest += k * if c < 0.0 { c } else { 0.0 };
-            fastest += k * if c > 0.0 { c } else { 0.0 };
+    fn shape<V: Vector>(&self) -> Shape {
+        let zero = V::splat(0.0);
+        let [mut sum, mut fall, mut slow, mut fast, mut low, mut high] = [zero; 6];
+        for (four, [of_sum, of_rate, of_bend]) in self.fours().iter().zip(&SHAPE_WEIGHTS) {
+            let (c, rate, bend) = (V::load(four).mul(V::load(of_sum)), V::load(of_rate), V::load(of_bend));
+            let (negative, positive) = (c.min(zero), c.max(zero));
+            sum = sum.add(c);
+            fall = fall.add(negative);
+            slow = rate.mul_add(negative, slow);
+            fast = rate.mul_add(positive, fast);
+            low = bend.mul_add(negative, low);
+            high = bend.mul_add(positive, high);
         }
-        let [start, rate, ..] = self.coefficients;
-        (start + (rate + end), [rate + slowest, rate + fastest])
+        let [start, rate, bend, ..] = self.coefficients;
+        Shape {
+            end: start + (rate + sum.sum()),
+            slope: rate + fall.sum(),
+            rates: [rate + slow.sum(), rate + fast.sum()],
+            bends: [2.0 * bend + low.sum(), 2.0 * bend + high.sum()],
+        }
     }
 
     /// The first `s` in [0, 1] where the polynomial falls through zero to below `-tolerance`.
@@ -118,21 +140,26 @@ impl Polynomial {
     /// when the polynomial starts at or below zero and never rises above it before.
     #[inline(always)]
     pub(crate) fn first_fall<V: Vector>(&self, tolerance: f64) -> Option<f64> {
-        let mut least = self.coefficients[0];
-        for &c in self.coefficients().iter().skip(1) {
-            least += if c < 0.0 { c } else { 0.0 };
-        }
-        if least >= -tolerance {
+        let [start, rate, ..] = self.coefficients;
+        let Shape { end, slope, rates, bends: [lowest, highest] } = self.shape::<V>();
+        if start + if slope < 0.0 { slope } else { 0.0 } >= -tolerance {
             return None;
         }
-        let (end, rates) = self.end_and_rates();
-        if self.coefficients[0] > 0.0 && rates[1] < 0.0 {
+        if start > 0.0 && rates[1] < 0.0 {
+            return if end < -tolerance { Some(self.only_root::<V>(end)) } else { None };
+        }
+        // Above the parabola of least bend. What has just fired starts at zero, often at rest.
+        if lowest > 0.0 && start - if rate < 0.0 { 0.5 * rate * rate / lowest } else { 0.0 } >= -tolerance {
+            return None;
+        }
+        // From above zero to below it, and bent to one side: one root. Bent down: nothing below both ends.
+        if start > 0.0 && (highest <= 0.0 || lowest >= 0.0 && end < -tolerance) {
             return if end < -tolerance { Some(self.only_root::<V>(end)) } else { None };
         }
         self.first_of_falls(tolerance)
     }
 
-    /// [`Polynomial::first_fall`] of a polynomial that is not known to fall throughout.
+    /// [`Polynomial::first_fall`] of any polynomial.
     #[inline(never)]
     fn first_of_falls(&self, tolerance: f64) -> Option<f64> {
         let mut shifted = *self;
@@ -180,15 +207,14 @@ impl Polynomial {
         self.newton::<Plain>(secant, left, right, at_left > at_right)
     }
 
-    /// The root in [0, 1] of a polynomial whose derivative keeps its sign and whose value at 1, `end`, has not that of its
-    /// start.
+    /// The only root in [0, 1] of a polynomial whose value at 1, `end`, has not the sign of its start.
     #[inline(always)]
     fn only_root<V: Vector>(&self, end: f64) -> f64 {
         let [start, rate, ..] = self.coefficients;
         // First guess: the root of the parabola with this start, rate and end.
         let curvature = end - start - rate;
-        let discriminant = V::fused(rate, rate, -4.0 * curvature * start);
-        let guess = 2.0 * start.abs() / (discriminant.sqrt() - rate.copysign(rate * start));
+        let root = V::fused(rate, rate, -4.0 * curvature * start).sqrt();
+        let guess = 2.0 * start.abs() / (root - if start > 0.0 { rate } else { -rate });
         self.newton::<V>(guess, 0.0, 1.0, start > 0.0)
     }
 
@@ -226,7 +252,7 @@ impl Polynomial {
     #[inline(always)]
     pub(crate) fn sign_changes<V: Vector>(&self) -> (Option<f64>, Vec<f64>) {
         let start = self.coefficients[0];
-        let (end, rates) = self.end_and_rates();
+        let Shape { end, rates, .. } = self.shape::<V>();
         if rates[0] > 0.0 || rates[1] < 0.0 {
             return (if start * end < 0.0 { Some(self.only_root::<V>(end)) } else { None }, Vec::new());
         }
@@ -247,6 +273,31 @@ impl Polynomial {
         (first, others)
     }
 }
+
+/// What the coefficients of a polynomial p say of it on [0, 1].
+struct Shape {
+    /// p(1).
+    end: f64,
+    /// No power from the first on is above s: p(s) >= p(0) + slope s.
+    slope: f64,
+    /// Bounds of the first and of the second derivative.
+    rates: [f64; 2],
+    bends: [f64; 2],
+}
+
+/// By order k: 1 and k from the second on, k (k - 1) from the third on.
+const SHAPE_WEIGHTS: [[[f64; WIDTH]; 3]; (MAX_DEGREE + 1) / WIDTH] = {
+    let mut table = [[[0.0; WIDTH]; 3]; (MAX_DEGREE + 1) / WIDTH];
+    let mut k = 2;
+    while k <= MAX_DEGREE {
+        let of_four = &mut table[k / WIDTH];
+        of_four[0][k % WIDTH] = 1.0;
+        of_four[1][k % WIDTH] = k as f64;
+        of_four[2][k % WIDTH] = if k > 2 { (k * (k - 1)) as f64 } else { 0.0 };
+        k += 1;
+    }
+    table
+};
 
 /// 0, 1, 2, ...
 const ORDERS: [f64; MAX_DEGREE + 1] = {
@@ -405,6 +456,25 @@ mod tests {
                     let (first, others) = p.sign_changes::<Plain>();
                     assert!((first.unwrap() - root).abs() <= size && others.is_empty());
                 }
+            }
+        }
+    }
+
+    /// Polynomials bent to one side that turn before they fall, or after, and one that comes back in time.
+    #[test]
+    fn finds_falls_of_bent_polynomials() {
+        for (coefficients, root) in [
+            (vec![1.0, 1.0, -6.0, -1e-3], Some(0.499_975_002_999_542_95)),
+            (vec![1.0, -6.0, 4.5, 0.0], Some(0.195_262_145_875_634_94)),
+            (vec![1e-3, 1.0, -1.001], None),
+            (vec![0.0, 1.0, -0.5, -0.4], None),
+            (vec![0.0, 0.0, 1.0, -0.1], None),
+            (vec![1e-6, -1e-3, 1.0, -0.1], None),
+            (vec![2e-7, -1e-3, 1.0, -0.1], Some(2.763_884_811_822_42e-4)),
+        ] {
+            match (Polynomial::new(coefficients.iter().copied()).first_fall::<Plain>(1e-15), root) {
+                (Some(found), Some(root)) => assert!((found - root).abs() < 1e-12, "{found} for {root}"),
+                (found, root) => assert_eq!(found, root),
             }
         }
     }

@@ -163,7 +163,7 @@ impl State<'_> {
             let p = self.series.drift_rate(i, sign.factor());
             let contact = self.contact_at(tau);
             let sizes = self.acceleration_size(i + 1, contact) + self.acceleration_size(i, contact);
-            let tolerance = ROUNDING * (p.norm() + self.series.h() * sizes);
+            let tolerance = ROUNDING * (p.norm::<V>() + self.series.h() * sizes);
             first.consider::<V>(Guard::Unload { storey: i }, &p, tolerance);
         }
     }
@@ -173,7 +173,7 @@ impl State<'_> {
     fn drift_guard<V: Vector>(&self, i: usize, limit: f64, sign: Sign, guard: Guard, first: &mut First) {
         let mut p = self.series.drift(i, -sign.factor());
         p.coefficients_mut()[0] = 0.0;
-        let excursion = p.norm();
+        let excursion = p.norm::<V>();
         p.coefficients_mut()[0] = limit - sign.factor() * self.x[i];
         let size = self.model.laws[i].yield_range(self.springs[i].yielded());
         first.consider::<V>(guard, &p, ROUNDING * (limit.abs() + self.x[i].abs() + excursion + size));
@@ -203,7 +203,7 @@ impl State<'_> {
                 }
                 let mut p = self.acceleration_of(floor, tau, -sign.factor());
                 // Not below what a decision takes as equal: what has just stuck must not break away for that.
-                let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + p.norm() + sizes);
+                let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + p.norm::<V>() + sizes);
                 if let [c0, c1, ..] = p.coefficients_mut() {
                     (*c0, *c1) = (*c0 + limit, *c1 + mu * contact_change);
                 }
@@ -225,7 +225,7 @@ impl State<'_> {
             let law = &self.model.blocks[j];
             let contact = self.interval.contact_at(tau);
             let size = self.acceleration_size(law.floor, contact) + law.mu_k * STANDARD_GRAVITY;
-            first.consider::<V>(Guard::Arrival { block: j }, &p, ROUNDING * (p.norm() + self.series.h() * size));
+            first.consider::<V>(Guard::Arrival { block: j }, &p, ROUNDING * (p.norm::<V>() + self.series.h() * size));
         }
     }
 

@@ -6,7 +6,7 @@ use crate::bernstein::Polynomial;
 use crate::error::{Error, Result};
 use crate::events::{Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
-use crate::lanes::{Vector, for_each_path};
+use crate::lanes::{Vector, WIDTH, for_each_path};
 use crate::model::Model;
 use crate::observe::Observer;
 use crate::propagator::RegimeCache;
@@ -352,6 +352,16 @@ impl Run<'_> {
     }
 }
 
+/// values += changes, both padded.
+#[inline]
+fn add(values: &mut [f64], changes: &[f64]) {
+    for (values, changes) in values.as_chunks_mut::<WIDTH>().0.iter_mut().zip(changes.as_chunks::<WIDTH>().0) {
+        for lane in 0..WIDTH {
+            values[lane] += changes[lane];
+        }
+    }
+}
+
 /// What moves: drifts, drift rates, floor accelerations, their rates, drift accelerations, and blocks.
 struct Moment {
     lanes: [Vec<f64>; 5],
@@ -377,8 +387,8 @@ impl State<'_> {
             }
         }
         let [drifts, rates] = self.series.changes();
-        self.x.iter_mut().zip(drifts).for_each(|(x, change)| *x += change);
-        self.v.iter_mut().zip(rates).for_each(|(v, change)| *v += change);
+        add(&mut self.x, drifts);
+        add(&mut self.v, rates);
     }
 
     /// Moves the state, accelerations included, to the end of the present series, which begins at `tau`. They are formed
@@ -417,15 +427,17 @@ impl State<'_> {
 
     #[inline]
     fn check_finite(&self, tau: f64) -> Result<()> {
-        let (mut storeys, mut blocks) = (0.0, 0.0);
-        for (x, v) in self.x.iter().zip(&self.v) {
-            storeys += 0.0 * (x + v);
+        let (mut storeys, mut blocks) = ([0.0; WIDTH], 0.0);
+        for (x, v) in self.x.as_chunks::<WIDTH>().0.iter().zip(self.v.as_chunks::<WIDTH>().0) {
+            for lane in 0..WIDTH {
+                storeys[lane] += 0.0 * (x[lane] + v[lane]);
+            }
         }
         for motion in &self.motions {
             blocks += 0.0 * (motion.slip + motion.velocity);
         }
         // No number times zero is zero but a finite one.
-        if storeys + blocks == 0.0 { Ok(()) } else { Err(self.not_finite(tau)) }
+        if storeys.iter().sum::<f64>() + blocks == 0.0 { Ok(()) } else { Err(self.not_finite(tau)) }
     }
 
     #[cold]

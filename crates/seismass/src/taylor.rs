@@ -46,8 +46,8 @@ pub(crate) struct Series {
     /// Drifts and drift rates at the start.
     x: Vec<f64>,
     v: Vec<f64>,
-    /// Terms of the ground acceleration.
-    ground: [f64; 2],
+    /// Terms of the ground acceleration, and zeros beyond.
+    ground: [f64; MAX_DEGREE + 1],
     a: Vec<f64>,
     /// Floor accelerations and their rates at the end of the step.
     end: [Vec<f64>; 2],
@@ -85,7 +85,7 @@ impl Series {
             }
         }
         (self.storeys, self.stride, self.order, self.h, self.place) = (n, stride, order, h, 1.0);
-        self.ground = [drive.ground, drive.ground_slope * h];
+        (self.ground[0], self.ground[1]) = (drive.ground, drive.ground_slope * h);
         let length = (order + 1) * stride;
         if self.a.len() < length {
             self.a.resize(length, 0.0);
@@ -184,7 +184,7 @@ impl Series {
         linear: &[V; K],
         inside: &[V; K],
     ) {
-        let (h, [ground, change]) = (self.h, self.ground);
+        let (h, [ground, change, ..]) = (self.h, self.ground);
         let (mut once, mut twice, mut jerk) = (*a, *a, *a);
         for k in 0..K {
             once[k] = V::splat(0.5).mul_add(linear[k], sums.integrals[0][k]).add(a[k]);
@@ -230,8 +230,7 @@ impl Series {
                 first[order] = a;
             }
             let factor = V::splat(h * INVERSE[order + 1]);
-            let ground = if order < 2 { self.ground[order] } else { 0.0 };
-            let drift_acceleration = differences(&a, V::splat(ground));
+            let drift_acceleration = differences(&a, V::splat(self.ground[order]));
             for k in 0..K {
                 x[k] = factor.mul(v[k]);
                 v[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
@@ -255,7 +254,7 @@ impl Series {
             let a = &mut self.a[k * stride..k * stride + n];
             regime.accelerations(model, &x, &v, load, a);
             let factor = self.h * INVERSE[k + 1];
-            let mut below = if k < 2 { self.ground[k] } else { 0.0 };
+            let mut below = self.ground[k];
             for (i, &a) in a.iter().enumerate() {
                 self.end[0][i] += a;
                 self.end[1][i] += order * a;
@@ -299,7 +298,7 @@ impl Series {
     /// Forms the changes of drifts and drift rates up to the place from the integrals of floor accelerations.
     fn integrate_differences(&mut self) {
         let (s, h) = (self.place, self.place * self.h);
-        let [ground, change] = self.ground;
+        let [ground, change, ..] = self.ground;
         let mut below = (ground + 0.5 * s * change, 0.5 * ground + (1.0 / 6.0) * s * change);
         for i in 0..self.storeys {
             let (a, linear) = (self.a[i], self.a[self.stride + i]);
@@ -323,37 +322,36 @@ impl Series {
         self.place
     }
 
-    /// Term `k` of the difference between the accelerations of floor `i` and of that below.
+    /// Terms of the acceleration of what storey `i` stands on: of the floor below with their stride, or of the ground.
     #[inline(always)]
-    fn difference_term(&self, k: usize, i: usize) -> f64 {
-        let at = k * self.stride + i;
-        let below = match i {
-            0 if k < 2 => self.ground[k],
-            0 => 0.0,
-            _ => self.a[at - 1],
-        };
-        self.a[at] - below
+    fn terms_below(&self, i: usize) -> (&[f64], usize) {
+        match i.checked_sub(1) {
+            Some(below) => (&self.a[below..], self.stride),
+            None => (&self.ground, 1),
+        }
     }
 
     /// `factor` times the drift coordinate of storey `i`.
     #[inline(always)]
     pub(crate) fn drift(&self, i: usize, factor: f64) -> Polynomial {
+        let (above, (below, stride)) = (&self.a[i..], self.terms_below(i));
         let once = factor * self.h;
         let twice = once * self.h;
         Polynomial::from_fn(self.order + 1, |k| match k {
             0 => factor * self.x[i],
             1 => once * self.v[i],
-            _ => twice * (INVERSE[k - 1] * INVERSE[k]) * self.difference_term(k - 2, i),
+            _ => twice * INVERSE_PAIRS[k] * (above[(k - 2) * self.stride] - below[(k - 2) * stride]),
         })
     }
 
     /// `factor` times the drift rate of storey `i`.
     #[inline(always)]
     pub(crate) fn drift_rate(&self, i: usize, factor: f64) -> Polynomial {
+        let (above, (below, stride)) = (&self.a[i..], self.terms_below(i));
         let once = factor * self.h;
         Polynomial::from_fn(self.order + 1, |k| match k {
             0 => factor * self.v[i],
-            _ => once * INVERSE[k] * self.difference_term(k - 1, i),
+            _ => once * INVERSE[k] * (above[(k - 1) * self.stride] - below[(k - 1) * stride]),
         })
     }
 
@@ -495,6 +493,17 @@ fn by_recursion<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, 
         _ => series.by_recursion::<V, { MAX_LANES / WIDTH }>(model, regime, start),
     }
 }
+
+/// 1 / (k (k - 1)).
+const INVERSE_PAIRS: [f64; MAX_DEGREE + 1] = {
+    let mut table = [0.0; MAX_DEGREE + 1];
+    let mut k = 2;
+    while k <= MAX_DEGREE {
+        table[k] = 1.0 / (k * (k - 1)) as f64;
+        k += 1;
+    }
+    table
+};
 
 #[cfg(test)]
 mod tests {
