@@ -70,6 +70,8 @@ pub mod simulate;
 pub mod spectrum;
 mod state;
 mod storey;
+mod tall_run;
+mod tall_step;
 mod taylor;
 
 pub use batch::{Control, Run, simulate_each, simulate_many};

@@ -118,7 +118,7 @@ impl Observer {
 
     /// Takes drift and shear at a drift coordinate of storey `i` into their peaks.
     #[inline]
-    fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
+    pub(crate) fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
         let drift = self.peaks.drift[i].take(state.springs[i].drift(x), time);
         let shear = state.base_force[i] + state.regime().row(Row::SpringTangent)[i] * x;
         if self.peaks.storey_shear[i].take(shear, time) || drift {

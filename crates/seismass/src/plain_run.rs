@@ -6,22 +6,27 @@
 //! value must keep the distance of h / 3 times its rate from its bound, and the margin of the fourth derivative, to
 //! either side. Steps that this does not clear are looked at closer, by the Bezier points themselves.
 
+use std::sync::Arc;
+
 use crate::STANDARD_GRAVITY;
 use crate::bounds::{self, Set, members, middle_and_reach};
 use crate::lanes::{
     FAR, MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
 };
 use crate::observe::Observer;
+use crate::propagator::Whole;
 use crate::regime::{Regime, Row};
 use crate::scene::Motion;
 use crate::state::{State, range};
 use crate::storey::Sign;
+use crate::tall_run;
 
 /// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits.
-const SMALL_DIFFERENCE: f64 = 1e-6;
+pub(crate) const SMALL_DIFFERENCE: f64 = 1e-6;
 
 /// What bounds the fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
-const MARGINS: [Row; 4] = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration, Row::ThirdOfAcceleration];
+pub(crate) const MARGINS: [Row; 4] =
+    [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration, Row::ThirdOfAcceleration];
 
 /// Rows (dx, dv, a, j) of a column of the step.
 type Column<const K: usize> = [[[f64; WIDTH]; K]; 4];
@@ -46,7 +51,7 @@ impl<'a, const K: usize> Course<'a, K> {
     #[inline(always)]
     fn new(state: &'a State, h: f64) -> Option<Self> {
         let regime = state.regime();
-        let propagator = &regime.steps.as_deref()?.propagator;
+        let Whole::Dense(propagator) = &regime.steps.as_deref()?.whole else { return None };
         let (of_drift, others) = four_rows(propagator.state_and_motion_columns()).split_at_checked(state.storeys())?;
         let (of_rate, others) = others.split_at_checked(state.storeys())?;
         let [of_ground, of_change, ..] = others else { return None };
@@ -236,31 +241,31 @@ struct Layer<V, const K: usize> {
 }
 
 /// A block that slides on the ground.
-struct GroundBlock {
-    block: usize,
-    friction: f64,
-    sign: f64,
-    velocity: f64,
-    slip: f64,
+pub(crate) struct GroundBlock {
+    pub(crate) block: usize,
+    pub(crate) friction: f64,
+    pub(crate) sign: f64,
+    pub(crate) velocity: f64,
+    pub(crate) slip: f64,
 }
 
 /// Values at both ends of an interval of what is linear between them.
 #[derive(Clone, Copy)]
-struct Linear {
-    start: f64,
-    end: f64,
+pub(crate) struct Linear {
+    pub(crate) start: f64,
+    pub(crate) end: f64,
 }
 
 impl Linear {
     /// Integral over the length `h`.
     #[inline(always)]
-    fn once(self, h: f64) -> f64 {
+    pub(crate) fn once(self, h: f64) -> f64 {
         0.5 * h * (self.start + self.end)
     }
 
     /// Second integral over the length `h`.
     #[inline(always)]
-    fn twice(self, h: f64) -> f64 {
+    pub(crate) fn twice(self, h: f64) -> f64 {
         (1.0 / 6.0) * h * h * (2.0 * self.start + self.end)
     }
 }
@@ -617,7 +622,13 @@ fn block_values<V: Vector, const K: usize>(
 /// Moves the blocks that slide on the ground over a step; false when one may have turned, or one that is stuck broken
 /// away: then nothing is moved.
 #[inline(never)]
-fn move_on_ground(blocks: &mut [GroundBlock], ground: Linear, contact: Linear, h: f64, stuck_mu: f64) -> bool {
+pub(crate) fn move_on_ground(
+    blocks: &mut [GroundBlock],
+    ground: Linear,
+    contact: Linear,
+    h: f64,
+    stuck_mu: f64,
+) -> bool {
     if stuck_mu.is_finite()
         && !(ground.start.abs() < stuck_mu * contact.start && ground.end.abs() < stuck_mu * contact.end)
     {
@@ -786,9 +797,17 @@ impl State<'_> {
         if self.airborne || !self.cache.visit(self.regime, self.model, self.vertical) {
             return first;
         }
-        self.prepare_effects();
-        self.update_bounds(observer);
-        let reached = run(self, observer, motion, first, end);
+        let reached = match self.regime().steps.as_deref().map(|steps| &steps.whole) {
+            Some(Whole::Tall(step)) => {
+                let step = Arc::clone(step);
+                tall_run::run(self, observer, motion, &step, first, end)
+            }
+            _ => {
+                self.prepare_effects();
+                self.update_bounds(observer);
+                run(self, observer, motion, first, end)
+            }
+        };
         let time = reached as f64 * motion.dt();
         for (peak, motion) in observer.peaks.slip.iter_mut().zip(&self.motions) {
             peak.take(motion.slip, time);
@@ -802,7 +821,8 @@ impl State<'_> {
             return;
         }
         let Some(steps) = self.cache.regime(self.regime).steps.as_deref() else { return };
-        let (propagator, effects) = (&steps.propagator, &mut self.effects);
+        let Whole::Dense(propagator) = &steps.whole else { return };
+        let effects = &mut self.effects;
         if self.vertical {
             propagator.of_load(&self.spring_load, &mut effects.constant);
             propagator.of_load(&self.friction, &mut effects.friction);

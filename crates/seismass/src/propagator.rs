@@ -8,6 +8,7 @@
 //! short enough, and the step composed with itself.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 use rustc_hash::FxBuildHasher;
@@ -15,6 +16,7 @@ use rustc_hash::FxBuildHasher;
 use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, padded, store};
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
+use crate::tall_step::TallStep;
 use crate::taylor::{INVERSE, MAX_PHASE, terms};
 
 /// Memory one cache may take before it starts afresh (bytes).
@@ -22,11 +24,23 @@ const CACHE_BYTES: usize = 64 << 20;
 /// Most storeys of which tables of the series are kept.
 pub(crate) const MAX_TABLE: usize = 8;
 
+/// Most storeys for which matrices without zeros are taken though a band would do.
+const MAX_DENSE: usize = 16;
+/// Whole intervals of a tall regime that a run solves by series before its step is formed: about as many as forming it
+/// costs, however many storeys, since both costs grow like their number.
+const TALL_VISITS: u32 = 8;
+
 /// The steps of a regime.
 pub(crate) struct Steps {
     /// Series of the regime over a step of its own; none above [`MAX_TABLE`] storeys.
     pub(crate) table: Option<Table>,
-    pub(crate) propagator: Propagator,
+    pub(crate) whole: Whole,
+}
+
+/// The step of a regime over one whole sample interval.
+pub(crate) enum Whole {
+    Dense(Propagator),
+    Tall(Arc<TallStep>),
 }
 
 /// Taylor terms of the floor accelerations from the second order on, over a step `h`, of unit drift accelerations and
@@ -272,6 +286,9 @@ impl Steps {
     /// space.
     fn new(model: &Model, regime: &Regime, dt: f64, with_ramps: bool, sums: &mut Vec<f64>) -> Self {
         let n = model.storeys();
+        if Self::are_tall(model, regime, dt) {
+            return Self { table: None, whole: Whole::Tall(Arc::new(TallStep::new(model, regime, dt))) };
+        }
         let width = padded(n);
         let halvings = (regime.frequency * dt / MAX_PHASE).log2().ceil().max(0.0);
         let h = dt * (-halvings).exp2();
@@ -316,11 +333,21 @@ impl Steps {
             }
         }
         let table = (n <= MAX_TABLE).then_some(Table { h, terms: table });
-        Self { table, propagator: Propagator { storeys: n, rows: 4 * width, columns } }
+        Self { table, whole: Whole::Dense(Propagator { storeys: n, rows: 4 * width, columns }) }
+    }
+
+    /// Whether the step is a band.
+    fn are_tall(model: &Model, regime: &Regime, dt: f64) -> bool {
+        model.storeys() > MAX_DENSE && TallStep::exists(model, regime, dt)
     }
 
     fn bytes(&self) -> usize {
-        8 * (self.propagator.columns.len() + self.table.as_ref().map_or(0, |table| table.terms.len()))
+        match &self.whole {
+            Whole::Dense(propagator) => {
+                8 * (propagator.columns.len() + self.table.as_ref().map_or(0, |table| table.terms.len()))
+            }
+            Whole::Tall(step) => step.bytes(),
+        }
     }
 }
 
@@ -509,15 +536,19 @@ impl RegimeCache {
     pub(crate) fn visit(&mut self, index: usize, model: &Model, vertical: bool) -> bool {
         let entry = &mut self.entries[index];
         let n = model.storeys();
-        if n == 0 || n > MAX_LANES {
+        let is_tall = Steps::are_tall(model, &entry.regime, self.dt);
+        if n == 0 || n > MAX_LANES && !is_tall {
             return false;
         }
-        let series_visits = Self::series_visits(n);
+        let series_visits = if is_tall { TALL_VISITS } else { Self::series_visits(n) };
         entry.visits = entry.visits.saturating_add(1);
         if entry.visits <= series_visits {
             return false;
         }
-        let lacks = |steps: &Steps| vertical && !steps.propagator.has_ramps();
+        let lacks = |steps: &Steps| match &steps.whole {
+            Whole::Dense(propagator) => vertical && !propagator.has_ramps(),
+            Whole::Tall(_) => false,
+        };
         if entry.regime.steps.as_deref().is_none_or(lacks) {
             self.form_steps(index, model, vertical);
         }

@@ -1,0 +1,84 @@
+//! Tall buildings, whose steps the fast kernel takes by bands, beside the judge: the widths at which its vectors end, and
+//! buildings that are stiff in their highest modes. Short motions: rounding has no time to grow.
+
+#![allow(clippy::unwrap_used)]
+
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+
+use seismass::{Block, Building, Damping, Motion, Options, STANDARD_GRAVITY, Scene, Storey, simulate};
+use seismass_judge::{Comparison, DoubleDouble, Real, compare, solve};
+
+/// Both are right to some 1e-14 (printed); a guard or a peak that is missed is far beyond this.
+const AGREEMENT: f64 = 1e-12;
+
+const RAYLEIGH: Damping = Damping::Rayleigh { ratio: 0.05, modes: [1, 3] };
+
+/// A building whose masses and stiffnesses differ from floor to floor, with a first period near 0.1 s per storey and
+/// blocks on most floors and on the ground.
+fn tall(n: usize, damping: Damping) -> Scene {
+    let uniform = Building::uniform(n, 0.1 * n as f64, 1.0, RAYLEIGH).unwrap();
+    let weight = STANDARD_GRAVITY * n as f64;
+    let wave = |i: usize, step: f64| 1.0 + 0.3 * (step * i as f64).sin();
+    let storeys = uniform.storeys().iter().enumerate().map(|(i, storey)| Storey {
+        second_slope: 0.05,
+        ..Storey::yielding(storey.stiffness * wave(i, 1.3), 0.15 * weight * (n - i) as f64 / n as f64)
+    });
+    let mass = (0..n).map(|i| wave(i, 0.7)).collect();
+    let building = Building::new(mass, storeys.collect(), damping).unwrap();
+    let blocks = (0..=n).filter(|floor| floor % 5 != 3).map(|floor| Block::new(floor, wave(floor, 2.1), 0.2)).collect();
+    Scene::new(Some(Arc::new(building)), blocks).unwrap()
+}
+
+/// Beats that pass through zero, with a peak of `peak_g`.
+fn motion(samples: usize, peak_g: f64, vertical: bool) -> Motion {
+    let dt = 0.01;
+    let beat = |frequency: f64, i: usize| (std::f64::consts::TAU * frequency * dt * i as f64).sin();
+    let horizontal = |i: usize| peak_g * STANDARD_GRAVITY * 0.5 * (beat(2.3, i) + beat(3.1, i));
+    let upwards = |i: usize| 0.3 * STANDARD_GRAVITY * beat(7.0, i);
+    let vertical = vertical.then(|| (0..samples).map(upwards).collect::<Vec<_>>().into());
+    Motion::new((0..samples).map(horizontal).collect::<Vec<_>>(), dt, vertical).unwrap()
+}
+
+/// Solves by the kernel and by the judge; returns the comparison and how many steps were plain.
+fn judged<R: Real>(scene: &Scene, motion: &Motion) -> (Comparison, usize) {
+    let options = Options { histories: NonZeroUsize::new(3), events: true, ..Options::default() };
+    let response = simulate(scene, motion, &options).unwrap();
+    let exact = solve::<R>(scene, motion, 3).unwrap();
+    (compare(&response, &exact), response.statistics.plain_steps)
+}
+
+#[test]
+fn every_width_agrees_without_events() {
+    for n in [8, 9, 12, 15, 16, 17, 24, 31, 32, 33, 47, 48, 49, 63, 64, 65] {
+        for (damping, vertical) in [(RAYLEIGH, false), (RAYLEIGH, true), (Damping::Modal { ratio: 0.0 }, false)] {
+            let (comparison, plain) = judged::<f64>(&tall(n, damping.clone()), &motion(120, 0.004, vertical));
+            println!("{n} storeys, {damping:?}, vertical {vertical}: {:.1e}, {plain} plain", comparison.worst());
+            assert!(comparison.agrees(AGREEMENT), "{n} storeys, {damping:?}, vertical {vertical}: {comparison:?}");
+            // Without bands a peak inside a step ends the run of plain steps.
+            assert!(n <= 16 || plain > 60, "{n} storeys, {damping:?}: {plain} plain steps");
+        }
+    }
+}
+
+#[test]
+fn every_width_agrees_with_events() {
+    for n in [9, 16, 17, 33, 49, 65] {
+        for vertical in [false, true] {
+            let (comparison, plain) = judged::<f64>(&tall(n, RAYLEIGH), &motion(150, 0.5, vertical));
+            println!("{n} storeys, vertical {vertical}: {:.1e}, {plain} plain", comparison.worst());
+            assert!(comparison.agrees(AGREEMENT), "{n} storeys, vertical {vertical}: {comparison:?}");
+        }
+    }
+}
+
+/// Damping fitted to the lowest modes makes the highest ones overdamped: a step spans several of their time scales.
+#[test]
+fn tall_buildings_agree_however_stiff_their_highest_modes() {
+    for (n, ratio, peak_g) in [(60, 0.05, 0.5), (60, 0.3, 0.004), (120, 0.05, 0.004)] {
+        let scene = tall(n, Damping::Rayleigh { ratio, modes: [1, 3] });
+        let (comparison, plain) = judged::<DoubleDouble>(&scene, &motion(40, peak_g, false));
+        println!("{n} storeys, {ratio} of critical, {peak_g} g: {:.1e}, {plain} plain", comparison.worst());
+        assert!(comparison.agrees(AGREEMENT), "{n} storeys, {ratio}, {peak_g} g: {comparison:?}");
+    }
+}
