@@ -1,5 +1,6 @@
 //! Storeys as lanes of vectors, and the instructions the hot loops may use for them.
 
+use std::ops::{Deref, DerefMut};
 use std::sync::OnceLock;
 
 /// Instructions the hot loops are compiled for. Paths agree to rounding; each gives the same bits everywhere.
@@ -78,6 +79,41 @@ pub(crate) fn filled(values: impl IntoIterator<Item = f64>, storeys: usize, padd
     let mut lanes: Vec<f64> = values.into_iter().collect();
     lanes.resize(padded(storeys), padding);
     lanes
+}
+
+/// Numbers that begin at a cache line: no vector of them lies across two.
+#[derive(Debug, Default)]
+pub(crate) struct Aligned {
+    values: Vec<f64>,
+    offset: usize,
+}
+
+impl Aligned {
+    /// So many zeros.
+    pub(crate) fn zeros(length: usize) -> Self {
+        const LINE: usize = 64;
+        let spare = LINE / size_of::<f64>() - 1;
+        let mut values = vec![0.0; length + spare];
+        let offset = values.as_ptr().align_offset(LINE).min(spare);
+        values.truncate(offset + length);
+        Self { values, offset }
+    }
+}
+
+impl Deref for Aligned {
+    type Target = [f64];
+
+    #[inline(always)]
+    fn deref(&self) -> &[f64] {
+        &self.values[self.offset..]
+    }
+}
+
+impl DerefMut for Aligned {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [f64] {
+        &mut self.values[self.offset..]
+    }
 }
 
 /// Four lanes.

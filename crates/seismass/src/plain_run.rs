@@ -399,6 +399,12 @@ fn multiply<V: Vector, const K: usize, const S: usize>(
     }
 }
 
+/// Lanes, as bits, in which the larger of two values and a margin times its factor are not below a bound.
+#[inline(always)]
+fn not_clear<V: Vector>((before, after): (V, V), margin: V, factor: V, bound: V) -> Set {
+    Set::from(margin.mul_add(factor, before.max(after)).not_below(bound))
+}
+
 /// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached. `S` is
 /// the number of storeys where it is known, else 0; `SLIDING`: blocks may slide on floors.
 #[inline(always)]
@@ -483,7 +489,18 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
             }
         }
         multiply::<V, K, S>(&mut rows, course.of_drift, &sample.x);
-        multiply::<V, K, S>(&mut rows, course.of_rate, &sample.v);
+        if S > 0 {
+            // Two sums: half the latency of one, which is what a small step waits for.
+            let mut of_rates = [[V::splat(0.0); K]; 4];
+            multiply::<V, K, S>(&mut of_rates, course.of_rate, &sample.v);
+            for r in 0..4 {
+                for k in 0..K {
+                    rows[r][k] = rows[r][k].add(of_rates[r][k]);
+                }
+            }
+        } else {
+            multiply::<V, K, S>(&mut rows, course.of_rate, &sample.v);
+        }
         let [dx, dv, a, jerk] = rows;
         let mut taken = Sample { x: sample.x, v: sample.v, a, jerk, q: differences(&a, V::splat(after)) };
         for k in 0..K {
@@ -493,13 +510,14 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
         // The proof.
         let apart_after = bounds.apart(&taken, third);
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
-        let (mut suspects, mut turning_blocks) = ([0; 3], 0);
+        let (mut drifts, mut rates, mut accelerations): (Set, Set, Set) = (0, 0, 0);
+        let mut turning_blocks = 0;
         for k in 0..K {
+            let most = |which: usize| (apart_before[which][k], apart_after[which][k]);
             let limit = bounds.stuck_mu[k].mul(least_contact).min(bounds.a_peak[k]);
-            for (which, bound) in [(0, bounds.reach[k]), (1, bounds.turn[k]), (2, limit)] {
-                let most = apart_before[which][k].max(apart_after[which][k]);
-                suspects[which] |= Set::from(margin.mul_add(margins[which][k], most).not_below(bound)) << (WIDTH * k);
-            }
+            drifts |= not_clear(most(0), margin, margins[0][k], bounds.reach[k]) << (WIDTH * k);
+            rates |= not_clear(most(1), margin, margins[1][k], bounds.turn[k]) << (WIDTH * k);
+            accelerations |= not_clear(most(2), margin, margins[2][k], limit) << (WIDTH * k);
         }
         let (ground, push) = (Linear { start: before, end: after }, Linear { start: contact.0, end: contact.1 });
         let mut floors = FloorMotion { velocity: dv, displacement: dx };
@@ -524,7 +542,7 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
             }
         }
         let mut beaten = BeatenPeaks::default();
-        if suspects[0] | suspects[1] | suspects[2] != 0 || SLIDING && turning_blocks != 0 {
+        if drifts | rates | accelerations != 0 || SLIDING && turning_blocks != 0 {
             let (at_start, at_end) = (sample.values(), taken.values());
             let (middle, reach, sign) = (numbers(&bounds.middle), numbers(&bounds.reach), numbers(&bounds.sign));
             let mut step = Closer {
@@ -540,7 +558,7 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
                 sign: sign.as_flattened(),
                 beaten: BeatenPeaks::default(),
             };
-            if !step.look(suspects, within)
+            if !step.look([drifts, rates, accelerations], within)
                 || SLIDING && turning_blocks != 0 && layers.iter().any(|layer| step.may_turn(layer))
             {
                 break;

@@ -13,7 +13,9 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 use rustc_hash::FxBuildHasher;
 
-use crate::lanes::{MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, padded, store};
+use crate::lanes::{
+    Aligned, MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, padded, store,
+};
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
 use crate::tall_step::TallStep;
@@ -47,7 +49,7 @@ pub(crate) enum Whole {
 /// of unit rates of these: by order, by column, by floor padded to whole vectors.
 pub(crate) struct Table {
     pub(crate) h: f64,
-    pub(crate) terms: Vec<f64>,
+    pub(crate) terms: Aligned,
 }
 
 /// The step of a regime over one sample interval, acting on rows (dx, dv, a, j): changes of drifts and drift rates,
@@ -58,7 +60,7 @@ pub(crate) struct Propagator {
     /// Columns, one after the other: of the state (x, v); of a constant ground acceleration and of one that grows from
     /// zero by one per interval; of constant floor loads; where vertical motion needs them, of floor loads that grow from
     /// zero by one per interval.
-    columns: Vec<f64>,
+    columns: Aligned,
 }
 
 /// What a column of the step is the effect of, all else being zero.
@@ -153,8 +155,8 @@ fn remainders<V: Vector, const K: usize>(
 }
 
 for_each_path! {
-    /// Appends the columns of causes over a step of length `h`, whose remainders are `sums`: rows (dx, dv, a, j).
-    fn push_columns(model: &Model, regime: &Regime, h: f64, sums: &[f64], causes: &[Cause], out: &mut Vec<f64>)
+    /// Forms the columns of causes over a step of length `h`, whose remainders are `sums`: rows (dx, dv, a, j).
+    fn form_columns(model: &Model, regime: &Regime, h: f64, sums: &[f64], causes: &[Cause], out: &mut [f64])
         = columns_by_width
 }
 
@@ -165,7 +167,7 @@ fn columns_by_width<V: Vector>(
     h: f64,
     sums: &[f64],
     causes: &[Cause],
-    out: &mut Vec<f64>,
+    out: &mut [f64],
 ) {
     match padded(model.storeys()) {
         4 => columns::<V, 1>(model, regime, h, sums, causes, out),
@@ -183,12 +185,14 @@ fn columns<V: Vector, const K: usize>(
     h: f64,
     sums: &[f64],
     causes: &[Cause],
-    out: &mut Vec<f64>,
+    out: &mut [f64],
 ) {
     let n = model.storeys();
     let operator = Operator::<V, K>::new(model, regime);
     let zero = [[0.0; WIDTH]; K];
-    for &cause in causes {
+    for (out, &cause) in
+        out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0.as_chunks_mut::<4>().0.iter_mut().zip(causes)
+    {
         let [mut x, mut v, mut force, mut slope] = [zero; 4];
         let (mut ground, mut ground_slope) = (0.0, 0.0);
         match cause {
@@ -220,8 +224,8 @@ fn columns<V: Vector, const K: usize>(
                 }
             }
         }
-        for row in &rows {
-            out.extend_from_slice(numbers(row).as_flattened());
+        for r in 0..4 {
+            out[r] = numbers(&rows[r]);
         }
     }
 }
@@ -295,13 +299,12 @@ impl Steps {
         // Parts of a halved interval may be longer than its table's step.
         let order = terms(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
         sums.resize(2 * n * 4 * width, 0.0);
-        let mut table = vec![0.0; if n <= MAX_TABLE { (order - 1) * 2 * n * width } else { 0 }];
+        let mut table = Aligned::zeros(if n <= MAX_TABLE { (order - 1) * 2 * n * width } else { 0 });
         form_remainders(model, regime, h, order, sums, &mut table);
-        let mut columns = Vec::with_capacity((if with_ramps { 4 } else { 3 } * n + 2) * 4 * width);
         let composed = (halvings > 0.0).then(|| {
             let mut step = Step::new(n, |cause| {
-                let mut rows = Vec::new();
-                push_columns(model, regime, h, sums, &[cause], &mut rows);
+                let mut rows = vec![0.0; 4 * width];
+                form_columns(model, regime, h, sums, &[cause], &mut rows);
                 rows
             });
             let mut length = h;
@@ -318,11 +321,12 @@ impl Steps {
             .chain((0..n).map(Cause::Load))
             .chain((0..if with_ramps { n } else { 0 }).map(Cause::Ramp))
             .collect();
+        let mut columns = Aligned::zeros(causes.len() * 4 * width);
         match &composed {
-            None => push_columns(model, regime, h, sums, &causes, &mut columns),
+            None => form_columns(model, regime, h, sums, &causes, &mut columns),
             Some(step) => {
-                for &cause in &causes {
-                    push_rows_of_change(model, regime, cause, step.change(cause), dt, &mut columns);
+                for (column, &cause) in columns.chunks_exact_mut(4 * width).zip(&causes) {
+                    column_of_change(model, regime, cause, step.change(cause), dt, column);
                 }
             }
         }
@@ -402,8 +406,8 @@ impl Propagator {
     }
 }
 
-/// Appends the rows (dx, dv, a, j) of a column from the change of the state over `h`.
-fn push_rows_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64], h: f64, out: &mut Vec<f64>) {
+/// Forms the rows (dx, dv, a, j) of a column from the change of the state over `h`.
+fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64], h: f64, out: &mut [f64]) {
     let n = model.storeys();
     let (mut x, mut v) = (change[..n].to_vec(), change[n..].to_vec());
     let (mut load, mut slope, mut ground) = (vec![0.0; n], vec![0.0; n], 0.0);
@@ -420,9 +424,8 @@ fn push_rows_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f
     let mut below = ground;
     let drift_acceleration: Vec<f64> = a.iter().map(|&a| a - std::mem::replace(&mut below, a)).collect();
     regime.accelerations(model, &v, &drift_acceleration, &slope, &mut jerk);
-    for part in [&change[..n], &change[n..], &a, &jerk] {
-        out.extend_from_slice(part);
-        out.extend(std::iter::repeat_n(0.0, padded(n) - n));
+    for (row, part) in out.chunks_exact_mut(padded(n)).zip([&change[..n], &change[n..], &a, &jerk]) {
+        row[..n].copy_from_slice(part);
     }
 }
 

@@ -4,7 +4,7 @@ use crate::STANDARD_GRAVITY;
 use crate::bounds::{Bounds, Set, first};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand};
-use crate::lanes::{FAR, MAX_LANES, Vector, WIDTH, differences, filled, for_each_path, load, padded, store};
+use crate::lanes::{Aligned, FAR, MAX_LANES, Vector, WIDTH, differences, filled, for_each_path, load, padded, store};
 use crate::model::Model;
 use crate::propagator::{MAX_TABLE, RegimeCache};
 use crate::regime::{Operator, Regime, Row};
@@ -52,11 +52,11 @@ impl Interval {
 pub(crate) struct LoadEffects {
     pub(crate) valid: bool,
     /// Of the springs' base forces (and of friction, without vertical motion).
-    pub(crate) constant: Vec<f64>,
+    pub(crate) constant: Aligned,
     /// With vertical motion: of friction at unit contact force.
-    pub(crate) friction: Vec<f64>,
+    pub(crate) friction: Aligned,
     /// With vertical motion: of friction with the contact force growing from zero to one.
-    pub(crate) friction_ramp: Vec<f64>,
+    pub(crate) friction_ramp: Aligned,
 }
 
 /// Ranges of the storeys and floors over a step, proved: each quantity stays between its two bounds. Padded.
@@ -226,9 +226,9 @@ impl<'a> State<'a> {
             base_load: vec![0.0; n],
             effects: LoadEffects {
                 valid: false,
-                constant: vec![0.0; 4 * padded(n)],
-                friction: vec![0.0; 4 * padded(n)],
-                friction_ramp: vec![0.0; 4 * padded(n)],
+                constant: Aligned::zeros(4 * padded(n)),
+                friction: Aligned::zeros(4 * padded(n)),
+                friction_ramp: Aligned::zeros(4 * padded(n)),
             },
             drive: Drive { load: zero(), load_slope: zero(), ..Drive::default() },
             series: Series::default(),
