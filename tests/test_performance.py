@@ -112,5 +112,6 @@ def test_quick_mode_writes_the_page(module: Any, tmp_path: Path, monkeypatch: py
     assert (docs / "figures" / "performance_storeys.png").stat().st_size > 10_000
     assert page.count("\n## ") == 1 + len(performance.SECTIONS)
     assert "{" not in page
-    assert page.count("| exact run / leapfrog pass") == 12
+    leapfrog = module("targets.leapfrog")
+    assert page.count("| exact run / leapfrog pass") == len(leapfrog.scenes()) * len(leapfrog.OUTPUTS) >= 12
     assert "| plain step / bare chain of the state, 4 storeys | <= 2 | 3 | **missed** |" in page
