@@ -18,6 +18,8 @@ OUTPUTS = {
     "histories": "with all six histories",
 }
 """What the exact run gives back: name in the timings, and in words."""
+SAMPLES: Final = 6000
+"""Motions of fewer samples are taken at half their step too."""
 TEXT = """\
 One exact run must cost less than one pass of the leapfrog, which knows no event; its errors are in
 [the page of error against run time](work_precision.md). Both are compiled for this processor (`{flags}`) and take turns
@@ -31,10 +33,6 @@ In the last column the kernel takes its path for instructions that every x86-64 
 """
 
 
-SAMPLES: Final = 6000
-"""Motions of fewer samples are taken at half their step too."""
-
-
 def at_half_step(bench: BenchmarkScene) -> BenchmarkScene:
     """Return the scene under the same motion at half its time step."""
     acceleration = bench.motion.acceleration
@@ -46,7 +44,7 @@ def at_half_step(bench: BenchmarkScene) -> BenchmarkScene:
 
 
 def scenes() -> list[BenchmarkScene]:
-    """Return the building of section 4 with both second slopes under each strong motion."""
+    """Return those of section 4, and with short motions at half their step too."""
     own = section4_scenes()
     return own + [at_half_step(bench) for bench in own if bench.motion.acceleration.size < SAMPLES]
 

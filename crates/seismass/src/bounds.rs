@@ -83,9 +83,7 @@ impl State<'_> {
         let springs = self.bounds.stale;
         let within = first(self.storeys());
         for i in members((springs | drifts) & within) {
-            let (guarded, quiet) = (self.guarded_drift(i), observer.quiet_drift(self, i));
-            (self.bounds.middle[i], self.bounds.reach[i]) =
-                middle_and_reach((guarded.0.max(quiet.0), guarded.1.min(quiet.1)));
+            (self.bounds.middle[i], self.bounds.reach[i]) = self.quiet_middle_and_reach(observer, i);
         }
         for i in members(springs & within) {
             let sign = self.springs[i].plastic().map_or(0.0, Sign::factor);
@@ -95,6 +93,13 @@ impl State<'_> {
             self.bounds.a_peak[i] = observer.peaks.floor_acceleration[i].value;
         }
         self.bounds.stale = 0;
+    }
+
+    /// Middle and reach of the drift coordinates of a storey between which no guard falls and no peak is beaten.
+    #[inline]
+    pub(crate) fn quiet_middle_and_reach(&self, observer: &Observer, i: usize) -> (f64, f64) {
+        let (guarded, quiet) = (self.guarded_drift(i), observer.quiet_drift(self, i));
+        middle_and_reach((guarded.0.max(quiet.0), guarded.1.min(quiet.1)))
     }
 
     /// Drift coordinates of a storey between which it does not yield or collapse.

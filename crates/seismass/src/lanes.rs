@@ -76,9 +76,15 @@ pub(crate) fn padded(storeys: usize) -> usize {
 
 /// Values padded to whole vectors of a scene with `storeys`.
 pub(crate) fn filled(values: impl IntoIterator<Item = f64>, storeys: usize, padding: f64) -> Vec<f64> {
-    let mut lanes: Vec<f64> = values.into_iter().collect();
-    lanes.resize(padded(storeys), padding);
-    lanes
+    filled_to(padded(storeys), values, padding)
+}
+
+/// Values padded to a length.
+pub(crate) fn filled_to(length: usize, values: impl IntoIterator<Item = f64>, padding: f64) -> Vec<f64> {
+    let mut out = Vec::with_capacity(length);
+    out.extend(values);
+    out.resize(length, padding);
+    out
 }
 
 /// Numbers that begin at a cache line: no vector of them lies across two.
@@ -289,6 +295,35 @@ pub(crate) fn prefix_sums<V: Vector, const K: usize>(values: &[V; K]) -> [V; K] 
     }
     out
 }
+
+/// An expression in which `$count` is the number of vectors in a padded width of at most [`MAX_LANES`], as a constant.
+macro_rules! by_width {
+    ($width:expr, $count:ident => $call:expr) => {
+        match $width {
+            4 => {
+                const $count: usize = 1;
+                $call
+            }
+            8 => {
+                const $count: usize = 2;
+                $call
+            }
+            16 => {
+                const $count: usize = 4;
+                $call
+            }
+            32 => {
+                const $count: usize = 8;
+                $call
+            }
+            _ => {
+                const $count: usize = crate::lanes::MAX_LANES / crate::lanes::WIDTH;
+                $call
+            }
+        }
+    };
+}
+pub(crate) use by_width;
 
 /// Defines a function of which each path is compiled for its instructions: `inner`, generic in the vector.
 macro_rules! for_each_path {

@@ -169,8 +169,9 @@ impl Observer {
         self.observe_slips(state, time);
     }
 
+    /// Takes the present slips into their peaks.
     #[inline]
-    fn observe_slips(&mut self, state: &State, time: f64) {
+    pub(crate) fn observe_slips(&mut self, state: &State, time: f64) {
         for (peak, motion) in self.peaks.slip.iter_mut().zip(&state.motions) {
             peak.take(motion.slip, time);
         }

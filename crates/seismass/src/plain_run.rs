@@ -834,10 +834,7 @@ impl State<'_> {
                 run(self, observer, motion, first, end)
             }
         };
-        let time = reached as f64 * motion.dt();
-        for (peak, motion) in observer.peaks.slip.iter_mut().zip(&self.motions) {
-            peak.take(motion.slip, time);
-        }
+        observer.observe_slips(self, reached as f64 * motion.dt());
         reached
     }
 
@@ -854,7 +851,7 @@ impl State<'_> {
             propagator.of_load(&self.friction, &mut effects.friction);
             propagator.of_ramp(&self.friction, &mut effects.friction_ramp);
         } else {
-            let loads = &mut self.scratch[0];
+            let loads = &mut self.loads;
             for ((load, spring), friction) in loads.iter_mut().zip(&self.spring_load).zip(&self.friction) {
                 *load = spring + friction * STANDARD_GRAVITY;
             }

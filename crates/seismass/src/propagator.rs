@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use rustc_hash::FxBuildHasher;
 
 use crate::lanes::{
-    Aligned, MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, padded, store,
+    Aligned, MAX_LANES, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, padded, store,
 };
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
@@ -92,13 +92,7 @@ fn remainders_by_width<V: Vector>(
     sums: &mut [f64],
     terms: &mut [f64],
 ) {
-    match padded(model.storeys()) {
-        4 => remainders::<V, 1>(model, regime, h, order, sums, terms),
-        8 => remainders::<V, 2>(model, regime, h, order, sums, terms),
-        16 => remainders::<V, 4>(model, regime, h, order, sums, terms),
-        32 => remainders::<V, 8>(model, regime, h, order, sums, terms),
-        _ => remainders::<V, { MAX_LANES / WIDTH }>(model, regime, h, order, sums, terms),
-    }
+    by_width!(padded(model.storeys()), K => remainders::<V, K>(model, regime, h, order, sums, terms))
 }
 
 /// The series of (q, q') = unit vectors, as drifts and drift rates of the homogeneous system, whose accelerations then
@@ -169,13 +163,7 @@ fn columns_by_width<V: Vector>(
     causes: &[Cause],
     out: &mut [f64],
 ) {
-    match padded(model.storeys()) {
-        4 => columns::<V, 1>(model, regime, h, sums, causes, out),
-        8 => columns::<V, 2>(model, regime, h, sums, causes, out),
-        16 => columns::<V, 4>(model, regime, h, sums, causes, out),
-        32 => columns::<V, 8>(model, regime, h, sums, causes, out),
-        _ => columns::<V, { MAX_LANES / WIDTH }>(model, regime, h, sums, causes, out),
-    }
+    by_width!(padded(model.storeys()), K => columns::<V, K>(model, regime, h, sums, causes, out))
 }
 
 #[inline(always)]

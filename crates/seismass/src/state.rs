@@ -4,7 +4,9 @@ use crate::STANDARD_GRAVITY;
 use crate::bounds::{Bounds, Set, first};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand};
-use crate::lanes::{Aligned, FAR, MAX_LANES, Vector, WIDTH, differences, filled, for_each_path, load, padded, store};
+use crate::lanes::{
+    Aligned, FAR, MAX_LANES, Vector, WIDTH, by_width, differences, filled, for_each_path, load, padded, store,
+};
 use crate::model::Model;
 use crate::propagator::{MAX_TABLE, RegimeCache};
 use crate::regime::{Operator, Regime, Row};
@@ -181,7 +183,8 @@ pub(crate) struct State<'a> {
     pub(crate) series: Series,
     pub(crate) bounds: Bounds,
     pub(crate) ranges: Ranges,
-    pub(crate) scratch: [Vec<f64>; 2],
+    /// Working space: constant loads of the floors.
+    pub(crate) loads: Vec<f64>,
     stuck_mass: Vec<f64>,
     /// Plastic elements of each storey, and which blocks are stuck, as bits.
     key: Vec<u64>,
@@ -234,7 +237,7 @@ impl<'a> State<'a> {
             series: Series::default(),
             bounds: Bounds::new(n),
             ranges: Ranges::new(n),
-            scratch: [vec![0.0; n], vec![0.0; n]],
+            loads: vec![0.0; n],
             stuck_mass: vec![0.0; n],
             key: Vec::new(),
             regimes: (0, 0),
@@ -411,14 +414,10 @@ impl<'a> State<'a> {
     /// to their bounds.
     #[inline(always)]
     pub(crate) fn form_ranges<V: Vector>(&mut self, tau: f64) {
-        match padded(self.storeys()) {
-            4 => ranges_in_lanes::<V, 1>(self, tau),
-            8 => ranges_in_lanes::<V, 2>(self, tau),
-            16 => ranges_in_lanes::<V, 4>(self, tau),
-            32 => ranges_in_lanes::<V, 8>(self, tau),
-            MAX_LANES => ranges_in_lanes::<V, { MAX_LANES / WIDTH }>(self, tau),
-            _ => self.form_ranges_singly(),
+        if self.storeys() > MAX_LANES {
+            return self.form_ranges_singly();
         }
+        by_width!(padded(self.storeys()), K => ranges_in_lanes::<V, K>(self, tau));
     }
 
     /// Keeps what the bounds of the present series' higher derivatives are multiplied with, from the square of the norm
@@ -558,13 +557,7 @@ for_each_path! {
 
 #[inline(always)]
 fn refresh_by_width<V: Vector>(state: &mut State, tau: f64) {
-    match padded(state.storeys()) {
-        4 => refresh_lanes::<V, 1>(state, tau),
-        8 => refresh_lanes::<V, 2>(state, tau),
-        16 => refresh_lanes::<V, 4>(state, tau),
-        32 => refresh_lanes::<V, 8>(state, tau),
-        _ => refresh_lanes::<V, { MAX_LANES / WIDTH }>(state, tau),
-    }
+    by_width!(padded(state.storeys()), K => refresh_lanes::<V, K>(state, tau));
 }
 
 #[inline(always)]

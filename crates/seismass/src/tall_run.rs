@@ -9,8 +9,7 @@
 
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::{MAX_DEGREE, Polynomial};
-use crate::bounds::middle_and_reach;
-use crate::lanes::{FAR, Plain, Vector, WIDTH, for_each_path};
+use crate::lanes::{FAR, Plain, Vector, WIDTH, filled_to, for_each_path};
 use crate::observe::Observer;
 use crate::plain_run::{GroundBlock, Linear, MARGINS, SMALL_DIFFERENCE, move_on_ground};
 use crate::regime::Row;
@@ -46,14 +45,6 @@ fn at<V: Vector>(values: &[f64], k: usize) -> V {
     V::load(&lanes(values)[k])
 }
 
-/// Values of storeys or floors, filled up to `length`.
-fn filled(values: impl IntoIterator<Item = f64>, length: usize, padding: f64) -> Vec<f64> {
-    let mut out = Vec::with_capacity(length);
-    out.extend(values);
-    out.resize(length, padding);
-    out
-}
-
 /// The state at a sample.
 struct Sample {
     x: Vec<f64>,
@@ -69,10 +60,11 @@ struct Sample {
 impl Sample {
     fn new(state: &State, length: usize, margin: usize) -> Self {
         let n = state.storeys();
-        let lanes = |values: &[f64]| filled(values[..n].iter().copied(), length, 0.0);
+        let lanes = |values: &[f64]| filled_to(length, values[..n].iter().copied(), 0.0);
         let mut q = vec![0.0; length + 2 * margin];
         q[margin..margin + n].copy_from_slice(&state.drift_acceleration[..n]);
-        let floors = |values: &[f64]| filled(std::iter::once(0.0).chain(values[..n].iter().copied()), length + 1, 0.0);
+        let floors =
+            |values: &[f64]| filled_to(length + 1, std::iter::once(0.0).chain(values[..n].iter().copied()), 0.0);
         Self { x: lanes(&state.x), v: lanes(&state.v), a: floors(&state.a), jerk: floors(&state.jerk), q }
     }
 
@@ -100,8 +92,8 @@ struct Operator {
 impl Operator {
     fn new(state: &State, length: usize) -> Self {
         let (n, regime, model) = (state.storeys(), state.regime(), &state.model.lanes);
-        let of_regime = |row: Row| filled(regime.row(row)[..n].iter().copied(), length, 0.0);
-        let of_model = |values: &[f64]| filled(values.iter().copied().take(n), length, 0.0);
+        let of_regime = |row: Row| filled_to(length, regime.row(row)[..n].iter().copied(), 0.0);
+        let of_model = |values: &[f64]| filled_to(length, values.iter().copied().take(n), 0.0);
         Self {
             tangent: of_regime(Row::Tangent),
             inverse_mass: of_regime(Row::InverseMass),
@@ -240,15 +232,15 @@ struct Bounds {
 impl Bounds {
     fn new(state: &State, observer: &Observer, length: usize) -> Self {
         let n = state.storeys();
-        let (middle, reach): (Vec<f64>, Vec<f64>) = (0..n).map(|i| quiet(state, observer, i)).unzip();
+        let (middle, reach): (Vec<f64>, Vec<f64>) = (0..n).map(|i| state.quiet_middle_and_reach(observer, i)).unzip();
         let sign: Vec<f64> = state.springs.iter().map(|s| s.plastic().map_or(0.0, Sign::factor)).collect();
         Self {
-            middle: filled(middle, length, 0.0),
-            reach: filled(reach, length, FAR),
-            turn: filled(sign.iter().map(|&sign| if sign == 0.0 { FAR } else { 0.0 }), length, FAR),
-            sign: filled(sign, length, 0.0),
-            stuck_mu: filled(state.stuck_mu[1..].iter().map(|mu| mu.min(FAR)), length, FAR),
-            a_peak: filled(observer.peaks.floor_acceleration.iter().map(|peak| peak.value), length, FAR),
+            middle: filled_to(length, middle, 0.0),
+            reach: filled_to(length, reach, FAR),
+            turn: filled_to(length, sign.iter().map(|&sign| if sign == 0.0 { FAR } else { 0.0 }), FAR),
+            sign: filled_to(length, sign, 0.0),
+            stuck_mu: filled_to(length, state.stuck_mu[1..].iter().map(|mu| mu.min(FAR)), FAR),
+            a_peak: filled_to(length, observer.peaks.floor_acceleration.iter().map(|peak| peak.value), FAR),
         }
     }
 
@@ -269,12 +261,6 @@ impl Bounds {
             third.mul_add(V::load(jerk).abs(), V::load(a).abs()).store(out);
         }
     }
-}
-
-/// Middle and reach of the drift coordinates of a storey between which no guard falls and no peak is beaten.
-fn quiet(state: &State, observer: &Observer, i: usize) -> (f64, f64) {
-    let (guarded, quiet) = (state.guarded_drift(i), observer.quiet_drift(state, i));
-    middle_and_reach((guarded.0.max(quiet.0), guarded.1.min(quiet.1)))
 }
 
 /// A block that slides on a floor.
@@ -347,7 +333,7 @@ struct Rows {
 impl Rows {
     fn new(state: &State, h: f64, length: usize) -> Self {
         let (n, regime) = (state.storeys(), state.regime());
-        let row = |row: Row| filled(regime.row(row)[..n].iter().copied(), length, 0.0);
+        let row = |row: Row| filled_to(length, regime.row(row)[..n].iter().copied(), 0.0);
         Self {
             root_mass: row(Row::RootMass),
             root_tangent: row(Row::RootTangent),
@@ -688,8 +674,8 @@ fn run_lanes<V: Vector>(
     let (mut dx, mut dv, mut floors) = (zero(), zero(), zero());
     let mut rate = vec![0.0; length + 2 * margin];
     let (mut load, mut load_slope) = (zero(), zero());
-    let spring_load = filled(state.spring_load[..n].iter().copied(), length, 0.0);
-    let friction = filled(state.friction[..n].iter().copied(), length, 0.0);
+    let spring_load = filled_to(length, state.spring_load[..n].iter().copied(), 0.0);
+    let friction = filled_to(length, state.friction[..n].iter().copied(), 0.0);
     let (mut apart_before, mut apart_after) = ([zero(), zero(), zero()], [zero(), zero(), zero()]);
     let (mut curvature, mut series) = (Curvature::new(length), StepSeries::new(length));
     let (mut suspects, mut beaten) = (Vec::new(), Beaten::default());
@@ -816,7 +802,7 @@ fn run_lanes<V: Vector>(
         let time = reached as f64 * h;
         for &i in beaten.drifts.iter().chain(&beaten.drifts_inside) {
             observer.take_drift(state, i, before.x[i], time);
-            (bounds.middle[i], bounds.reach[i]) = quiet(state, observer, i);
+            (bounds.middle[i], bounds.reach[i]) = state.quiet_middle_and_reach(observer, i);
             apart_before[0][i] = h / 3.0 * before.v[i].abs() + (before.x[i] - bounds.middle[i]).abs();
         }
         for &i in beaten.accelerations.iter().chain(&beaten.accelerations_inside) {

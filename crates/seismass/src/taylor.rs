@@ -4,7 +4,7 @@
 
 use crate::bernstein::{MAX_DEGREE, Polynomial};
 use crate::lanes::{
-    MAX_LANES, Plain, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, padded, store,
+    MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, padded, store,
 };
 use crate::model::Model;
 use crate::propagator::Table;
@@ -485,13 +485,7 @@ for_each_path! {
 
 #[inline(always)]
 fn by_recursion<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, start: &Start) {
-    match series.stride {
-        4 => series.by_recursion::<V, 1>(model, regime, start),
-        8 => series.by_recursion::<V, 2>(model, regime, start),
-        16 => series.by_recursion::<V, 4>(model, regime, start),
-        32 => series.by_recursion::<V, 8>(model, regime, start),
-        _ => series.by_recursion::<V, { MAX_LANES / WIDTH }>(model, regime, start),
-    }
+    by_width!(series.stride, K => series.by_recursion::<V, K>(model, regime, start));
 }
 
 /// 1 / (k (k - 1)).

@@ -34,22 +34,19 @@ pub fn distribution(tally: &Tally) -> String {
     row("logs differ by pairs of events at a graze alone, explained", tally.pairs.len().to_string());
     row("residuals beyond the limit where g + a_v cancels, explained", tally.cancelled.len().to_string());
     row("defects: panics, NaN, errors, residuals, illegal sequences, unexplained", tally.defects.len().to_string());
-    for (heading, list) in [("Grazings", &tally.grazing), ("Sensitive scenes", &tally.sensitive)] {
+    let of_input = "with the change of the input, in last digits, that does the same";
+    let of_state = "with the change of the state, in last digits, that brings or takes each";
+    for (heading, change, list) in [
+        ("Grazings", of_input, &tally.grazing),
+        ("Sensitive scenes", of_input, &tally.sensitive),
+        ("Pairs at a graze", of_state, &tally.pairs),
+    ] {
         if !list.is_empty() {
-            let _ = writeln!(text, "\n{heading}, with the change of the input, in last digits, that does the same:\n");
+            let _ = writeln!(text, "\n{heading}, {change}:\n");
         }
         for (seed, digits, difference) in list {
             let _ = writeln!(text, "- seed {seed}, {digits}: `{difference}`");
         }
-    }
-    if !tally.pairs.is_empty() {
-        let _ = writeln!(
-            text,
-            "\nPairs at a graze, with the change of the state, in last digits, that brings or takes each:\n"
-        );
-    }
-    for (seed, digits, difference) in &tally.pairs {
-        let _ = writeln!(text, "- seed {seed}, {digits}: `{difference}`");
     }
     if !tally.cancelled.is_empty() {
         let _ = writeln!(
