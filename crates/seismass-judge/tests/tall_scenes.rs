@@ -1,5 +1,5 @@
-//! Tall buildings, whose steps the fast kernel takes by bands, beside the judge: the widths at which its vectors end, and
-//! buildings that are stiff in their highest modes. Short motions: rounding has no time to grow.
+//! Tall buildings, whose steps the fast kernel takes by bands or by matrices of its own, beside the judge: the widths at
+//! which its vectors end, and buildings that are stiff in their highest modes. Short motions: rounding has no time to grow.
 
 #![allow(clippy::unwrap_used)]
 
@@ -14,10 +14,17 @@ const AGREEMENT: f64 = 1e-12;
 
 const RAYLEIGH: Damping = Damping::Rayleigh { ratio: 0.05, modes: [1, 3] };
 
+const MODAL: Damping = Damping::Modal { ratio: 0.05 };
+
 /// A building whose masses and stiffnesses differ from floor to floor, with a first period near 0.1 s per storey and
 /// blocks on most floors and on the ground.
 fn tall(n: usize, damping: Damping) -> Scene {
-    let uniform = Building::uniform(n, 0.1 * n as f64, 1.0, RAYLEIGH).unwrap();
+    tall_with_period(0.1, n, damping)
+}
+
+/// The same with another first period per storey.
+fn tall_with_period(period_per_storey: f64, n: usize, damping: Damping) -> Scene {
+    let uniform = Building::uniform(n, period_per_storey * n as f64, 1.0, RAYLEIGH).unwrap();
     let weight = STANDARD_GRAVITY * n as f64;
     let wave = |i: usize, step: f64| 1.0 + 0.3 * (step * i as f64).sin();
     let storeys = uniform.storeys().iter().enumerate().map(|(i, storey)| Storey {
@@ -80,5 +87,40 @@ fn tall_buildings_agree_however_stiff_their_highest_modes() {
         let (comparison, plain) = judged::<DoubleDouble>(&scene, &motion(40, peak_g, false));
         println!("{n} storeys, {ratio} of critical, {peak_g} g: {:.1e}, {plain} plain", comparison.worst());
         assert!(comparison.agrees(AGREEMENT), "{n} storeys, {ratio}, {peak_g} g: {comparison:?}");
+    }
+}
+
+/// Modal damping is a full matrix: half as many intervals as there are storeys are solved by series first.
+#[test]
+fn full_damping_agrees_at_every_width() {
+    for n in [16, 17, 24, 31, 32, 33, 48, 49, 55, 64, 65] {
+        for vertical in [false, true] {
+            let (comparison, plain) = judged::<f64>(&tall(n, MODAL), &motion(120, 0.004, vertical));
+            println!("{n} storeys, vertical {vertical}: {:.1e}, {plain} plain", comparison.worst());
+            assert!(comparison.agrees(AGREEMENT), "{n} storeys, vertical {vertical}: {comparison:?}");
+            assert!(n <= 16 || plain > 60, "{n} storeys: {plain} plain steps");
+        }
+    }
+}
+
+/// The first strong waves break blocks away and yield storeys below, while the series' share of intervals passes.
+#[test]
+fn full_damping_agrees_with_events() {
+    for (n, vertical) in [(17, true), (33, false), (50, false), (50, true), (67, false)] {
+        let (comparison, plain) = judged::<f64>(&tall(n, MODAL), &motion(200, 0.15, vertical));
+        println!("{n} storeys, vertical {vertical}: {:.1e}, {plain} plain", comparison.worst());
+        assert!(comparison.agrees(AGREEMENT), "{n} storeys, vertical {vertical}: {comparison:?}");
+    }
+}
+
+/// Steps of several radians of the highest mode are composed of halves.
+#[test]
+fn full_damping_agrees_however_long_the_step() {
+    for (period_per_storey, ratio) in [(0.05, 0.05), (0.025, 0.05), (0.025, 0.2), (0.014, 0.02)] {
+        let scene = tall_with_period(period_per_storey, 54, Damping::Modal { ratio });
+        let (comparison, plain) = judged::<DoubleDouble>(&scene, &motion(70, 0.02, false));
+        println!("{period_per_storey} s per storey, {ratio}: {:.1e}, {plain} plain", comparison.worst());
+        assert!(comparison.agrees(AGREEMENT), "{period_per_storey} s per storey, {ratio}: {comparison:?}");
+        assert!(plain > 30, "{period_per_storey} s per storey, {ratio}: {plain} plain steps");
     }
 }

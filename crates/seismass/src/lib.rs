@@ -47,6 +47,7 @@
 //! g + a_v, without flight. Where two guards fall closer together than rounding, or a guard only just touches zero, the
 //! branch taken is decided by rounding, as it would be in nature by less.
 
+mod banded_step;
 pub mod batch;
 mod bernstein;
 mod bounds;
@@ -55,6 +56,7 @@ pub mod damping;
 pub mod error;
 mod events;
 mod friction;
+mod full_step;
 mod lanes;
 mod model;
 mod observe;
@@ -70,6 +72,7 @@ pub mod simulate;
 pub mod spectrum;
 mod state;
 mod storey;
+mod symmetric;
 mod tall_run;
 mod tall_step;
 mod taylor;

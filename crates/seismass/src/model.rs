@@ -1,12 +1,13 @@
 //! A scene as the solver sees it: spring laws, block laws, damping, and which blocks stand on which floor.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::damping::StoreyDamping;
 use crate::friction::BlockLaw;
 use crate::lanes::{WIDTH, filled};
 use crate::scene::{Building, Damping, Scene};
 use crate::storey::StoreyLaw;
+use crate::symmetric::Symmetric;
 
 /// The constant data of a run.
 pub(crate) struct Model {
@@ -21,6 +22,8 @@ pub(crate) struct Model {
     pub(crate) lanes: ModelLanes,
     /// Absolute values of a full damping matrix in floor coordinates, row by row; empty without one.
     pub(crate) damping_sizes: Vec<f64>,
+    /// See [`Model::symmetric_damping`].
+    symmetric_damping: OnceLock<Option<Symmetric<1>>>,
     /// The damping matrix is the user's own: it need not dissipate.
     damping_may_feed: bool,
 }
@@ -88,6 +91,7 @@ impl Model {
         Self {
             lanes: ModelLanes::new(&mass, &stiffness, damping),
             damping_sizes: damping_sizes(damping),
+            symmetric_damping: OnceLock::new(),
             mass,
             stiffness,
             laws,
@@ -108,6 +112,15 @@ impl Model {
     #[inline]
     pub(crate) fn damping(&self) -> &StoreyDamping {
         self.building.as_ref().map_or(&StoreyDamping::None, |b| b.storey_damping())
+    }
+
+    /// A full damping matrix between drift rates and storey forces, for products with vectors of any length.
+    pub(crate) fn symmetric_damping(&self) -> Option<&Symmetric<1>> {
+        let form = || match self.damping() {
+            StoreyDamping::Dense(d) => Some(Symmetric::new(d.nrows(), |i, j| [d[(i, j)]])),
+            _ => None,
+        };
+        self.symmetric_damping.get_or_init(form).as_ref()
     }
 
     /// Whether damping may feed energy into the building.

@@ -26,11 +26,8 @@ const CACHE_BYTES: usize = 64 << 20;
 /// Most storeys of which tables of the series are kept.
 pub(crate) const MAX_TABLE: usize = 8;
 
-/// Most storeys for which matrices without zeros are taken though a band would do.
+/// Most storeys for which one matrix without zeros is taken though a tall step would do.
 const MAX_DENSE: usize = 16;
-/// Whole intervals of a tall regime that a run solves by series before its step is formed: about as many as forming it
-/// costs, however many storeys, since both costs grow like their number.
-const TALL_VISITS: u32 = 8;
 
 /// The steps of a regime.
 pub(crate) struct Steps {
@@ -328,9 +325,9 @@ impl Steps {
         Self { table, whole: Whole::Dense(Propagator { storeys: n, rows: 4 * width, columns }) }
     }
 
-    /// Whether the step is a band.
+    /// Whether the step is that of a tall regime.
     fn are_tall(model: &Model, regime: &Regime, dt: f64) -> bool {
-        model.storeys() > MAX_DENSE && TallStep::exists(model, regime, dt)
+        model.storeys() > MAX_DENSE && TallStep::exists(regime, dt)
     }
 
     fn bytes(&self) -> usize {
@@ -531,7 +528,7 @@ impl RegimeCache {
         if n == 0 || n > MAX_LANES && !is_tall {
             return false;
         }
-        let series_visits = if is_tall { TALL_VISITS } else { Self::series_visits(n) };
+        let series_visits = if is_tall { TallStep::series_visits(model) } else { Self::series_visits(n) };
         entry.visits = entry.visits.saturating_add(1);
         if entry.visits <= series_visits {
             return false;

@@ -1,5 +1,5 @@
-//! Runs of whole sample intervals of tall regimes, by their banded steps: any number of storeys, at a cost that grows
-//! with it linearly.
+//! Runs of whole sample intervals of tall regimes: any number of storeys, at a cost that grows with it linearly by banded
+//! steps, with its square by full ones.
 //!
 //! As in [`crate::plain_run`] each step is accepted only when bounds prove that no guard fell inside it. The loop looks
 //! at each end with the cubic's margins. What this does not clear is looked at with the quintic through values and two
@@ -8,7 +8,9 @@
 //! its peak in most steps: where one turns inside a step, the series of that step gives the extreme, and the run goes on.
 
 use crate::STANDARD_GRAVITY;
+use crate::banded_step::{BandedStep, whole_blocks};
 use crate::bernstein::{MAX_DEGREE, Polynomial};
+use crate::full_step::{FullStep, Shears};
 use crate::lanes::{FAR, Plain, Vector, WIDTH, filled_to, for_each_path};
 use crate::observe::Observer;
 use crate::plain_run::{GroundBlock, Linear, MARGINS, SMALL_DIFFERENCE, move_on_ground};
@@ -17,7 +19,8 @@ use crate::response::Peak;
 use crate::scene::Motion;
 use crate::state::{State, range};
 use crate::storey::Sign;
-use crate::tall_step::{TallStep, whole_blocks};
+use crate::symmetric::Symmetric;
+use crate::tall_step::TallStep;
 
 /// Highest order of a series of floor accelerations; that of the drifts is two orders higher.
 const HIGHEST_ORDER: usize = MAX_DEGREE - 2;
@@ -80,17 +83,19 @@ impl Sample {
 }
 
 /// The regime's system.
-struct Operator {
+struct Operator<'a> {
     tangent: Vec<f64>,
     inverse_mass: Vec<f64>,
     /// Rayleigh damping of each storey and floor, zeros without it.
     storey_damping: Vec<f64>,
     floor_damping: Vec<f64>,
+    /// Full damping matrix.
+    full_damping: Option<&'a Symmetric<1>>,
     nothing: Vec<f64>,
 }
 
-impl Operator {
-    fn new(state: &State, length: usize) -> Self {
+impl<'a> Operator<'a> {
+    fn new(state: &State<'a>, length: usize) -> Self {
         let (n, regime, model) = (state.storeys(), state.regime(), &state.model.lanes);
         let of_regime = |row: Row| filled_to(length, regime.row(row)[..n].iter().copied(), 0.0);
         let of_model = |values: &[f64]| filled_to(length, values.iter().copied().take(n), 0.0);
@@ -99,6 +104,7 @@ impl Operator {
             inverse_mass: of_regime(Row::InverseMass),
             storey_damping: of_model(&model.storey_damping),
             floor_damping: of_model(&model.floor_damping),
+            full_damping: state.model.symmetric_damping(),
             nothing: vec![0.0; length],
         }
     }
@@ -119,6 +125,9 @@ impl Operator {
     /// Floor accelerations from drifts, drift rates, floor velocities less that of the ground, and floor loads.
     #[inline(always)]
     fn accelerations<V: Vector>(&self, x: &[f64], v: &[f64], velocity: &[f64], load: &[f64], out: &mut [f64]) {
+        if let Some(damping) = self.full_damping {
+            return self.fully_damped::<V>(damping, x, V::splat(1.0), v, load, out);
+        }
         let operator = self.lanes();
         let count = operator.count;
         let (x, v) = (&lanes(x)[..count], &lanes(v)[..count]);
@@ -146,6 +155,12 @@ impl Operator {
         v_out: &mut [f64],
         a_out: &mut [f64],
     ) {
+        if let Some(damping) = self.full_damping {
+            for ((out, floor), below) in lanes_mut(v_out).iter_mut().zip(lanes(&a[1..])).zip(lanes(a)) {
+                factor.mul(V::load(floor).sub(V::load(below))).store(out);
+            }
+            return self.fully_damped(damping, x, factor, v_out, load, a_out);
+        }
         let operator = self.lanes();
         let count = operator.count;
         let (x, below, floors) = (&lanes(x)[..count], &lanes(a)[..count], &lanes(&a[1..])[..count]);
@@ -165,6 +180,35 @@ impl Operator {
         }
         let (velocity, load) = (factor.mul(V::load(&floors[count - 1]).sub(ground)), V::load(&load[count - 1]));
         operator.acceleration(count - 1, [here, V::splat(0.0)], velocity, load).store(&mut a_out[count - 1]);
+    }
+
+    /// Floor accelerations with a full damping matrix, from drifts times a factor, drift rates and floor loads.
+    #[inline(always)]
+    fn fully_damped<V: Vector>(
+        &self,
+        damping: &Symmetric<1>,
+        x: &[f64],
+        factor: V,
+        v: &[f64],
+        load: &[f64],
+        out: &mut [f64],
+    ) {
+        let operator = self.lanes();
+        let count = operator.count;
+        let out = &mut out[..WIDTH * count];
+        damping.multiply::<V>(v, out);
+        let (x, load, out) = (&lanes(x)[..count], &lanes(load)[..count], &mut lanes_mut(out)[..count]);
+        let mut here = V::load(&operator.tangent[0]).mul_add(factor.mul(V::load(&x[0])), V::load(&out[0]));
+        for k in 0..count {
+            let mut above = V::splat(0.0);
+            if k + 1 < count {
+                let springs = factor.mul(V::load(&x[k + 1]));
+                above = V::load(&operator.tangent[k + 1]).mul_add(springs, V::load(&out[k + 1]));
+            }
+            let net = here.shifted_down(above).sub(here).add(V::load(&load[k]));
+            net.mul(V::load(&operator.inverse_mass[k])).store(&mut out[k]);
+            here = above;
+        }
     }
 }
 
@@ -637,6 +681,12 @@ fn scale<V: Vector>(values: &[f64], factor: V, out: &mut [f64]) {
     }
 }
 
+/// What takes the state over a step, with its working space.
+enum Map<'a> {
+    Banded(&'a BandedStep),
+    Full(&'a FullStep, Shears),
+}
+
 for_each_path! {
     /// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
     pub(crate) fn run(
@@ -658,8 +708,13 @@ fn run_lanes<V: Vector>(
     first: usize,
     end: usize,
 ) -> usize {
-    let (n, h, margin) = (state.storeys(), motion.dt(), step.half_width);
+    let (n, h) = (state.storeys(), motion.dt());
     let length = whole_blocks(n);
+    let mut map = match step {
+        TallStep::Banded(step) => Map::Banded(step),
+        TallStep::Full(step) => Map::Full(step, Shears::new(state.regime(), n)),
+    };
+    let margin = if let TallStep::Banded(step) = step { step.half_width } else { 0 };
     let (third, per_second) = (V::splat(h / 3.0), 1.0 / h);
     let widening = h * h * h * h / 384.0;
     let vertical = motion.vertical().filter(|_| state.vertical);
@@ -714,7 +769,14 @@ fn run_lanes<V: Vector>(
         for (rate, jerk) in lanes_mut(&mut rate[margin..]).iter_mut().zip(lanes(&before.jerk[1..])) {
             V::load(jerk).sub(ground_slope).store(rate);
         }
-        step.advance::<V>(&before.q, &rate, &mut dx, &mut dv);
+        match &mut map {
+            Map::Banded(step) => step.advance::<V>(&before.q, &rate, &mut dx, &mut dv),
+            Map::Full(step, shears) => {
+                let load_slope = vertical.map(|_| &load_slope[..]);
+                shears.form::<V>(&before.a[1..], &before.v, load_slope);
+                step.advance::<V>(shears, [pair[0], slope], &mut dx, &mut dv);
+            }
+        }
         let starts = lanes(&before.x).iter().zip(lanes(&before.v));
         let ends = lanes_mut(&mut after.x).iter_mut().zip(lanes_mut(&mut after.v));
         for (((x, v), (x_end, v_end)), (dx, dv)) in starts.zip(ends).zip(lanes(&dx).iter().zip(lanes(&dv))) {

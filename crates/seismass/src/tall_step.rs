@@ -1,353 +1,53 @@
-//! The exact step of a tall regime over one sample interval, as a band.
-//!
-//! With linear loads the drift accelerations q and the rates J of the floor accelerations against the ground obey the
-//! homogeneous system, in which a floor knows only its neighbours. What a step adds to drifts and drift rates beyond the
-//! first order is linear in (q, J) at its start, and falls off faster than exponentially with the distance between
-//! storeys: (w h)^d / d! and smaller. Rows of the four matrices therefore end a few storeys away from the diagonal. In
-//! (q, J) this holds for Rayleigh damping too: its mass-proportional part acts on each floor's own velocity.
+//! The exact step of a tall regime over one sample interval: a band where damping couples neighbours only, else full.
 
+use crate::banded_step::BandedStep;
 use crate::damping::StoreyDamping;
-use crate::lanes::{Vector, WIDTH, for_each_path};
+use crate::full_step::FullStep;
 use crate::model::Model;
-use crate::regime::{Regime, Row};
+use crate::regime::Regime;
 
-/// Rows of a block of the matrices: two vectors.
-pub(crate) const BLOCK: usize = 2 * WIDTH;
-/// Longest step of one series, as frequency times time: the largest of its terms is 2.
-const SERIES_PHASE: f64 = 2.0;
-/// Longest step as frequency times time. (q, J) are differences of large forces there: their rounding would be seen.
+/// Longest step as frequency times time. What steps act on are differences of large forces there: their rounding would
+/// be seen.
 pub(crate) const LONGEST_PHASE: f64 = 8.0;
-/// Entries below this part of the largest in their row are left out: 2^27 below rounding, so that neighbours may differ
-/// by as much before it is seen.
-const NEGLIGIBLE: f64 = 1.0 / (1u128 << 80) as f64;
+/// Whole intervals of a regime that a run solves by series before its band is formed: about as many as forming it
+/// costs, however many storeys, since both costs grow like their number.
+const BANDED_VISITS: u32 = 8;
+/// Storeys for each such interval before a full step is formed: that costs like n^3, a series like n^2.
+const STOREYS_PER_VISIT: usize = 2;
 
-/// Storeys padded to whole blocks of rows.
-pub(crate) fn whole_blocks(storeys: usize) -> usize {
-    storeys.next_multiple_of(BLOCK)
-}
-
-/// The step of a regime: (dx - h v, dv) of (q, J).
-pub(crate) struct TallStep {
-    /// Diagonals on each side of the main one.
-    pub(crate) half_width: usize,
-    /// By block of rows, by diagonal from the lowest column on: rows of dx by q and by J, of dv by q and by J.
-    entries: Vec<f64>,
-}
-
-/// A band matrix by diagonals, each with a zero at both ends.
-#[derive(Clone)]
-struct Band {
-    storeys: usize,
-    reach: usize,
-    diagonals: Vec<f64>,
-}
-
-impl Band {
-    fn zeros(storeys: usize, reach: usize) -> Self {
-        Self { storeys, reach, diagonals: vec![0.0; (2 * reach + 1) * (storeys + 2)] }
-    }
-
-    fn unit(storeys: usize, reach: usize) -> Self {
-        let mut unit = Self::zeros(storeys, reach);
-        unit.inside_mut(0).fill(1.0);
-        unit
-    }
-
-    /// Diagonal `d` of row i and column i + d, with its ends.
-    #[inline(always)]
-    fn diagonal(&self, d: isize) -> &[f64] {
-        let length = self.storeys + 2;
-        let from = (d + self.reach as isize) as usize * length;
-        &self.diagonals[from..from + length]
-    }
-
-    #[inline(always)]
-    fn inside(&self, d: isize) -> &[f64] {
-        &self.diagonal(d)[1..=self.storeys]
-    }
-
-    #[inline(always)]
-    fn inside_mut(&mut self, d: isize) -> &mut [f64] {
-        let length = self.storeys + 2;
-        let from = (d + self.reach as isize) as usize * length + 1;
-        &mut self.diagonals[from..from + self.storeys]
-    }
-
-    /// Offsets of the diagonals.
-    fn offsets(&self) -> std::ops::RangeInclusive<isize> {
-        -(self.reach as isize)..=self.reach as isize
-    }
-
-    /// Adds `other` times a factor; it must not reach farther.
-    #[inline(always)]
-    fn add(&mut self, other: &Self, factor: f64) {
-        for d in other.offsets() {
-            for (sum, entry) in self.inside_mut(d).iter_mut().zip(other.inside(d)) {
-                *sum += factor * entry;
-            }
-        }
-    }
-
-    /// Reach beyond which all entries are negligible beside the largest of their rows.
-    fn needed_reach(&self) -> usize {
-        let mut largest = vec![0.0f64; self.storeys];
-        for d in self.offsets() {
-            for (largest, entry) in largest.iter_mut().zip(self.inside(d)) {
-                *largest = largest.max(entry.abs());
-            }
-        }
-        let matters = |d: isize| self.inside(d).iter().zip(&largest).any(|(e, most)| e.abs() > NEGLIGIBLE * most);
-        (1..=self.reach).rev().find(|&d| matters(d as isize) || matters(-(d as isize))).unwrap_or(0)
-    }
-
-    /// The same matrix without what is negligible.
-    fn trimmed(self) -> Self {
-        let reach = self.needed_reach();
-        let mut out = Self::zeros(self.storeys, reach);
-        for d in out.offsets() {
-            out.inside_mut(d).copy_from_slice(self.inside(d));
-        }
-        out
-    }
-}
-
-/// first * left + second * right.
-#[inline(always)]
-fn sum_of_products(first: &Band, left: &Band, second: &Band, right: &Band) -> Band {
-    let n = first.storeys;
-    let reach = (first.reach + left.reach).max(second.reach + right.reach).min(n - 1);
-    let mut out = Band::zeros(n, reach);
-    for (a, b) in [(first, left), (second, right)] {
-        for d in a.offsets() {
-            // Rows whose column of `a` exists.
-            let (from, to) = ((-d).max(0) as usize, (n as isize - d.max(0)).max(0) as usize);
-            for e in b.offsets().filter(|e| (d + e).unsigned_abs() <= reach && from < to) {
-                let b = &b.inside(e)[(from as isize + d) as usize..];
-                let rows = out.inside_mut(d + e)[from..to].iter_mut();
-                for ((sum, a), b) in rows.zip(&a.inside(d)[from..to]).zip(b) {
-                    *sum += a * b;
-                }
-            }
-        }
-    }
-    out.trimmed()
-}
-
-/// What a regime's system is made of, without padding.
-struct System<'a> {
-    tangent: &'a [f64],
-    inverse_mass: &'a [f64],
-    storey_damping: Vec<f64>,
-    floor_damping: Vec<f64>,
-}
-
-impl<'a> System<'a> {
-    fn new(model: &Model, regime: &'a Regime) -> Self {
-        let n = model.storeys();
-        let (mass_factor, stiffness_factor) = match model.damping() {
-            StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => (*mass_factor, *stiffness_factor),
-            _ => (0.0, 0.0),
-        };
-        Self {
-            tangent: &regime.row(Row::Tangent)[..n],
-            inverse_mass: &regime.row(Row::InverseMass)[..n],
-            storey_damping: model.stiffness.iter().map(|k| stiffness_factor * k).collect(),
-            floor_damping: model.mass.iter().map(|m| mass_factor * m).collect(),
-        }
-    }
-}
-
-/// Drifts and floor velocities against the ground, of a unit each.
-struct Term {
-    drift: Band,
-    velocity: Band,
-}
-
-impl Term {
-    /// Time derivatives times a factor.
-    #[inline(always)]
-    fn next(&self, system: &System, factor: f64) -> Self {
-        let (n, reach) = (self.drift.storeys, self.drift.reach as isize);
-        let far = (reach + 1).min(n as isize - 1);
-        let (mut drift, mut velocity) = (Band::zeros(n, far as usize), Band::zeros(n, far as usize));
-        let mut force = Band::zeros(n, reach as usize + 2);
-        for d in -reach - 1..=reach {
-            let rate = force.inside_mut(d);
-            if d >= -reach {
-                rate.copy_from_slice(self.velocity.inside(d));
-            }
-            if d < reach {
-                // The floor below has the same column one diagonal up.
-                for (rate, below) in rate.iter_mut().zip(self.velocity.diagonal(d + 1)) {
-                    *rate -= below;
-                }
-            }
-            if d.abs() <= far {
-                drift.inside_mut(d).iter_mut().zip(&*rate).for_each(|(out, rate)| *out = factor * rate);
-            }
-            for (force, damping) in rate.iter_mut().zip(&system.storey_damping) {
-                *force *= damping;
-            }
-            if d >= -reach {
-                for ((force, x), tangent) in rate.iter_mut().zip(self.drift.inside(d)).zip(system.tangent) {
-                    *force += tangent * x;
-                }
-            }
-        }
-        for d in -far..=far {
-            let out = velocity.inside_mut(d);
-            for ((out, above), force) in out.iter_mut().zip(&force.diagonal(d - 1)[2..]).zip(force.inside(d)) {
-                *out = above - force;
-            }
-            if d.abs() <= reach {
-                for ((out, v), damping) in out.iter_mut().zip(self.velocity.inside(d)).zip(&system.floor_damping) {
-                    *out -= damping * v;
-                }
-            }
-            out.iter_mut().zip(system.inverse_mass).for_each(|(out, inverse_mass)| *out *= factor * inverse_mass);
-        }
-        Self { drift, velocity }
-    }
-}
-
-/// The step of the homogeneous system in one of (q, J): their values after it, and the first and second integrals of q.
-struct Effect {
-    after: [Band; 2],
-    integrals: [Band; 2],
-}
-
-impl Effect {
-    /// By series over `h`, to the first term below rounding at frequency times time `phase`.
-    #[inline(always)]
-    fn by_series(system: &System, start: Term, h: f64, phase: f64) -> Self {
-        let n = start.drift.storeys;
-        let mut order = 0;
-        let mut size = 1.0;
-        while size > (-60f64).exp2() {
-            order += 1;
-            size *= phase / order as f64;
-        }
-        let reach = order.min(n - 1);
-        let zero = || Band::zeros(n, reach);
-        let (mut after, mut integrals) = ([zero(), zero()], [zero(), zero()]);
-        let mut term = start;
-        for k in 0..=order {
-            let once = h / (k + 1) as f64;
-            after[0].add(&term.drift, 1.0);
-            after[1].add(&term.velocity, 1.0);
-            integrals[0].add(&term.drift, once);
-            integrals[1].add(&term.drift, once * h / (k + 2) as f64);
-            if k < order {
-                term = term.next(system, once);
-            }
-        }
-        Self { after: after.map(Band::trimmed), integrals: integrals.map(Band::trimmed) }
-    }
-}
-
-/// The effects of q and of J over twice `h`.
-#[inline(always)]
-fn doubled([of_q, of_j]: [Effect; 2], h: f64) -> [Effect; 2] {
-    let then = |row: [&Band; 2], effect: &Effect| sum_of_products(row[0], &effect.after[0], row[1], &effect.after[1]);
-    let both = |effect: &Effect| {
-        let integral = |which: usize| {
-            let more = then([&of_q.integrals[which], &of_j.integrals[which]], effect);
-            let reach = more.reach.max(effect.integrals[0].reach).max(effect.integrals[1].reach);
-            let mut sum = Band::zeros(more.storeys, reach);
-            sum.add(&more, 1.0);
-            sum.add(&effect.integrals[which], 1.0);
-            if which == 1 {
-                sum.add(&effect.integrals[0], h);
-            }
-            sum
-        };
-        let after = |which: usize| then([&of_q.after[which], &of_j.after[which]], effect);
-        Effect { after: [after(0), after(1)], integrals: [integral(0), integral(1)] }
-    };
-    [both(&of_q), both(&of_j)]
-}
-
-for_each_path! {
-    fn effects(model: &Model, regime: &Regime, dt: f64) -> [Effect; 2] = effects_by_path
-}
-
-/// The compiler makes vectors of the path's width.
-#[inline(always)]
-fn effects_by_path<V: Vector>(model: &Model, regime: &Regime, dt: f64) -> [Effect; 2] {
-    let (n, system) = (model.storeys(), System::new(model, regime));
-    let halvings = (regime.frequency * dt / SERIES_PHASE).log2().ceil().max(0.0);
-    let mut h = dt * (-halvings).exp2();
-    let phase = regime.frequency * h;
-    let (unit, zero) = (Band::unit(n, 0), Band::zeros(n, 0));
-    let mut effects = [
-        Effect::by_series(&system, Term { drift: unit.clone(), velocity: zero.clone() }, h, phase),
-        Effect::by_series(&system, Term { drift: zero, velocity: unit }, h, phase),
-    ];
-    for _ in 0..halvings as usize {
-        effects = doubled(effects, h);
-        h *= 2.0;
-    }
-    effects
+/// The step of a tall regime.
+pub(crate) enum TallStep {
+    Banded(BandedStep),
+    Full(FullStep),
 }
 
 impl TallStep {
-    /// Whether a regime has such a step over `dt`: its damping couples neighbours only, and it is not too stiff.
-    pub(crate) fn exists(model: &Model, regime: &Regime, dt: f64) -> bool {
-        !matches!(model.damping(), StoreyDamping::Dense(_)) && regime.frequency * dt <= LONGEST_PHASE
+    /// Whether a regime has such a step over `dt`: it is not too stiff.
+    pub(crate) fn exists(regime: &Regime, dt: f64) -> bool {
+        regime.frequency * dt <= LONGEST_PHASE
+    }
+
+    /// Whole intervals of a regime that a run solves by series before its step is formed.
+    pub(crate) fn series_visits(model: &Model) -> u32 {
+        match model.damping() {
+            StoreyDamping::Dense(_) => (model.storeys() / STOREYS_PER_VISIT) as u32,
+            _ => BANDED_VISITS,
+        }
     }
 
     /// The step of a regime over `dt`.
     pub(crate) fn new(model: &Model, regime: &Regime, dt: f64) -> Self {
-        let n = model.storeys();
-        let [of_q, of_j] = effects(model, regime, dt);
-        let bands = [&of_q.integrals[1], &of_j.integrals[1], &of_q.integrals[0], &of_j.integrals[0]];
-        let half_width = bands.iter().map(|band| band.needed_reach()).max().unwrap_or(0);
-        let width = 2 * half_width + 1;
-        let mut entries = vec![0.0; whole_blocks(n) * width * bands.len()];
-        for (which, band) in bands.into_iter().enumerate() {
-            for d in band.offsets().filter(|d| d.unsigned_abs() <= half_width) {
-                for (i, &entry) in band.inside(d).iter().enumerate() {
-                    let diagonal = (d + half_width as isize) as usize;
-                    let row = (i / BLOCK * width + diagonal) * bands.len() + which;
-                    entries[row * BLOCK + i % BLOCK] = entry;
-                }
-            }
+        match model.damping() {
+            StoreyDamping::Dense(damping) => Self::Full(FullStep::new(model, damping, regime, dt)),
+            _ => Self::Banded(BandedStep::new(model, regime, dt)),
         }
-        Self { half_width, entries }
     }
 
     /// Memory taken (bytes).
     pub(crate) fn bytes(&self) -> usize {
-        8 * self.entries.len()
-    }
-
-    /// Forms (dx - h v, dv), of whole blocks of rows, of (q, J), which have [`Self::half_width`] more values before the
-    /// first storey and after the last block.
-    #[inline(always)]
-    pub(crate) fn advance<V: Vector>(&self, q: &[f64], rate: &[f64], dx: &mut [f64], dv: &mut [f64]) {
-        let blocks = self.entries.as_chunks::<WIDTH>().0.as_chunks::<8>().0.chunks_exact(2 * self.half_width + 1);
-        let out = dx.as_chunks_mut::<BLOCK>().0.iter_mut().zip(dv.as_chunks_mut::<BLOCK>().0);
-        for (block, (diagonals, (dx, dv))) in blocks.zip(out).enumerate() {
-            let from = BLOCK * block;
-            let mut of_q = [V::splat(0.0); 4];
-            let mut of_rate = of_q;
-            for (entries, (q, rate)) in diagonals.iter().zip(q[from..].windows(BLOCK).zip(rate[from..].windows(BLOCK)))
-            {
-                let (&[q, q_above], []) = q.as_chunks::<WIDTH>() else { return };
-                let (&[rate, rate_above], []) = rate.as_chunks::<WIDTH>() else { return };
-                let (q, rate) = ([V::load(&q), V::load(&q_above)], [V::load(&rate), V::load(&rate_above)]);
-                for half in 0..2 {
-                    of_q[half] = V::load(&entries[half]).mul_add(q[half], of_q[half]);
-                    of_rate[half] = V::load(&entries[2 + half]).mul_add(rate[half], of_rate[half]);
-                    of_q[2 + half] = V::load(&entries[4 + half]).mul_add(q[half], of_q[2 + half]);
-                    of_rate[2 + half] = V::load(&entries[6 + half]).mul_add(rate[half], of_rate[2 + half]);
-                }
-            }
-            let (dx, dv) = (dx.as_chunks_mut::<WIDTH>().0, dv.as_chunks_mut::<WIDTH>().0);
-            for half in 0..2 {
-                of_q[half].add(of_rate[half]).store(&mut dx[half]);
-                of_q[2 + half].add(of_rate[2 + half]).store(&mut dv[half]);
-            }
+        match self {
+            Self::Banded(step) => step.bytes(),
+            Self::Full(step) => step.bytes(),
         }
     }
 }
