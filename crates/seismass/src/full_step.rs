@@ -9,16 +9,16 @@
 //! G(0) = 0, G'(0) = W, G'' = -(G' D + G T) W,
 //! ```
 //!
-//! is symmetric at all times, as the reciprocity of elastic and viscous forces has it; so are its integrals. What a step
-//! adds to drift rates and, beyond the first order, to drifts, is
+//! is symmetric at all times, as the reciprocity of elastic and viscous forces has it; so are its integrals. What a
+//! step adds to drift rates and, beyond the first order, to drifts, is
 //!
 //! ```text
 //! integral of q = G s + (integral of G) r,  second integral of q = (integral of G) s + (second integral of G) r.
 //! ```
 //!
 //! Nothing of this needs D itself: r is what changes the loads, less what changes the springs. The part of s and r that
-//! comes from the motion of the ground, a mass times the same number on all floors, is large where nothing happens: what
-//! it does is formed apart, from the storey on the ground, so that storeys which no wave has reached stay at rest.
+//! comes from the motion of the ground, a mass times the same number on all floors, is large where nothing happens:
+//! what it does is formed apart, from the storey on the ground, so that storeys which no wave has reached stay at rest.
 
 use nalgebra::DMatrix;
 
@@ -348,8 +348,8 @@ fn differences(values: &[f64]) -> Vec<f64> {
     values.iter().zip(below).map(|(value, below)| value - below).collect()
 }
 
-/// What [`FullStep`] acts on, padded to whole blocks: s and r of the storeys at the start of a step, without the motion of
-/// the ground.
+/// What [`FullStep`] acts on, padded to whole blocks: s and r of the storeys at the start of a step, without the motion
+/// of the ground.
 pub(crate) struct Shears {
     mass: Vec<f64>,
     tangent: Vec<f64>,

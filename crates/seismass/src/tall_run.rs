@@ -1,5 +1,5 @@
-//! Runs of whole sample intervals of tall regimes: any number of storeys, at a cost that grows with it linearly by banded
-//! steps, with its square by full ones.
+//! Runs of whole sample intervals of tall regimes: any number of storeys, at a cost that grows with it linearly by
+//! banded steps, with its square by full ones.
 //!
 //! As in [`crate::plain_run`] each step is accepted only when bounds prove that no guard fell inside it. The loop looks
 //! at each end with the cubic's margins. What this does not clear is looked at with the quintic through values and two
@@ -363,6 +363,48 @@ fn quintic_range(start: [f64; 3], end: [f64; 3], h: f64, margin: f64) -> (f64, f
     )
 }
 
+/// [`quintic_range`] of several.
+#[inline(always)]
+fn quintic_ranges<V: Vector>(start: [V; 3], end: [V; 3], h: f64, margin: V) -> (V, V) {
+    let (fifth, two_fifths, twentieth) = (V::splat(h / 5.0), V::splat(2.0 * h / 5.0), V::splat(h * h / 20.0));
+    let points = [
+        fifth.mul_add(start[1], start[0]),
+        twentieth.mul_add(start[2], two_fifths.mul_add(start[1], start[0])),
+        twentieth.mul_add(end[2], end[0].sub(two_fifths.mul(end[1]))),
+        end[0].sub(fifth.mul(end[1])),
+        end[0],
+    ];
+    let (mut low, mut high) = (start[0], start[0]);
+    for point in points {
+        (low, high) = (low.min(point), high.max(point));
+    }
+    (low.sub(margin), high.add(margin))
+}
+
+/// The cubic's range, as [`range`], of several.
+#[inline(always)]
+fn cubic_ranges<V: Vector>(start: [V; 2], end: [V; 2], third: V, margin: V) -> (V, V) {
+    let (first, second) = (third.mul_add(start[1], start[0]), end[0].sub(third.mul(end[1])));
+    let (low, high) = (start[0].min(end[0]).min(first.min(second)), start[0].max(end[0]).max(first.max(second)));
+    (low.sub(margin), high.add(margin))
+}
+
+/// Lanes that are above zero, and those that are below it.
+#[inline(always)]
+fn signs<V: Vector>((low, high): (V, V)) -> (u32, u32) {
+    let zero = V::splat(0.0);
+    (!zero.not_below(low), !high.not_below(zero))
+}
+
+/// The places of bits.
+fn places(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lowest = (bits != 0).then_some(bits.trailing_zeros() as usize);
+        bits &= bits.wrapping_sub(1);
+        lowest
+    })
+}
+
 /// What a run reads of its regime.
 struct Rows {
     root_mass: Vec<f64>,
@@ -420,6 +462,14 @@ impl Curvature {
     }
 }
 
+/// A vector of storeys and their floors of which some were not cleared: bits of the lanes.
+struct Suspects {
+    vector: usize,
+    drifts: u32,
+    rates: u32,
+    accelerations: u32,
+}
+
 /// A step that the loop did not clear.
 struct Closer<'a> {
     state: &'a State<'a>,
@@ -437,59 +487,99 @@ struct Closer<'a> {
 }
 
 impl Closer<'_> {
-    /// Whether no guard of a storey or floor falls inside the step; notes the peaks that are beaten.
+    /// What the quintics may miss, per unit of the bounds of fourth derivatives.
     #[inline(always)]
-    fn look(&self, i: usize, beaten: &mut Beaten) -> bool {
-        let (start, end, curvature, h, q) = (self.start, self.end, self.curvature, self.h, self.margin + i);
-        let h3 = h * h * h;
-        let sixth = curvature.liveliness * (h3 * h3 / 46080.0);
-        let margin = |which: usize| sixth * self.rows.fourth[which][i];
-        let drift = quintic_range([start.x[i], start.v[i], start.q[q]], [end.x[i], end.v[i], end.q[q]], h, margin(0));
-        let rates = [[start.v[i], start.q[q], curvature.q_rate[0][i]], [end.v[i], end.q[q], curvature.q_rate[1][i]]];
-        let rate = quintic_range(rates[0], rates[1], h, margin(1));
-        let of_floor = |sample: &Sample, which: usize| [sample.a[i + 1], sample.jerk[i + 1], curvature.a[which][i + 1]];
-        let floors = [of_floor(start, 0), of_floor(end, 1)];
-        let (low, high) = quintic_range(floors[0], floors[1], h, margin(2));
-        let size = high.max(-low);
-        let inside = |(lower, upper): (f64, f64)| drift.1 < upper && drift.0 > lower;
-        let keeps_sign = match self.bounds.sign[i] {
-            0.0 => true,
-            sign if sign > 0.0 => rate.0 > 0.0,
-            _ => rate.1 < 0.0,
-        };
-        if !(keeps_sign && size < self.state.stuck_mu[i + 1] * self.contact.0.min(self.contact.1)) {
-            return false;
-        }
-        let (middle, reach) = (self.bounds.middle[i], self.bounds.reach[i]);
-        if !inside((middle - reach, middle + reach)) {
-            if !inside(self.state.guarded_drift(i)) {
+    fn sixth(&self) -> f64 {
+        let h3 = self.h * self.h * self.h;
+        self.curvature.liveliness * (h3 * h3 / 46080.0)
+    }
+
+    /// Whether no guard falls inside the step in the suspect lanes of a vector of storeys and floors; notes the peaks
+    /// that are beaten.
+    #[inline(always)]
+    fn look<V: Vector>(&self, suspects: &Suspects, beaten: &mut Beaten) -> bool {
+        let Suspects { vector, drifts, rates, accelerations } = *suspects;
+        (drifts | rates == 0 || self.look_at_drifts::<V>(vector, drifts, rates, beaten))
+            && (accelerations == 0 || self.look_at_accelerations::<V>(vector, accelerations, beaten))
+    }
+
+    #[inline(always)]
+    fn look_at_drifts<V: Vector>(&self, k: usize, drifts: u32, rates: u32, beaten: &mut Beaten) -> bool {
+        let (start, end, [q_rate, q_rate_end]) = (self.start, self.end, &self.curvature.q_rate);
+        let (x, x_end) = (at::<V>(&start.x, k), at::<V>(&end.x, k));
+        let (v, v_end) = (at::<V>(&start.v, k), at::<V>(&end.v, k));
+        let (q, q_end) = (at::<V>(&start.q[self.margin..], k), at::<V>(&end.q[self.margin..], k));
+        let sixth = V::splat(self.sixth());
+        let rate_margin = sixth.mul(at(&self.rows.fourth[1], k));
+        let (from, to) = ([v, q, at(q_rate, k)], [v_end, q_end, at(q_rate_end, k)]);
+        let (positive, negative) = signs(quintic_ranges(from, to, self.h, rate_margin));
+        for lane in places(rates) {
+            let sign = self.bounds.sign[WIDTH * k + lane];
+            let kept = if sign > 0.0 { positive } else { negative };
+            if sign != 0.0 && kept >> lane & 1 == 0 {
                 return false;
             }
-            let turns = !(rate.0 > 0.0 || rate.1 < 0.0) && start.x[i].abs().max(end.x[i].abs()) > self.least.0;
+        }
+        let margin = sixth.mul(at(&self.rows.fourth[0], k));
+        let (low, high) = quintic_ranges([x, v, q], [x_end, v_end, q_end], self.h, margin);
+        let (middle, reach) = (at::<V>(&self.bounds.middle, k), at::<V>(&self.bounds.reach, k));
+        let outside = high.not_below(middle.add(reach)) | middle.sub(reach).not_below(low);
+        let matters = x.abs().max(x_end.abs()).not_below(V::splat(self.least.0));
+        let (mut lows, mut highs) = ([0.0; WIDTH], [0.0; WIDTH]);
+        low.store(&mut lows);
+        high.store(&mut highs);
+        for lane in places(drifts & outside) {
+            let i = WIDTH * k + lane;
+            let (lower, upper) = self.state.guarded_drift(i);
+            if !(highs[lane] < upper && lows[lane] > lower) {
+                return false;
+            }
+            let turns = (matters & !(positive | negative)) >> lane & 1 != 0;
             if turns { &mut beaten.drifts_inside } else { &mut beaten.drifts }.push(i);
         }
-        let below_peak = size < self.bounds.a_peak[i];
-        if !below_peak {
-            let fifth = curvature.liveliness * (h * h * h * h / 384.0) * self.rows.fourth[3][i];
-            let jerk = range(floors[0][1], floors[0][2], floors[1][1], floors[1][2], h / 3.0, fifth);
-            let turns = !(jerk.0 > 0.0 || jerk.1 < 0.0) && floors[0][0].abs().max(floors[1][0].abs()) > self.least.1;
-            if turns { &mut beaten.accelerations_inside } else { &mut beaten.accelerations }.push(i);
+        true
+    }
+
+    #[inline(always)]
+    fn look_at_accelerations<V: Vector>(&self, k: usize, suspects: u32, beaten: &mut Beaten) -> bool {
+        let (start, end, [second, second_end]) = (self.start, self.end, &self.curvature.a);
+        let (a, a_end) = (at::<V>(&start.a[1..], k), at::<V>(&end.a[1..], k));
+        let (jerk, jerk_end) = (at::<V>(&start.jerk[1..], k), at::<V>(&end.jerk[1..], k));
+        let (second, second_end) = (at::<V>(&second[1..], k), at::<V>(&second_end[1..], k));
+        let margin = V::splat(self.sixth()).mul(at(&self.rows.fourth[2], k));
+        let (low, high) = quintic_ranges([a, jerk, second], [a_end, jerk_end, second_end], self.h, margin);
+        let size = high.max(V::splat(0.0).sub(low));
+        let limit = at::<V>(&self.bounds.stuck_mu, k).mul(V::splat(self.contact.0.min(self.contact.1)));
+        if size.not_below(limit) & suspects != 0 {
+            return false;
+        }
+        let beats = size.not_below(at(&self.bounds.a_peak, k)) & suspects;
+        if beats == 0 {
+            return true;
+        }
+        let h2 = self.h * self.h;
+        let fifth = V::splat(self.curvature.liveliness * (h2 * h2 / 384.0)).mul(at(&self.rows.fourth[3], k));
+        let third = V::splat(self.h / 3.0);
+        let (positive, negative) = signs(cubic_ranges([jerk, second], [jerk_end, second_end], third, fifth));
+        let matters = a.abs().max(a_end.abs()).not_below(V::splat(self.least.1));
+        let turn = matters & !(positive | negative);
+        for lane in places(beats) {
+            let turns = turn >> lane & 1 != 0;
+            if turns { &mut beaten.accelerations_inside } else { &mut beaten.accelerations }.push(WIDTH * k + lane);
         }
         true
     }
 
     /// Whether the relative velocity of a block keeps its sign; `floor` is the change of its floor's velocity.
     fn keeps_sliding(&self, block: &FloorBlock, contact_slope: f64, floor: f64) -> bool {
-        let (i, curvature) = (block.floor, self.curvature);
+        let i = block.floor;
         let at = |sample: &Sample, velocity: f64, contact: f64| {
             let pushed = (block.friction * contact, block.friction * contact_slope);
             [velocity, -pushed.0 - sample.a[i + 1], -pushed.1 - sample.jerk[i + 1]]
         };
         let (start, end) =
             (at(self.start, block.velocity, self.contact.0), at(self.end, block.velocity_after, self.contact.1));
-        let h3 = self.h * self.h * self.h;
-        let margin = curvature.liveliness * (h3 * h3 / 46080.0) * self.rows.fourth[3][i];
-        let (low, high) = quintic_range(start, end, self.h, margin);
+        let (low, high) = quintic_range(start, end, self.h, self.sixth() * self.rows.fourth[3][i]);
         let least = SMALL_DIFFERENCE * floor.abs();
         if block.sign > 0.0 { low > least } else { high < -least }
     }
@@ -511,8 +601,8 @@ impl Series {
         Self { h: 0.0, order: 0, a: Vec::new(), v: Vec::new(), length }
     }
 
-    /// Forms the terms until `suffices(norm, order)`; false where that is never. The norm of the terms of one order is
-    /// that of [`crate::regime::Regime::liveliness_of`].
+    /// Forms the terms until `suffices(norm, order)`, not before the lowest order; false where that is never. The norm
+    /// of the terms of one order is that of [`crate::regime::Regime::liveliness_of`].
     #[inline(always)]
     fn form<V: Vector>(
         &mut self,
@@ -520,6 +610,7 @@ impl Series {
         rows: &Rows,
         (a_second, q_rate): (&[f64], &[f64]),
         h: f64,
+        lowest: usize,
         suffices: impl Fn(f64, usize) -> bool,
     ) -> bool {
         self.h = h;
@@ -539,7 +630,7 @@ impl Series {
                 let nothing = &operator.nothing;
                 operator.derivatives(&v_below[below], &a_below[below], factor, nothing, &mut v[0], &mut a[0][1..]);
             }
-            if order < LOWEST_ORDER {
+            if order < lowest {
                 continue;
             }
             let norm = energy::<V>(&rows.root_mass, &a[0][1..], &rows.root_tangent, &v[0]).sqrt() * rows.growth;
@@ -622,12 +713,14 @@ impl StepSeries {
         };
         let [first, second] = &mut self.of_parts;
         let terms = |which: usize| (&*curvature.a[which], &*curvature.q_rate[which]);
-        if !first.form::<V>(operator, rows, terms(0), h, suffices) {
+        // Neighbouring steps need about as many terms.
+        let lowest = LOWEST_ORDER.max(first.order.saturating_sub(1));
+        if !first.form::<V>(operator, rows, terms(0), h, lowest, suffices) {
             return false;
         }
         // The norm at the start of the step bounds the second half too.
         let order = first.order;
-        self.parts == 1 || second.form::<V>(operator, rows, terms(1), -h, |_, reached| reached == order)
+        self.parts == 1 || second.form::<V>(operator, rows, terms(1), -h, order, |_, _| true)
     }
 
     /// Takes the extremes inside the step, which begins at `time`, into the peaks.
@@ -800,13 +893,14 @@ fn run_lanes<V: Vector>(
         suspects.clear();
         for k in 0..length / WIDTH {
             let limit = at::<V>(&bounds.stuck_mu, k).mul(least_contact).min(at(&bounds.a_peak, k));
-            let mut bits = 0;
+            let mut bits = [0; 3];
             for (which, bound) in [(0, at::<V>(&bounds.reach, k)), (1, at(&bounds.turn, k)), (2, limit)] {
                 let most = at::<V>(&apart_before[which], k).max(at(&apart_after[which], k));
-                bits |= fourth.mul_add(at(&rows.fourth[which], k), most).not_below(bound);
+                bits[which] = fourth.mul_add(at(&rows.fourth[which], k), most).not_below(bound);
             }
-            if bits != 0 {
-                suspects.extend((0..WIDTH).filter(|lane| bits >> lane & 1 != 0).map(|lane| WIDTH * k + lane));
+            let [drifts, rates, accelerations] = bits;
+            if drifts | rates | accelerations != 0 {
+                suspects.push(Suspects { vector: k, drifts, rates, accelerations });
             }
         }
         let (ground, push) = (Linear { start: pair[0], end: pair[1] }, Linear { start: contact.0, end: contact.1 });
@@ -834,7 +928,11 @@ fn run_lanes<V: Vector>(
             curvature.form::<V>(&operator, &rows, [&before, &after], margin);
             let (start, end, curvature) = (&before, &after, &curvature);
             let step = Closer { state, rows: &rows, bounds: &bounds, start, end, curvature, margin, h, contact, least };
-            if !suspects.iter().all(|&i| step.look(i, &mut beaten))
+            let mut is_plain = true;
+            for suspects in &suspects {
+                is_plain = is_plain && step.look::<V>(suspects, &mut beaten);
+            }
+            if !is_plain
                 || may_turn && !on_floors.iter().all(|b| step.keeps_sliding(b, contact_slope, floors[b.floor]))
                 || beaten.turns() && !series.form::<V>(&operator, &rows, &step, &beaten)
             {
