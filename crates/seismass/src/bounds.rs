@@ -81,6 +81,9 @@ impl State<'_> {
     pub(crate) fn update_bounds(&mut self, observer: &mut Observer) {
         let (drifts, accelerations) = observer.take_beaten();
         let springs = self.bounds.stale;
+        if drifts | accelerations | springs == 0 {
+            return;
+        }
         let within = first(self.storeys());
         for i in members((springs | drifts) & within) {
             (self.bounds.middle[i], self.bounds.reach[i]) = self.quiet_middle_and_reach(observer, i);

@@ -111,8 +111,10 @@ impl State<'_> {
             if self.vertical || self.airborne {
                 first.consider::<V>(Guard::Contact, &self.contact_guard(tau), ROUNDING * STANDARD_GRAVITY);
             }
-            if !self.airborne {
+            if !self.airborne && (self.ranges.suspects[2] != 0 || self.stuck_mu[0] < f64::INFINITY) {
                 self.breakaway_guards::<V>(tau, &mut first, isolated);
+            }
+            if self.is_sliding {
                 self.arrival_guards::<V>(tau, &mut first, isolated);
             }
         }
@@ -137,6 +139,9 @@ impl State<'_> {
     #[inline(always)]
     fn storey_guards<V: Vector>(&self, tau: f64, first: &mut First, isolated: &mut usize) {
         let [drifts, rates, _] = self.ranges.suspects;
+        if drifts | rates == 0 {
+            return;
+        }
         for i in self.looked_at(drifts) {
             let (low, high) = self.ranges.drift(i);
             let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);

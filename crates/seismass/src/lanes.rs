@@ -1,7 +1,11 @@
 //! Storeys as lanes of vectors, and the instructions the hot loops may use for them.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::ops::{Deref, DerefMut};
 use std::sync::OnceLock;
+
+use rustc_hash::FxBuildHasher;
 
 /// Instructions the hot loops are compiled for. Paths agree to rounding; each gives the same bits everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,10 +92,49 @@ pub(crate) fn filled_to(length: usize, values: impl IntoIterator<Item = f64>, pa
 }
 
 /// Numbers that begin at a cache line: no vector of them lies across two.
+///
+/// Their memory is kept by the thread for the next ones: regimes come and go by the thousand, and memory that goes back
+/// to the system returns page by page, each page at the cost of an event.
 #[derive(Debug, Default)]
 pub(crate) struct Aligned {
     values: Vec<f64>,
     offset: usize,
+}
+
+/// Most numbers that a thread keeps memory for; beyond that it lets all of it go.
+const MOST_SPARE: usize = 1 << 20;
+
+/// Memory kept by a thread, by capacity.
+#[derive(Default)]
+struct Spare {
+    by_capacity: HashMap<usize, Vec<Vec<f64>>, FxBuildHasher>,
+    numbers: usize,
+}
+
+thread_local! {
+    static SPARE: RefCell<Spare> = RefCell::default();
+}
+
+impl Spare {
+    /// A capacity for at least so many numbers, of which there are four within each power of two.
+    fn capacity(length: usize) -> usize {
+        let step = (length.next_power_of_two() / 8).max(1);
+        length.next_multiple_of(step)
+    }
+
+    fn take(&mut self, capacity: usize) -> Option<Vec<f64>> {
+        let values = self.by_capacity.get_mut(&capacity)?.pop()?;
+        self.numbers -= capacity;
+        Some(values)
+    }
+
+    fn keep(&mut self, values: Vec<f64>) {
+        if self.numbers + values.capacity() > MOST_SPARE {
+            *self = Self::default();
+        }
+        self.numbers += values.capacity();
+        self.by_capacity.entry(values.capacity()).or_default().push(values);
+    }
 }
 
 impl Aligned {
@@ -99,10 +142,26 @@ impl Aligned {
     pub(crate) fn zeros(length: usize) -> Self {
         const LINE: usize = 64;
         let spare = LINE / size_of::<f64>() - 1;
-        let mut values = vec![0.0; length + spare];
+        if length == 0 {
+            return Self::default();
+        }
+        let capacity = Spare::capacity(length + spare);
+        let kept = SPARE.try_with(|spare| spare.borrow_mut().take(capacity)).ok().flatten();
+        let mut values = kept.unwrap_or_else(|| Vec::with_capacity(capacity));
         let offset = values.as_ptr().align_offset(LINE).min(spare);
-        values.truncate(offset + length);
+        values.clear();
+        values.resize(offset + length, 0.0);
         Self { values, offset }
+    }
+}
+
+impl Drop for Aligned {
+    fn drop(&mut self) {
+        if self.values.capacity() > 0 {
+            let values = std::mem::take(&mut self.values);
+            // Without the thread's store, at its end, memory is simply freed.
+            let _ = SPARE.try_with(|spare| spare.borrow_mut().keep(values));
+        }
     }
 }
 
@@ -325,30 +384,32 @@ macro_rules! by_width {
 }
 pub(crate) use by_width;
 
-/// Defines a function of which each path is compiled for its instructions: `inner`, generic in the vector.
+/// Defines a function of which each path is compiled for its instructions: `inner`, generic in the vector and in the
+/// constants in brackets, if there are any.
 macro_rules! for_each_path {
-    ($(#[$meta:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) $(-> $out:ty)? = $inner:ident) => {
+    ($(#[$meta:meta])* $vis:vis fn $name:ident $([$($constant:ident: $of:ty),*])? ($($arg:ident: $type:ty),* $(,)?)
+        $(-> $out:ty)? = $inner:ident) => {
         $(#[$meta])*
         #[allow(unsafe_code)]
-        $vis fn $name($($arg: $type),*) $(-> $out)? {
+        $vis fn $name $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
-            fn avx512($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused>($($arg),*)
+            fn avx512 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
+                $inner::<crate::lanes::Fused $($(, $constant)*)?>($($arg),*)
             }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma")]
-            fn avx2($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused>($($arg),*)
+            fn avx2 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
+                $inner::<crate::lanes::Fused $($(, $constant)*)?>($($arg),*)
             }
             match crate::lanes::InstructionSet::in_use() {
                 // SAFETY: `in_use` returns only what this machine has.
                 #[cfg(target_arch = "x86_64")]
-                crate::lanes::InstructionSet::Avx512 => unsafe { avx512($($arg),*) },
+                crate::lanes::InstructionSet::Avx512 => unsafe { avx512 $(::<$($constant),*>)? ($($arg),*) },
                 // SAFETY: as above.
                 #[cfg(target_arch = "x86_64")]
-                crate::lanes::InstructionSet::Avx2 => unsafe { avx2($($arg),*) },
-                _ => $inner::<crate::lanes::Plain>($($arg),*),
+                crate::lanes::InstructionSet::Avx2 => unsafe { avx2 $(::<$($constant),*>)? ($($arg),*) },
+                _ => $inner::<crate::lanes::Plain $($(, $constant)*)?>($($arg),*),
             }
         }
     };

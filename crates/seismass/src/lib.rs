@@ -57,6 +57,7 @@ pub mod error;
 mod events;
 mod friction;
 mod full_step;
+mod histories;
 mod lanes;
 mod model;
 mod observe;

@@ -4,13 +4,15 @@ use std::sync::{Arc, OnceLock};
 
 use crate::damping::StoreyDamping;
 use crate::friction::BlockLaw;
-use crate::lanes::{WIDTH, filled};
+use crate::lanes::{WIDTH, filled, padded};
 use crate::scene::{Building, Damping, Scene};
 use crate::storey::StoreyLaw;
 use crate::symmetric::Symmetric;
 
 /// The constant data of a run.
 pub(crate) struct Model {
+    /// Storeys padded to whole vectors.
+    pub(crate) width: usize,
     pub(crate) mass: Vec<f64>,
     /// Initial stiffness of each storey, for Rayleigh damping.
     pub(crate) stiffness: Vec<f64>,
@@ -89,6 +91,7 @@ impl Model {
         let stiffness: Vec<f64> = storeys.iter().map(|s| s.stiffness).collect();
         let damping = scene.building().map_or(&StoreyDamping::None, |b| b.storey_damping());
         Self {
+            width: padded(n),
             lanes: ModelLanes::new(&mass, &stiffness, damping),
             damping_sizes: damping_sizes(damping),
             symmetric_damping: OnceLock::new(),

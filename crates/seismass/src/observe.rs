@@ -3,10 +3,11 @@
 use crate::bernstein::Polynomial;
 use crate::bounds::{Set, only};
 use crate::friction::BlockState;
+use crate::histories::Recorder;
 use crate::lanes::{Plain, Vector};
 use crate::model::Model;
 use crate::regime::{Row, viscous_power};
-use crate::response::{Energy, Histories, Peaks};
+use crate::response::{Energy, Peaks};
 use crate::scene::Options;
 use crate::state::State;
 
@@ -29,9 +30,8 @@ const GAUSS: [(f64, f64); 12] = [
 /// Keeps peaks, histories and energies.
 pub(crate) struct Observer {
     pub(crate) peaks: Peaks,
-    pub(crate) histories: Option<Histories>,
+    pub(crate) histories: Option<Recorder>,
     energy: Option<EnergyBalance>,
-    displacements_only: bool,
     /// Storeys whose peaks of drift or shear, and floors whose peaks of acceleration, were beaten since last asked.
     beaten: (Set, Set),
 }
@@ -47,35 +47,14 @@ impl Observer {
     /// An observer of a run over so many samples.
     pub(crate) fn new(model: &Model, options: &Options, samples: usize) -> Self {
         let (n, blocks) = (model.storeys(), model.blocks.len());
-        let histories = options.histories.map(|every| {
-            let every = every.get();
-            let rows = samples.div_ceil(every);
-            let empty = |width: usize| Vec::with_capacity(rows * width);
-            let other = |width: usize| if options.displacements_only { Vec::new() } else { empty(width) };
-            Histories {
-                every,
-                rows,
-                drift: empty(n),
-                slip: empty(blocks),
-                floor_velocity: other(n),
-                block_velocity: other(blocks),
-                floor_acceleration: other(n),
-                storey_force: other(n),
-            }
-        });
+        let histories = options.histories.map(|every| Recorder::new(model, options, samples, every.get()));
         let peaks = Peaks {
             drift: vec![Default::default(); n],
             slip: vec![Default::default(); blocks],
             floor_acceleration: vec![Default::default(); n],
             storey_shear: vec![Default::default(); n],
         };
-        Self {
-            peaks,
-            histories,
-            energy: options.energy.then(EnergyBalance::default),
-            displacements_only: options.displacements_only,
-            beaten: (Set::MAX, Set::MAX),
-        }
+        Self { peaks, histories, energy: options.energy.then(EnergyBalance::default), beaten: (Set::MAX, Set::MAX) }
     }
 
     /// Whether energies are kept: then every step needs its series too.
@@ -160,13 +139,17 @@ impl Observer {
     #[inline]
     pub(crate) fn observe_suspects(&mut self, state: &State, time: f64) {
         let [drifts, _, accelerations] = state.ranges.suspects;
-        for i in state.looked_at(drifts) {
-            self.take_drift(state, i, state.x[i], time);
+        if drifts | accelerations != 0 {
+            for i in state.looked_at(drifts) {
+                self.take_drift(state, i, state.x[i], time);
+            }
+            for i in state.looked_at(accelerations) {
+                self.take_acceleration(i, state.a[i], time);
+            }
         }
-        for i in state.looked_at(accelerations) {
-            self.take_acceleration(i, state.a[i], time);
+        if state.is_sliding || state.airborne {
+            self.observe_slips(state, time);
         }
-        self.observe_slips(state, time);
     }
 
     /// Takes the present slips into their peaks.
@@ -184,6 +167,9 @@ impl Observer {
         let h = state.series.h();
         let (start, length) = (state.interval.start + tau, end * h);
         let [drifts, _, accelerations] = state.ranges.suspects;
+        if drifts | accelerations == 0 {
+            return;
+        }
         for i in state.looked_at(drifts) {
             let (low, high) = state.ranges.drift(i);
             let rate = state.ranges.rate(i);
@@ -229,6 +215,7 @@ impl Observer {
     }
 
     /// Appends the present state to the histories.
+    #[inline]
     pub(crate) fn record(&mut self, state: &State, sample: usize) {
         if self.records(sample) {
             let blocks = state.motions.iter().map(|m| (m.velocity, m.slip));
@@ -236,10 +223,10 @@ impl Observer {
         }
     }
 
-    /// Whether the histories have a row at a sample.
+    /// Whether the histories have a row at a sample, all rows before it being written.
     #[inline]
     pub(crate) fn records(&self, sample: usize) -> bool {
-        self.histories.as_ref().is_some_and(|h| sample.is_multiple_of(h.every))
+        self.histories.as_ref().is_some_and(|recorder| recorder.next_sample() == sample)
     }
 
     /// Appends a row: drift coordinates, drift rates, floor accelerations, and (velocity, slip) of the blocks, in the
@@ -250,49 +237,10 @@ impl Observer {
         x: &[f64],
         v: &[f64],
         a: &[f64],
-        blocks: impl Iterator<Item = (f64, f64)>,
+        blocks: impl Iterator<Item = (f64, f64)> + Clone,
     ) {
-        let Some(histories) = &mut self.histories else { return };
-        if self.displacements_only {
-            histories.drift.extend(state.springs.iter().zip(x).map(|(spring, &x)| spring.drift(x)));
-            histories.slip.extend(blocks.map(|(_, slip)| slip));
-            return;
-        }
-        let tangent = state.regime().row(Row::SpringTangent);
-        let n = state.storeys();
-        let first = histories.floor_velocity.len();
-        let mut velocity = 0.0;
-        for i in 0..n {
-            velocity += v[i];
-            histories.drift.push(state.springs[i].drift(x[i]));
-            histories.storey_force.push(state.base_force[i] + tangent[i] * x[i]);
-            histories.floor_velocity.push(velocity);
-        }
-        histories.floor_acceleration.extend_from_slice(&a[..n]);
-        for ((relative, slip), law) in blocks.zip(&state.model.blocks) {
-            let floor = if law.floor > 0 { histories.floor_velocity[first + law.floor - 1] } else { 0.0 };
-            histories.slip.push(slip);
-            histories.block_velocity.push(floor + relative);
-        }
-    }
-
-    /// Fills what a collapsed run did not reach with NaN.
-    pub(crate) fn fill_histories(&mut self, storeys: usize, blocks: usize) {
-        if let Some(h) = &mut self.histories {
-            let (n, b) = (h.rows * storeys, h.rows * blocks);
-            h.drift.resize(n, f64::NAN);
-            h.slip.resize(b, f64::NAN);
-            if self.displacements_only {
-                return;
-            }
-            for (values, length) in [
-                (&mut h.floor_velocity, n),
-                (&mut h.block_velocity, b),
-                (&mut h.floor_acceleration, n),
-                (&mut h.storey_force, n),
-            ] {
-                values.resize(length, f64::NAN);
-            }
+        if let Some(recorder) = &mut self.histories {
+            recorder.append_row(state, x, v, a, blocks);
         }
     }
 

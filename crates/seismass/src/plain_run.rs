@@ -5,14 +5,22 @@
 //! h^4 / 384 times its largest fourth derivative, which the regime bounds. The loop itself looks at each end once: a
 //! value must keep the distance of h / 3 times its rate from its bound, and the margin of the fourth derivative, to
 //! either side. Steps that this does not clear are looked at closer, by the Bezier points themselves.
+//!
+//! The loop ([`clear_steps`]) is a function of its own that calls no other, so that what it needs stays in registers;
+//! what is between two calls of it is kept in a [`Walk`].
 
+use std::mem::swap;
 use std::sync::Arc;
 
 use crate::STANDARD_GRAVITY;
 use crate::bounds::{self, Set, members, middle_and_reach};
+use crate::friction::BlockMotion;
+use crate::histories::{Recorder, RowInLanes};
 use crate::lanes::{
-    FAR, MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
+    FAR, MAX_LANES, Vector, WIDTH, columns_of, differences, filled_to, for_each_path, load, numbers, padded,
+    prefix_sums, store,
 };
+use crate::model::Model;
 use crate::observe::Observer;
 use crate::propagator::Whole;
 use crate::regime::{Regime, Row};
@@ -98,48 +106,12 @@ impl<V: Vector, const K: usize> Sample<V, K> {
     }
 
     #[inline(always)]
-    fn values(&self) -> Values<K> {
-        let zero = [[0.0; WIDTH]; K];
-        let mut values = Values { x: zero, v: zero, a: zero, jerk: zero, q: zero };
-        for k in 0..K {
-            self.x[k].store(&mut values.x[k]);
-            self.v[k].store(&mut values.v[k]);
-            self.a[k].store(&mut values.a[k]);
-            self.jerk[k].store(&mut values.jerk[k]);
-            self.q[k].store(&mut values.q[k]);
-        }
-        values
-    }
-}
-
-/// A [`Sample`] as numbers.
-struct Values<const K: usize> {
-    x: [[f64; WIDTH]; K],
-    v: [[f64; WIDTH]; K],
-    a: [[f64; WIDTH]; K],
-    jerk: [[f64; WIDTH]; K],
-    q: [[f64; WIDTH]; K],
-}
-
-/// The same, of any width.
-#[derive(Clone, Copy)]
-struct SampleValues<'a> {
-    x: &'a [f64],
-    v: &'a [f64],
-    a: &'a [f64],
-    jerk: &'a [f64],
-    q: &'a [f64],
-}
-
-impl<const K: usize> Values<K> {
-    fn as_slices(&self) -> SampleValues<'_> {
-        SampleValues {
-            x: self.x.as_flattened(),
-            v: self.v.as_flattened(),
-            a: self.a.as_flattened(),
-            jerk: self.jerk.as_flattened(),
-            q: self.q.as_flattened(),
-        }
+    fn put_into(&self, x: &mut [f64], v: &mut [f64], a: &mut [f64], jerk: &mut [f64], q: &mut [f64]) {
+        store(&self.x, x);
+        store(&self.v, v);
+        store(&self.a, a);
+        store(&self.jerk, jerk);
+        store(&self.q, q);
     }
 }
 
@@ -179,65 +151,123 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
         }
         out
     }
+}
 
-    /// Follows peaks that are beaten from here on: accelerations are taken at each sample; drifts at the end of the run,
-    /// up to which their rates must keep their signs.
-    #[inline(always)]
-    fn follow(
-        &mut self,
-        peaks: &BeatenPeaks,
-        state: &State,
-        observer: &mut Observer,
-        sample: &Sample<V, K>,
-        time: f64,
-    ) {
-        if peaks.acceleration != 0 {
-            let (a, mut a_peak) = (numbers(&sample.a), numbers(&self.a_peak));
-            for i in members(peaks.acceleration) {
-                observer.take_acceleration(i, a.as_flattened()[i], time);
-                a_peak.as_flattened_mut()[i] = observer.peaks.floor_acceleration[i].value;
-            }
-            self.a_peak = load(a_peak.as_flattened());
+/// Blocks that slide, at most one on each floor. Padded; lanes in which no block slides never turn.
+struct Layer {
+    /// Sign times mu_k.
+    friction: Vec<f64>,
+    sign: Vec<f64>,
+    /// What the negative of sign times velocity may not reach: 0; far where no block slides.
+    turn: Vec<f64>,
+    velocity: Vec<f64>,
+    slip: Vec<f64>,
+    /// Velocity and slip at the end of the step that was not cleared.
+    after: [Vec<f64>; 2],
+}
+
+impl Layer {
+    fn new(storeys: usize) -> Self {
+        let lanes = |value: f64| vec![value; padded(storeys)];
+        let zero = || lanes(0.0);
+        Self {
+            friction: zero(),
+            sign: zero(),
+            turn: lanes(FAR),
+            velocity: zero(),
+            slip: zero(),
+            after: [zero(), zero()],
         }
-        if peaks.drift != 0 {
-            let v = numbers(&sample.v);
-            let (mut middle, mut reach) = (numbers(&self.middle), numbers(&self.reach));
-            let (mut sign, mut turn) = (numbers(&self.sign), numbers(&self.turn));
-            for i in members(peaks.drift) {
-                (middle.as_flattened_mut()[i], reach.as_flattened_mut()[i]) = middle_and_reach(state.guarded_drift(i));
-                (sign.as_flattened_mut()[i], turn.as_flattened_mut()[i]) = (v.as_flattened()[i].signum(), 0.0);
-            }
-            self.middle = load(middle.as_flattened());
-            self.reach = load(reach.as_flattened());
-            self.sign = load(sign.as_flattened());
-            self.turn = load(turn.as_flattened());
-        }
+    }
+
+    /// Whether no block slides in a lane.
+    fn is_free(&self, lane: usize) -> bool {
+        self.sign[lane] == 0.0
+    }
+
+    fn take(&mut self, lane: usize, sign: f64, friction: f64, velocity: f64, slip: f64) {
+        (self.sign[lane], self.turn[lane], self.friction[lane]) = (sign, 0.0, friction);
+        (self.velocity[lane], self.slip[lane]) = (velocity, slip);
+    }
+
+    fn leave(&mut self, lane: usize) {
+        (self.sign[lane], self.turn[lane], self.friction[lane]) = (0.0, FAR, 0.0);
+        (self.velocity[lane], self.slip[lane]) = (0.0, 0.0);
+    }
+
+    /// Takes the step that was not cleared.
+    fn accept(&mut self) {
+        let [velocity, slip] = &mut self.after;
+        swap(&mut self.velocity, velocity);
+        swap(&mut self.slip, slip);
     }
 }
 
-/// Storeys and floors, as bits, whose peaks a step beats.
-#[derive(Default)]
-struct BeatenPeaks {
-    drift: Set,
-    acceleration: Set,
-}
-
-/// Blocks that slide, at most one of each floor.
-struct Layer<V, const K: usize> {
-    /// Of each floor its block, if there is one.
-    block: [[Option<usize>; WIDTH]; K],
-    /// Sign times mu_k.
+/// A [`Layer`] in vectors.
+#[derive(Clone, Copy)]
+struct LayerInLanes<V, const K: usize> {
     friction: [V; K],
     sign: [V; K],
-    /// What the negative of sign times velocity may not reach: 0; far where there is no block.
     turn: [V; K],
     velocity: [V; K],
     slip: [V; K],
+}
+
+/// What moves the blocks in a step: the motion of the ground and of the floors on it, the latter beyond that at the
+/// velocities of the start, and contact forces.
+struct Push<V, const K: usize> {
+    h: f64,
+    ground: Linear,
+    contact: Linear,
+    velocity: [V; K],
+    displacement: [V; K],
+    a: [[V; K]; 2],
+    /// Margin of the relative velocities.
+    margin: [V; K],
+}
+
+impl<V: Vector, const K: usize> LayerInLanes<V, K> {
+    #[inline(always)]
+    fn of(layer: &Layer) -> Self {
+        Self {
+            friction: load(&layer.friction),
+            sign: load(&layer.sign),
+            turn: load(&layer.turn),
+            velocity: load(&layer.velocity),
+            slip: load(&layer.slip),
+        }
+    }
+
     /// h / 3 times the size of the relative acceleration, less sign times velocity.
-    approach: [V; K],
-    /// Velocity and approach at the end of the step.
-    velocity_after: [V; K],
-    approach_after: [V; K],
+    #[inline(always)]
+    fn approach(&self, k: usize, velocity: V, a: V, contact: f64, third: V) -> V {
+        let rate = self.friction[k].mul(V::splat(contact)).add(a);
+        third.mul(rate.abs()).sub(self.sign[k].mul(velocity))
+    }
+
+    /// The layer at the end of a step, and whether a block may have turned in it.
+    #[inline(always)]
+    fn pushed(&self, push: &Push<V, K>) -> (Self, bool) {
+        let (length, third) = (V::splat(push.h), V::splat(push.h / 3.0));
+        let (once, ground_once) = (V::splat(push.contact.once(push.h)), V::splat(push.ground.once(push.h)));
+        let (twice, ground_twice) = (V::splat(push.contact.twice(push.h)), V::splat(push.ground.twice(push.h)));
+        // A velocity that is a small difference of large ones is left to the series.
+        let digits = V::splat(-SMALL_DIFFERENCE);
+        let mut after = *self;
+        let mut turning = 0;
+        for k in 0..K {
+            let pushed = self.friction[k].mul_add(once, ground_once);
+            after.velocity[k] = self.velocity[k].sub(pushed.add(push.velocity[k]));
+            let pushed = self.friction[k].mul_add(twice, ground_twice);
+            let own = length.mul(self.velocity[k]).sub(pushed.add(push.displacement[k]));
+            after.slip[k] = self.slip[k].add(own);
+            let approach = self.approach(k, self.velocity[k], push.a[0][k], push.contact.start, third);
+            let approach_after = self.approach(k, after.velocity[k], push.a[1][k], push.contact.end, third);
+            let bound = digits.mul_add(push.velocity[k].abs(), self.turn[k]);
+            turning |= push.margin[k].add(approach.max(approach_after)).not_below(bound);
+        }
+        (after, turning != 0)
+    }
 }
 
 /// A block that slides on the ground.
@@ -268,105 +298,6 @@ impl Linear {
     pub(crate) fn twice(self, h: f64) -> f64 {
         (1.0 / 6.0) * h * h * (2.0 * self.start + self.end)
     }
-}
-
-/// The blocks that slide on floors, in layers, and those on the ground. Most often there is one layer: it needs no
-/// allocation.
-#[inline(always)]
-fn layers<V: Vector, const K: usize>(state: &State) -> (Layers<V, K>, Vec<GroundBlock>) {
-    let mut places: Vec<[[Option<usize>; WIDTH]; K]> = Vec::new();
-    let mut lowest = [[None; WIDTH]; K];
-    let mut on_ground = Vec::new();
-    for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
-        let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
-        let Some(i) = law.floor.checked_sub(1) else {
-            on_ground.push(GroundBlock {
-                block,
-                friction: sign * law.mu_k,
-                sign,
-                velocity: motion.velocity,
-                slip: motion.slip,
-            });
-            continue;
-        };
-        let taken = |place: &[[Option<usize>; WIDTH]; K]| place.as_flattened()[i].is_some();
-        if !taken(&lowest) {
-            lowest.as_flattened_mut()[i] = Some(block);
-        } else if let Some(place) = places.iter_mut().find(|place| !taken(place)) {
-            place.as_flattened_mut()[i] = Some(block);
-        } else {
-            let mut place = [[None; WIDTH]; K];
-            place.as_flattened_mut()[i] = Some(block);
-            places.push(place);
-        }
-    }
-    let others = if places.is_empty() { Vec::new() } else { places.into_iter().map(|p| layer(state, p)).collect() };
-    (Layers { lowest: layer(state, lowest), others }, on_ground)
-}
-
-#[inline(always)]
-fn layer<V: Vector, const K: usize>(state: &State, block: [[Option<usize>; WIDTH]; K]) -> Layer<V, K> {
-    let zero = [[0.0; WIDTH]; K];
-    let (mut friction, mut sign, mut turn) = (zero, zero, [[FAR; WIDTH]; K]);
-    let (mut velocity, mut slip) = (zero, zero);
-    for (i, &j) in block.as_flattened().iter().enumerate() {
-        let Some(j) = j else { continue };
-        let motion = &state.motions[j];
-        let factor = motion.sliding().map_or(0.0, Sign::factor);
-        friction.as_flattened_mut()[i] = factor * state.model.blocks[j].mu_k;
-        sign.as_flattened_mut()[i] = factor;
-        turn.as_flattened_mut()[i] = 0.0;
-        velocity.as_flattened_mut()[i] = motion.velocity;
-        slip.as_flattened_mut()[i] = motion.slip;
-    }
-    let nothing = [V::splat(0.0); K];
-    Layer {
-        block,
-        friction: load(friction.as_flattened()),
-        sign: load(sign.as_flattened()),
-        turn: load(turn.as_flattened()),
-        velocity: load(velocity.as_flattened()),
-        slip: load(slip.as_flattened()),
-        approach: nothing,
-        velocity_after: nothing,
-        approach_after: nothing,
-    }
-}
-
-/// Layers of sliding blocks.
-struct Layers<V, const K: usize> {
-    lowest: Layer<V, K>,
-    others: Vec<Layer<V, K>>,
-}
-
-impl<V, const K: usize> Layers<V, K> {
-    #[inline(always)]
-    fn iter(&self) -> impl Iterator<Item = &Layer<V, K>> {
-        std::iter::once(&self.lowest).chain(&self.others)
-    }
-
-    #[inline(always)]
-    fn get(&mut self, which: usize) -> &mut Layer<V, K> {
-        if which == 0 { &mut self.lowest } else { &mut self.others[which - 1] }
-    }
-}
-
-impl<V: Vector, const K: usize> Layer<V, K> {
-    #[inline(always)]
-    fn approach_at(&self, velocity: &[V; K], a: &[V; K], contact: f64, third: V) -> [V; K] {
-        let mut out = *velocity;
-        for k in 0..K {
-            let rate = self.friction[k].mul(V::splat(contact)).add(a[k]);
-            out[k] = third.mul(rate.abs()).sub(self.sign[k].mul(velocity[k]));
-        }
-        out
-    }
-}
-
-/// Changes of floor velocities over a step, and of floor displacements beyond those of the velocities at its start.
-struct FloorMotion<V, const K: usize> {
-    velocity: [V; K],
-    displacement: [V; K],
 }
 
 /// rows += column * weight.
@@ -413,12 +344,131 @@ fn not_clear<V: Vector>((before, after): (V, V), margin: V, factor: V, bound: V)
     Set::from(margin.mul_add(factor, before.max(after)).not_below(bound))
 }
 
-/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached. `S` is
-/// the number of storeys where it is known, else 0; `SLIDING`: blocks may slide on floors.
+/// A run of plain steps between two calls of [`clear_steps`]: the step that was not cleared, and the blocks that slide.
+pub(crate) struct Walk {
+    /// Whether there is a step that was not cleared.
+    is_open: bool,
+    /// Its end: drifts, drift rates, floor accelerations, their rates, drift accelerations; padded.
+    x: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+    jerk: Vec<f64>,
+    q: Vec<f64>,
+    liveliness: f64,
+    /// Storeys and floors whose drifts, drift rates and accelerations were not cleared.
+    suspects: [Set; 3],
+    /// Whether blocks were not.
+    turning: bool,
+    /// With vertical motion: slope of the contact force that the rates of accelerations have followed.
+    contact_slope: f64,
+    layers: Vec<Layer>,
+    /// Layers in which blocks slide: the first so many.
+    used: usize,
+    /// Blocks that slide on floors: block, layer, lane.
+    on_floors: Vec<(usize, usize, usize)>,
+    on_ground: Vec<GroundBlock>,
+    /// Whether steps must not be taken without a look at the ground's blocks.
+    watches_ground: bool,
+}
+
+impl Walk {
+    pub(crate) fn new(model: &Model) -> Self {
+        let n = model.storeys();
+        let zero = || filled_to(padded(n), [], 0.0);
+        Self {
+            is_open: false,
+            x: zero(),
+            v: zero(),
+            a: zero(),
+            jerk: zero(),
+            q: zero(),
+            liveliness: 0.0,
+            suspects: [0; 3],
+            turning: false,
+            contact_slope: 0.0,
+            layers: Vec::new(),
+            used: 0,
+            on_floors: Vec::new(),
+            on_ground: Vec::new(),
+            watches_ground: false,
+        }
+    }
+
+    /// Takes up the sliding blocks.
+    fn begin(&mut self, state: &State) {
+        for (_, layer, lane) in self.on_floors.drain(..) {
+            self.layers[layer].leave(lane);
+        }
+        self.used = 0;
+        self.on_ground.clear();
+        if state.is_sliding {
+            self.take_blocks(state);
+        }
+        self.watches_ground = !self.on_ground.is_empty() || state.stuck_mu[0].is_finite();
+    }
+
+    fn take_blocks(&mut self, state: &State) {
+        for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
+            let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
+            let friction = sign * law.mu_k;
+            let BlockMotion { velocity, slip, .. } = *motion;
+            let Some(lane) = law.floor.checked_sub(1) else {
+                self.on_ground.push(GroundBlock { block, friction, sign, velocity, slip });
+                continue;
+            };
+            let free = self.layers.iter().position(|layer| layer.is_free(lane));
+            let which = free.unwrap_or(self.layers.len());
+            if free.is_none() {
+                self.layers.push(Layer::new(state.storeys()));
+            }
+            self.layers[which].take(lane, sign, friction, velocity, slip);
+            self.on_floors.push((block, which, lane));
+            self.used = self.used.max(which + 1);
+        }
+    }
+
+    /// Brings the sliding blocks up to date.
+    fn put_blocks(&self, motions: &mut [BlockMotion]) {
+        for &(block, layer, lane) in &self.on_floors {
+            let (layer, motion) = (&self.layers[layer], &mut motions[block]);
+            (motion.velocity, motion.slip) = (layer.velocity[lane], layer.slip[lane]);
+        }
+        for ground in &self.on_ground {
+            (motions[ground.block].velocity, motions[ground.block].slip) = (ground.velocity, ground.slip);
+        }
+    }
+
+    /// Makes the end of the step that was not cleared the state.
+    fn accept(&mut self, state: &mut State) {
+        swap(&mut self.x, &mut state.x);
+        swap(&mut self.v, &mut state.v);
+        swap(&mut self.a, &mut state.a);
+        swap(&mut self.jerk, &mut state.jerk);
+        swap(&mut self.q, &mut state.drift_acceleration);
+        self.layers[..self.used].iter_mut().for_each(Layer::accept);
+    }
+}
+
+/// Contact force per unit mass at a sample.
 #[inline(always)]
-fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, const VERTICAL: bool>(
+fn contact_at(vertical: &[f64], sample: usize) -> f64 {
+    STANDARD_GRAVITY + vertical.get(sample).copied().unwrap_or(0.0)
+}
+
+for_each_path! {
+    /// Takes plain steps from interval `first` until `end`, as long as one look at each end clears them; returns the
+    /// interval reached. The step that was not cleared is left in `walk`. `S` is the number of storeys where it is known,
+    /// else 0; `SLIDING`: blocks may slide on floors.
+    fn clear_steps[K: usize, S: usize, SLIDING: bool, VERTICAL: bool](
+        state: &mut State, walk: &mut Walk, recorder: Option<&mut Recorder>, motion: &Motion, first: usize, end: usize,
+    ) -> usize = clear_steps_in_lanes
+}
+
+#[inline(always)]
+fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, const VERTICAL: bool>(
     state: &mut State,
-    observer: &mut Observer,
+    walk: &mut Walk,
+    mut recorder: Option<&mut Recorder>,
     motion: &Motion,
     first: usize,
     end: usize,
@@ -432,38 +482,46 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
     for which in 0..4 {
         margins[which] = regime.lanes(MARGINS[which]);
     }
-    let growth = course.regime.growth_over(h);
+    let growth = regime.growth_over(h);
     let widening = h * h * h * h / 384.0;
     let mut sample = Sample::<V, K>::of(state);
-    let mut bounds = BoundsInLanes::<V, K>::of(state);
-    let (mut layers, mut on_ground) = layers::<V, K>(state);
-    let watches_ground = !on_ground.is_empty() || state.stuck_mu[0].is_finite();
+    let bounds = BoundsInLanes::<V, K>::of(state);
     let samples = motion.acceleration();
     let vertical = motion.vertical().unwrap_or(&[]);
-    let contact_at = |i: usize| if VERTICAL { STANDARD_GRAVITY + vertical[i] } else { STANDARD_GRAVITY };
     // Rate of the floor accelerations per slope of the contact force: it turns at every sample.
     let mut turning: [V; K] = load(&state.friction);
     for (turning, inverse_mass) in turning.iter_mut().zip(regime.lanes::<V, K>(Row::InverseMass)) {
         *turning = turning.mul(inverse_mass);
     }
-    let mut slope_before = if VERTICAL { (contact_at(first + 1) - contact_at(first)) * per_second } else { 0.0 };
+    let mut slope_before = walk.contact_slope;
+    let watches_ground = walk.watches_ground;
     let mut apart_before = bounds.apart(&sample, third);
-    for which in 0..=layers.others.len() {
-        let layer = layers.get(which);
-        layer.approach = layer.approach_at(&layer.velocity, &sample.a, contact_at(first), third);
-    }
-    // Velocity and slip of all blocks, as histories have them.
-    let mut blocks: Vec<(f64, f64)> = match observer.histories {
-        Some(_) => state.motions.iter().map(|m| (m.velocity, m.slip)).collect(),
-        None => Vec::new(),
+    let (mut lowest, others) = match walk.layers[..walk.used].split_first_mut() {
+        Some((lowest, others)) if SLIDING => (Some(lowest), others),
+        _ => (None, &mut [][..]),
     };
-    let within = bounds::first(state.storeys());
-    let mut follows_drifts = false;
+    let nothing = [V::splat(0.0); K];
+    let mut layer = match &lowest {
+        Some(lowest) => LayerInLanes::<V, K>::of(lowest),
+        None => {
+            let turn = [V::splat(FAR); K];
+            LayerInLanes { friction: nothing, sign: nothing, turn, velocity: nothing, slip: nothing }
+        }
+    };
+    let next_row = |recorder: &Option<&mut Recorder>| recorder.as_ref().map_or(usize::MAX, |r| r.next_sample());
+    let mut next_recorded = next_row(&recorder);
+    let last = end.min(samples.len() - 1);
     let mut reached = first;
-    for (pair, next) in samples[first..=end].windows(2).zip(first + 1..) {
-        let (before, after) = (pair[0], pair[1]);
+    let open = loop {
+        if reached >= last {
+            break None;
+        }
+        let (before, after) = (samples[reached], samples[reached + 1]);
         let change = after - before;
-        let contact = (contact_at(next - 1), contact_at(next));
+        let contact = match VERTICAL {
+            true => (contact_at(vertical, reached), contact_at(vertical, reached + 1)),
+            false => (STANDARD_GRAVITY, STANDARD_GRAVITY),
+        };
         if VERTICAL {
             let slope = (contact.1 - contact.0) * per_second;
             for k in 0..K {
@@ -518,131 +576,82 @@ fn run_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, con
         // The proof.
         let apart_after = bounds.apart(&taken, third);
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
-        let (mut drifts, mut rates, mut accelerations): (Set, Set, Set) = (0, 0, 0);
-        let mut turning_blocks = 0;
+        let mut suspects: [Set; 3] = [0; 3];
         for k in 0..K {
             let most = |which: usize| (apart_before[which][k], apart_after[which][k]);
             let limit = bounds.stuck_mu[k].mul(least_contact).min(bounds.a_peak[k]);
-            drifts |= not_clear(most(0), margin, margins[0][k], bounds.reach[k]) << (WIDTH * k);
-            rates |= not_clear(most(1), margin, margins[1][k], bounds.turn[k]) << (WIDTH * k);
-            accelerations |= not_clear(most(2), margin, margins[2][k], limit) << (WIDTH * k);
+            suspects[0] |= not_clear(most(0), margin, margins[0][k], bounds.reach[k]) << (WIDTH * k);
+            suspects[1] |= not_clear(most(1), margin, margins[1][k], bounds.turn[k]) << (WIDTH * k);
+            suspects[2] |= not_clear(most(2), margin, margins[2][k], limit) << (WIDTH * k);
         }
-        let (ground, push) = (Linear { start: before, end: after }, Linear { start: contact.0, end: contact.1 });
-        let mut floors = FloorMotion { velocity: dv, displacement: dx };
+        let (mut layer_after, mut is_turning) = (layer, false);
         if SLIDING {
-            floors.velocity = prefix_sums(&dv);
-            let displacement = V::splat(push.once(h));
-            let shift = V::splat(ground.once(h));
-            for which in 0..=layers.others.len() {
-                let layer = layers.get(which);
-                for k in 0..K {
-                    let pushed = layer.friction[k].mul_add(displacement, shift);
-                    layer.velocity_after[k] = layer.velocity[k].sub(pushed.add(floors.velocity[k]));
-                }
-                layer.approach_after = layer.approach_at(&layer.velocity_after, &taken.a, contact.1, third);
-                // A velocity that is a small difference of large ones is left to the series.
-                let digits = V::splat(-SMALL_DIFFERENCE);
-                for k in 0..K {
-                    let most = layer.approach[k].max(layer.approach_after[k]);
-                    let bound = digits.mul_add(floors.velocity[k].abs(), layer.turn[k]);
-                    turning_blocks |= margin.mul_add(margins[3][k], most).not_below(bound);
-                }
-            }
-        }
-        let mut beaten = BeatenPeaks::default();
-        if drifts | rates | accelerations != 0 || SLIDING && turning_blocks != 0 {
-            let (at_start, at_end) = (sample.values(), taken.values());
-            let (middle, reach, sign) = (numbers(&bounds.middle), numbers(&bounds.reach), numbers(&bounds.sign));
-            let mut step = Closer {
-                state,
-                observer,
-                start: at_start.as_slices(),
-                end: at_end.as_slices(),
-                h,
-                contact,
-                liveliness,
-                middle: middle.as_flattened(),
-                reach: reach.as_flattened(),
-                sign: sign.as_flattened(),
-                beaten: BeatenPeaks::default(),
-            };
-            if !step.look([drifts, rates, accelerations], within)
-                || SLIDING && turning_blocks != 0 && layers.iter().any(|layer| step.may_turn(layer))
-            {
-                break;
-            }
-            beaten = step.beaten;
-        }
-        if VERTICAL && !(contact.0 > 0.0 && contact.1 > 0.0)
-            || watches_ground && !move_on_ground(&mut on_ground, ground, push, h, state.stuck_mu[0])
-        {
-            break;
-        }
-        if SLIDING {
+            let mut beyond = dx;
+            let mut of_velocity = margins[3];
             for k in 0..K {
-                floors.displacement[k] = dx[k].sub(length.mul(sample.v[k]));
+                beyond[k] = dx[k].sub(length.mul(sample.v[k]));
+                of_velocity[k] = margin.mul(margins[3][k]);
             }
-            floors.displacement = prefix_sums(&floors.displacement);
-            let (push, ground) = (V::splat(push.twice(h)), V::splat(ground.twice(h)));
-            for which in 0..=layers.others.len() {
-                let layer = layers.get(which);
-                for k in 0..K {
-                    let pushed = layer.friction[k].mul_add(push, ground);
-                    let own = length.mul(layer.velocity[k]).sub(pushed.add(floors.displacement[k]));
-                    layer.slip[k] = layer.slip[k].add(own);
+            let push = Push {
+                h,
+                ground: Linear { start: before, end: after },
+                contact: Linear { start: contact.0, end: contact.1 },
+                velocity: prefix_sums(&dv),
+                displacement: prefix_sums(&beyond),
+                a: [sample.a, taken.a],
+                margin: of_velocity,
+            };
+            (layer_after, is_turning) = layer.pushed(&push);
+            for other in others.iter_mut() {
+                let (after, turning) = LayerInLanes::<V, K>::of(other).pushed(&push);
+                let [velocity, slip] = &mut other.after;
+                store(&after.velocity, velocity);
+                store(&after.slip, slip);
+                is_turning |= turning;
+            }
+        }
+        let has_contact = !VERTICAL || contact.0 > 0.0 && contact.1 > 0.0;
+        if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact || watches_ground {
+            break Some((taken, layer_after, liveliness, suspects, is_turning));
+        }
+        (sample, apart_before, layer) = (taken, apart_after, layer_after);
+        for other in others.iter_mut() {
+            other.accept();
+        }
+        reached += 1;
+        if reached == next_recorded
+            && let Some(recorder) = &mut recorder
+        {
+            if SLIDING {
+                let (velocity, slip) = (numbers(&layer.velocity), numbers(&layer.slip));
+                for &(block, of_layer, lane) in &walk.on_floors {
+                    let (velocity, slip) = match of_layer.checked_sub(1).and_then(|other| others.get(other)) {
+                        Some(other) => (&other.velocity[..], &other.slip[..]),
+                        None => (velocity.as_flattened(), slip.as_flattened()),
+                    };
+                    recorder.move_block(block, velocity[lane], slip[lane]);
                 }
-                (layer.velocity, layer.approach) = (layer.velocity_after, layer.approach_after);
             }
+            recorder.append(state.model, &RowInLanes { x: &sample.x, v: &sample.v, a: &sample.a });
+            next_recorded = recorder.next_sample();
         }
-        (sample, apart_before) = (taken, apart_after);
-        reached = next;
-        if beaten.drift | beaten.acceleration != 0 {
-            follows_drifts |= beaten.drift != 0;
-            bounds.follow(&beaten, state, observer, &sample, reached as f64 * h);
-            apart_before = bounds.apart(&sample, third);
-        }
-        if observer.records(reached) {
-            let values = sample.values();
-            let values = values.as_slices();
-            block_values(&layers, &on_ground, |block, velocity, slip| blocks[block] = (velocity, slip));
-            observer.record_row(state, values.x, values.v, values.a, blocks.iter().copied());
-        }
+    };
+    if let Some(lowest) = &mut lowest {
+        store(&layer.velocity, &mut lowest.velocity);
+        store(&layer.slip, &mut lowest.slip);
     }
-    if reached > first {
-        store(&sample.x, &mut state.x);
-        store(&sample.v, &mut state.v);
-        store(&sample.a, &mut state.a);
-        store(&sample.jerk, &mut state.jerk);
-        store(&sample.q, &mut state.drift_acceleration);
-        let motions = &mut state.motions;
-        block_values(&layers, &on_ground, |block, velocity, slip| {
-            (motions[block].velocity, motions[block].slip) = (velocity, slip);
-        });
-        if follows_drifts {
-            observer.observe_values(state, reached as f64 * h);
+    if let Some((taken, layer_after, liveliness, suspects, is_turning)) = open {
+        taken.put_into(&mut walk.x, &mut walk.v, &mut walk.a, &mut walk.jerk, &mut walk.q);
+        if let Some(lowest) = &mut lowest {
+            let [velocity, slip] = &mut lowest.after;
+            store(&layer_after.velocity, velocity);
+            store(&layer_after.slip, slip);
         }
+        (walk.is_open, walk.liveliness, walk.suspects, walk.turning) = (true, liveliness, suspects, is_turning);
     }
+    walk.contact_slope = slope_before;
+    sample.put_into(&mut state.x, &mut state.v, &mut state.a, &mut state.jerk, &mut state.drift_acceleration);
     reached
-}
-
-/// Calls `visit(block, velocity, slip)` for all sliding blocks.
-#[inline(always)]
-fn block_values<V: Vector, const K: usize>(
-    layers: &Layers<V, K>,
-    on_ground: &[GroundBlock],
-    mut visit: impl FnMut(usize, f64, f64),
-) {
-    for which in 0..=layers.others.len() {
-        let layer = if which == 0 { &layers.lowest } else { &layers.others[which - 1] };
-        let (velocity, slip) = (numbers(&layer.velocity), numbers(&layer.slip));
-        let (velocity, slip) = (velocity.as_flattened(), slip.as_flattened());
-        for (i, &block) in layer.block.as_flattened().iter().enumerate() {
-            if let Some(block) = block {
-                visit(block, velocity[i], slip[i]);
-            }
-        }
-    }
-    on_ground.iter().for_each(|b| visit(b.block, b.velocity, b.slip));
 }
 
 /// Moves the blocks that slide on the ground over a step; false when one may have turned, or one that is stuck broken
@@ -676,52 +685,49 @@ pub(crate) fn move_on_ground(
     true
 }
 
-/// A step that the loop did not clear.
+/// A closer look at the step that the loop did not clear.
 struct Closer<'a, 'b> {
     state: &'a State<'b>,
+    walk: &'a Walk,
     observer: &'a Observer,
-    start: SampleValues<'a>,
-    end: SampleValues<'a>,
     h: f64,
     contact: (f64, f64),
-    liveliness: f64,
-    /// Middles of the drifts' bounds, and how far they may go from them.
-    middle: &'a [f64],
-    reach: &'a [f64],
-    /// Signs that drift rates must keep: of plastic storeys, and where a peak is followed; 0 elsewhere.
-    sign: &'a [f64],
-    /// Peaks that may be beaten, at the end of the step.
-    beaten: BeatenPeaks,
+    /// Storeys and floors whose peaks of drift or shear and of acceleration the end of the step may beat.
+    beaten: [Set; 2],
 }
 
 impl Closer<'_, '_> {
     /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
     fn remainder(&self) -> f64 {
         let h2 = self.h * self.h;
-        self.liveliness * (h2 * h2 / 384.0)
+        self.walk.liveliness * (h2 * h2 / 384.0)
     }
 
-    /// Whether no guard of these storeys and floors fell and no peak was beaten inside the step. Suspects are those whose
-    /// drifts, drift rates and accelerations the loop did not clear.
-    #[inline(never)]
-    fn look(&mut self, [drifts, rates, accelerations]: [Set; 3], within: Set) -> bool {
+    /// Whether no guard fell and no peak was beaten inside the step.
+    fn clears(&mut self) -> bool {
+        let [drifts, rates, accelerations] = self.walk.suspects;
+        let within = bounds::first(self.state.storeys());
         members(rates & within).all(|i| self.keeps_direction(i))
             && members(drifts & within).all(|i| self.stays_in_bounds(i))
             && members(accelerations & within).all(|i| self.holds_blocks(i))
+            && !(self.walk.turning && self.walk.on_floors.iter().any(|&place| self.may_turn(place)))
+            && self.contact.0 > 0.0
+            && self.contact.1 > 0.0
     }
 
     #[inline]
     fn rate_range(&self, i: usize) -> (f64, f64) {
-        let (start, end) = (self.start, self.end);
-        let margin = self.remainder() * self.state.regime().row(Row::FourthOfRate)[i];
-        range(start.v[i], start.q[i], end.v[i], end.q[i], self.h / 3.0, margin)
+        let (start, end) = (self.state, self.walk);
+        let margin = self.remainder() * start.regime().row(Row::FourthOfRate)[i];
+        range(start.v[i], start.drift_acceleration[i], end.v[i], end.q[i], self.h / 3.0, margin)
     }
 
-    /// Whether the drift rate of a storey keeps the sign that it must keep.
+    /// Whether the drift rate of a storey keeps the sign that it must keep: of plastic storeys, and where a peak is
+    /// followed.
     #[inline]
     fn keeps_direction(&self, i: usize) -> bool {
         let (low, high) = self.rate_range(i);
-        match self.sign[i] {
+        match self.state.bounds.sign[i] {
             0.0 => true,
             sign if sign > 0.0 => low > 0.0,
             _ => high < 0.0,
@@ -731,95 +737,155 @@ impl Closer<'_, '_> {
     /// Whether a storey neither yields nor collapses, and beats no peak, or at the end of the step.
     #[inline]
     fn stays_in_bounds(&mut self, i: usize) -> bool {
-        let (start, end) = (self.start, self.end);
-        let margin = self.remainder() * self.state.regime().row(Row::FourthOfDrift)[i];
+        let (start, end) = (self.state, self.walk);
+        let margin = self.remainder() * start.regime().row(Row::FourthOfDrift)[i];
         let (low, high) = range(start.x[i], start.v[i], end.x[i], end.v[i], self.h / 3.0, margin);
-        if high < self.middle[i] + self.reach[i] && low > self.middle[i] - self.reach[i] {
+        let (middle, reach) = (start.bounds.middle[i], start.bounds.reach[i]);
+        if high < middle + reach && low > middle - reach {
             return true;
         }
-        let (lower, upper) = self.state.guarded_drift(i);
+        let (lower, upper) = start.guarded_drift(i);
         let rate = self.rate_range(i);
-        self.beaten.drift |= 1 << i;
+        self.beaten[0] |= bounds::only(i);
         high < upper && low > lower && (rate.0 > 0.0 || rate.1 < 0.0)
     }
 
     /// Whether no block breaks away from a floor, and its acceleration beats no peak, or at the end of the step.
     #[inline]
     fn holds_blocks(&mut self, i: usize) -> bool {
-        let (start, end) = (self.start, self.end);
-        let regime = self.state.regime();
+        let (start, end) = (self.state, self.walk);
+        let regime = start.regime();
         let margin = self.remainder() * regime.row(Row::FourthOfAcceleration)[i];
         let (low, high) = range(start.a[i], start.jerk[i], end.a[i], end.jerk[i], self.h / 3.0, margin);
         let size = high.max(-low);
-        let below_limit = size < self.state.stuck_mu[i + 1] * self.contact.0.min(self.contact.1);
+        let below_limit = size < start.stuck_mu[i + 1] * self.contact.0.min(self.contact.1);
         if !below_limit || size < self.observer.peaks.floor_acceleration[i].value {
             return below_limit;
         }
         // Between its ends the jerk differs from its chord by at most h^2 / 8 times its second derivative.
-        let turn = 0.125 * self.h * self.h * self.liveliness * regime.row(Row::ThirdOfAcceleration)[i];
+        let turn = 0.125 * self.h * self.h * end.liveliness * regime.row(Row::ThirdOfAcceleration)[i];
         let (jerk, jerk_end) = (start.jerk[i], end.jerk[i]);
-        self.beaten.acceleration |= 1 << i;
+        self.beaten[1] |= bounds::only(i);
         jerk * jerk_end > 0.0 && jerk.abs().min(jerk_end.abs()) > turn
     }
 
     /// Whether the relative velocity of a block may have turned.
-    #[inline(never)]
-    fn may_turn<V: Vector, const K: usize>(&self, layer: &Layer<V, K>) -> bool {
-        let (before, after) = (numbers(&layer.velocity), numbers(&layer.velocity_after));
-        let (before, after) = (before.as_flattened(), after.as_flattened());
-        let margins = self.state.regime().row(Row::ThirdOfAcceleration);
-        layer.block.as_flattened().iter().enumerate().filter_map(|(i, &block)| Some((i, block?))).any(|(i, block)| {
-            let sign = self.state.motions[block].sliding().map_or(0.0, Sign::factor);
-            let friction = sign * self.state.model.blocks[block].mu_k;
-            let rates = (-friction * self.contact.0 - self.start.a[i], -friction * self.contact.1 - self.end.a[i]);
-            let margin = self.remainder() * margins[i];
-            let (low, high) = range(before[i], rates.0, after[i], rates.1, self.h / 3.0, margin);
-            let floor: f64 = self.end.v[..=i].iter().zip(self.start.v).map(|(end, start)| end - start).sum();
-            let least = SMALL_DIFFERENCE * floor.abs();
-            !(if sign > 0.0 { low > least } else { high < -least })
-        })
+    fn may_turn(&self, (_, layer, lane): (usize, usize, usize)) -> bool {
+        let (start, end, layer) = (self.state, self.walk, &self.walk.layers[layer]);
+        let (friction, sign) = (layer.friction[lane], layer.sign[lane]);
+        let rates = (-friction * self.contact.0 - start.a[lane], -friction * self.contact.1 - end.a[lane]);
+        let margin = self.remainder() * start.regime().row(Row::ThirdOfAcceleration)[lane];
+        let [after, _] = &layer.after;
+        let (low, high) = range(layer.velocity[lane], rates.0, after[lane], rates.1, self.h / 3.0, margin);
+        let floor: f64 = end.v[..=lane].iter().zip(&start.v).map(|(end, start)| end - start).sum();
+        let least = SMALL_DIFFERENCE * floor.abs();
+        !(if sign > 0.0 { low > least } else { high < -least })
     }
 }
 
-for_each_path! {
-    fn run(state: &mut State, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize = run_by_width
-}
-
-#[inline(always)]
-fn run_by_width<V: Vector>(
+/// [`clear_steps`] of the present scene.
+fn clear_steps_of_scene(
     state: &mut State,
-    observer: &mut Observer,
+    walk: &mut Walk,
+    recorder: Option<&mut Recorder>,
     motion: &Motion,
     first: usize,
     end: usize,
 ) -> usize {
     const WIDEST: usize = MAX_LANES / WIDTH;
-    let sliding = state.motions.iter().zip(&state.model.blocks).any(|(m, law)| law.floor > 0 && m.sliding().is_some());
-    match (state.storeys(), sliding, state.vertical) {
-        (1, false, false) => run_lanes::<V, 1, 1, false, false>(state, observer, motion, first, end),
-        (2, false, false) => run_lanes::<V, 1, 2, false, false>(state, observer, motion, first, end),
-        (3, false, false) => run_lanes::<V, 1, 3, false, false>(state, observer, motion, first, end),
-        (4, false, false) => run_lanes::<V, 1, 4, false, false>(state, observer, motion, first, end),
-        (1, true, false) => run_lanes::<V, 1, 1, true, false>(state, observer, motion, first, end),
-        (2, true, false) => run_lanes::<V, 1, 2, true, false>(state, observer, motion, first, end),
-        (3, true, false) => run_lanes::<V, 1, 3, true, false>(state, observer, motion, first, end),
-        (4, true, false) => run_lanes::<V, 1, 4, true, false>(state, observer, motion, first, end),
-        (5..=8, _, false) => run_lanes::<V, 2, 0, true, false>(state, observer, motion, first, end),
-        (9..=16, _, false) => run_lanes::<V, 4, 0, true, false>(state, observer, motion, first, end),
-        (17..=32, _, false) => run_lanes::<V, 8, 0, true, false>(state, observer, motion, first, end),
-        (_, _, false) => run_lanes::<V, WIDEST, 0, true, false>(state, observer, motion, first, end),
-        (..=4, _, true) => run_lanes::<V, 1, 0, true, true>(state, observer, motion, first, end),
-        (5..=8, _, true) => run_lanes::<V, 2, 0, true, true>(state, observer, motion, first, end),
-        (9..=16, _, true) => run_lanes::<V, 4, 0, true, true>(state, observer, motion, first, end),
-        (17..=32, _, true) => run_lanes::<V, 8, 0, true, true>(state, observer, motion, first, end),
-        (_, _, true) => run_lanes::<V, WIDEST, 0, true, true>(state, observer, motion, first, end),
+    let steps = match (state.storeys(), walk.used > 0, state.vertical) {
+        (1, false, false) => clear_steps::<1, 1, false, false>,
+        (2, false, false) => clear_steps::<1, 2, false, false>,
+        (3, false, false) => clear_steps::<1, 3, false, false>,
+        (4, false, false) => clear_steps::<1, 4, false, false>,
+        (1, true, false) => clear_steps::<1, 1, true, false>,
+        (2, true, false) => clear_steps::<1, 2, true, false>,
+        (3, true, false) => clear_steps::<1, 3, true, false>,
+        (4, true, false) => clear_steps::<1, 4, true, false>,
+        (5..=8, _, false) => clear_steps::<2, 0, true, false>,
+        (9..=16, _, false) => clear_steps::<4, 0, true, false>,
+        (17..=32, _, false) => clear_steps::<8, 0, true, false>,
+        (_, _, false) => clear_steps::<WIDEST, 0, true, false>,
+        (..=4, _, true) => clear_steps::<1, 0, true, true>,
+        (5..=8, _, true) => clear_steps::<2, 0, true, true>,
+        (9..=16, _, true) => clear_steps::<4, 0, true, true>,
+        (17..=32, _, true) => clear_steps::<8, 0, true, true>,
+        (_, _, true) => clear_steps::<WIDEST, 0, true, true>,
+    };
+    steps(state, walk, recorder, motion, first, end)
+}
+
+/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
+fn run(
+    state: &mut State,
+    walk: &mut Walk,
+    observer: &mut Observer,
+    motion: &Motion,
+    first: usize,
+    end: usize,
+) -> usize {
+    let h = motion.dt();
+    let (samples, vertical) = (motion.acceleration(), motion.vertical().unwrap_or(&[]));
+    walk.begin(state);
+    walk.contact_slope = (contact_at(vertical, first + 1) - contact_at(vertical, first)) * (1.0 / h);
+    if let Some(recorder) = &mut observer.histories {
+        recorder.take_up(state);
     }
+    let mut reached = first;
+    let mut followed = 0;
+    while reached < end {
+        walk.is_open = false;
+        reached = clear_steps_of_scene(state, walk, observer.histories.as_mut(), motion, reached, end);
+        if !walk.is_open {
+            break;
+        }
+        let contact = (contact_at(vertical, reached), contact_at(vertical, reached + 1));
+        let mut step = Closer { state, walk, observer, h, contact, beaten: [0; 2] };
+        let clears = step.clears();
+        let [drifts, accelerations] = step.beaten;
+        let ground = Linear { start: samples[reached], end: samples[reached + 1] };
+        let contact = Linear { start: contact.0, end: contact.1 };
+        if !clears || walk.watches_ground && !move_on_ground(&mut walk.on_ground, ground, contact, h, state.stuck_mu[0])
+        {
+            break;
+        }
+        walk.accept(state);
+        reached += 1;
+        // Peaks that are beaten from here on: accelerations are taken at each sample; drifts at the end of the run, up to
+        // which their rates must keep their signs.
+        for i in members(accelerations) {
+            observer.take_acceleration(i, state.a[i], reached as f64 * h);
+            state.bounds.a_peak[i] = observer.peaks.floor_acceleration[i].value;
+        }
+        for i in members(drifts) {
+            (state.bounds.middle[i], state.bounds.reach[i]) = middle_and_reach(state.guarded_drift(i));
+            (state.bounds.sign[i], state.bounds.turn[i]) = (state.v[i].signum(), 0.0);
+        }
+        followed |= drifts;
+        if observer.records(reached) {
+            walk.put_blocks(&mut state.motions);
+            observer.record(state, reached);
+        }
+    }
+    walk.put_blocks(&mut state.motions);
+    for i in members(followed) {
+        state.bounds.spring_changed(i);
+        observer.take_drift(state, i, state.x[i], reached as f64 * h);
+    }
+    reached
 }
 
 impl State<'_> {
     /// Takes plain steps from interval `first` until `end`, or until one is not plain, and records their histories;
     /// returns the interval reached, whose start the state is then at.
-    pub(crate) fn plain_run(&mut self, observer: &mut Observer, motion: &Motion, first: usize, end: usize) -> usize {
+    pub(crate) fn plain_run(
+        &mut self,
+        walk: &mut Walk,
+        observer: &mut Observer,
+        motion: &Motion,
+        first: usize,
+        end: usize,
+    ) -> usize {
         if self.airborne || !self.cache.visit(self.regime, self.model, self.vertical) {
             return first;
         }
@@ -831,10 +897,12 @@ impl State<'_> {
             _ => {
                 self.prepare_effects();
                 self.update_bounds(observer);
-                run(self, observer, motion, first, end)
+                run(self, walk, observer, motion, first, end)
             }
         };
-        observer.observe_slips(self, reached as f64 * motion.dt());
+        if self.is_sliding {
+            observer.observe_slips(self, reached as f64 * motion.dt());
+        }
         reached
     }
 

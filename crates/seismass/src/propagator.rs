@@ -89,11 +89,10 @@ fn remainders_by_width<V: Vector>(
     sums: &mut [f64],
     terms: &mut [f64],
 ) {
-    by_width!(padded(model.storeys()), K => remainders::<V, K>(model, regime, h, order, sums, terms))
+    by_width!(model.width, K => remainders::<V, K>(model, regime, h, order, sums, terms))
 }
 
-/// The series of (q, q') = unit vectors, as drifts and drift rates of the homogeneous system, whose accelerations then
-/// are the second derivatives of the floor accelerations.
+/// As many columns at a time as stay in registers: each is a chain of dependent operations that the processor waits for.
 #[inline(always)]
 fn remainders<V: Vector, const K: usize>(
     model: &Model,
@@ -103,44 +102,70 @@ fn remainders<V: Vector, const K: usize>(
     sums: &mut [f64],
     terms: &mut [f64],
 ) {
+    let n = model.storeys();
+    let operator = Operator::<V, K>::new(model, regime);
+    let mut i = 0;
+    while K == 1 && i + 1 < n {
+        remainders_of_storeys::<V, K, 4>(model, &operator, i, h, order, sums, terms);
+        i += 2;
+    }
+    while i < n {
+        remainders_of_storeys::<V, K, 2>(model, &operator, i, h, order, sums, terms);
+        i += 1;
+    }
+}
+
+/// The series of (q, q') = unit vectors, as drifts and drift rates of the homogeneous system, whose accelerations then
+/// are the second derivatives of the floor accelerations: two columns of each of `COLUMNS` / 2 storeys from `first` on.
+#[inline(always)]
+fn remainders_of_storeys<V: Vector, const K: usize, const COLUMNS: usize>(
+    model: &Model,
+    operator: &Operator<V, K>,
+    first: usize,
+    h: f64,
+    order: usize,
+    sums: &mut [f64],
+    terms: &mut [f64],
+) {
     let (n, width) = (model.storeys(), WIDTH * K);
     let zero = [V::splat(0.0); K];
-    let operator = Operator::<V, K>::new(model, regime);
     let inside: [V; K] = load(&model.lanes.inside);
     let keeps_terms = !terms.is_empty();
-    // Two columns at a time, which keeps both the vectors in registers and the processor busy.
-    for i in 0..n {
-        let (mut x, mut v) = ([zero; 2], [zero; 2]);
+    let (mut x, mut v) = ([zero; COLUMNS], [zero; COLUMNS]);
+    let place = |column: usize| column % 2 * n + first + column / 2;
+    for column in 0..COLUMNS {
         let mut unit = [[0.0; WIDTH]; K];
-        unit.as_flattened_mut()[i] = 1.0;
-        (x[0], v[1]) = (load(unit.as_flattened()), load(unit.as_flattened()));
-        let mut rows = [[zero; 4]; 2];
-        for k in 0..=order {
-            let (once, twice) = (h * INVERSE[k + 1], h * h * (INVERSE[k + 1] * INVERSE[k + 2]));
-            let (first, second) = (V::splat(once), V::splat(twice));
-            for side in 0..2 {
-                let a = operator.accelerations(&x[side], &v[side], zero);
-                let drift_acceleration = differences(&a, V::splat(0.0));
-                let mut term = zero;
-                for l in 0..K {
-                    term[l] = second.mul(a[l]);
-                    rows[side][0][l] = second.mul_add(x[side][l], rows[side][0][l]);
-                    rows[side][1][l] = first.mul_add(x[side][l], rows[side][1][l]);
-                    rows[side][2][l] = rows[side][2][l].add(term[l]);
-                    rows[side][3][l] = first.mul_add(a[l], rows[side][3][l]);
-                    x[side][l] = first.mul(v[side][l]);
-                    v[side][l] = first.mul(drift_acceleration[l]).mul(inside[l]);
-                }
-                if keeps_terms && k + 2 <= order {
-                    store(&term, &mut terms[(k * 2 * n + side * n + i) * width..]);
-                }
+        unit.as_flattened_mut()[first + column / 2] = 1.0;
+        let unit = load(unit.as_flattened());
+        if column % 2 == 0 { x[column] = unit } else { v[column] = unit }
+    }
+    let mut rows = [[zero; 4]; COLUMNS];
+    for k in 0..=order {
+        let (once, twice) = (h * INVERSE[k + 1], h * h * (INVERSE[k + 1] * INVERSE[k + 2]));
+        let (once, twice) = (V::splat(once), V::splat(twice));
+        for column in 0..COLUMNS {
+            let a = operator.accelerations(&x[column], &v[column], zero);
+            let drift_acceleration = differences(&a, V::splat(0.0));
+            let mut term = zero;
+            for l in 0..K {
+                let rows = &mut rows[column];
+                term[l] = twice.mul(a[l]);
+                rows[0][l] = twice.mul_add(x[column][l], rows[0][l]);
+                rows[1][l] = once.mul_add(x[column][l], rows[1][l]);
+                rows[2][l] = rows[2][l].add(term[l]);
+                rows[3][l] = once.mul_add(a[l], rows[3][l]);
+                x[column][l] = once.mul(v[column][l]);
+                v[column][l] = once.mul(drift_acceleration[l]).mul(inside[l]);
+            }
+            if keeps_terms && k + 2 <= order {
+                store(&term, &mut terms[(k * 2 * n + place(column)) * width..]);
             }
         }
-        for side in 0..2 {
-            let column = &mut sums[4 * (side * n + i) * width..];
-            for r in 0..4 {
-                store(&rows[side][r], &mut column[r * width..]);
-            }
+    }
+    for column in 0..COLUMNS {
+        let out = &mut sums[4 * place(column) * width..];
+        for r in 0..4 {
+            store(&rows[column][r], &mut out[r * width..]);
         }
     }
 }
@@ -160,7 +185,7 @@ fn columns_by_width<V: Vector>(
     causes: &[Cause],
     out: &mut [f64],
 ) {
-    by_width!(padded(model.storeys()), K => columns::<V, K>(model, regime, h, sums, causes, out))
+    by_width!(model.width, K => columns::<V, K>(model, regime, h, sums, causes, out))
 }
 
 #[inline(always)]

@@ -161,9 +161,9 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
         let columns = columns_of::<K>(&self.model.damping);
         if K == 1 {
             if let Some(columns) = columns.first_chunk::<4>() {
-                for c in 0..4 {
-                    shear[0] = V::load(&columns[c][0]).mul_add(v[0].broadcast(c), shear[0]);
-                }
+                // Two sums: half the latency of one.
+                let damping = |c: usize, sum: V| V::load(&columns[c][0]).mul_add(v[0].broadcast(c), sum);
+                shear[0] = damping(0, damping(1, shear[0])).add(damping(2, damping(3, zero)));
             }
         } else {
             let mut rates = [[0.0; 4]; K];

@@ -6,9 +6,11 @@ use crate::bernstein::Polynomial;
 use crate::error::{Error, Result};
 use crate::events::{Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
-use crate::lanes::{Vector, WIDTH, for_each_path};
+use crate::histories::Recorder;
+use crate::lanes::{Vector, by_width, for_each_path};
 use crate::model::Model;
 use crate::observe::Observer;
+use crate::plain_run::Walk;
 use crate::propagator::RegimeCache;
 use crate::regime::Row;
 use crate::response::{Event, Response, Statistics, Status};
@@ -55,6 +57,7 @@ pub(crate) fn run(
     let peaks_only = options.peaks_only && every.is_none() && !options.energy;
     let mut run = Run {
         state: State::new(scene, model, cache, vertical),
+        walk: Walk::new(model),
         observer: Observer::new(model, options, samples),
         statistics: Statistics::default(),
         log: Vec::new(),
@@ -102,18 +105,18 @@ pub(crate) fn run(
 
 for_each_path! {
     /// Forms the ranges over the present series, finds its first event and takes the peaks before it.
-    fn look_into_series(state: &mut State, observer: &mut Observer, tau: f64, isolated: &mut usize)
+    fn look_into_series[K: usize](state: &mut State, observer: &mut Observer, tau: f64, isolated: &mut usize)
         -> Option<(f64, Guard)> = look_by_path
 }
 
 #[inline(always)]
-fn look_by_path<V: Vector>(
+fn look_by_path<V: Vector, const K: usize>(
     state: &mut State,
     observer: &mut Observer,
     tau: f64,
     isolated: &mut usize,
 ) -> Option<(f64, Guard)> {
-    state.form_ranges::<V>(tau);
+    state.form_ranges::<V, K>(tau);
     let event = state.first_event::<V>(tau, isolated);
     let end = event.map_or(1.0, |(place, _)| place);
     observer.observe_series::<V>(state, tau, end, isolated);
@@ -122,6 +125,7 @@ fn look_by_path<V: Vector>(
 
 struct Run<'a> {
     state: State<'a>,
+    walk: Walk,
     observer: Observer,
     statistics: Statistics,
     log: Vec<Event>,
@@ -213,7 +217,7 @@ impl Run<'_> {
             end = i + 1;
             state.moment()
         });
-        let reached = state.plain_run(&mut self.observer, motion, i, end);
+        let reached = state.plain_run(&mut self.walk, &mut self.observer, motion, i, end);
         self.statistics.intervals += reached - i;
         self.statistics.plain_steps += reached - i;
         if let Some(before) = before.filter(|_| reached > i) {
@@ -271,23 +275,18 @@ impl Run<'_> {
         let (state, observer) = (&mut self.state, &mut self.observer);
         state.form_series(tau, h);
         state.update_bounds(observer);
-        let event = look_into_series(state, observer, tau, &mut self.statistics.guards_isolated);
+        let event = by_width!(state.model.width, K => look_into_series::<K>(state, observer, tau, &mut self.statistics.guards_isolated));
         let end = event.map_or(1.0, |(place, _)| place);
         if state.airborne {
             observer.observe_flights(state, tau, end);
         }
         if event.is_some() {
-            state.series.stop_at(end);
+            state.series.stop_at(state.model, end);
         }
         if observer.keeps_energy() {
             observer.add_energy(state, tau, end);
         }
-        match event {
-            Some(_) => state.advance(tau),
-            None => state.advance_to_end(tau),
-        }
-        state.check_finite(tau + end * h)?;
-        Ok(event)
+        if state.advance(tau, event.is_none()) { Ok(event) } else { Err(state.not_finite(tau + end * h)) }
     }
 
     fn carry_out(&mut self, guard: Guard, tau: f64) -> Outcome {
@@ -302,6 +301,7 @@ impl Run<'_> {
         self.observer.observe_suspects(&self.state, time);
         if !guard.is_smooth() {
             self.observer.observe_accelerations(&self.state, time);
+            self.observer.observe_slips(&self.state, time);
         }
         outcome
     }
@@ -332,8 +332,7 @@ impl Run<'_> {
     }
 
     fn finish(mut self, status: Status, end_time: f64, peaks_only: bool) -> Response {
-        let (n, blocks) = (self.state.storeys(), self.state.motions.len());
-        self.observer.fill_histories(n, blocks);
+        let n = self.state.storeys();
         let state = &self.state;
         (self.statistics.regimes, self.statistics.regime_hits) = state.regimes;
         let at_end = |value: f64| if peaks_only { f64::NAN } else { value };
@@ -346,18 +345,8 @@ impl Run<'_> {
             energy: self.observer.finish_energy(state),
             events: self.keep_log.then_some(self.log),
             peaks: self.observer.peaks,
-            histories: self.observer.histories,
+            histories: self.observer.histories.map(Recorder::finish),
             statistics: self.statistics,
-        }
-    }
-}
-
-/// values += changes, both padded.
-#[inline]
-fn add(values: &mut [f64], changes: &[f64]) {
-    for (values, changes) in values.as_chunks_mut::<WIDTH>().0.iter_mut().zip(changes.as_chunks::<WIDTH>().0) {
-        for lane in 0..WIDTH {
-            values[lane] += changes[lane];
         }
     }
 }
@@ -377,26 +366,23 @@ impl State<'_> {
         Polynomial::new(std::iter::once(0.0).chain(terms))
     }
 
-    /// Moves drifts, drift rates and blocks to the place of the present series, which begins at `tau`.
-    #[inline]
-    fn advance(&mut self, tau: f64) {
-        for j in 0..self.motions.len() {
-            if !self.motions[j].is_stuck() {
-                let change = self.block_change(j, tau);
-                self.motions[j].move_by(change);
+    /// Moves drifts, drift rates and blocks to the place of the present series, which begins at `tau`; at its end,
+    /// accelerations too. They are formed anew: taken from the series, step after step, their errors would add up.
+    /// Returns whether all is finite.
+    fn advance(&mut self, tau: f64, to_end: bool) -> bool {
+        let mut blocks = 0.0;
+        if self.is_sliding || self.airborne {
+            for j in 0..self.motions.len() {
+                if !self.motions[j].is_stuck() {
+                    let change = self.block_change(j, tau);
+                    self.motions[j].move_by(change);
+                    // No number times zero is zero but a finite one.
+                    blocks += 0.0 * (change.0 + change.1);
+                }
             }
         }
-        let [drifts, rates] = self.series.changes();
-        add(&mut self.x, drifts);
-        add(&mut self.v, rates);
-    }
-
-    /// Moves the state, accelerations included, to the end of the present series, which begins at `tau`. They are formed
-    /// anew: taken from the series, step after step, their errors would add up.
-    #[inline]
-    fn advance_to_end(&mut self, tau: f64) {
-        self.advance(tau);
-        self.refresh_accelerations(tau + self.series.h());
+        let end = to_end.then(|| tau + self.series.h());
+        self.take_changes(end) && blocks == 0.0
     }
 
     /// What moves, at this moment.
@@ -420,24 +406,9 @@ impl State<'_> {
             let tau = piece as f64 * h;
             self.form_series(tau, h);
             observer.add_energy(self, tau, 1.0);
-            self.advance_to_end(tau);
+            self.advance(tau, true);
         }
         self.set_moment(end);
-    }
-
-    #[inline]
-    fn check_finite(&self, tau: f64) -> Result<()> {
-        let (mut storeys, mut blocks) = ([0.0; WIDTH], 0.0);
-        for (x, v) in self.x.as_chunks::<WIDTH>().0.iter().zip(self.v.as_chunks::<WIDTH>().0) {
-            for lane in 0..WIDTH {
-                storeys[lane] += 0.0 * (x[lane] + v[lane]);
-            }
-        }
-        for motion in &self.motions {
-            blocks += 0.0 * (motion.slip + motion.velocity);
-        }
-        // No number times zero is zero but a finite one.
-        if storeys.iter().sum::<f64>() + blocks == 0.0 { Ok(()) } else { Err(self.not_finite(tau)) }
     }
 
     #[cold]

@@ -14,6 +14,9 @@ use crate::scene::Scene;
 use crate::storey::StoreySpring;
 use crate::taylor::{Drive, Series, Start};
 
+/// Storeys whose plastic elements fit into a word.
+const STOREYS_PER_WORD: usize = u64::BITS as usize / 2;
+
 /// Ground motion between two samples, linear in time.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Interval {
@@ -68,6 +71,10 @@ pub(crate) struct Ranges {
     bounds: [[Vec<f64>; 2]; 3],
     /// Storeys and floors whose drifts, drift rates and accelerations come to their bounds (see [`Bounds`]).
     pub(crate) suspects: [Set; 3],
+    /// What sets hold: all storeys; none where there are more, which are then always looked at one after the other.
+    within: Set,
+    /// So many.
+    others: usize,
     /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
     pub(crate) remainder: f64,
     /// h^2 / 8 times the liveliness, for bounds of second derivatives.
@@ -78,7 +85,9 @@ impl Ranges {
     fn new(storeys: usize) -> Self {
         let zero = || vec![0.0; padded(storeys)];
         let pair = || [zero(), zero()];
-        Self { bounds: [pair(), pair(), pair()], suspects: [Set::MAX; 3], remainder: 0.0, chord: 0.0 }
+        let (within, others) = if storeys <= MAX_LANES { (first(storeys), 0) } else { (0, storeys) };
+        let bounds = [pair(), pair(), pair()];
+        Self { bounds, suspects: [Set::MAX; 3], within, others, remainder: 0.0, chord: 0.0 }
     }
 
     #[inline]
@@ -109,8 +118,7 @@ impl Ranges {
 /// See [`State::looked_at`].
 pub(crate) struct LookedAt {
     set: Set,
-    next: usize,
-    end: usize,
+    others: std::ops::Range<usize>,
 }
 
 impl Iterator for LookedAt {
@@ -118,14 +126,12 @@ impl Iterator for LookedAt {
 
     #[inline(always)]
     fn next(&mut self) -> Option<usize> {
-        if self.set != 0 {
-            let lowest = self.set.trailing_zeros() as usize;
-            self.set &= self.set - 1;
-            return Some(lowest);
+        if self.set == 0 {
+            return self.others.next();
         }
-        let i = self.next;
-        self.next += 1;
-        (i < self.end).then_some(i)
+        let lowest = self.set.trailing_zeros() as usize;
+        self.set &= self.set - 1;
+        Some(lowest)
     }
 }
 
@@ -162,6 +168,8 @@ pub(crate) struct State<'a> {
     pub(crate) motions: Vec<BlockMotion>,
     /// Whether the blocks have lost contact.
     pub(crate) airborne: bool,
+    /// Whether a block slides.
+    pub(crate) is_sliding: bool,
     /// Index of the regime in the cache.
     pub(crate) regime: usize,
     /// Force of the springs at their bases on each floor (N).
@@ -186,7 +194,7 @@ pub(crate) struct State<'a> {
     /// Working space: constant loads of the floors.
     pub(crate) loads: Vec<f64>,
     stuck_mass: Vec<f64>,
-    /// Plastic elements of each storey, and which blocks are stuck, as bits.
+    /// Plastic elements of each storey, and which blocks are stuck, as bits: the key of the regime.
     key: Vec<u64>,
     /// Different regimes entered by this run, and changes into a regime already known to it.
     pub(crate) regimes: (usize, usize),
@@ -199,6 +207,7 @@ impl<'a> State<'a> {
         let velocity = scene.initial_velocity();
         let below = |i: usize| if i > 0 { velocity[i - 1] } else { 0.0 };
         let floor_velocity = |floor: usize| if floor > 0 { velocity[floor - 1] } else { 0.0 };
+        let blocks = scene.blocks().len();
         let motions = scene
             .blocks()
             .iter()
@@ -219,6 +228,7 @@ impl<'a> State<'a> {
             springs: vec![StoreySpring::new(); n],
             motions,
             airborne: false,
+            is_sliding: false,
             regime: 0,
             spring_load: zero(),
             friction: zero(),
@@ -239,7 +249,7 @@ impl<'a> State<'a> {
             ranges: Ranges::new(n),
             loads: vec![0.0; n],
             stuck_mass: vec![0.0; n],
-            key: Vec::new(),
+            key: vec![0; n.div_ceil(STOREYS_PER_WORD) + blocks.div_ceil(u64::BITS as usize)],
             regimes: (0, 0),
         }
     }
@@ -292,6 +302,8 @@ impl<'a> State<'a> {
         self.base_force[i] = spring.base_force(law);
         self.base_load[i] = spring.base_load(law);
         self.bounds.spring_changed(i);
+        let (word, shift) = (i / STOREYS_PER_WORD, 2 * (i % STOREYS_PER_WORD));
+        self.key[word] = self.key[word] & !(0b11 << shift) | u64::from(spring.yielded()) << shift;
     }
 
     fn follow_springs(&mut self) {
@@ -306,8 +318,12 @@ impl<'a> State<'a> {
         self.friction.fill(0.0);
         self.stuck_mass.fill(0.0);
         self.stuck_mu.fill(f64::INFINITY);
-        for (motion, law) in self.motions.iter().zip(&self.model.blocks) {
+        self.is_sliding = false;
+        let stuck = &mut self.key[self.springs.len().div_ceil(STOREYS_PER_WORD)..];
+        stuck.fill(0);
+        for (j, (motion, law)) in self.motions.iter().zip(&self.model.blocks).enumerate() {
             let floor = law.floor;
+            stuck[j / u64::BITS as usize] |= u64::from(motion.is_stuck()) << (j % u64::BITS as usize);
             match motion.state {
                 BlockState::Stuck => {
                     self.stuck_mu[floor] = self.stuck_mu[floor].min(law.mu_s);
@@ -315,10 +331,13 @@ impl<'a> State<'a> {
                         self.stuck_mass[floor - 1] += law.mass;
                     }
                 }
-                BlockState::Sliding(sign) if floor > 0 => {
-                    self.friction[floor - 1] += sign.factor() * law.mu_k * law.mass;
+                BlockState::Sliding(sign) => {
+                    self.is_sliding = true;
+                    if floor > 0 {
+                        self.friction[floor - 1] += sign.factor() * law.mu_k * law.mass;
+                    }
                 }
-                _ => {}
+                BlockState::Airborne => {}
             }
         }
         for (bound, mu) in self.bounds.stuck_mu.iter_mut().zip(&self.stuck_mu[1..]) {
@@ -327,13 +346,6 @@ impl<'a> State<'a> {
     }
 
     fn find_regime(&mut self) {
-        self.key.clear();
-        for springs in self.springs.chunks(32) {
-            self.key.push(springs.iter().fold(0, |word, spring| word << 2 | u64::from(spring.yielded())));
-        }
-        for motions in self.motions.chunks(64) {
-            self.key.push(motions.iter().fold(0, |word, motion| word << 1 | u64::from(motion.is_stuck())));
-        }
         let (model, springs, stuck_mass) = (self.model, &self.springs, &self.stuck_mass);
         let form = || Regime::new(model, |i| springs[i].yielded(), stuck_mass);
         let (regime, known) = self.cache.enter(&self.key, form);
@@ -368,7 +380,7 @@ impl<'a> State<'a> {
     pub(crate) fn refresh_accelerations(&mut self, tau: f64) {
         let n = self.storeys();
         if n <= MAX_LANES {
-            return refresh(self, tau);
+            return by_width!(self.model.width, K => refresh::<K>(self, tau));
         }
         self.set_drive(tau);
         let regime = self.cache.regime(self.regime);
@@ -377,6 +389,26 @@ impl<'a> State<'a> {
         let slope = &self.drive.load_slope;
         let regime = self.cache.regime(self.regime);
         regime.accelerations(self.model, &self.v, &self.drift_acceleration, slope, &mut self.jerk[..n]);
+    }
+
+    /// Adds the changes of the present series to drifts and drift rates, and forms accelerations anew if the time of its
+    /// end, `tau`, is given. Returns whether all is finite.
+    pub(crate) fn take_changes(&mut self, tau: Option<f64>) -> bool {
+        let n = self.storeys();
+        if n <= MAX_LANES {
+            return by_width!(self.model.width, K => take_changes::<K>(self, tau));
+        }
+        let [drifts, rates] = self.series.changes();
+        let mut zeros = 0.0;
+        for i in 0..n {
+            self.x[i] += drifts[i];
+            self.v[i] += rates[i];
+            zeros += 0.0 * (self.x[i] + self.v[i]);
+        }
+        if let Some(tau) = tau {
+            self.refresh_accelerations(tau);
+        }
+        zeros == 0.0
     }
 
     /// Forms the drift accelerations from those of the floors and of the ground.
@@ -406,18 +438,14 @@ impl<'a> State<'a> {
     /// The storeys or floors of a set, or all where there are more than sets hold.
     #[inline(always)]
     pub(crate) fn looked_at(&self, set: Set) -> LookedAt {
-        let all = self.storeys() > MAX_LANES;
-        LookedAt { set: if all { 0 } else { set }, next: 0, end: if all { self.storeys() } else { 0 } }
+        LookedAt { set: set & self.ranges.within, others: 0..self.ranges.others }
     }
 
     /// Forms the ranges over the present series, which starts at `tau` and whose start is the state, and tells which come
     /// to their bounds.
     #[inline(always)]
-    pub(crate) fn form_ranges<V: Vector>(&mut self, tau: f64) {
-        if self.storeys() > MAX_LANES {
-            return self.form_ranges_singly();
-        }
-        by_width!(padded(self.storeys()), K => ranges_in_lanes::<V, K>(self, tau));
+    pub(crate) fn form_ranges<V: Vector, const K: usize>(&mut self, tau: f64) {
+        if self.storeys() <= MAX_LANES { ranges_in_lanes::<V, K>(self, tau) } else { self.form_ranges_singly() }
     }
 
     /// Keeps what the bounds of the present series' higher derivatives are multiplied with, from the square of the norm
@@ -552,12 +580,8 @@ pub(crate) fn interval(motion: &crate::scene::Motion, i: usize) -> Interval {
 }
 
 for_each_path! {
-    fn refresh(state: &mut State, tau: f64) = refresh_by_width
-}
-
-#[inline(always)]
-fn refresh_by_width<V: Vector>(state: &mut State, tau: f64) {
-    by_width!(padded(state.storeys()), K => refresh_lanes::<V, K>(state, tau));
+    /// See [`State::refresh_accelerations`].
+    fn refresh[K: usize](state: &mut State, tau: f64) = refresh_lanes
 }
 
 #[inline(always)]
@@ -582,6 +606,30 @@ fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     store(&a, &mut state.a);
     store(&drift_acceleration, &mut state.drift_acceleration);
     store(&jerk, &mut state.jerk);
+}
+
+for_each_path! {
+    /// See [`State::take_changes`].
+    fn take_changes[K: usize](state: &mut State, tau: Option<f64>) -> bool = changes_in_lanes
+}
+
+#[inline(always)]
+fn changes_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: Option<f64>) -> bool {
+    let (mut x, mut v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
+    let [drifts, rates] = state.series.changes();
+    let (drifts, rates): ([V; K], [V; K]) = (load(drifts), load(rates));
+    let mut zeros = V::splat(0.0);
+    for k in 0..K {
+        (x[k], v[k]) = (x[k].add(drifts[k]), v[k].add(rates[k]));
+        // No number times zero is zero but a finite one.
+        zeros = x[k].add(v[k]).mul_add(V::splat(0.0), zeros);
+    }
+    store(&x, &mut state.x);
+    store(&v, &mut state.v);
+    if let Some(tau) = tau {
+        refresh_lanes::<V, K>(state, tau);
+    }
+    zeros.sum() == 0.0
 }
 
 /// See [`range`].
@@ -612,7 +660,7 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     let ends: [[[V; K]; 4]; 3] =
         [[x, v, x_end, v_end], [v, q, v_end, q_end], [load(&state.a), jerk, a_end, load(jerk_end)]];
     let margins = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration];
-    let (zero, within) = (V::splat(0.0), first(state.storeys()));
+    let zero = V::splat(0.0);
     for which in 0..3 {
         let [start, start_rate, end, end_rate] = ends[which];
         let margin: [V; K] = regime.lanes(margins[which]);
@@ -642,6 +690,6 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
             };
             suspects |= Set::from(reached.not_below(bound)) << (WIDTH * k);
         }
-        state.ranges.suspects[which] = suspects & within;
+        state.ranges.suspects[which] = suspects & state.ranges.within;
     }
 }

@@ -4,7 +4,7 @@
 
 use crate::bernstein::{MAX_DEGREE, Polynomial};
 use crate::lanes::{
-    MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, padded, store,
+    MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, store,
 };
 use crate::model::Model;
 use crate::propagator::Table;
@@ -76,7 +76,7 @@ impl Series {
     /// Forms the series over a step `h` from its start, whose accelerations must be those of the drive.
     pub(crate) fn form(&mut self, model: &Model, regime: &Regime, start: Start, drive: &Drive, h: f64) {
         let n = model.storeys();
-        let (order, stride) = (terms(regime.frequency * h), padded(n));
+        let (order, stride) = (terms(regime.frequency * h), model.width);
         if self.stride != stride || self.storeys != n {
             let zero = || vec![0.0; stride];
             (self.x, self.v, self.a) = (zero(), zero(), zero());
@@ -270,12 +270,50 @@ impl Series {
     }
 
     /// Takes changes and integrals up to place `s` only.
-    pub(crate) fn stop_at(&mut self, s: f64) {
+    pub(crate) fn stop_at(&mut self, model: &Model, s: f64) {
         self.place = s;
-        integrate_up_to(self, s);
-        self.integrate_differences();
+        if self.storeys <= MAX_LANES {
+            by_width!(self.stride, K => stop_in_lanes::<K>(self, model, s));
+        } else {
+            integrate_up_to(self, s);
+            self.integrate_differences();
+        }
     }
 
+    #[inline(always)]
+    fn stop_in_lanes<V: Vector, const K: usize>(&mut self, model: &Model, s: f64) {
+        let inside: [V; K] = load(&model.lanes.inside);
+        let (place, length) = (V::splat(s), V::splat(s * self.h));
+        let zero = [V::splat(0.0); K];
+        let [mut once, mut twice] = [zero; 2];
+        let Some([a, linear, terms @ ..]) = columns_of::<K>(&self.a).get(..=self.order) else { return };
+        for (term, &[_, first, second]) in terms.iter().zip(&WEIGHTS[2..]).rev() {
+            for k in 0..K {
+                let term = V::load(&term[k]);
+                once[k] = once[k].mul_add(place, term.mul(V::splat(first)));
+                twice[k] = twice[k].mul_add(place, term.mul(V::splat(second)));
+            }
+        }
+        store(&once, &mut self.integrals[0]);
+        store(&twice, &mut self.integrals[1]);
+        for k in 0..K {
+            let (a, linear) = (V::load(&a[k]), V::load(&linear[k]));
+            once[k] = once[k].mul_add(place, V::splat(0.5).mul(linear)).mul_add(place, a);
+            twice[k] = twice[k].mul_add(place, V::splat(1.0 / 6.0).mul(linear)).mul_add(place, V::splat(0.5).mul(a));
+        }
+        let [ground, change, ..] = self.ground;
+        let of_rate = differences(&once, V::splat(ground + 0.5 * s * change));
+        let of_drift = differences(&twice, V::splat(0.5 * ground + (1.0 / 6.0) * s * change));
+        let v: [V; K] = load(&self.v);
+        for k in 0..K {
+            once[k] = length.mul(of_rate[k]).mul(inside[k]);
+            twice[k] = length.mul_add(of_drift[k], v[k]).mul(length).mul(inside[k]);
+        }
+        store(&twice, &mut self.changes[0]);
+        store(&once, &mut self.changes[1]);
+    }
+
+    /// The integrals of [`Series::stop_at`] for more storeys than vectors hold.
     #[inline(always)]
     fn integrate_up_to<V: Vector>(&mut self, s: f64) {
         let place = V::splat(s);
@@ -458,6 +496,15 @@ fn by_table<V: Vector>(series: &mut Series, model: &Model, table: &Table, start:
         4 => series.by_table::<V, 1, 4, 8>(model, table, start, drive),
         _ => series.by_table::<V, 2, 0, 0>(model, table, start, drive),
     }
+}
+
+for_each_path! {
+    fn stop_in_lanes[K: usize](series: &mut Series, model: &Model, s: f64) = stop_by_path
+}
+
+#[inline(always)]
+fn stop_by_path<V: Vector, const K: usize>(series: &mut Series, model: &Model, s: f64) {
+    series.stop_in_lanes::<V, K>(model, s);
 }
 
 for_each_path! {
