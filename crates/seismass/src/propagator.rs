@@ -23,8 +23,9 @@ use crate::taylor::{INVERSE, MAX_PHASE, terms};
 
 /// Memory one cache may take before it starts afresh (bytes).
 const CACHE_BYTES: usize = 64 << 20;
-/// Most storeys of which tables of the series are kept.
-pub(crate) const MAX_TABLE: usize = 8;
+/// Most storeys of which tables of the series are kept: those of one vector. They are formed at once; with more storeys
+/// most regimes of a strong motion are left before tables have paid for themselves.
+pub(crate) const MAX_TABLE: usize = WIDTH;
 
 /// Most storeys for which one matrix without zeros is taken though a tall step would do.
 const MAX_DENSE: usize = 16;

@@ -3,9 +3,7 @@
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
 use crate::bernstein::{MAX_DEGREE, Polynomial};
-use crate::lanes::{
-    MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, store,
-};
+use crate::lanes::{MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, store};
 use crate::model::Model;
 use crate::propagator::Table;
 use crate::regime::{Operator, Regime};
@@ -104,74 +102,48 @@ impl Series {
     }
 
     /// From tables: floor accelerations from the second order on are products with drift accelerations and their rates.
-    /// `S` is the number of storeys where it is known, else 0, and `D` its double.
+    /// `S` is the number of storeys and `COLUMNS` its double.
     #[inline(always)]
-    fn by_table<V: Vector, const K: usize, const S: usize, const D: usize>(
+    fn by_table<V: Vector, const S: usize, const COLUMNS: usize>(
         &mut self,
         model: &Model,
         table: &Table,
         start: &Start,
         drive: &Drive,
     ) {
-        let (n, h, order) = (self.storeys, self.h, self.order);
-        let inside: [V; K] = load(&model.lanes.inside);
+        let (h, order) = (self.h, self.order);
+        let inside: [V; 1] = load(&model.lanes.inside);
         let zero = V::splat(0.0);
-        let (x, v): ([V; K], [V; K]) = (load(start.x), load(start.v));
-        let (a, jerk): ([V; K], [V; K]) = (load(start.a), load(start.jerk));
-        let (first, rate) = (differences(&a, V::splat(drive.ground)), differences(&jerk, V::splat(drive.ground_slope)));
-        let mut linear = jerk;
-        for k in 0..K {
-            linear[k] = V::splat(h).mul(jerk[k]);
-        }
-        store(&x, &mut self.x);
-        store(&v, &mut self.v);
-        let (starts, of_floors) = columns_mut::<K>(&mut self.a)[..=order].split_at_mut(2);
-        put(&a, &mut starts[0]);
-        put(&linear, &mut starts[1]);
+        let ([x], [v]): ([V; 1], [V; 1]) = (load(start.x), load(start.v));
+        let ([a], [jerk]): ([V; 1], [V; 1]) = (load(start.a), load(start.jerk));
+        let [first] = differences(&[a], V::splat(drive.ground));
+        let [rate] = differences(&[jerk], V::splat(drive.ground_slope));
+        let linear = V::splat(h).mul(jerk);
+        store(&[x], &mut self.x);
+        store(&[v], &mut self.v);
+        let (starts, of_floors) = columns_mut::<1>(&mut self.a)[..=order].split_at_mut(2);
+        put(&[a], &mut starts[0]);
+        put(&[linear], &mut starts[1]);
         // Powers of the step over that of the table.
         let (ratio, mut power) = (h / table.h, h / table.h);
-        let terms = &columns_of::<K>(&table.terms)[..(order - 1) * 2 * n];
-        let mut sums = Sums { value: a, rate: linear, integrals: [[zero; K]; 2] };
-        for k in 0..K {
-            sums.value[k] = a[k].add(linear[k]);
+        let terms = &columns_of::<1>(&table.terms)[..(order - 1) * COLUMNS];
+        let mut sums = Sums { value: [a.add(linear)], rate: [linear], integrals: [[zero]; 2] };
+        let (mut firsts, mut rates) = ([zero; S], [zero; S]);
+        for c in 0..S {
+            (firsts[c], rates[c]) = (first.broadcast(c), rate.broadcast(c));
         }
-        if S > 0 {
-            let (mut firsts, mut rates) = ([zero; S], [zero; S]);
+        for ((columns, out), weights) in terms.as_chunks::<COLUMNS>().0.iter().zip(of_floors).zip(&WEIGHTS[2..]) {
+            let (mut even, mut odd) = (zero, zero);
             for c in 0..S {
-                (firsts[c], rates[c]) = (first[0].broadcast(c), rate[0].broadcast(c));
+                even = V::load(&columns[c][0]).mul_add(firsts[c], even);
+                odd = V::load(&columns[S + c][0]).mul_add(rates[c], odd);
             }
-            for ((columns, out), weights) in terms.as_chunks::<D>().0.iter().zip(of_floors).zip(&WEIGHTS[2..]) {
-                let (mut even, mut odd) = (zero, zero);
-                for c in 0..S {
-                    even = V::load(&columns[c][0]).mul_add(firsts[c], even);
-                    odd = V::load(&columns[S + c][0]).mul_add(rates[c], odd);
-                }
-                power *= ratio;
-                let mut term = [zero; K];
-                term[0] = even.add(odd).mul(V::splat(power));
-                put(&term, out);
-                sums.add(&term, weights);
-            }
-        } else {
-            let weights = [numbers(&first), numbers(&rate)];
-            let causes = || weights[0].as_flattened()[..n].iter().chain(&weights[1].as_flattened()[..n]);
-            for ((columns, out), weights) in terms.chunks_exact(2 * n).zip(of_floors).zip(&WEIGHTS[2..]) {
-                let mut term = [zero; K];
-                for (column, &cause) in columns.iter().zip(causes()) {
-                    let cause = V::splat(cause);
-                    for k in 0..K {
-                        term[k] = V::load(&column[k]).mul_add(cause, term[k]);
-                    }
-                }
-                power *= ratio;
-                for k in 0..K {
-                    term[k] = term[k].mul(V::splat(power));
-                }
-                put(&term, out);
-                sums.add(&term, weights);
-            }
+            power *= ratio;
+            let term = [even.add(odd).mul(V::splat(power))];
+            put(&term, out);
+            sums.add(&term, weights);
         }
-        self.put_sums(&sums, &v, &a, &linear, &inside);
+        self.put_sums(&sums, &[v], &[a], &[linear], &inside);
     }
 
     /// Keeps what the sums give at the end of the step: `a` and `linear` are the first two terms.
@@ -490,11 +462,10 @@ for_each_path! {
 #[inline(always)]
 fn by_table<V: Vector>(series: &mut Series, model: &Model, table: &Table, start: &Start, drive: &Drive) {
     match series.storeys {
-        1 => series.by_table::<V, 1, 1, 2>(model, table, start, drive),
-        2 => series.by_table::<V, 1, 2, 4>(model, table, start, drive),
-        3 => series.by_table::<V, 1, 3, 6>(model, table, start, drive),
-        4 => series.by_table::<V, 1, 4, 8>(model, table, start, drive),
-        _ => series.by_table::<V, 2, 0, 0>(model, table, start, drive),
+        1 => series.by_table::<V, 1, 2>(model, table, start, drive),
+        2 => series.by_table::<V, 2, 4>(model, table, start, drive),
+        3 => series.by_table::<V, 3, 6>(model, table, start, drive),
+        _ => series.by_table::<V, 4, 8>(model, table, start, drive),
     }
 }
 
