@@ -30,7 +30,9 @@ pub(crate) fn members(mut set: Set) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Bounds of all storeys and floors, padded; in lanes beyond the last storey they are far.
+/// Bounds of all storeys and floors, padded; in lanes beyond the last storey they are far. They hold once they are
+/// brought up to date ([`State::update_bounds`]), until a spring changes or a peak is beaten; where a run of plain steps
+/// follows a peak that a drift beats, they are the guards alone and the sign that its rate must keep, up to the run's end.
 #[derive(Debug)]
 pub(crate) struct Bounds {
     /// Drift coordinates: the middle, and how far they may go from it.

@@ -129,6 +129,9 @@ impl Spare {
     }
 
     fn keep(&mut self, values: Vec<f64>) {
+        if values.capacity() > MOST_SPARE {
+            return;
+        }
         if self.numbers + values.capacity() > MOST_SPARE {
             *self = Self::default();
         }
@@ -141,14 +144,14 @@ impl Aligned {
     /// So many zeros.
     pub(crate) fn zeros(length: usize) -> Self {
         const LINE: usize = 64;
-        let spare = LINE / size_of::<f64>() - 1;
+        let slack = LINE / size_of::<f64>() - 1;
         if length == 0 {
             return Self::default();
         }
-        let capacity = Spare::capacity(length + spare);
+        let capacity = Spare::capacity(length + slack);
         let kept = SPARE.try_with(|spare| spare.borrow_mut().take(capacity)).ok().flatten();
         let mut values = kept.unwrap_or_else(|| Vec::with_capacity(capacity));
-        let offset = values.as_ptr().align_offset(LINE).min(spare);
+        let offset = values.as_ptr().align_offset(LINE).min(slack);
         values.clear();
         values.resize(offset + length, 0.0);
         Self { values, offset }

@@ -70,6 +70,7 @@ pub mod response;
 pub mod scene;
 mod schedule;
 pub mod simulate;
+mod sliding;
 pub mod spectrum;
 mod state;
 mod storey;

@@ -6,8 +6,8 @@
 //! value must keep the distance of h / 3 times its rate from its bound, and the margin of the fourth derivative, to
 //! either side. Steps that this does not clear are looked at closer, by the Bezier points themselves.
 //!
-//! The loop ([`clear_steps`]) is a function of its own that calls no other, so that what it needs stays in registers;
-//! what is between two calls of it is kept in a [`Walk`].
+//! The loop ([`clear_steps`]) is a function of its own whose steps call no other, so that what it needs stays in
+//! registers; what is between two calls of it is kept in a [`Walk`].
 
 use std::mem::swap;
 use std::sync::Arc;
@@ -25,12 +25,10 @@ use crate::observe::Observer;
 use crate::propagator::Whole;
 use crate::regime::{Regime, Row};
 use crate::scene::Motion;
+use crate::sliding::{GroundBlock, Layer, LayerInLanes, Linear, Push, SMALL_DIFFERENCE, move_on_ground};
 use crate::state::{State, range};
 use crate::storey::Sign;
 use crate::tall_run;
-
-/// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits.
-pub(crate) const SMALL_DIFFERENCE: f64 = 1e-6;
 
 /// What bounds the fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
 pub(crate) const MARGINS: [Row; 4] =
@@ -153,153 +151,6 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
     }
 }
 
-/// Blocks that slide, at most one on each floor. Padded; lanes in which no block slides never turn.
-struct Layer {
-    /// Sign times mu_k.
-    friction: Vec<f64>,
-    sign: Vec<f64>,
-    /// What the negative of sign times velocity may not reach: 0; far where no block slides.
-    turn: Vec<f64>,
-    velocity: Vec<f64>,
-    slip: Vec<f64>,
-    /// Velocity and slip at the end of the step that was not cleared.
-    after: [Vec<f64>; 2],
-}
-
-impl Layer {
-    fn new(storeys: usize) -> Self {
-        let lanes = |value: f64| vec![value; padded(storeys)];
-        let zero = || lanes(0.0);
-        Self {
-            friction: zero(),
-            sign: zero(),
-            turn: lanes(FAR),
-            velocity: zero(),
-            slip: zero(),
-            after: [zero(), zero()],
-        }
-    }
-
-    /// Whether no block slides in a lane.
-    fn is_free(&self, lane: usize) -> bool {
-        self.sign[lane] == 0.0
-    }
-
-    fn take(&mut self, lane: usize, sign: f64, friction: f64, velocity: f64, slip: f64) {
-        (self.sign[lane], self.turn[lane], self.friction[lane]) = (sign, 0.0, friction);
-        (self.velocity[lane], self.slip[lane]) = (velocity, slip);
-    }
-
-    fn leave(&mut self, lane: usize) {
-        (self.sign[lane], self.turn[lane], self.friction[lane]) = (0.0, FAR, 0.0);
-        (self.velocity[lane], self.slip[lane]) = (0.0, 0.0);
-    }
-
-    /// Takes the step that was not cleared.
-    fn accept(&mut self) {
-        let [velocity, slip] = &mut self.after;
-        swap(&mut self.velocity, velocity);
-        swap(&mut self.slip, slip);
-    }
-}
-
-/// A [`Layer`] in vectors.
-#[derive(Clone, Copy)]
-struct LayerInLanes<V, const K: usize> {
-    friction: [V; K],
-    sign: [V; K],
-    turn: [V; K],
-    velocity: [V; K],
-    slip: [V; K],
-}
-
-/// What moves the blocks in a step: the motion of the ground and of the floors on it, the latter beyond that at the
-/// velocities of the start, and contact forces.
-struct Push<V, const K: usize> {
-    h: f64,
-    ground: Linear,
-    contact: Linear,
-    velocity: [V; K],
-    displacement: [V; K],
-    a: [[V; K]; 2],
-    /// Margin of the relative velocities.
-    margin: [V; K],
-}
-
-impl<V: Vector, const K: usize> LayerInLanes<V, K> {
-    #[inline(always)]
-    fn of(layer: &Layer) -> Self {
-        Self {
-            friction: load(&layer.friction),
-            sign: load(&layer.sign),
-            turn: load(&layer.turn),
-            velocity: load(&layer.velocity),
-            slip: load(&layer.slip),
-        }
-    }
-
-    /// h / 3 times the size of the relative acceleration, less sign times velocity.
-    #[inline(always)]
-    fn approach(&self, k: usize, velocity: V, a: V, contact: f64, third: V) -> V {
-        let rate = self.friction[k].mul(V::splat(contact)).add(a);
-        third.mul(rate.abs()).sub(self.sign[k].mul(velocity))
-    }
-
-    /// The layer at the end of a step, and whether a block may have turned in it.
-    #[inline(always)]
-    fn pushed(&self, push: &Push<V, K>) -> (Self, bool) {
-        let (length, third) = (V::splat(push.h), V::splat(push.h / 3.0));
-        let (once, ground_once) = (V::splat(push.contact.once(push.h)), V::splat(push.ground.once(push.h)));
-        let (twice, ground_twice) = (V::splat(push.contact.twice(push.h)), V::splat(push.ground.twice(push.h)));
-        // A velocity that is a small difference of large ones is left to the series.
-        let digits = V::splat(-SMALL_DIFFERENCE);
-        let mut after = *self;
-        let mut turning = 0;
-        for k in 0..K {
-            let pushed = self.friction[k].mul_add(once, ground_once);
-            after.velocity[k] = self.velocity[k].sub(pushed.add(push.velocity[k]));
-            let pushed = self.friction[k].mul_add(twice, ground_twice);
-            let own = length.mul(self.velocity[k]).sub(pushed.add(push.displacement[k]));
-            after.slip[k] = self.slip[k].add(own);
-            let approach = self.approach(k, self.velocity[k], push.a[0][k], push.contact.start, third);
-            let approach_after = self.approach(k, after.velocity[k], push.a[1][k], push.contact.end, third);
-            let bound = digits.mul_add(push.velocity[k].abs(), self.turn[k]);
-            turning |= push.margin[k].add(approach.max(approach_after)).not_below(bound);
-        }
-        (after, turning != 0)
-    }
-}
-
-/// A block that slides on the ground.
-pub(crate) struct GroundBlock {
-    pub(crate) block: usize,
-    pub(crate) friction: f64,
-    pub(crate) sign: f64,
-    pub(crate) velocity: f64,
-    pub(crate) slip: f64,
-}
-
-/// Values at both ends of an interval of what is linear between them.
-#[derive(Clone, Copy)]
-pub(crate) struct Linear {
-    pub(crate) start: f64,
-    pub(crate) end: f64,
-}
-
-impl Linear {
-    /// Integral over the length `h`.
-    #[inline(always)]
-    pub(crate) fn once(self, h: f64) -> f64 {
-        0.5 * h * (self.start + self.end)
-    }
-
-    /// Second integral over the length `h`.
-    #[inline(always)]
-    pub(crate) fn twice(self, h: f64) -> f64 {
-        (1.0 / 6.0) * h * h * (2.0 * self.start + self.end)
-    }
-}
-
 /// rows += column * weight.
 #[inline(always)]
 fn add<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column: &Column<K>, weight: V) {
@@ -367,8 +218,6 @@ pub(crate) struct Walk {
     /// Blocks that slide on floors: block, layer, lane.
     on_floors: Vec<(usize, usize, usize)>,
     on_ground: Vec<GroundBlock>,
-    /// Whether steps must not be taken without a look at the ground's blocks.
-    watches_ground: bool,
 }
 
 impl Walk {
@@ -390,7 +239,6 @@ impl Walk {
             used: 0,
             on_floors: Vec::new(),
             on_ground: Vec::new(),
-            watches_ground: false,
         }
     }
 
@@ -404,7 +252,6 @@ impl Walk {
         if state.is_sliding {
             self.take_blocks(state);
         }
-        self.watches_ground = !self.on_ground.is_empty() || state.stuck_mu[0].is_finite();
     }
 
     fn take_blocks(&mut self, state: &State) {
@@ -489,12 +336,13 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     let samples = motion.acceleration();
     let vertical = motion.vertical().unwrap_or(&[]);
     // Rate of the floor accelerations per slope of the contact force: it turns at every sample.
-    let mut turning: [V; K] = load(&state.friction);
-    for (turning, inverse_mass) in turning.iter_mut().zip(regime.lanes::<V, K>(Row::InverseMass)) {
-        *turning = turning.mul(inverse_mass);
+    let mut jerk_per_slope: [V; K] = load(&state.friction);
+    for (jerk, inverse_mass) in jerk_per_slope.iter_mut().zip(regime.lanes::<V, K>(Row::InverseMass)) {
+        *jerk = jerk.mul(inverse_mass);
     }
     let mut slope_before = walk.contact_slope;
-    let watches_ground = walk.watches_ground;
+    let stuck_mu = state.stuck_mu[0];
+    let ground_slides = !walk.on_ground.is_empty();
     let mut apart_before = bounds.apart(&sample, third);
     let (mut lowest, others) = match walk.layers[..walk.used].split_first_mut() {
         Some((lowest, others)) if SLIDING => (Some(lowest), others),
@@ -525,7 +373,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         if VERTICAL {
             let slope = (contact.1 - contact.0) * per_second;
             for k in 0..K {
-                sample.jerk[k] = turning[k].mul_add(V::splat(slope - slope_before), sample.jerk[k]);
+                sample.jerk[k] = jerk_per_slope[k].mul_add(V::splat(slope - slope_before), sample.jerk[k]);
                 apart_before[2][k] = third.mul_add(sample.jerk[k].abs(), sample.a[k].abs());
             }
             slope_before = slope;
@@ -610,8 +458,10 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 is_turning |= turning;
             }
         }
+        let ground_holds = before.abs() < stuck_mu * contact.0 && after.abs() < stuck_mu * contact.1;
         let has_contact = !VERTICAL || contact.0 > 0.0 && contact.1 > 0.0;
-        if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact || watches_ground {
+        if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact || ground_slides || !ground_holds
+        {
             break Some((taken, layer_after, liveliness, suspects, is_turning));
         }
         (sample, apart_before, layer) = (taken, apart_after, layer_after);
@@ -652,37 +502,6 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     walk.contact_slope = slope_before;
     sample.put_into(&mut state.x, &mut state.v, &mut state.a, &mut state.jerk, &mut state.drift_acceleration);
     reached
-}
-
-/// Moves the blocks that slide on the ground over a step; false when one may have turned, or one that is stuck broken
-/// away: then nothing is moved.
-#[inline(never)]
-pub(crate) fn move_on_ground(
-    blocks: &mut [GroundBlock],
-    ground: Linear,
-    contact: Linear,
-    h: f64,
-    stuck_mu: f64,
-) -> bool {
-    if stuck_mu.is_finite()
-        && !(ground.start.abs() < stuck_mu * contact.start && ground.end.abs() < stuck_mu * contact.end)
-    {
-        return false;
-    }
-    let end = |b: &GroundBlock| b.velocity - b.friction * contact.once(h) - ground.once(h);
-    let keeps = |b: &GroundBlock| {
-        let rate = (-b.friction * contact.start - ground.start, -b.friction * contact.end - ground.end);
-        let (low, high) = range(b.velocity, rate.0, end(b), rate.1, h / 3.0, 0.0);
-        if b.sign > 0.0 { low > 0.0 } else { high < 0.0 }
-    };
-    if !blocks.iter().all(keeps) {
-        return false;
-    }
-    for block in blocks {
-        block.slip += block.velocity * h - block.friction * contact.twice(h) - ground.twice(h);
-        block.velocity = end(block);
-    }
-    true
 }
 
 /// A closer look at the step that the loop did not clear.
@@ -825,7 +644,8 @@ fn run(
     end: usize,
 ) -> usize {
     let h = motion.dt();
-    let (samples, vertical) = (motion.acceleration(), motion.vertical().unwrap_or(&[]));
+    let samples = motion.acceleration();
+    let vertical = motion.vertical().filter(|_| state.vertical).unwrap_or(&[]);
     walk.begin(state);
     walk.contact_slope = (contact_at(vertical, first + 1) - contact_at(vertical, first)) * (1.0 / h);
     if let Some(recorder) = &mut observer.histories {
@@ -845,8 +665,7 @@ fn run(
         let [drifts, accelerations] = step.beaten;
         let ground = Linear { start: samples[reached], end: samples[reached + 1] };
         let contact = Linear { start: contact.0, end: contact.1 };
-        if !clears || walk.watches_ground && !move_on_ground(&mut walk.on_ground, ground, contact, h, state.stuck_mu[0])
-        {
+        if !clears || !move_on_ground(&mut walk.on_ground, ground, contact, h, state.stuck_mu[0]) {
             break;
         }
         walk.accept(state);

@@ -15,7 +15,7 @@ use crate::propagator::RegimeCache;
 use crate::regime::Row;
 use crate::response::{Event, Response, Statistics, Status};
 use crate::scene::{Motion, Options, Scene};
-use crate::state::{State, interval};
+use crate::state::State;
 use crate::taylor::MAX_PHASE;
 
 /// Events one sample interval may have, beside [`EVENTS_PER_MACHINE`].
@@ -77,7 +77,7 @@ pub(crate) fn run(
         if i >= quiet_from && run.no_peak_can_be_beaten() {
             break;
         }
-        run.state.set_interval(interval(motion, i));
+        run.state.set_interval(motion, i);
         if vertical {
             run.state.refresh_accelerations(0.0);
         }
@@ -136,7 +136,7 @@ impl Run<'_> {
     /// Lets every floor decide at t = 0.
     fn begin(&mut self, motion: &Motion) {
         let state = &mut self.state;
-        state.set_interval(interval(motion, 0));
+        state.set_interval(motion, 0);
         let contact = (state.interval.contact, state.interval.contact_change);
         if state.vertical && (contact.0 < 0.0 || contact.0 == 0.0 && contact.1 <= 0.0) {
             state.airborne = true;
@@ -275,7 +275,8 @@ impl Run<'_> {
         let (state, observer) = (&mut self.state, &mut self.observer);
         state.form_series(tau, h);
         state.update_bounds(observer);
-        let event = by_width!(state.model.width, K => look_into_series::<K>(state, observer, tau, &mut self.statistics.guards_isolated));
+        let isolated = &mut self.statistics.guards_isolated;
+        let event = by_width!(state.model.width, K => look_into_series::<K>(state, observer, tau, isolated));
         let end = event.map_or(1.0, |(place, _)| place);
         if state.airborne {
             observer.observe_flights(state, tau, end);

@@ -10,7 +10,7 @@ use crate::lanes::{
 use crate::model::Model;
 use crate::propagator::{MAX_TABLE, RegimeCache};
 use crate::regime::{Operator, Regime, Row};
-use crate::scene::Scene;
+use crate::scene::{Motion, Scene};
 use crate::storey::StoreySpring;
 use crate::taylor::{Drive, Series, Start};
 
@@ -71,9 +71,9 @@ pub(crate) struct Ranges {
     bounds: [[Vec<f64>; 2]; 3],
     /// Storeys and floors whose drifts, drift rates and accelerations come to their bounds (see [`Bounds`]).
     pub(crate) suspects: [Set; 3],
-    /// What sets hold: all storeys; none where there are more, which are then always looked at one after the other.
+    /// Storeys that sets hold: all, or none where there are more than they can.
     within: Set,
-    /// So many.
+    /// Storeys always looked at one after the other: none, or all.
     others: usize,
     /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
     pub(crate) remainder: f64,
@@ -554,18 +554,18 @@ impl<'a> State<'a> {
         })
     }
 
-    /// Moves on to another sample interval.
-    pub(crate) fn set_interval(&mut self, interval: Interval) {
-        self.interval = interval;
+    /// Moves on to the interval between samples `i` and `i + 1` of a motion, or to a point at the last sample.
+    pub(crate) fn set_interval(&mut self, motion: &Motion, i: usize) {
+        let vertical = motion.vertical().filter(|_| self.vertical);
+        self.interval = interval(motion, vertical, i);
     }
 }
 
-/// The interval between samples `i` and `i + 1` of a motion, or a point at the last sample.
-pub(crate) fn interval(motion: &crate::scene::Motion, i: usize) -> Interval {
+fn interval(motion: &Motion, vertical: Option<&[f64]>, i: usize) -> Interval {
     let last = motion.acceleration().len() - 1;
     let pair = |samples: &[f64]| (samples[i], samples[(i + 1).min(last)] - samples[i]);
     let (ground, ground_change) = pair(motion.acceleration());
-    let (vertical, contact_change) = motion.vertical().map_or((0.0, 0.0), pair);
+    let (vertical, contact_change) = vertical.map_or((0.0, 0.0), pair);
     let (h, per_second) = if i < last { (motion.dt(), 1.0 / motion.dt()) } else { (0.0, 0.0) };
     Interval {
         start: i as f64 * motion.dt(),

@@ -10,13 +10,15 @@
 use crate::STANDARD_GRAVITY;
 use crate::banded_step::{BandedStep, whole_blocks};
 use crate::bernstein::{MAX_DEGREE, Polynomial};
+use crate::bounds::{Set, members};
 use crate::full_step::{FullStep, Shears};
 use crate::lanes::{FAR, Plain, Vector, WIDTH, filled_to, for_each_path};
 use crate::observe::Observer;
-use crate::plain_run::{GroundBlock, Linear, MARGINS, SMALL_DIFFERENCE, move_on_ground};
+use crate::plain_run::MARGINS;
 use crate::regime::Row;
 use crate::response::Peak;
 use crate::scene::Motion;
+use crate::sliding::{GroundBlock, Linear, SMALL_DIFFERENCE, move_on_ground};
 use crate::state::{State, range};
 use crate::storey::Sign;
 use crate::symmetric::Symmetric;
@@ -396,15 +398,6 @@ fn signs<V: Vector>((low, high): (V, V)) -> (u32, u32) {
     (!zero.not_below(low), !high.not_below(zero))
 }
 
-/// The places of bits.
-fn places(mut bits: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lowest = (bits != 0).then_some(bits.trailing_zeros() as usize);
-        bits &= bits.wrapping_sub(1);
-        lowest
-    })
-}
-
 /// What a run reads of its regime.
 struct Rows {
     root_mass: Vec<f64>,
@@ -513,7 +506,7 @@ impl Closer<'_> {
         let rate_margin = sixth.mul(at(&self.rows.fourth[1], k));
         let (from, to) = ([v, q, at(q_rate, k)], [v_end, q_end, at(q_rate_end, k)]);
         let (positive, negative) = signs(quintic_ranges(from, to, self.h, rate_margin));
-        for lane in places(rates) {
+        for lane in members(Set::from(rates)) {
             let sign = self.bounds.sign[WIDTH * k + lane];
             let kept = if sign > 0.0 { positive } else { negative };
             if sign != 0.0 && kept >> lane & 1 == 0 {
@@ -528,7 +521,7 @@ impl Closer<'_> {
         let (mut lows, mut highs) = ([0.0; WIDTH], [0.0; WIDTH]);
         low.store(&mut lows);
         high.store(&mut highs);
-        for lane in places(drifts & outside) {
+        for lane in members(Set::from(drifts & outside)) {
             let i = WIDTH * k + lane;
             let (lower, upper) = self.state.guarded_drift(i);
             if !(highs[lane] < upper && lows[lane] > lower) {
@@ -563,7 +556,7 @@ impl Closer<'_> {
         let (positive, negative) = signs(cubic_ranges([jerk, second], [jerk_end, second_end], third, fifth));
         let matters = a.abs().max(a_end.abs()).not_below(V::splat(self.least.1));
         let turn = matters & !(positive | negative);
-        for lane in places(beats) {
+        for lane in members(Set::from(beats)) {
             let turns = turn >> lane & 1 != 0;
             if turns { &mut beaten.accelerations_inside } else { &mut beaten.accelerations }.push(WIDTH * k + lane);
         }

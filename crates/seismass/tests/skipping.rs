@@ -57,6 +57,19 @@ fn what_does_not_exist_is_counted_as_skipped() {
     assert_eq!(bare.statistics.skipped.bare_floors, 3);
 }
 
+/// Vertical motion acts on blocks alone: without them it changes no digit and no step, even where contact would be lost.
+#[test]
+fn vertical_motion_of_a_bare_building_is_left_out() {
+    let bare = Scene::new(Some(building()), vec![]).unwrap();
+    let horizontal = motion(0, 0);
+    let vertical = (0..800).map(|i| 12.0 * (0.05 * f64::from(i)).sin()).collect::<Vec<_>>();
+    let both = Motion::new(horizontal.acceleration().to_vec(), horizontal.dt(), Some(vertical.into())).unwrap();
+    let options = Options { histories: std::num::NonZeroUsize::new(1), ..Options::default() };
+    let with = simulate(&bare, &both, &options).unwrap();
+    assert!(with.statistics.events.total() > 0);
+    assert_eq!(with, simulate(&bare, &horizontal, &options).unwrap());
+}
+
 #[test]
 fn equal_runs_of_a_batch_are_solved_once() {
     let scenes = [scene(0.2), scene(0.3), scene(0.2)];

@@ -18,7 +18,7 @@ use crate::propagator::RegimeCache;
 use crate::regime::Row;
 use crate::response::{Event, Status};
 use crate::scene::{Motion, Scene};
-use crate::state::{State, interval};
+use crate::state::State;
 
 /// Events one step may have for each storey and block.
 const EVENTS_PER_MACHINE: usize = 64;
@@ -51,7 +51,7 @@ pub(super) fn integrate(
     };
     run.begin(motion);
     for i in 0..samples - 1 {
-        run.state.set_interval(interval(motion, i));
+        run.state.set_interval(motion, i);
         run.refresh(0.0);
         for k in 0..substeps {
             let tau = motion.dt() * k as f64 / substeps as f64;
@@ -93,7 +93,7 @@ impl<S: Scheme> Run<'_, S> {
     /// Lets every floor decide at t = 0.
     fn begin(&mut self, motion: &Motion) {
         let state = &mut self.state;
-        state.set_interval(interval(motion, 0));
+        state.set_interval(motion, 0);
         let (contact, change) = (state.interval.contact, state.interval.contact_change);
         if state.vertical && (contact < 0.0 || contact == 0.0 && change <= 0.0) {
             state.airborne = true;

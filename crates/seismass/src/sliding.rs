@@ -1,0 +1,187 @@
+//! Blocks that slide during a run of plain steps: those on floors in layers of lanes, those on the ground one by one.
+
+use std::mem::swap;
+
+use crate::lanes::{FAR, Vector, load, padded};
+use crate::state::range;
+
+/// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits.
+pub(crate) const SMALL_DIFFERENCE: f64 = 1e-6;
+
+/// Blocks that slide, at most one on each floor. Padded; lanes in which no block slides never turn.
+pub(crate) struct Layer {
+    /// Sign times mu_k.
+    pub(crate) friction: Vec<f64>,
+    pub(crate) sign: Vec<f64>,
+    /// What the negative of sign times velocity may not reach: 0; far where no block slides.
+    pub(crate) turn: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
+    pub(crate) slip: Vec<f64>,
+    /// Velocity and slip at the end of the step that was not cleared.
+    pub(crate) after: [Vec<f64>; 2],
+}
+
+impl Layer {
+    pub(crate) fn new(storeys: usize) -> Self {
+        let lanes = |value: f64| vec![value; padded(storeys)];
+        let zero = || lanes(0.0);
+        Self {
+            friction: zero(),
+            sign: zero(),
+            turn: lanes(FAR),
+            velocity: zero(),
+            slip: zero(),
+            after: [zero(), zero()],
+        }
+    }
+
+    /// Whether no block slides in a lane.
+    pub(crate) fn is_free(&self, lane: usize) -> bool {
+        self.sign[lane] == 0.0
+    }
+
+    pub(crate) fn take(&mut self, lane: usize, sign: f64, friction: f64, velocity: f64, slip: f64) {
+        (self.sign[lane], self.turn[lane], self.friction[lane]) = (sign, 0.0, friction);
+        (self.velocity[lane], self.slip[lane]) = (velocity, slip);
+    }
+
+    pub(crate) fn leave(&mut self, lane: usize) {
+        (self.sign[lane], self.turn[lane], self.friction[lane]) = (0.0, FAR, 0.0);
+        (self.velocity[lane], self.slip[lane]) = (0.0, 0.0);
+    }
+
+    /// Takes the step that was not cleared.
+    pub(crate) fn accept(&mut self) {
+        let [velocity, slip] = &mut self.after;
+        swap(&mut self.velocity, velocity);
+        swap(&mut self.slip, slip);
+    }
+}
+
+/// A [`Layer`] in vectors.
+#[derive(Clone, Copy)]
+pub(crate) struct LayerInLanes<V, const K: usize> {
+    pub(crate) friction: [V; K],
+    pub(crate) sign: [V; K],
+    pub(crate) turn: [V; K],
+    pub(crate) velocity: [V; K],
+    pub(crate) slip: [V; K],
+}
+
+/// What moves the blocks in a step: the motion of the ground and of the floors on it, the latter beyond that at the
+/// velocities of the start, and contact forces.
+pub(crate) struct Push<V, const K: usize> {
+    pub(crate) h: f64,
+    pub(crate) ground: Linear,
+    pub(crate) contact: Linear,
+    pub(crate) velocity: [V; K],
+    pub(crate) displacement: [V; K],
+    pub(crate) a: [[V; K]; 2],
+    /// Margin of the relative velocities.
+    pub(crate) margin: [V; K],
+}
+
+impl<V: Vector, const K: usize> LayerInLanes<V, K> {
+    #[inline(always)]
+    pub(crate) fn of(layer: &Layer) -> Self {
+        Self {
+            friction: load(&layer.friction),
+            sign: load(&layer.sign),
+            turn: load(&layer.turn),
+            velocity: load(&layer.velocity),
+            slip: load(&layer.slip),
+        }
+    }
+
+    /// h / 3 times the size of the relative acceleration, less sign times velocity.
+    #[inline(always)]
+    fn approach(&self, k: usize, velocity: V, a: V, contact: f64, third: V) -> V {
+        let rate = self.friction[k].mul(V::splat(contact)).add(a);
+        third.mul(rate.abs()).sub(self.sign[k].mul(velocity))
+    }
+
+    /// The layer at the end of a step, and whether a block may have turned in it.
+    #[inline(always)]
+    pub(crate) fn pushed(&self, push: &Push<V, K>) -> (Self, bool) {
+        let (length, third) = (V::splat(push.h), V::splat(push.h / 3.0));
+        let (once, ground_once) = (V::splat(push.contact.once(push.h)), V::splat(push.ground.once(push.h)));
+        let (twice, ground_twice) = (V::splat(push.contact.twice(push.h)), V::splat(push.ground.twice(push.h)));
+        // A velocity that is a small difference of large ones is left to the series.
+        let digits = V::splat(-SMALL_DIFFERENCE);
+        let mut after = *self;
+        let mut turning = 0;
+        for k in 0..K {
+            let pushed = self.friction[k].mul_add(once, ground_once);
+            after.velocity[k] = self.velocity[k].sub(pushed.add(push.velocity[k]));
+            let pushed = self.friction[k].mul_add(twice, ground_twice);
+            let own = length.mul(self.velocity[k]).sub(pushed.add(push.displacement[k]));
+            after.slip[k] = self.slip[k].add(own);
+            let approach = self.approach(k, self.velocity[k], push.a[0][k], push.contact.start, third);
+            let approach_after = self.approach(k, after.velocity[k], push.a[1][k], push.contact.end, third);
+            let bound = digits.mul_add(push.velocity[k].abs(), self.turn[k]);
+            turning |= push.margin[k].add(approach.max(approach_after)).not_below(bound);
+        }
+        (after, turning != 0)
+    }
+}
+
+/// A block that slides on the ground.
+pub(crate) struct GroundBlock {
+    pub(crate) block: usize,
+    pub(crate) friction: f64,
+    pub(crate) sign: f64,
+    pub(crate) velocity: f64,
+    pub(crate) slip: f64,
+}
+
+/// Values at both ends of an interval of what is linear between them.
+#[derive(Clone, Copy)]
+pub(crate) struct Linear {
+    pub(crate) start: f64,
+    pub(crate) end: f64,
+}
+
+impl Linear {
+    /// Integral over the length `h`.
+    #[inline(always)]
+    pub(crate) fn once(self, h: f64) -> f64 {
+        0.5 * h * (self.start + self.end)
+    }
+
+    /// Second integral over the length `h`.
+    #[inline(always)]
+    pub(crate) fn twice(self, h: f64) -> f64 {
+        (1.0 / 6.0) * h * h * (2.0 * self.start + self.end)
+    }
+}
+
+/// Moves the blocks that slide on the ground over a step; false when one may have turned, or one that is stuck broken
+/// away: then nothing is moved.
+#[inline(never)]
+pub(crate) fn move_on_ground(
+    blocks: &mut [GroundBlock],
+    ground: Linear,
+    contact: Linear,
+    h: f64,
+    stuck_mu: f64,
+) -> bool {
+    if stuck_mu.is_finite()
+        && !(ground.start.abs() < stuck_mu * contact.start && ground.end.abs() < stuck_mu * contact.end)
+    {
+        return false;
+    }
+    let end = |b: &GroundBlock| b.velocity - b.friction * contact.once(h) - ground.once(h);
+    let keeps = |b: &GroundBlock| {
+        let rate = (-b.friction * contact.start - ground.start, -b.friction * contact.end - ground.end);
+        let (low, high) = range(b.velocity, rate.0, end(b), rate.1, h / 3.0, 0.0);
+        if b.sign > 0.0 { low > 0.0 } else { high < 0.0 }
+    };
+    if !blocks.iter().all(keeps) {
+        return false;
+    }
+    for block in blocks {
+        block.slip += block.velocity * h - block.friction * contact.twice(h) - ground.twice(h);
+        block.velocity = end(block);
+    }
+    true
+}
