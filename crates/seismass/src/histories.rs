@@ -1,6 +1,6 @@
 //! Histories while a run writes them, row by row.
 
-use crate::lanes::{Vector, WIDTH, filled_to, load, numbers, padded, store};
+use crate::lanes::{Vector, WIDTH, load, numbers, store};
 use crate::model::Model;
 use crate::regime::Row;
 use crate::response::Histories;
@@ -23,31 +23,32 @@ impl Table {
         Self { values: vec![0.0; length], width, end: 0 }
     }
 
+    /// The place of the next row, and all after it; the row counts as written.
+    #[inline(always)]
+    fn next_row(&mut self) -> &mut [f64] {
+        let from = self.end;
+        self.end += self.width;
+        self.values.get_mut(from..).unwrap_or_default()
+    }
+
     /// Appends a row in vectors.
     #[inline(always)]
     fn append<V: Vector, const K: usize>(&mut self, row: &[V; K]) {
-        if let Some(out) = self.values.get_mut(self.end..) {
-            store(row, out);
-        }
-        self.end += self.width;
+        store(row, self.next_row());
     }
 
     /// Appends a padded row.
     #[inline(always)]
     fn append_padded(&mut self, row: &[f64]) {
-        if let Some(out) = self.values.get_mut(self.end..) {
-            for (out, row) in out.as_chunks_mut::<WIDTH>().0.iter_mut().zip(row.as_chunks::<WIDTH>().0) {
-                *out = *row;
-            }
+        let out = self.next_row().as_chunks_mut::<WIDTH>().0;
+        for (out, row) in out.iter_mut().zip(row.as_chunks::<WIDTH>().0) {
+            *out = *row;
         }
-        self.end += self.width;
     }
 
     /// Appends a row.
     fn append_row(&mut self, row: impl Iterator<Item = f64>) {
-        let out = self.values.get_mut(self.end..).unwrap_or_default();
-        out.iter_mut().zip(row).for_each(|(out, value)| *out = value);
-        self.end += self.width;
+        self.next_row().iter_mut().zip(row).for_each(|(out, value)| *out = value);
     }
 
     /// The rows, with NaN in those that were not written.
@@ -94,11 +95,11 @@ impl Recorder {
     pub(crate) fn new(model: &Model, options: &Options, samples: usize, every: usize) -> Self {
         let (n, blocks) = (model.storeys(), model.blocks.len());
         let rows = samples.div_ceil(every);
-        let (storeys, blocks_written) = (padded(n), blocks.next_multiple_of(WIDTH));
+        let (storeys, blocks_written) = (model.width, blocks.next_multiple_of(WIDTH));
         let others = if options.displacements_only { 0 } else { rows };
         let of_storeys = |rows: usize| Table::new(rows, if rows > 0 { n } else { 0 }, storeys);
         let of_blocks = |rows: usize| Table::new(rows, if rows > 0 { blocks } else { 0 }, blocks_written);
-        let zero = |length: usize| filled_to(length, [], 0.0);
+        let zero = |length: usize| vec![0.0; length];
         Self {
             every,
             rows,

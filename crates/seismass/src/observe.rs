@@ -214,34 +214,19 @@ impl Observer {
         }
     }
 
-    /// Appends the present state to the histories.
+    /// Appends the present state to the histories, if they have a row at a sample.
     #[inline]
     pub(crate) fn record(&mut self, state: &State, sample: usize) {
-        if self.records(sample) {
+        if let Some(recorder) = self.recorder_at(sample) {
             let blocks = state.motions.iter().map(|m| (m.velocity, m.slip));
-            self.record_row(state, &state.x, &state.v, &state.a, blocks);
+            recorder.append_row(state, &state.x, &state.v, &state.a, blocks);
         }
     }
 
-    /// Whether the histories have a row at a sample, all rows before it being written.
+    /// What writes the histories, if they have a row at a sample, all rows before it being written.
     #[inline]
-    pub(crate) fn records(&self, sample: usize) -> bool {
-        self.histories.as_ref().is_some_and(|recorder| recorder.next_sample() == sample)
-    }
-
-    /// Appends a row: drift coordinates, drift rates, floor accelerations, and (velocity, slip) of the blocks, in the
-    /// regime of `state`.
-    pub(crate) fn record_row(
-        &mut self,
-        state: &State,
-        x: &[f64],
-        v: &[f64],
-        a: &[f64],
-        blocks: impl Iterator<Item = (f64, f64)> + Clone,
-    ) {
-        if let Some(recorder) = &mut self.histories {
-            recorder.append_row(state, x, v, a, blocks);
-        }
+    pub(crate) fn recorder_at(&mut self, sample: usize) -> Option<&mut Recorder> {
+        self.histories.as_mut().filter(|recorder| recorder.next_sample() == sample)
     }
 
     /// Notes the energy at the start.

@@ -17,8 +17,7 @@ use crate::bounds::{self, Set, members, middle_and_reach};
 use crate::friction::BlockMotion;
 use crate::histories::{Recorder, RowInLanes};
 use crate::lanes::{
-    FAR, MAX_LANES, Vector, WIDTH, columns_of, differences, filled_to, for_each_path, load, numbers, padded,
-    prefix_sums, store,
+    FAR, MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
 };
 use crate::model::Model;
 use crate::observe::Observer;
@@ -222,8 +221,7 @@ pub(crate) struct Walk {
 
 impl Walk {
     pub(crate) fn new(model: &Model) -> Self {
-        let n = model.storeys();
-        let zero = || filled_to(padded(n), [], 0.0);
+        let zero = || vec![0.0; model.width];
         Self {
             is_open: false,
             x: zero(),
@@ -266,7 +264,7 @@ impl Walk {
             let free = self.layers.iter().position(|layer| layer.is_free(lane));
             let which = free.unwrap_or(self.layers.len());
             if free.is_none() {
-                self.layers.push(Layer::new(state.storeys()));
+                self.layers.push(Layer::new(state.model));
             }
             self.layers[which].take(lane, sign, friction, velocity, slip);
             self.on_floors.push((block, which, lane));
@@ -356,8 +354,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             LayerInLanes { friction: nothing, sign: nothing, turn, velocity: nothing, slip: nothing }
         }
     };
-    let next_row = |recorder: &Option<&mut Recorder>| recorder.as_ref().map_or(usize::MAX, |r| r.next_sample());
-    let mut next_recorded = next_row(&recorder);
+    let mut next_recorded = recorder.as_ref().map_or(usize::MAX, |recorder| recorder.next_sample());
     let last = end.min(samples.len() - 1);
     let mut reached = first;
     let open = loop {
@@ -681,7 +678,7 @@ fn run(
             (state.bounds.sign[i], state.bounds.turn[i]) = (state.v[i].signum(), 0.0);
         }
         followed |= drifts;
-        if observer.records(reached) {
+        if observer.recorder_at(reached).is_some() {
             walk.put_blocks(&mut state.motions);
             observer.record(state, reached);
         }

@@ -304,7 +304,7 @@ impl Steps {
         if Self::are_tall(model, regime, dt) {
             return Self { table: None, whole: Whole::Tall(Arc::new(TallStep::new(model, regime, dt))) };
         }
-        let width = padded(n);
+        let width = model.width;
         let halvings = (regime.frequency * dt / MAX_PHASE).log2().ceil().max(0.0);
         let h = dt * (-halvings).exp2();
         // Parts of a halved interval may be longer than its table's step.
@@ -435,7 +435,7 @@ fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64]
     let mut below = ground;
     let drift_acceleration: Vec<f64> = a.iter().map(|&a| a - std::mem::replace(&mut below, a)).collect();
     regime.accelerations(model, &v, &drift_acceleration, &slope, &mut jerk);
-    for (row, part) in out.chunks_exact_mut(padded(n)).zip([&change[..n], &change[n..], &a, &jerk]) {
+    for (row, part) in out.chunks_exact_mut(model.width).zip([&change[..n], &change[n..], &a, &jerk]) {
         row[..n].copy_from_slice(part);
     }
 }

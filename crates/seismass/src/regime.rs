@@ -5,7 +5,7 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Vector, WIDTH, columns_of, load, padded, prefix_sums};
+use crate::lanes::{Vector, WIDTH, columns_of, load, prefix_sums};
 use crate::model::{Model, ModelLanes};
 use crate::propagator::Steps;
 
@@ -58,7 +58,7 @@ const ROWS: usize = Row::FourthOfRate as usize + 1;
 impl Regime {
     /// The regime with `yielded[i]` plastic elements in each storey and `stuck_mass[i]` on each floor.
     pub(crate) fn new(model: &Model, yielded: impl Fn(usize) -> u8, stuck_mass: &[f64]) -> Self {
-        let vectors = padded(model.storeys()) / WIDTH;
+        let vectors = model.width / WIDTH;
         let rows = vec![[0.0; WIDTH]; ROWS * vectors];
         let mut regime = Self { vectors, rows, frequency: 0.0, growth: 0.0, steps: None };
         for i in 0..model.storeys() {

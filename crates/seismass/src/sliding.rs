@@ -2,7 +2,8 @@
 
 use std::mem::swap;
 
-use crate::lanes::{FAR, Vector, load, padded};
+use crate::lanes::{FAR, Vector, load};
+use crate::model::Model;
 use crate::state::range;
 
 /// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits.
@@ -22,8 +23,8 @@ pub(crate) struct Layer {
 }
 
 impl Layer {
-    pub(crate) fn new(storeys: usize) -> Self {
-        let lanes = |value: f64| vec![value; padded(storeys)];
+    pub(crate) fn new(model: &Model) -> Self {
+        let lanes = |value: f64| vec![value; model.width];
         let zero = || lanes(0.0);
         Self {
             friction: zero(),

@@ -147,6 +147,14 @@ pub(crate) fn range(start: f64, start_rate: f64, end: f64, end_rate: f64, third:
     (low - margin, high + margin)
 }
 
+/// [`range`] of several, from values and rates.
+#[inline(always)]
+pub(crate) fn ranges<V: Vector>(start: [V; 2], end: [V; 2], third: V, margin: V) -> (V, V) {
+    let (first, second) = (third.mul_add(start[1], start[0]), end[0].sub(third.mul(end[1])));
+    let (low, high) = (start[0].min(end[0]).min(first.min(second)), start[0].max(end[0]).max(first.max(second)));
+    (low.sub(margin), high.add(margin))
+}
+
 /// The state of a run and its working space. Vectors of storeys and floors are padded to whole lanes with zeros, from
 /// `x` to `drift_acceleration`, and those of `drive`, `spring_load` and `friction`.
 pub(crate) struct State<'a> {
@@ -214,7 +222,7 @@ impl<'a> State<'a> {
             .map(|b| BlockMotion::new(b.velocity.map_or(0.0, |w| w - floor_velocity(b.floor))))
             .collect();
         cache.begin_run();
-        let zero = || vec![0.0; padded(n)];
+        let zero = || vec![0.0; model.width];
         Self {
             model,
             cache,
@@ -239,9 +247,9 @@ impl<'a> State<'a> {
             base_load: vec![0.0; n],
             effects: LoadEffects {
                 valid: false,
-                constant: Aligned::zeros(4 * padded(n)),
-                friction: Aligned::zeros(4 * padded(n)),
-                friction_ramp: Aligned::zeros(4 * padded(n)),
+                constant: Aligned::zeros(4 * model.width),
+                friction: Aligned::zeros(4 * model.width),
+                friction_ramp: Aligned::zeros(4 * model.width),
             },
             drive: Drive { load: zero(), load_slope: zero(), ..Drive::default() },
             series: Series::default(),
@@ -667,10 +675,7 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
         let (mut lows, mut highs) = (start, start);
         for k in 0..K {
             let margin = remainder.mul(margin[k]);
-            let first = third.mul_add(start_rate[k], start[k]);
-            let second = end[k].sub(third.mul(end_rate[k]));
-            lows[k] = start[k].min(end[k]).min(first.min(second)).sub(margin);
-            highs[k] = start[k].max(end[k]).max(first.max(second)).add(margin);
+            (lows[k], highs[k]) = ranges([start[k], start_rate[k]], [end[k], end_rate[k]], third, margin);
         }
         let [low, high] = &mut state.ranges.bounds[which];
         store(&lows, low);

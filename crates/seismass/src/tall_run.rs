@@ -19,7 +19,7 @@ use crate::regime::Row;
 use crate::response::Peak;
 use crate::scene::Motion;
 use crate::sliding::{GroundBlock, Linear, SMALL_DIFFERENCE, move_on_ground};
-use crate::state::{State, range};
+use crate::state::{State, range, ranges};
 use crate::storey::Sign;
 use crate::symmetric::Symmetric;
 use crate::tall_step::TallStep;
@@ -383,14 +383,6 @@ fn quintic_ranges<V: Vector>(start: [V; 3], end: [V; 3], h: f64, margin: V) -> (
     (low.sub(margin), high.add(margin))
 }
 
-/// The cubic's range, as [`range`], of several.
-#[inline(always)]
-fn cubic_ranges<V: Vector>(start: [V; 2], end: [V; 2], third: V, margin: V) -> (V, V) {
-    let (first, second) = (third.mul_add(start[1], start[0]), end[0].sub(third.mul(end[1])));
-    let (low, high) = (start[0].min(end[0]).min(first.min(second)), start[0].max(end[0]).max(first.max(second)));
-    (low.sub(margin), high.add(margin))
-}
-
 /// Lanes that are above zero, and those that are below it.
 #[inline(always)]
 fn signs<V: Vector>((low, high): (V, V)) -> (u32, u32) {
@@ -553,7 +545,7 @@ impl Closer<'_> {
         let h2 = self.h * self.h;
         let fifth = V::splat(self.curvature.liveliness * (h2 * h2 / 384.0)).mul(at(&self.rows.fourth[3], k));
         let third = V::splat(self.h / 3.0);
-        let (positive, negative) = signs(cubic_ranges([jerk, second], [jerk_end, second_end], third, fifth));
+        let (positive, negative) = signs(ranges([jerk, second], [jerk_end, second_end], third, fifth));
         let matters = a.abs().max(a_end.abs()).not_below(V::splat(self.least.1));
         let turn = matters & !(positive | negative);
         for lane in members(Set::from(beats)) {
@@ -962,14 +954,14 @@ fn run_lanes<V: Vector>(
             observer.take_acceleration(i, before.a[i + 1], time);
             bounds.a_peak[i] = observer.peaks.floor_acceleration[i].value;
         }
-        if observer.records(reached) {
+        if let Some(recorder) = observer.recorder_at(reached) {
             for block in &on_floors {
                 blocks[block.block] = (block.velocity, block.slip);
             }
             for block in &on_ground {
                 blocks[block.block] = (block.velocity, block.slip);
             }
-            observer.record_row(state, &before.x, &before.v, &before.a[1..], blocks.iter().copied());
+            recorder.append_row(state, &before.x, &before.v, &before.a[1..], blocks.iter().copied());
         }
     }
     if reached > first {
