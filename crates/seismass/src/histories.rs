@@ -125,6 +125,21 @@ impl Recorder {
         self.next_sample
     }
 
+    /// Takes the last row back, if it is that of a sample: it is then the next to be written.
+    pub(crate) fn take_back(&mut self, sample: usize) -> bool {
+        let is_last = self.next_sample == sample + self.every;
+        if is_last {
+            self.next_sample = sample;
+            let of_storeys = [&mut self.drift, &mut self.floor_velocity, &mut self.floor_acceleration];
+            for table in
+                of_storeys.into_iter().chain([&mut self.storey_force, &mut self.slip, &mut self.block_velocity])
+            {
+                table.end -= table.width;
+            }
+        }
+        is_last
+    }
+
     /// Takes up the springs and blocks of the present state, for rows in vectors.
     pub(crate) fn take_up(&mut self, state: &State) {
         for (base, spring) in self.base_drift.iter_mut().zip(&state.springs) {

@@ -223,6 +223,13 @@ impl Observer {
         }
     }
 
+    /// Writes the row of a sample, if the histories have one, again: an event fell at its very time.
+    pub(crate) fn record_again(&mut self, state: &State, sample: usize) {
+        if self.histories.as_mut().is_some_and(|recorder| recorder.take_back(sample)) {
+            self.record(state, sample);
+        }
+    }
+
     /// What writes the histories, if they have a row at a sample, all rows before it being written.
     #[inline]
     pub(crate) fn recorder_at(&mut self, sample: usize) -> Option<&mut Recorder> {

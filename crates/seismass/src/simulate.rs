@@ -304,6 +304,9 @@ impl Run<'_> {
             self.observer.observe_accelerations(&self.state, time);
             self.observer.observe_slips(&self.state, time);
         }
+        if time == self.state.interval.start {
+            self.observer.record_again(&self.state, self.state.interval.sample);
+        }
         outcome
     }
 

@@ -20,7 +20,9 @@ const STOREYS_PER_WORD: usize = u64::BITS as usize / 2;
 /// Ground motion between two samples, linear in time.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Interval {
-    /// Time of the first sample (s).
+    /// The first sample.
+    pub(crate) sample: usize,
+    /// Its time (s).
     pub(crate) start: f64,
     /// Length (s).
     pub(crate) h: f64,
@@ -576,6 +578,7 @@ fn interval(motion: &Motion, vertical: Option<&[f64]>, i: usize) -> Interval {
     let (vertical, contact_change) = vertical.map_or((0.0, 0.0), pair);
     let (h, per_second) = if i < last { (motion.dt(), 1.0 / motion.dt()) } else { (0.0, 0.0) };
     Interval {
+        sample: i,
         start: i as f64 * motion.dt(),
         h,
         ground,

@@ -110,6 +110,31 @@ fn half_sine_pulse() {
     close(error(200.0) / error(400.0), 4.0, 0.1, "order");
 }
 
+/// A block thrown at rest ground stops after V / (mu g), here at a sample but for rounding. Whichever side of the sample
+/// rounding puts the event, a row at or after the time in the log is that of a block at rest.
+#[test]
+fn rows_at_the_time_of_an_event_are_those_after_it() {
+    let (dt, samples) = (0.005, 41);
+    let motion = sampled(dt * f64::from(samples - 1), dt, |_| 0.0);
+    let mut at_samples = 0;
+    for step in 0..2000 {
+        let mu = 0.05 + 1e-4 * f64::from(step);
+        let velocity = mu * STANDARD_GRAVITY * (dt * f64::from(1 + step % (samples - 2)));
+        let block = Block { floor: 0, mass: 1.0, mu_s: mu, mu_k: mu, velocity: Some(velocity) };
+        let response = simulate(&Scene::new(None, vec![block]).unwrap(), &motion, &every(1)).unwrap();
+        let stop = last_event(&response, EventKind::Stick);
+        for (row, &velocity) in response.histories.unwrap().block_velocity.iter().enumerate() {
+            let time = row as f64 * dt;
+            at_samples += i32::from(time == stop);
+            assert!(
+                time < stop || velocity == 0.0,
+                "mu = {mu}: {velocity:e} m/s at {time} s, at rest from {stop} s on"
+            );
+        }
+    }
+    assert!(at_samples > 100, "{at_samples}");
+}
+
 /// Section 6.3: peak-to-peak slip in the steady state, continuous and stick-slip.
 #[test]
 fn harmonic_base() {
