@@ -77,14 +77,14 @@ pub(crate) fn run(
         if i >= quiet_from && run.no_peak_can_be_beaten() {
             break;
         }
-        run.state.set_interval(motion, i);
-        if vertical {
-            run.state.refresh_accelerations(0.0);
-        }
-        let reached = run.plain_run(motion, i, quiet_from);
+        run.set_interval(motion, i);
+        let (reached, is_open) = run.plain_run(motion, i, quiet_from);
         if reached > i {
             i = reached;
-            continue;
+            if !is_open {
+                continue;
+            }
+            run.set_interval(motion, i);
         }
         if let Some((storey, time)) = run.series_interval()? {
             status = Status::Collapsed { storey: storey + 1, time };
@@ -203,8 +203,17 @@ impl Run<'_> {
         })
     }
 
-    /// Takes plain steps from interval `i` as far as nothing has to be looked at between; returns the interval reached.
-    fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> usize {
+    /// Moves on to the interval between samples `i` and `i + 1`.
+    fn set_interval(&mut self, motion: &Motion, i: usize) {
+        self.state.set_interval(motion, i);
+        if self.state.vertical {
+            self.state.refresh_accelerations(0.0);
+        }
+    }
+
+    /// Takes plain steps from interval `i` as far as nothing has to be looked at between; returns the interval reached,
+    /// and whether that one is not plain.
+    fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> (usize, bool) {
         let last = motion.acceleration().len() - 1;
         let mut end = last.min(i + INTERVALS_PER_POLL);
         if i < quiet_from {
@@ -223,7 +232,7 @@ impl Run<'_> {
         if let Some(before) = before.filter(|_| reached > i) {
             state.add_energy_of_interval(before, &mut self.observer);
         }
-        reached
+        (reached, reached < end)
     }
 
     /// Solves the present interval by series; returns the storey that collapsed, and when.
