@@ -29,14 +29,26 @@ impl Polynomial {
         p
     }
 
-    /// The polynomial with this many coefficients.
+    /// Zeros, to be set: this many coefficients, made whole vectors.
     #[inline(always)]
-    pub(crate) fn from_fn(length: usize, coefficient: impl Fn(usize) -> f64) -> Self {
-        let mut p = Self { coefficients: [0.0; MAX_DEGREE + 1], length: length.min(MAX_DEGREE + 1) };
-        for k in 0..p.length {
-            p.coefficients[k] = coefficient(k);
+    pub(crate) fn zeros(length: usize) -> Self {
+        Self { coefficients: [0.0; MAX_DEGREE + 1], length: length.next_multiple_of(WIDTH) }
+    }
+
+    /// The coefficients in whole vectors, to be changed in place.
+    #[inline(always)]
+    pub(crate) fn fours_mut(&mut self) -> &mut [[f64; WIDTH]] {
+        let fours = self.coefficients.as_chunks_mut().0;
+        let length = self.length.div_ceil(WIDTH).min(fours.len());
+        &mut fours[..length]
+    }
+
+    /// Sets the first coefficients.
+    #[inline(always)]
+    pub(crate) fn start_with<V: Vector>(&mut self, first: V) {
+        if let Some(four) = self.fours_mut().first_mut() {
+            first.store(four);
         }
-        p
     }
 
     /// The coefficients, lowest first.
@@ -78,36 +90,26 @@ impl Polynomial {
         value
     }
 
-    /// Value and derivative at `s`.
+    /// Value and derivative at `s`: of every fourth power apart, then of all.
     #[inline(always)]
     fn at_with_rate<V: Vector>(&self, s: f64) -> (f64, f64) {
-        let mut value = 0.0;
-        let mut rate = 0.0;
-        for &c in self.coefficients().iter().rev() {
-            rate = V::fused(rate, s, value);
-            value = V::fused(value, s, c);
+        let squared = s * s;
+        let (cubed, fourth) = (s * squared, V::splat(squared * squared));
+        let (mut value, mut rate) = (V::splat(0.0), V::splat(0.0));
+        for four in self.fours().iter().rev() {
+            rate = rate.mul_add(fourth, value);
+            value = value.mul_add(fourth, V::load(four));
         }
-        (value, rate)
+        let powers = V::of([1.0, s, squared, cubed]);
+        let rates = V::of([0.0, 1.0, 2.0 * s, 3.0 * squared]);
+        let rate = powers.mul(rate).mul_add(V::splat(4.0 * cubed), rates.mul(value));
+        (powers.mul(value).sum(), rate.sum())
     }
 
     /// The derivative.
     #[inline(always)]
     pub(crate) fn derivative(&self) -> Self {
         Self::new(self.coefficients().iter().zip(&ORDERS).skip(1).map(|(&c, &k)| k * c))
-    }
-
-    /// The same polynomial on [0, end], rescaled to [0, 1].
-    #[inline(always)]
-    pub(crate) fn cut(&self, end: f64) -> Self {
-        let mut cut = *self;
-        if end < 1.0 {
-            let mut power = 1.0;
-            for c in cut.coefficients_mut() {
-                *c *= power;
-                power *= end;
-            }
-        }
-        cut
     }
 
     /// What the coefficients say of values and derivatives on [0, 1].
@@ -506,9 +508,8 @@ mod tests {
     }
 
     #[test]
-    fn cut_keeps_values() {
+    fn derivatives_are_those_of_the_powers() {
         let p = Polynomial::new([1.0, -2.0, 0.5, 3.0]);
-        assert!((p.cut(0.25).at::<Plain>(0.8) - p.at::<Plain>(0.2)).abs() < 1e-15);
         assert!((p.derivative().at::<Plain>(0.3) - (-2.0 + 0.3 + 9.0 * 0.09)).abs() < 1e-15);
     }
 }

@@ -8,7 +8,6 @@ use crate::regime::Row;
 use crate::response::{Event, EventKind};
 use crate::state::{State, range};
 use crate::storey::Sign;
-use crate::taylor::INVERSE;
 
 /// A guard falls when it is below zero by more than this fraction of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -68,34 +67,12 @@ impl First {
 impl State<'_> {
     /// `factor`, 1 or -1, times the relative velocity of a block over the present series, which starts at `tau`.
     #[inline(always)]
-    pub(crate) fn relative_velocity(&self, block: usize, tau: f64, factor: f64) -> Polynomial {
+    pub(crate) fn relative_velocity<V: Vector>(&self, block: usize, tau: f64, factor: f64) -> Polynomial {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
-        let h = factor * self.series.h();
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
-        let contact = [self.contact_at(tau), self.interval.contact_slope * self.series.h()];
-        let acceleration = self.acceleration_of(law.floor, tau, 1.0);
-        let terms = acceleration.coefficients();
-        let mut p = Polynomial::from_fn(terms.len() + 1, |k| match k {
-            0 => factor * motion.velocity,
-            _ => -h * INVERSE[k] * terms[k - 1],
-        });
-        // Added before they are multiplied, so that small sums keep their digits.
-        if let ([a0, a1, ..], [_, c1, c2, ..]) = (terms, p.coefficients_mut()) {
-            *c1 = -h * (a0 + friction * contact[0]);
-            *c2 = -0.5 * h * (a1 + friction * contact[1]);
-        }
-        p
-    }
-
-    /// `factor`, 1 or -1, times the absolute acceleration of a floor, or of the ground (0), over the present series, which
-    /// starts at `tau`.
-    #[inline(always)]
-    pub(crate) fn acceleration_of(&self, floor: usize, tau: f64, factor: f64) -> Polynomial {
-        if floor > 0 {
-            return self.series.floor_acceleration(floor - 1, factor);
-        }
-        let change = self.interval.ground_slope * self.series.h();
-        Polynomial::new([factor * self.interval.ground_at(tau), factor * change])
+        let change = self.interval.contact_slope * self.series.h();
+        let of_friction = [friction * self.contact_at(tau), friction * change];
+        self.series.velocity_against::<V>(law.floor, factor * motion.velocity, factor, of_friction)
     }
 
     /// The first guard that falls within the present series, which starts at `tau` and whose ranges are formed: its place
@@ -165,7 +142,7 @@ impl State<'_> {
                 continue;
             }
             *isolated += 1;
-            let p = self.series.drift_rate(i, sign.factor());
+            let p = self.series.drift_rate::<V>(i, sign.factor());
             let contact = self.contact_at(tau);
             let sizes = self.acceleration_size(i + 1, contact) + self.acceleration_size(i, contact);
             let tolerance = ROUNDING * (p.norm::<V>() + self.series.h() * sizes);
@@ -176,7 +153,7 @@ impl State<'_> {
     /// Considers the guard of a drift coordinate that, times `sign`, must stay below `limit`.
     #[inline(always)]
     fn drift_guard<V: Vector>(&self, i: usize, limit: f64, sign: Sign, guard: Guard, first: &mut First) {
-        let mut p = self.series.drift(i, -sign.factor());
+        let mut p = self.series.drift::<V>(i, -sign.factor());
         p.coefficients_mut()[0] = 0.0;
         let excursion = p.norm::<V>();
         p.coefficients_mut()[0] = limit - sign.factor() * self.x[i];
@@ -206,7 +183,7 @@ impl State<'_> {
                 if size < mu * least_contact {
                     continue;
                 }
-                let mut p = self.acceleration_of(floor, tau, -sign.factor());
+                let mut p = self.series.acceleration::<V>(floor, -sign.factor());
                 // Not below what a decision takes as equal: what has just stuck must not break away for that.
                 let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + p.norm::<V>() + sizes);
                 if let [c0, c1, ..] = p.coefficients_mut() {
@@ -226,7 +203,7 @@ impl State<'_> {
                 continue;
             }
             *isolated += 1;
-            let p = self.relative_velocity(j, tau, sign.factor());
+            let p = self.relative_velocity::<V>(j, tau, sign.factor());
             let law = &self.model.blocks[j];
             let contact = self.interval.contact_at(tau);
             let size = self.acceleration_size(law.floor, contact) + law.mu_k * STANDARD_GRAVITY;

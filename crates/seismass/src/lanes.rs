@@ -188,6 +188,8 @@ impl DerefMut for Aligned {
 pub(crate) trait Vector: Copy {
     fn splat(value: f64) -> Self;
     fn load(values: &[f64; WIDTH]) -> Self;
+    /// From numbers that are not in memory yet: to put them there and load them at once would wait for each.
+    fn of(values: [f64; WIDTH]) -> Self;
     fn store(self, values: &mut [f64; WIDTH]);
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
@@ -230,6 +232,10 @@ impl Vector for Plain {
     #[inline(always)]
     fn load(values: &[f64; WIDTH]) -> Self {
         Self(*values)
+    }
+    #[inline(always)]
+    fn of(values: [f64; WIDTH]) -> Self {
+        Self(values)
     }
     #[inline(always)]
     fn store(self, values: &mut [f64; WIDTH]) {
@@ -445,6 +451,10 @@ mod x86 {
         #[inline(always)]
         fn load(values: &[f64; WIDTH]) -> Self {
             Self(unsafe { _mm256_loadu_pd(values.as_ptr()) })
+        }
+        #[inline(always)]
+        fn of([first, second, third, fourth]: [f64; WIDTH]) -> Self {
+            Self(unsafe { _mm256_set_pd(fourth, third, second, first) })
         }
         #[inline(always)]
         fn store(self, values: &mut [f64; WIDTH]) {

@@ -165,7 +165,7 @@ impl Observer {
     #[inline(always)]
     pub(crate) fn observe_series<V: Vector>(&mut self, state: &State, tau: f64, end: f64, isolated: &mut usize) {
         let h = state.series.h();
-        let (start, length) = (state.interval.start + tau, end * h);
+        let start = state.interval.start + tau;
         let [drifts, _, accelerations] = state.ranges.suspects;
         if drifts | accelerations == 0 {
             return;
@@ -176,10 +176,9 @@ impl Observer {
             let turns = !(rate.0 > 0.0 || rate.1 < 0.0);
             if turns && self.drift_may_peak(state, i, low, high) {
                 *isolated += 1;
-                let drift = state.series.drift(i, 1.0).cut(end);
-                let (first, others) = drift.derivative().sign_changes::<V>();
-                for s in first.into_iter().chain(others) {
-                    self.take_drift(state, i, drift.at::<V>(s), start + s * length);
+                let (first, others) = state.series.drift_rate::<V>(i, 1.0).sign_changes::<V>();
+                for s in first.into_iter().chain(others).filter(|&s| s < end) {
+                    self.take_drift(state, i, state.series.drift::<V>(i, 1.0).at::<V>(s), start + s * h);
                 }
             }
         }
@@ -187,10 +186,10 @@ impl Observer {
             let (low, high) = state.ranges.acceleration(i);
             if self.acceleration_may_peak(i, low, high) && !state.is_steady(i) {
                 *isolated += 1;
-                let acceleration = state.series.floor_acceleration(i, 1.0).cut(end);
+                let acceleration = state.series.acceleration::<V>(i + 1, 1.0);
                 let (first, others) = acceleration.derivative().sign_changes::<V>();
-                for s in first.into_iter().chain(others) {
-                    self.take_acceleration(i, acceleration.at::<V>(s), start + s * length);
+                for s in first.into_iter().chain(others).filter(|&s| s < end) {
+                    self.take_acceleration(i, acceleration.at::<V>(s), start + s * h);
                 }
             }
         }
@@ -199,16 +198,16 @@ impl Observer {
     /// Takes the turns of airborne blocks inside the present series, from `tau` to its place `end`, before the state is
     /// advanced.
     pub(crate) fn observe_flights(&mut self, state: &mut State, tau: f64, end: f64) {
-        let (start, length) = (state.interval.start + tau, end * state.series.h());
+        let (start, h) = (state.interval.start + tau, state.series.h());
         for j in 0..state.motions.len() {
-            let velocity = state.relative_velocity(j, tau, 1.0).cut(end);
-            let slip = state.slip_change(j, tau).cut(end);
+            let velocity = state.relative_velocity::<Plain>(j, tau, 1.0);
+            let slip = state.slip_change(j, tau);
             let at_start = state.motions[j].slip;
             let (peak, motion) = (&mut self.peaks.slip[j], &mut state.motions[j]);
             let (first, others) = velocity.sign_changes::<Plain>();
-            for s in first.into_iter().chain(others) {
+            for s in first.into_iter().chain(others).filter(|&s| s < end) {
                 let value = at_start + slip.at::<Plain>(s);
-                peak.take(value, start + s * length);
+                peak.take(value, start + s * h);
                 motion.turn_at(value);
             }
         }
@@ -250,7 +249,7 @@ impl Observer {
         let length = state.series.h() * end;
         let (mut rates, mut scratch) = (vec![0.0; n], vec![0.0; n]);
         let velocities: Vec<Option<Polynomial>> = (0..state.motions.len())
-            .map(|j| (!state.motions[j].is_stuck()).then(|| state.relative_velocity(j, tau, 1.0)))
+            .map(|j| (!state.motions[j].is_stuck()).then(|| state.relative_velocity::<Plain>(j, tau, 1.0)))
             .collect();
         for (node, weight) in GAUSS {
             let s = node * end;

@@ -631,7 +631,8 @@ fn clear_steps_of_scene(
     steps(state, walk, recorder, motion, first, end)
 }
 
-/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
+/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached, and
+/// whether it is known not to be plain.
 fn run(
     state: &mut State,
     walk: &mut Walk,
@@ -639,7 +640,7 @@ fn run(
     motion: &Motion,
     first: usize,
     end: usize,
-) -> usize {
+) -> (usize, bool) {
     let h = motion.dt();
     let samples = motion.acceleration();
     let vertical = motion.vertical().filter(|_| state.vertical).unwrap_or(&[]);
@@ -657,9 +658,17 @@ fn run(
             break;
         }
         let contact = (contact_at(vertical, reached), contact_at(vertical, reached + 1));
-        let mut step = Closer { state, walk, observer, h, contact, beaten: [0; 2] };
-        let clears = step.clears();
-        let [drifts, accelerations] = step.beaten;
+        let mut look = Closer { state, walk, observer, h, contact, beaten: [0; 2] };
+        let mut clears = look.clears();
+        if !clears && followed != 0 {
+            // Once more, with the peaks up to here: whether a step is plain must not depend on where its run began.
+            take_peaks(state, observer, followed, reached as f64 * h);
+            state.update_bounds(observer);
+            walk.suspects[0] |= std::mem::take(&mut followed);
+            look = Closer { state, walk, observer, h, contact, beaten: [0; 2] };
+            clears = look.clears();
+        }
+        let [drifts, accelerations] = look.beaten;
         let ground = Linear { start: samples[reached], end: samples[reached + 1] };
         let contact = Linear { start: contact.0, end: contact.1 };
         if !clears || !move_on_ground(&mut walk.on_ground, ground, contact, h, state.stuck_mu[0]) {
@@ -684,16 +693,21 @@ fn run(
         }
     }
     walk.put_blocks(&mut state.motions);
+    take_peaks(state, observer, followed, reached as f64 * h);
+    (reached, reached < end)
+}
+
+/// Takes the peaks of drifts that have been followed, at the end of doing so.
+fn take_peaks(state: &mut State, observer: &mut Observer, followed: Set, time: f64) {
     for i in members(followed) {
         state.bounds.spring_changed(i);
-        observer.take_drift(state, i, state.x[i], reached as f64 * h);
+        observer.take_drift(state, i, state.x[i], time);
     }
-    reached
 }
 
 impl State<'_> {
     /// Takes plain steps from interval `first` until `end`, or until one is not plain, and records their histories;
-    /// returns the interval reached, whose start the state is then at.
+    /// returns the interval reached, whose start the state is then at, and whether that one is known not to be plain.
     pub(crate) fn plain_run(
         &mut self,
         walk: &mut Walk,
@@ -701,14 +715,14 @@ impl State<'_> {
         motion: &Motion,
         first: usize,
         end: usize,
-    ) -> usize {
+    ) -> (usize, bool) {
         if self.airborne || !self.cache.visit(self.regime, self.model, self.vertical) {
-            return first;
+            return (first, true);
         }
-        let reached = match self.regime().steps.as_deref().map(|steps| &steps.whole) {
+        let (reached, is_open) = match self.regime().steps.as_deref().map(|steps| &steps.whole) {
             Some(Whole::Tall(step)) => {
                 let step = Arc::clone(step);
-                tall_run::run(self, observer, motion, &step, first, end)
+                (tall_run::run(self, observer, motion, &step, first, end), false)
             }
             _ => {
                 self.prepare_effects();
@@ -719,7 +733,7 @@ impl State<'_> {
         if self.is_sliding {
             observer.observe_slips(self, reached as f64 * motion.dt());
         }
-        reached
+        (reached, is_open)
     }
 
     /// Forms the effect of the floor loads on the step, if they have changed.

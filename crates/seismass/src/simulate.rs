@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::events::{Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
 use crate::histories::Recorder;
-use crate::lanes::{Vector, by_width, for_each_path};
+use crate::lanes::{Plain, Vector, by_width, for_each_path};
 use crate::model::Model;
 use crate::observe::Observer;
 use crate::plain_run::Walk;
@@ -212,7 +212,7 @@ impl Run<'_> {
     }
 
     /// Takes plain steps from interval `i` as far as nothing has to be looked at between; returns the interval reached,
-    /// and whether that one is not plain.
+    /// and whether that one is known not to be plain.
     fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> (usize, bool) {
         let last = motion.acceleration().len() - 1;
         let mut end = last.min(i + INTERVALS_PER_POLL);
@@ -226,13 +226,13 @@ impl Run<'_> {
             end = i + 1;
             state.moment()
         });
-        let reached = state.plain_run(&mut self.walk, &mut self.observer, motion, i, end);
+        let (reached, is_open) = state.plain_run(&mut self.walk, &mut self.observer, motion, i, end);
         self.statistics.intervals += reached - i;
         self.statistics.plain_steps += reached - i;
         if let Some(before) = before.filter(|_| reached > i) {
             state.add_energy_of_interval(before, &mut self.observer);
         }
-        (reached, reached < end)
+        (reached, is_open)
     }
 
     /// Solves the present interval by series; returns the storey that collapsed, and when.
@@ -373,7 +373,7 @@ struct Moment {
 impl State<'_> {
     /// Slip of a block since the start of the present series, which begins at `tau`.
     pub(crate) fn slip_change(&self, block: usize, tau: f64) -> Polynomial {
-        let velocity = self.relative_velocity(block, tau, 1.0);
+        let velocity = self.relative_velocity::<Plain>(block, tau, 1.0);
         let h = self.series.h();
         let terms = velocity.coefficients().iter().enumerate().map(|(k, c)| h * c / (k + 1) as f64);
         Polynomial::new(std::iter::once(0.0).chain(terms))

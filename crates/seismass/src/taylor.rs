@@ -77,17 +77,15 @@ impl Series {
         let (order, stride) = (terms(regime.frequency * h), model.width);
         if self.stride != stride || self.storeys != n {
             let zero = || vec![0.0; stride];
-            (self.x, self.v, self.a) = (zero(), zero(), zero());
+            (self.x, self.v, self.a) = (zero(), zero(), vec![0.0; (MAX_DEGREE + 1) * stride]);
             for pair in [&mut self.end, &mut self.changes, &mut self.integrals, &mut self.load] {
                 *pair = [zero(), zero()];
             }
         }
         (self.storeys, self.stride, self.order, self.h, self.place) = (n, stride, order, h, 1.0);
         (self.ground[0], self.ground[1]) = (drive.ground, drive.ground_slope * h);
-        let length = (order + 1) * stride;
-        if self.a.len() < length {
-            self.a.resize(length, 0.0);
-        }
+        // Polynomials take terms in fours.
+        self.a[(order + 1) * stride..(order + 1).next_multiple_of(WIDTH) * stride].fill(0.0);
         if let Some(table) = regime.steps.as_ref().and_then(|steps| steps.table.as_ref()) {
             form_by_table(self, model, table, &start, drive);
         } else if n <= MAX_LANES {
@@ -332,44 +330,85 @@ impl Series {
         self.place
     }
 
-    /// Terms of the acceleration of what storey `i` stands on: of the floor below with their stride, or of the ground.
+    /// Terms of the absolute acceleration of a floor, or of the ground (0).
     #[inline(always)]
-    fn terms_below(&self, i: usize) -> (&[f64], usize) {
-        match i.checked_sub(1) {
-            Some(below) => (&self.a[below..], self.stride),
-            None => (&self.ground, 1),
+    fn terms_of(&self, floor: usize) -> Terms<'_> {
+        match floor.checked_sub(1) {
+            Some(i) => Terms { values: self.a.get(i..).unwrap_or(&[]), stride: self.stride },
+            None => Terms { values: &self.ground, stride: 1 },
         }
     }
 
     /// `factor` times the drift coordinate of storey `i`.
     #[inline(always)]
-    pub(crate) fn drift(&self, i: usize, factor: f64) -> Polynomial {
-        let (above, (below, stride)) = (&self.a[i..], self.terms_below(i));
+    pub(crate) fn drift<V: Vector>(&self, i: usize, factor: f64) -> Polynomial {
+        let (above, below) = (self.terms_of(i + 1), self.terms_of(i));
         let once = factor * self.h;
         let twice = once * self.h;
-        Polynomial::from_fn(self.order + 1, |k| match k {
-            0 => factor * self.x[i],
-            1 => once * self.v[i],
-            _ => twice * INVERSE_PAIRS[k] * (above[(k - 2) * self.stride] - below[(k - 2) * stride]),
-        })
+        let mut p = Polynomial::zeros(self.order + 1);
+        let mut k = 2;
+        for (four, weights) in p.fours_mut().iter_mut().zip(in_fours(&INVERSE_PAIRS)).skip(1) {
+            let change = above.four::<V>(k).sub(below.four(k));
+            change.mul(V::splat(twice)).mul(V::load(weights)).store(four);
+            k += WIDTH;
+        }
+        let terms = [0, 1].map(|k| twice * INVERSE_PAIRS[k + 2] * (above.term(k) - below.term(k)));
+        p.start_with(V::of([factor * self.x[i], once * self.v[i], terms[0], terms[1]]));
+        p
     }
 
     /// `factor` times the drift rate of storey `i`.
     #[inline(always)]
-    pub(crate) fn drift_rate(&self, i: usize, factor: f64) -> Polynomial {
-        let (above, (below, stride)) = (&self.a[i..], self.terms_below(i));
+    pub(crate) fn drift_rate<V: Vector>(&self, i: usize, factor: f64) -> Polynomial {
+        let (above, below) = (self.terms_of(i + 1), self.terms_of(i));
         let once = factor * self.h;
-        Polynomial::from_fn(self.order + 1, |k| match k {
-            0 => factor * self.v[i],
-            _ => once * INVERSE[k] * (above[(k - 1) * self.stride] - below[(k - 1) * stride]),
-        })
+        let mut p = Polynomial::zeros(self.order + 1);
+        let mut k = 3;
+        for (four, weights) in p.fours_mut().iter_mut().zip(in_fours(&INVERSE)).skip(1) {
+            let change = above.four::<V>(k).sub(below.four(k));
+            change.mul(V::splat(once)).mul(V::load(weights)).store(four);
+            k += WIDTH;
+        }
+        let terms = [0, 1, 2].map(|k| once * INVERSE[k + 1] * (above.term(k) - below.term(k)));
+        p.start_with(V::of([factor * self.v[i], terms[0], terms[1], terms[2]]));
+        p
     }
 
-    /// `factor` times the absolute acceleration of floor `i`.
+    /// The velocity that starts from `velocity`, whose rate is -`factor` times the absolute acceleration of a floor, or of
+    /// the ground (0), and two more terms.
     #[inline(always)]
-    pub(crate) fn floor_acceleration(&self, i: usize, factor: f64) -> Polynomial {
-        let terms = &self.a[i..];
-        Polynomial::from_fn(self.order + 1, |k| factor * terms[k * self.stride])
+    pub(crate) fn velocity_against<V: Vector>(
+        &self,
+        floor: usize,
+        velocity: f64,
+        factor: f64,
+        more: [f64; 2],
+    ) -> Polynomial {
+        let acceleration = self.terms_of(floor);
+        let once = -factor * self.h;
+        let mut p = Polynomial::zeros(self.order + 1);
+        let mut k = 3;
+        for (four, weights) in p.fours_mut().iter_mut().zip(in_fours(&INVERSE)).skip(1) {
+            acceleration.four::<V>(k).mul(V::splat(once)).mul(V::load(weights)).store(four);
+            k += WIDTH;
+        }
+        // Added before they are multiplied, so that small sums keep their digits.
+        let [first, second] = [0, 1].map(|k| once * INVERSE[k + 1] * (acceleration.term(k) + more[k]));
+        p.start_with(V::of([velocity, first, second, once * INVERSE[3] * acceleration.term(2)]));
+        p
+    }
+
+    /// `factor` times the absolute acceleration of a floor, or of the ground (0).
+    #[inline(always)]
+    pub(crate) fn acceleration<V: Vector>(&self, floor: usize, factor: f64) -> Polynomial {
+        let terms = self.terms_of(floor);
+        let mut p = Polynomial::zeros(self.order + 1);
+        let mut k = 0;
+        for four in p.fours_mut() {
+            terms.four::<V>(k).mul(V::splat(factor)).store(four);
+            k += WIDTH;
+        }
+        p
     }
 
     /// The first two terms of the absolute acceleration of floor `i`, and the first and second integrals of the others up
@@ -394,9 +433,34 @@ impl Series {
     /// Drift rates at `s`.
     pub(crate) fn rates_at(&self, s: f64, out: &mut [f64]) {
         for (i, out) in out.iter_mut().enumerate() {
-            *out = self.drift_rate(i, 1.0).at::<Plain>(s);
+            *out = self.drift_rate::<Plain>(i, 1.0).at::<Plain>(s);
         }
     }
+}
+
+/// Terms of one floor: so far apart.
+#[derive(Clone, Copy)]
+struct Terms<'a> {
+    values: &'a [f64],
+    stride: usize,
+}
+
+impl Terms<'_> {
+    #[inline(always)]
+    fn term(&self, k: usize) -> f64 {
+        self.values[k * self.stride]
+    }
+
+    /// Four terms from order `k` on.
+    #[inline(always)]
+    fn four<V: Vector>(&self, k: usize) -> V {
+        V::of([self.term(k), self.term(k + 1), self.term(k + 2), self.term(k + 3)])
+    }
+}
+
+#[inline(always)]
+fn in_fours(table: &[f64; MAX_DEGREE + 1]) -> &[[f64; WIDTH]] {
+    table.as_chunks().0
 }
 
 /// Sums of terms: value and rate at the end of a step of unit length, first and second integrals from the second order on.
