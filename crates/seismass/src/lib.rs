@@ -75,6 +75,7 @@ pub mod spectrum;
 mod state;
 mod storey;
 mod symmetric;
+mod tall_bounds;
 mod tall_run;
 mod tall_step;
 mod taylor;

@@ -12,16 +12,16 @@ use crate::banded_step::{BandedStep, whole_blocks};
 use crate::bernstein::{MAX_DEGREE, Polynomial};
 use crate::bounds::{Set, members};
 use crate::full_step::{FullStep, Shears};
-use crate::lanes::{FAR, Plain, Vector, WIDTH, filled_to, for_each_path};
+use crate::lanes::{Plain, Vector, WIDTH, filled_to, for_each_path};
 use crate::observe::Observer;
 use crate::plain_run::MARGINS;
 use crate::regime::Row;
-use crate::response::Peak;
 use crate::scene::Motion;
 use crate::sliding::{GroundBlock, Linear, SMALL_DIFFERENCE, move_on_ground};
 use crate::state::{State, range, ranges};
 use crate::storey::Sign;
 use crate::symmetric::Symmetric;
+use crate::tall_bounds::{Apart, Bounds};
 use crate::tall_step::TallStep;
 
 /// Highest order of a series of floor accelerations; that of the drifts is two orders higher.
@@ -35,31 +35,31 @@ const FAR_BELOW: f64 = 1.0 / (1u64 << 60) as f64;
 
 /// Vectors of padded values.
 #[inline(always)]
-fn lanes(values: &[f64]) -> &[[f64; WIDTH]] {
+pub(crate) fn lanes(values: &[f64]) -> &[[f64; WIDTH]] {
     values.as_chunks::<WIDTH>().0
 }
 
 #[inline(always)]
-fn lanes_mut(values: &mut [f64]) -> &mut [[f64; WIDTH]] {
+pub(crate) fn lanes_mut(values: &mut [f64]) -> &mut [[f64; WIDTH]] {
     values.as_chunks_mut::<WIDTH>().0
 }
 
 /// Vector `k` of padded values.
 #[inline(always)]
-fn at<V: Vector>(values: &[f64], k: usize) -> V {
+pub(crate) fn at<V: Vector>(values: &[f64], k: usize) -> V {
     V::load(&lanes(values)[k])
 }
 
 /// The state at a sample.
-struct Sample {
-    x: Vec<f64>,
-    v: Vec<f64>,
+pub(crate) struct Sample {
+    pub(crate) x: Vec<f64>,
+    pub(crate) v: Vec<f64>,
     /// Floor accelerations, that of the ground before them.
-    a: Vec<f64>,
+    pub(crate) a: Vec<f64>,
     /// Their rates, after a place for that of the ground.
-    jerk: Vec<f64>,
+    pub(crate) jerk: Vec<f64>,
     /// Drift accelerations, with room for the band before and after them.
-    q: Vec<f64>,
+    pub(crate) q: Vec<f64>,
 }
 
 impl Sample {
@@ -265,50 +265,6 @@ fn energy<V: Vector>(root_mass: &[f64], rate: &[f64], root_tangent: &[f64], q: &
     sums[0].add(sums[1]).sum()
 }
 
-/// The bounds of [`crate::bounds::Bounds`], of all storeys however many there are.
-struct Bounds {
-    middle: Vec<f64>,
-    reach: Vec<f64>,
-    sign: Vec<f64>,
-    turn: Vec<f64>,
-    stuck_mu: Vec<f64>,
-    a_peak: Vec<f64>,
-}
-
-impl Bounds {
-    fn new(state: &State, observer: &Observer, length: usize) -> Self {
-        let n = state.storeys();
-        let (middle, reach): (Vec<f64>, Vec<f64>) = (0..n).map(|i| state.quiet_middle_and_reach(observer, i)).unzip();
-        let sign: Vec<f64> = state.springs.iter().map(|s| s.plastic().map_or(0.0, Sign::factor)).collect();
-        Self {
-            middle: filled_to(length, middle, 0.0),
-            reach: filled_to(length, reach, FAR),
-            turn: filled_to(length, sign.iter().map(|&sign| if sign == 0.0 { FAR } else { 0.0 }), FAR),
-            sign: filled_to(length, sign, 0.0),
-            stuck_mu: filled_to(length, state.stuck_mu[1..].iter().map(|mu| mu.min(FAR)), FAR),
-            a_peak: filled_to(length, observer.peaks.floor_acceleration.iter().map(|peak| peak.value), FAR),
-        }
-    }
-
-    /// How far values are from their middles after h / 3 at their rates, to either side: of drifts, of the negative of
-    /// plastic storeys' rates, of accelerations.
-    #[inline(always)]
-    fn apart<V: Vector>(&self, sample: &Sample, margin: usize, third: V, out: &mut [Vec<f64>; 3]) {
-        let [drifts, rates, accelerations] = out.each_mut().map(|values| lanes_mut(values));
-        let (x, v, q) = (lanes(&sample.x), lanes(&sample.v), lanes(&sample.q[margin..]));
-        for (k, ((out, x), v)) in drifts.iter_mut().zip(x).zip(v).enumerate() {
-            let from_middle = V::load(x).sub(V::load(&lanes(&self.middle)[k])).abs();
-            third.mul_add(V::load(v).abs(), from_middle).store(out);
-        }
-        for (((out, v), q), sign) in rates.iter_mut().zip(v).zip(q).zip(lanes(&self.sign)) {
-            third.mul(V::load(q).abs()).sub(V::load(sign).mul(V::load(v))).store(out);
-        }
-        for ((out, a), jerk) in accelerations.iter_mut().zip(lanes(&sample.a[1..])).zip(lanes(&sample.jerk[1..])) {
-            third.mul_add(V::load(jerk).abs(), V::load(a).abs()).store(out);
-        }
-    }
-}
-
 /// A block that slides on a floor.
 struct FloorBlock {
     block: usize,
@@ -322,25 +278,19 @@ struct FloorBlock {
     velocity_after: f64,
 }
 
-/// Storeys and floors whose peaks a step beats: at its end; inside, where drifts and accelerations turn.
-#[derive(Default)]
+/// Storeys and floors of a vector whose peaks a step beats, as bits of the lanes: at all; inside, where drifts and
+/// accelerations turn.
 struct Beaten {
-    drifts: Vec<usize>,
-    accelerations: Vec<usize>,
-    drifts_inside: Vec<usize>,
-    accelerations_inside: Vec<usize>,
+    vector: usize,
+    drifts: u32,
+    accelerations: u32,
+    drifts_inside: u32,
+    accelerations_inside: u32,
 }
 
 impl Beaten {
     fn turns(&self) -> bool {
-        !(self.drifts_inside.is_empty() && self.accelerations_inside.is_empty())
-    }
-
-    fn clear(&mut self) {
-        self.drifts.clear();
-        self.accelerations.clear();
-        self.drifts_inside.clear();
-        self.accelerations_inside.clear();
+        self.drifts_inside | self.accelerations_inside != 0
     }
 }
 
@@ -457,7 +407,6 @@ struct Suspects {
 
 /// A step that the loop did not clear.
 struct Closer<'a> {
-    state: &'a State<'a>,
     rows: &'a Rows,
     bounds: &'a Bounds,
     start: &'a Sample,
@@ -479,54 +428,57 @@ impl Closer<'_> {
         self.curvature.liveliness * (h3 * h3 / 46080.0)
     }
 
-    /// Whether no guard falls inside the step in the suspect lanes of a vector of storeys and floors; notes the peaks
-    /// that are beaten.
+    /// Which peaks the suspect lanes of a vector of storeys and floors beat; nothing if a guard may fall inside the step.
     #[inline(always)]
-    fn look<V: Vector>(&self, suspects: &Suspects, beaten: &mut Beaten) -> bool {
+    fn look<V: Vector>(&self, suspects: &Suspects) -> Option<Beaten> {
         let Suspects { vector, drifts, rates, accelerations } = *suspects;
-        (drifts | rates == 0 || self.look_at_drifts::<V>(vector, drifts, rates, beaten))
-            && (accelerations == 0 || self.look_at_accelerations::<V>(vector, accelerations, beaten))
+        let (mut of_drifts, mut of_accelerations) = ((0, 0), (0, 0));
+        if drifts | rates != 0 {
+            of_drifts = self.look_at_drifts::<V>(vector, drifts, rates)?;
+        }
+        if accelerations != 0 {
+            of_accelerations = self.look_at_accelerations::<V>(vector, accelerations)?;
+        }
+        Some(Beaten {
+            vector,
+            drifts: of_drifts.0,
+            accelerations: of_accelerations.0,
+            drifts_inside: of_drifts.1,
+            accelerations_inside: of_accelerations.1,
+        })
     }
 
+    /// Lanes whose drifts beat a peak, and those of them where they turn.
     #[inline(always)]
-    fn look_at_drifts<V: Vector>(&self, k: usize, drifts: u32, rates: u32, beaten: &mut Beaten) -> bool {
+    fn look_at_drifts<V: Vector>(&self, k: usize, drifts: u32, rates: u32) -> Option<(u32, u32)> {
         let (start, end, [q_rate, q_rate_end]) = (self.start, self.end, &self.curvature.q_rate);
         let (x, x_end) = (at::<V>(&start.x, k), at::<V>(&end.x, k));
         let (v, v_end) = (at::<V>(&start.v, k), at::<V>(&end.v, k));
         let (q, q_end) = (at::<V>(&start.q[self.margin..], k), at::<V>(&end.q[self.margin..], k));
-        let sixth = V::splat(self.sixth());
+        let (bounds, zero, sixth) = (&self.bounds.vectors[k], V::splat(0.0), V::splat(self.sixth()));
         let rate_margin = sixth.mul(at(&self.rows.fourth[1], k));
         let (from, to) = ([v, q, at(q_rate, k)], [v_end, q_end, at(q_rate_end, k)]);
         let (positive, negative) = signs(quintic_ranges(from, to, self.h, rate_margin));
-        for lane in members(Set::from(rates)) {
-            let sign = self.bounds.sign[WIDTH * k + lane];
-            let kept = if sign > 0.0 { positive } else { negative };
-            if sign != 0.0 && kept >> lane & 1 == 0 {
-                return false;
-            }
+        let sign = V::load(&bounds.sign);
+        let (forward, backward) = (!zero.not_below(sign), !sign.not_below(zero));
+        if (forward & !positive | backward & !negative) & rates != 0 {
+            return None;
         }
         let margin = sixth.mul(at(&self.rows.fourth[0], k));
         let (low, high) = quintic_ranges([x, v, q], [x_end, v_end, q_end], self.h, margin);
-        let (middle, reach) = (at::<V>(&self.bounds.middle, k), at::<V>(&self.bounds.reach, k));
-        let outside = high.not_below(middle.add(reach)) | middle.sub(reach).not_below(low);
-        let matters = x.abs().max(x_end.abs()).not_below(V::splat(self.least.0));
-        let (mut lows, mut highs) = ([0.0; WIDTH], [0.0; WIDTH]);
-        low.store(&mut lows);
-        high.store(&mut highs);
-        for lane in members(Set::from(drifts & outside)) {
-            let i = WIDTH * k + lane;
-            let (lower, upper) = self.state.guarded_drift(i);
-            if !(highs[lane] < upper && lows[lane] > lower) {
-                return false;
-            }
-            let turns = (matters & !(positive | negative)) >> lane & 1 != 0;
-            if turns { &mut beaten.drifts_inside } else { &mut beaten.drifts }.push(i);
+        let (middle, reach) = (V::load(&bounds.middle), V::load(&bounds.reach));
+        let outside = (high.not_below(middle.add(reach)) | middle.sub(reach).not_below(low)) & drifts;
+        let (lower, upper) = self.bounds.guarded_drifts::<V>(k);
+        if (high.not_below(upper) | lower.not_below(low)) & outside != 0 {
+            return None;
         }
-        true
+        let matters = x.abs().max(x_end.abs()).not_below(V::splat(self.least.0));
+        Some((outside, outside & matters & !(positive | negative)))
     }
 
+    /// Lanes whose floor accelerations beat a peak, and those of them where they turn.
     #[inline(always)]
-    fn look_at_accelerations<V: Vector>(&self, k: usize, suspects: u32, beaten: &mut Beaten) -> bool {
+    fn look_at_accelerations<V: Vector>(&self, k: usize, suspects: u32) -> Option<(u32, u32)> {
         let (start, end, [second, second_end]) = (self.start, self.end, &self.curvature.a);
         let (a, a_end) = (at::<V>(&start.a[1..], k), at::<V>(&end.a[1..], k));
         let (jerk, jerk_end) = (at::<V>(&start.jerk[1..], k), at::<V>(&end.jerk[1..], k));
@@ -534,25 +486,20 @@ impl Closer<'_> {
         let margin = V::splat(self.sixth()).mul(at(&self.rows.fourth[2], k));
         let (low, high) = quintic_ranges([a, jerk, second], [a_end, jerk_end, second_end], self.h, margin);
         let size = high.max(V::splat(0.0).sub(low));
-        let limit = at::<V>(&self.bounds.stuck_mu, k).mul(V::splat(self.contact.0.min(self.contact.1)));
+        let limit = V::load(&self.bounds.vectors[k].stuck_mu).mul(V::splat(self.contact.0.min(self.contact.1)));
         if size.not_below(limit) & suspects != 0 {
-            return false;
+            return None;
         }
-        let beats = size.not_below(at(&self.bounds.a_peak, k)) & suspects;
+        let beats = size.not_below(self.bounds.acceleration_peaks(k)) & suspects;
         if beats == 0 {
-            return true;
+            return Some((0, 0));
         }
         let h2 = self.h * self.h;
         let fifth = V::splat(self.curvature.liveliness * (h2 * h2 / 384.0)).mul(at(&self.rows.fourth[3], k));
         let third = V::splat(self.h / 3.0);
         let (positive, negative) = signs(ranges([jerk, second], [jerk_end, second_end], third, fifth));
         let matters = a.abs().max(a_end.abs()).not_below(V::splat(self.least.1));
-        let turn = matters & !(positive | negative);
-        for lane in members(Set::from(beats)) {
-            let turns = turn >> lane & 1 != 0;
-            if turns { &mut beaten.accelerations_inside } else { &mut beaten.accelerations }.push(WIDTH * k + lane);
-        }
-        true
+        Some((beats, beats & matters & !(positive | negative)))
     }
 
     /// Whether the relative velocity of a block keeps its sign; `floor` is the change of its floor's velocity.
@@ -627,18 +574,26 @@ impl Series {
         false
     }
 
-    /// Whether the drift rate of storey `i` keeps its sign.
-    fn drift_keeps_direction(&self, sample: &Sample, margin: usize, i: usize) -> bool {
-        let size: f64 = self.v[1..self.order - 1].iter().map(|v| v[i].abs()).sum();
-        let (at, q) = (sample.v[i], self.v[0][i]);
-        keeps_sign([at, self.h * sample.q[margin + i], q], size)
+    /// Lanes of vector `k` whose drift rates are not known to keep their signs.
+    #[inline(always)]
+    fn drifts_that_turn<V: Vector>(&self, sample: &Sample, margin: usize, k: usize) -> u32 {
+        let mut size = V::splat(0.0);
+        for v in &self.v[1..self.order - 1] {
+            size = size.add(at::<V>(v, k).abs());
+        }
+        let linear = V::splat(self.h).mul(at(&sample.q[margin..], k));
+        may_change_sign([at(&sample.v, k), linear, at(&self.v[0], k)], size)
     }
 
-    /// Whether the rate of the acceleration of floor `i` keeps its sign.
-    fn acceleration_keeps_direction(&self, sample: &Sample, i: usize) -> bool {
-        let a = |order: usize| order as f64 * self.a[order - 2][i + 1];
-        let size: f64 = (4..=self.order).map(|order| a(order).abs()).sum();
-        keeps_sign([self.h * sample.jerk[i + 1], a(2), a(3)], size)
+    /// Lanes of vector `k` whose rates of accelerations are not known to keep their signs.
+    #[inline(always)]
+    fn accelerations_that_turn<V: Vector>(&self, sample: &Sample, k: usize) -> u32 {
+        let term = |order: usize| V::splat(order as f64).mul(at(&self.a[order - 2][1..], k));
+        let mut size = V::splat(0.0);
+        for order in 4..=self.order {
+            size = size.add(term(order).abs());
+        }
+        may_change_sign([V::splat(self.h).mul(at(&sample.jerk[1..], k)), term(2), term(3)], size)
     }
 
     /// Drift coordinate of storey `i` from its sample on.
@@ -656,6 +611,26 @@ impl Series {
         let first = [sample.a[i + 1], self.h * sample.jerk[i + 1]];
         Polynomial::new(first.into_iter().chain(self.a[..self.order - 1].iter().map(|a| a[i + 1])))
     }
+
+    /// Takes the extremes of the drift of storey `i`, and its value at the far end, into the peaks.
+    #[inline(never)]
+    fn take_drifts(&self, bounds: &mut Bounds, sample: &Sample, margin: usize, i: usize, from: f64) {
+        let drift = self.drift(sample, margin, i);
+        let (first, others) = drift.derivative().sign_changes::<Plain>();
+        for s in first.into_iter().chain(others).chain([1.0]) {
+            bounds.take_drift(i, drift.at::<Plain>(s), from + s * self.h);
+        }
+    }
+
+    /// Takes the extremes of the acceleration of floor `i`, and its value at the far end, into the peaks.
+    #[inline(never)]
+    fn take_accelerations(&self, bounds: &mut Bounds, sample: &Sample, i: usize, from: f64) {
+        let acceleration = self.floor_acceleration(sample, i);
+        let (first, others) = acceleration.derivative().sign_changes::<Plain>();
+        for s in first.into_iter().chain(others).chain([1.0]) {
+            bounds.take_acceleration(i, acceleration.at::<Plain>(s), from + s * self.h);
+        }
+    }
 }
 
 /// The series of a step with peaks inside: one from its start, or of each half from the sample that it touches.
@@ -672,7 +647,7 @@ impl StepSeries {
     /// Forms the series until what they leave out of the values that may beat peaks is proved to be below rounding, of
     /// these or of the largest in the building; false where they cannot.
     #[inline(always)]
-    fn form<V: Vector>(&mut self, operator: &Operator, rows: &Rows, closer: &Closer, beaten: &Beaten) -> bool {
+    fn form<V: Vector>(&mut self, operator: &Operator, rows: &Rows, closer: &Closer, beaten: &[Beaten]) -> bool {
         for parts in self.parts..=2 {
             self.parts = parts;
             if self.form_parts::<V>(operator, rows, closer, beaten) {
@@ -683,18 +658,24 @@ impl StepSeries {
     }
 
     #[inline(always)]
-    fn form_parts<V: Vector>(&mut self, operator: &Operator, rows: &Rows, closer: &Closer, beaten: &Beaten) -> bool {
+    fn form_parts<V: Vector>(&mut self, operator: &Operator, rows: &Rows, closer: &Closer, beaten: &[Beaten]) -> bool {
         let h = closer.h / self.parts as f64;
         let (start, bounds, curvature) = (closer.start, closer.bounds, closer.curvature);
+        // Of what is exactly zero nothing is left out.
+        let least = (closer.least.0.max(f64::MIN_POSITIVE), closer.least.1.max(f64::MIN_POSITIVE));
         let suffices = |norm: f64, order: usize| {
-            let next = h / (order + 1) as f64;
-            let of_drift = norm * next * h * h / ((order + 2) * (order + 3)) as f64;
-            let enough = |value: f64, least: f64| (ROUNDING * value).max(least);
-            let drift_is_known = |&i: &usize| of_drift * rows.fourth[0][i] <= enough(start.x[i].abs(), closer.least.0);
-            let acceleration_is_known =
-                |&i: &usize| norm * next * rows.second[i] <= enough(bounds.a_peak[i], closer.least.1);
-            beaten.drifts_inside.iter().all(drift_is_known)
-                && beaten.accelerations_inside.iter().all(acceleration_is_known)
+            let next = norm * h / (order + 1) as f64;
+            let of_drift = V::splat(next * h * h / ((order + 2) * (order + 3)) as f64);
+            let (of_acceleration, rounding) = (V::splat(next), V::splat(ROUNDING));
+            let unknown =
+                |left_out: V, value: V, least: f64| left_out.not_below(rounding.mul(value.abs()).max(V::splat(least)));
+            beaten.iter().filter(|beaten| beaten.turns()).all(|beaten| {
+                let k = beaten.vector;
+                let drifts = unknown(of_drift.mul(at(&rows.fourth[0], k)), at(&start.x, k), least.0);
+                let second = of_acceleration.mul(at(&rows.second, k));
+                let accelerations = unknown(second, bounds.acceleration_peaks(k), least.1);
+                drifts & beaten.drifts_inside | accelerations & beaten.accelerations_inside == 0
+            })
         };
         let [first, second] = &mut self.of_parts;
         let terms = |which: usize| (&*curvature.a[which], &*curvature.q_rate[which]);
@@ -709,46 +690,50 @@ impl StepSeries {
     }
 
     /// Takes the extremes inside the step, which begins at `time`, into the peaks.
-    fn take_extremes(
+    #[inline(always)]
+    fn take_extremes<V: Vector>(
         &self,
-        state: &State,
-        observer: &mut Observer,
+        bounds: &mut Bounds,
         samples: [&Sample; 2],
         margin: usize,
         time: f64,
-        beaten: &Beaten,
+        beaten: &[Beaten],
     ) {
         for (which, (series, sample)) in self.of_parts[..self.parts].iter().zip(samples).enumerate() {
             let from = if which == 0 { time } else { time - 2.0 * series.h };
-            let time = |s: f64| from + s * series.h;
-            for &i in &beaten.drifts_inside {
-                if series.drift_keeps_direction(sample, margin, i) {
-                    continue;
+            for beaten in beaten.iter().filter(|beaten| beaten.turns()) {
+                let k = beaten.vector;
+                if beaten.drifts_inside != 0 {
+                    let turn = beaten.drifts_inside & series.drifts_that_turn::<V>(sample, margin, k);
+                    for lane in members(Set::from(turn)) {
+                        series.take_drifts(bounds, sample, margin, WIDTH * k + lane, from);
+                    }
                 }
-                let drift = series.drift(sample, margin, i);
-                let (first, others) = drift.derivative().sign_changes::<Plain>();
-                for s in first.into_iter().chain(others).chain([1.0]) {
-                    observer.take_drift(state, i, drift.at::<Plain>(s), time(s));
-                }
-            }
-            for &i in &beaten.accelerations_inside {
-                if series.acceleration_keeps_direction(sample, i) {
-                    continue;
-                }
-                let acceleration = series.floor_acceleration(sample, i);
-                let (first, others) = acceleration.derivative().sign_changes::<Plain>();
-                for s in first.into_iter().chain(others).chain([1.0]) {
-                    observer.take_acceleration(i, acceleration.at::<Plain>(s), time(s));
+                if beaten.accelerations_inside != 0 {
+                    let turn = beaten.accelerations_inside & series.accelerations_that_turn::<V>(sample, k);
+                    for lane in members(Set::from(turn)) {
+                        series.take_accelerations(bounds, sample, WIDTH * k + lane, from);
+                    }
                 }
             }
         }
     }
 }
 
-/// Whether a quadratic, and what differs from it by at most `margin`, keeps its sign in [0, 1].
-fn keeps_sign([constant, linear, square]: [f64; 3], margin: f64) -> bool {
-    let points = [constant, constant + 0.5 * linear, constant + linear + square];
-    points.iter().all(|&point| point > margin) || points.iter().all(|&point| point < -margin)
+/// Lanes in which a quadratic, or what differs from it by at most `margin`, may change its sign in [0, 1].
+#[inline(always)]
+fn may_change_sign<V: Vector>([constant, linear, square]: [V; 3], margin: V) -> u32 {
+    let (middle, end) = (V::splat(0.5).mul_add(linear, constant), constant.add(linear).add(square));
+    let (low, high) = (constant.min(middle).min(end), constant.max(middle).max(end));
+    margin.not_below(low) & margin.not_below(V::splat(0.0).sub(high))
+}
+
+/// Puts vectors into numbers.
+#[inline(always)]
+fn store_all<V: Vector>(vectors: [V; 3], out: &mut Apart) {
+    for (vector, out) in vectors.into_iter().zip(out) {
+        vector.store(out);
+    }
 }
 
 /// out = values * factor.
@@ -809,9 +794,10 @@ fn run_lanes<V: Vector>(
     let (mut load, mut load_slope) = (zero(), zero());
     let spring_load = filled_to(length, state.spring_load[..n].iter().copied(), 0.0);
     let friction = filled_to(length, state.friction[..n].iter().copied(), 0.0);
-    let (mut apart_before, mut apart_after) = ([zero(), zero(), zero()], [zero(), zero(), zero()]);
+    let (mut apart_before, mut apart_after) =
+        (vec![Apart::default(); length / WIDTH], vec![Apart::default(); length / WIDTH]);
     let (mut curvature, mut series) = (Curvature::new(length), StepSeries::new(length));
-    let (mut suspects, mut beaten) = (Vec::new(), Beaten::default());
+    let (mut suspects, mut beaten): (Vec<Suspects>, Vec<Beaten>) = (Vec::new(), Vec::new());
     let (mut on_floors, mut on_ground) = sliding_blocks(state);
     let watches_ground = !on_ground.is_empty() || state.stuck_mu[0].is_finite();
     let mut blocks: Vec<(f64, f64)> = match observer.histories {
@@ -823,7 +809,10 @@ fn run_lanes<V: Vector>(
     for ((load, spring), friction) in load.iter_mut().zip(&spring_load).zip(&friction) {
         *load = spring + friction * STANDARD_GRAVITY;
     }
-    bounds.apart(&before, margin, third, &mut apart_before);
+    for k in 0..length / WIDTH {
+        bounds.update::<V>(k);
+        store_all(bounds.apart::<V>(&before, margin, third, k), &mut apart_before[k]);
+    }
     let samples = motion.acceleration();
     let mut reached = first;
     for (pair, next) in samples[first..=end].windows(2).zip(first + 1..) {
@@ -840,7 +829,9 @@ fn run_lanes<V: Vector>(
                 load[i] = spring_load[i] + friction[i] * contact.1;
                 load_slope[i] = friction[i] * contact_slope;
             }
-            bounds.apart(&before, margin, third, &mut apart_before);
+            for (k, apart) in apart_before.iter_mut().enumerate() {
+                store_all(bounds.apart::<V>(&before, margin, third, k), apart);
+            }
         }
         // The step.
         let ground_slope = V::splat(slope);
@@ -872,17 +863,20 @@ fn run_lanes<V: Vector>(
         // The proof.
         let liveliness =
             energy::<V>(&rows.root_mass, &rate[margin..], &rows.root_tangent, &before.q[margin..]).sqrt() * rows.growth;
-        bounds.apart(&after, margin, third, &mut apart_after);
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
         let fourth = V::splat(liveliness * widening);
         suspects.clear();
-        for k in 0..length / WIDTH {
-            let limit = at::<V>(&bounds.stuck_mu, k).mul(least_contact).min(at(&bounds.a_peak, k));
+        for (k, (before, after_now)) in apart_before.iter().zip(&mut apart_after).enumerate() {
+            let now = bounds.apart::<V>(&after, margin, third, k);
+            let of_vector = &bounds.vectors[k];
+            let limit = V::load(&of_vector.stuck_mu).mul(least_contact).min(bounds.acceleration_peaks(k));
+            let limits = [V::load(&of_vector.reach), V::load(&of_vector.turn), limit];
             let mut bits = [0; 3];
-            for (which, bound) in [(0, at::<V>(&bounds.reach, k)), (1, at(&bounds.turn, k)), (2, limit)] {
-                let most = at::<V>(&apart_before[which], k).max(at(&apart_after[which], k));
-                bits[which] = fourth.mul_add(at(&rows.fourth[which], k), most).not_below(bound);
+            for which in 0..3 {
+                let most = V::load(&before[which]).max(now[which]);
+                bits[which] = fourth.mul_add(at(&rows.fourth[which], k), most).not_below(limits[which]);
             }
+            store_all(now, after_now);
             let [drifts, rates, accelerations] = bits;
             if drifts | rates | accelerations != 0 {
                 suspects.push(Suspects { vector: k, drifts, rates, accelerations });
@@ -904,22 +898,29 @@ fn run_lanes<V: Vector>(
             }
         }
         beaten.clear();
+        let mut turns = false;
         if !suspects.is_empty() || may_turn {
             before.jerk[0] = slope;
             after.jerk[0] = slope;
-            let largest = |peaks: &[Peak]| peaks.iter().fold(0.0, |most: f64, peak| most.max(peak.value));
-            let peaks = &observer.peaks;
-            let least = (FAR_BELOW * largest(&peaks.drift), FAR_BELOW * largest(&peaks.floor_acceleration));
+            let largest = bounds.largest_peaks();
+            let least = (FAR_BELOW * largest.0, FAR_BELOW * largest.1);
             curvature.form::<V>(&operator, &rows, [&before, &after], margin);
             let (start, end, curvature) = (&before, &after, &curvature);
-            let step = Closer { state, rows: &rows, bounds: &bounds, start, end, curvature, margin, h, contact, least };
+            let step = Closer { rows: &rows, bounds: &bounds, start, end, curvature, margin, h, contact, least };
             let mut is_plain = true;
             for suspects in &suspects {
-                is_plain = is_plain && step.look::<V>(suspects, &mut beaten);
+                let Some(looked) = step.look::<V>(suspects) else {
+                    is_plain = false;
+                    break;
+                };
+                if looked.drifts | looked.accelerations != 0 {
+                    beaten.push(looked);
+                }
             }
+            turns = beaten.iter().any(Beaten::turns);
             if !is_plain
                 || may_turn && !on_floors.iter().all(|b| step.keeps_sliding(b, contact_slope, floors[b.floor]))
-                || beaten.turns() && !series.form::<V>(&operator, &rows, &step, &beaten)
+                || turns && !series.form::<V>(&operator, &rows, &step, &beaten)
             {
                 break;
             }
@@ -937,22 +938,24 @@ fn run_lanes<V: Vector>(
                 block.velocity = block.velocity_after;
             }
         }
-        if beaten.turns() {
+        if turns {
             let time = (next - 1) as f64 * h;
-            series.take_extremes(state, observer, [&before, &after], margin, time, &beaten);
+            series.take_extremes::<V>(&mut bounds, [&before, &after], margin, time, &beaten);
         }
         reached = next;
         std::mem::swap(&mut before, &mut after);
         std::mem::swap(&mut apart_before, &mut apart_after);
         let time = reached as f64 * h;
-        for &i in beaten.drifts.iter().chain(&beaten.drifts_inside) {
-            observer.take_drift(state, i, before.x[i], time);
-            (bounds.middle[i], bounds.reach[i]) = state.quiet_middle_and_reach(observer, i);
-            apart_before[0][i] = h / 3.0 * before.v[i].abs() + (before.x[i] - bounds.middle[i]).abs();
-        }
-        for &i in beaten.accelerations.iter().chain(&beaten.accelerations_inside) {
-            observer.take_acceleration(i, before.a[i + 1], time);
-            bounds.a_peak[i] = observer.peaks.floor_acceleration[i].value;
+        for beaten in &beaten {
+            let k = beaten.vector;
+            if beaten.drifts != 0 {
+                bounds.take_drifts::<V>(k, &lanes(&before.x)[k], time);
+                bounds.update::<V>(k);
+                bounds.apart::<V>(&before, margin, third, k)[0].store(&mut apart_before[k][0]);
+            }
+            if beaten.accelerations != 0 {
+                bounds.take_accelerations::<V>(k, &lanes(&before.a[1..])[k], time);
+            }
         }
         if let Some(recorder) = observer.recorder_at(reached) {
             for block in &on_floors {
@@ -966,6 +969,7 @@ fn run_lanes<V: Vector>(
     }
     if reached > first {
         before.put(state, margin);
+        bounds.put_peaks(state, observer);
         for block in &on_floors {
             (state.motions[block.block].velocity, state.motions[block.block].slip) = (block.velocity, block.slip);
         }
