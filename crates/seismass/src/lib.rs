@@ -76,6 +76,7 @@ mod state;
 mod storey;
 mod symmetric;
 mod tall_bounds;
+mod tall_norms;
 mod tall_run;
 mod tall_step;
 mod taylor;

@@ -4,8 +4,9 @@
 //! As in [`crate::plain_run`] each step is accepted only when bounds prove that no guard fell inside it. The loop looks
 //! at each end with the cubic's margins. What this does not clear is looked at with the quintic through values and two
 //! derivatives at both ends, which differs by at most h^6 / 46080 times the largest sixth derivative: the fourth of the
-//! second, which the same norm bounds when it is taken of the second derivatives. Of a tall building some storey beats
-//! its peak in most steps: where one turns inside a step, the series of that step gives the extreme, and the run goes on.
+//! second, which the same norm bounds when it is taken of the second derivatives, of each storey's surroundings alone
+//! ([`crate::tall_norms`]). Of a tall building some storey beats its peak in most steps: where one turns inside a step,
+//! the series of that step gives the extreme, and the run goes on.
 
 use crate::STANDARD_GRAVITY;
 use crate::banded_step::{BandedStep, whole_blocks};
@@ -14,7 +15,6 @@ use crate::bounds::{Set, members};
 use crate::full_step::{FullStep, Shears};
 use crate::lanes::{Plain, Vector, WIDTH, filled_to, for_each_path};
 use crate::observe::Observer;
-use crate::plain_run::MARGINS;
 use crate::regime::Row;
 use crate::scene::Motion;
 use crate::sliding::{GroundBlock, Linear, SMALL_DIFFERENCE, move_on_ground};
@@ -22,6 +22,7 @@ use crate::state::{State, range, ranges};
 use crate::storey::Sign;
 use crate::symmetric::Symmetric;
 use crate::tall_bounds::{Apart, Bounds};
+use crate::tall_norms::{Norms, Rows, energy};
 use crate::tall_step::TallStep;
 
 /// Highest order of a series of floor accelerations; that of the drifts is two orders higher.
@@ -252,19 +253,6 @@ fn prefix_sums<V: Vector>(values: &[f64], out: &mut [f64]) {
     }
 }
 
-/// Sum of (root_mass rate)^2 + (root_tangent q)^2.
-#[inline(always)]
-fn energy<V: Vector>(root_mass: &[f64], rate: &[f64], root_tangent: &[f64], q: &[f64]) -> f64 {
-    let mut sums = [V::splat(0.0); 2];
-    let floors = lanes(root_mass).iter().zip(lanes(rate));
-    for ((mass, rate), (tangent, q)) in floors.zip(lanes(root_tangent).iter().zip(lanes(q))) {
-        let (kinetic, elastic) = (V::load(mass).mul(V::load(rate)), V::load(tangent).mul(V::load(q)));
-        sums[0] = kinetic.mul_add(kinetic, sums[0]);
-        sums[1] = elastic.mul_add(elastic, sums[1]);
-    }
-    sums[0].add(sums[1]).sum()
-}
-
 /// A block that slides on a floor.
 struct FloorBlock {
     block: usize,
@@ -340,31 +328,6 @@ fn signs<V: Vector>((low, high): (V, V)) -> (u32, u32) {
     (!zero.not_below(low), !high.not_below(zero))
 }
 
-/// What a run reads of its regime.
-struct Rows {
-    root_mass: Vec<f64>,
-    root_tangent: Vec<f64>,
-    /// Bounds of fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
-    fourth: [Vec<f64>; 4],
-    /// Bounds of second derivatives of floor accelerations.
-    second: Vec<f64>,
-    growth: f64,
-}
-
-impl Rows {
-    fn new(state: &State, h: f64, length: usize) -> Self {
-        let (n, regime) = (state.storeys(), state.regime());
-        let row = |row: Row| filled_to(length, regime.row(row)[..n].iter().copied(), 0.0);
-        Self {
-            root_mass: row(Row::RootMass),
-            root_tangent: row(Row::RootTangent),
-            fourth: MARGINS.map(row),
-            second: row(Row::SecondOfAcceleration),
-            growth: regime.growth_over(h),
-        }
-    }
-}
-
 /// Second derivatives of floor and drift accelerations at both ends of a step, and the norm of the derivatives there.
 struct Curvature {
     /// Of floor accelerations, after a zero for the ground.
@@ -374,15 +337,21 @@ struct Curvature {
     /// Second derivatives of drift accelerations, third ones of floor accelerations.
     q: Vec<f64>,
     jerk: Vec<f64>,
-    /// The norm that bounds sixth derivatives as [`Regime::liveliness_of`] does fourth ones.
-    liveliness: f64,
+    /// The norms that bound sixth derivatives as [`crate::regime::Regime::liveliness_of`] does fourth ones.
+    norms: Norms,
 }
 
 impl Curvature {
     fn new(length: usize) -> Self {
         let zero = || vec![0.0; length];
         let floors = || vec![0.0; length + 1];
-        Self { a: [floors(), floors()], q_rate: [zero(), zero()], q: zero(), jerk: zero(), liveliness: 0.0 }
+        Self {
+            a: [floors(), floors()],
+            q_rate: [zero(), zero()],
+            q: zero(),
+            jerk: zero(),
+            norms: Norms::new(length / WIDTH),
+        }
     }
 
     #[inline(always)]
@@ -393,7 +362,7 @@ impl Curvature {
             operator.derivatives::<V>(q, jerk, one, nothing, &mut self.q_rate[which], &mut self.a[which][1..]);
         }
         operator.derivatives(&self.q_rate[0], &self.a[0], one, nothing, &mut self.q, &mut self.jerk);
-        self.liveliness = energy::<V>(&rows.root_mass, &self.jerk, &rows.root_tangent, &self.q).sqrt() * rows.growth;
+        self.norms.form::<V>(rows, &self.jerk, &self.q);
     }
 }
 
@@ -421,11 +390,11 @@ struct Closer<'a> {
 }
 
 impl Closer<'_> {
-    /// What the quintics may miss, per unit of the bounds of fourth derivatives.
+    /// What the quintics of vector `k` may miss, per unit of the bounds of fourth derivatives.
     #[inline(always)]
-    fn sixth(&self) -> f64 {
+    fn sixth(&self, k: usize) -> f64 {
         let h3 = self.h * self.h * self.h;
-        self.curvature.liveliness * (h3 * h3 / 46080.0)
+        self.curvature.norms.values[k] * (h3 * h3 / 46080.0)
     }
 
     /// Which peaks the suspect lanes of a vector of storeys and floors beat; nothing if a guard may fall inside the step.
@@ -455,7 +424,7 @@ impl Closer<'_> {
         let (x, x_end) = (at::<V>(&start.x, k), at::<V>(&end.x, k));
         let (v, v_end) = (at::<V>(&start.v, k), at::<V>(&end.v, k));
         let (q, q_end) = (at::<V>(&start.q[self.margin..], k), at::<V>(&end.q[self.margin..], k));
-        let (bounds, zero, sixth) = (&self.bounds.vectors[k], V::splat(0.0), V::splat(self.sixth()));
+        let (bounds, zero, sixth) = (&self.bounds.vectors[k], V::splat(0.0), V::splat(self.sixth(k)));
         let rate_margin = sixth.mul(at(&self.rows.fourth[1], k));
         let (from, to) = ([v, q, at(q_rate, k)], [v_end, q_end, at(q_rate_end, k)]);
         let (positive, negative) = signs(quintic_ranges(from, to, self.h, rate_margin));
@@ -483,7 +452,7 @@ impl Closer<'_> {
         let (a, a_end) = (at::<V>(&start.a[1..], k), at::<V>(&end.a[1..], k));
         let (jerk, jerk_end) = (at::<V>(&start.jerk[1..], k), at::<V>(&end.jerk[1..], k));
         let (second, second_end) = (at::<V>(&second[1..], k), at::<V>(&second_end[1..], k));
-        let margin = V::splat(self.sixth()).mul(at(&self.rows.fourth[2], k));
+        let margin = V::splat(self.sixth(k)).mul(at(&self.rows.fourth[2], k));
         let (low, high) = quintic_ranges([a, jerk, second], [a_end, jerk_end, second_end], self.h, margin);
         let size = high.max(V::splat(0.0).sub(low));
         let limit = V::load(&self.bounds.vectors[k].stuck_mu).mul(V::splat(self.contact.0.min(self.contact.1)));
@@ -495,7 +464,7 @@ impl Closer<'_> {
             return Some((0, 0));
         }
         let h2 = self.h * self.h;
-        let fifth = V::splat(self.curvature.liveliness * (h2 * h2 / 384.0)).mul(at(&self.rows.fourth[3], k));
+        let fifth = V::splat(self.curvature.norms.values[k] * (h2 * h2 / 384.0)).mul(at(&self.rows.fourth[3], k));
         let third = V::splat(self.h / 3.0);
         let (positive, negative) = signs(ranges([jerk, second], [jerk_end, second_end], third, fifth));
         let matters = a.abs().max(a_end.abs()).not_below(V::splat(self.least.1));
@@ -511,9 +480,43 @@ impl Closer<'_> {
         };
         let (start, end) =
             (at(self.start, block.velocity, self.contact.0), at(self.end, block.velocity_after, self.contact.1));
-        let (low, high) = quintic_range(start, end, self.h, self.sixth() * self.rows.fourth[3][i]);
+        let (low, high) = quintic_range(start, end, self.h, self.sixth(i / WIDTH) * self.rows.fourth[3][i]);
         let least = SMALL_DIFFERENCE * floor.abs();
         if block.sign > 0.0 { low > least } else { high < -least }
+    }
+}
+
+/// The extremes that a series of length `h` is formed for, in the vectors that turn.
+struct Wanted<'a> {
+    beaten: &'a [Beaten],
+    start: &'a Sample,
+    bounds: &'a Bounds,
+    h: f64,
+    /// Drifts and accelerations that are negligible anywhere.
+    least: (f64, f64),
+}
+
+impl Wanted<'_> {
+    /// Whether what a series leaves out of them after `order`, whose terms have these norms, is below rounding.
+    #[inline(always)]
+    fn is_known<V: Vector>(&self, rows: &Rows, norms: &Norms, order: usize) -> bool {
+        let h = self.h;
+        let next = h / (order + 1) as f64;
+        let twice = next * h * h / ((order + 2) * (order + 3)) as f64;
+        let rounding = V::splat(ROUNDING);
+        for beaten in self.beaten.iter().filter(|beaten| beaten.turns()) {
+            let (k, norm) = (beaten.vector, V::splat(norms.values[beaten.vector]));
+            let of_drift = norm.mul(V::splat(twice)).mul(at(&rows.fourth[0], k));
+            let of_acceleration = norm.mul(V::splat(next)).mul(at(&rows.second, k));
+            let drift = rounding.mul(at::<V>(&self.start.x, k).abs()).max(V::splat(self.least.0));
+            let acceleration = rounding.mul(self.bounds.acceleration_peaks(k)).max(V::splat(self.least.1));
+            let unknown = of_drift.not_below(drift) & beaten.drifts_inside
+                | of_acceleration.not_below(acceleration) & beaten.accelerations_inside;
+            if unknown != 0 {
+                return false;
+            }
+        }
+        true
     }
 }
 
@@ -526,15 +529,16 @@ struct Series {
     a: Vec<Vec<f64>>,
     v: Vec<Vec<f64>>,
     length: usize,
+    norms: Norms,
 }
 
 impl Series {
     fn new(length: usize) -> Self {
-        Self { h: 0.0, order: 0, a: Vec::new(), v: Vec::new(), length }
+        Self { h: 0.0, order: 0, a: Vec::new(), v: Vec::new(), length, norms: Norms::new(length / WIDTH) }
     }
 
-    /// Forms the terms until `suffices(norm, order)`, not before the lowest order; false where that is never. The norm
-    /// of the terms of one order is that of [`crate::regime::Regime::liveliness_of`].
+    /// Forms the terms until what they leave out of what is `wanted` is negligible, not before the lowest order; false
+    /// where that is never.
     #[inline(always)]
     fn form<V: Vector>(
         &mut self,
@@ -543,7 +547,7 @@ impl Series {
         (a_second, q_rate): (&[f64], &[f64]),
         h: f64,
         lowest: usize,
-        suffices: impl Fn(f64, usize) -> bool,
+        wanted: Option<&Wanted>,
     ) -> bool {
         self.h = h;
         let half_square = V::splat(0.5 * h * h);
@@ -565,11 +569,14 @@ impl Series {
             if order < lowest {
                 continue;
             }
-            let norm = energy::<V>(&rows.root_mass, &a[0][1..], &rows.root_tangent, &v[0]).sqrt() * rows.growth;
-            if suffices(norm, order) {
-                self.order = order;
-                return true;
+            if let Some(wanted) = wanted {
+                self.norms.form::<V>(rows, &a[0][1..], &v[0]);
+                if !wanted.is_known::<V>(rows, &self.norms, order) {
+                    continue;
+                }
             }
+            self.order = order;
+            return true;
         }
         false
     }
@@ -660,33 +667,20 @@ impl StepSeries {
     #[inline(always)]
     fn form_parts<V: Vector>(&mut self, operator: &Operator, rows: &Rows, closer: &Closer, beaten: &[Beaten]) -> bool {
         let h = closer.h / self.parts as f64;
-        let (start, bounds, curvature) = (closer.start, closer.bounds, closer.curvature);
+        let (least, curvature) = (closer.least, closer.curvature);
         // Of what is exactly zero nothing is left out.
-        let least = (closer.least.0.max(f64::MIN_POSITIVE), closer.least.1.max(f64::MIN_POSITIVE));
-        let suffices = |norm: f64, order: usize| {
-            let next = norm * h / (order + 1) as f64;
-            let of_drift = V::splat(next * h * h / ((order + 2) * (order + 3)) as f64);
-            let (of_acceleration, rounding) = (V::splat(next), V::splat(ROUNDING));
-            let unknown =
-                |left_out: V, value: V, least: f64| left_out.not_below(rounding.mul(value.abs()).max(V::splat(least)));
-            beaten.iter().filter(|beaten| beaten.turns()).all(|beaten| {
-                let k = beaten.vector;
-                let drifts = unknown(of_drift.mul(at(&rows.fourth[0], k)), at(&start.x, k), least.0);
-                let second = of_acceleration.mul(at(&rows.second, k));
-                let accelerations = unknown(second, bounds.acceleration_peaks(k), least.1);
-                drifts & beaten.drifts_inside | accelerations & beaten.accelerations_inside == 0
-            })
-        };
+        let least = (least.0.max(f64::MIN_POSITIVE), least.1.max(f64::MIN_POSITIVE));
+        let wanted = Wanted { beaten, start: closer.start, bounds: closer.bounds, h, least };
         let [first, second] = &mut self.of_parts;
         let terms = |which: usize| (&*curvature.a[which], &*curvature.q_rate[which]);
         // Neighbouring steps need about as many terms.
         let lowest = LOWEST_ORDER.max(first.order.saturating_sub(1));
-        if !first.form::<V>(operator, rows, terms(0), h, lowest, suffices) {
+        if !first.form::<V>(operator, rows, terms(0), h, lowest, Some(&wanted)) {
             return false;
         }
         // The norm at the start of the step bounds the second half too.
         let order = first.order;
-        self.parts == 1 || second.form::<V>(operator, rows, terms(1), -h, order, |_, _| true)
+        self.parts == 1 || second.form::<V>(operator, rows, terms(1), -h, order, None)
     }
 
     /// Takes the extremes inside the step, which begins at `time`, into the peaks.
@@ -861,8 +855,7 @@ fn run_lanes<V: Vector>(
         let q = &mut after.q[margin..margin + length];
         operator.derivatives(&after.v, &after.a, V::splat(1.0), &load_slope, q, &mut after.jerk[1..]);
         // The proof.
-        let liveliness =
-            energy::<V>(&rows.root_mass, &rate[margin..], &rows.root_tangent, &before.q[margin..]).sqrt() * rows.growth;
+        let liveliness = energy::<V>(&rows, &rate[margin..], &before.q[margin..]).sqrt() * rows.growth;
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
         let fourth = V::splat(liveliness * widening);
         suspects.clear();
