@@ -243,26 +243,41 @@ impl Effect {
     }
 }
 
+/// What bands, of q and of J at the middle, make of an effect over the first half.
+#[inline(always)]
+fn then([of_q, of_j]: [&Band; 2], first: &Effect) -> Band {
+    sum_of_products(of_q, &first.after[0], of_j, &first.after[1])
+}
+
+/// The integral of q over twice `h`, the first (0) or the second.
+#[inline(always)]
+fn integral(which: usize, [of_q, of_j]: [&Effect; 2], first: &Effect, h: f64) -> Band {
+    let more = then([&of_q.integrals[which], &of_j.integrals[which]], first);
+    let reach = more.reach.max(first.integrals[0].reach).max(first.integrals[1].reach);
+    let mut sum = Band::zeros(more.storeys, reach);
+    sum.add(&more, 1.0);
+    sum.add(&first.integrals[which], 1.0);
+    if which == 1 {
+        sum.add(&first.integrals[0], h);
+    }
+    sum
+}
+
+/// One of the effects of q and of J, `first`, over twice `h`.
+#[inline(always)]
+fn prolonged(effects: [&Effect; 2], first: &Effect, h: f64) -> Effect {
+    let [of_q, of_j] = effects;
+    Effect {
+        after: [then([&of_q.after[0], &of_j.after[0]], first), then([&of_q.after[1], &of_j.after[1]], first)],
+        integrals: [integral(0, effects, first, h), integral(1, effects, first, h)],
+    }
+}
+
 /// The effects of q and of J over twice `h`.
 #[inline(always)]
 fn doubled([of_q, of_j]: [Effect; 2], h: f64) -> [Effect; 2] {
-    let then = |row: [&Band; 2], effect: &Effect| sum_of_products(row[0], &effect.after[0], row[1], &effect.after[1]);
-    let both = |effect: &Effect| {
-        let integral = |which: usize| {
-            let more = then([&of_q.integrals[which], &of_j.integrals[which]], effect);
-            let reach = more.reach.max(effect.integrals[0].reach).max(effect.integrals[1].reach);
-            let mut sum = Band::zeros(more.storeys, reach);
-            sum.add(&more, 1.0);
-            sum.add(&effect.integrals[which], 1.0);
-            if which == 1 {
-                sum.add(&effect.integrals[0], h);
-            }
-            sum
-        };
-        let after = |which: usize| then([&of_q.after[which], &of_j.after[which]], effect);
-        Effect { after: [after(0), after(1)], integrals: [integral(0), integral(1)] }
-    };
-    [both(&of_q), both(&of_j)]
+    let effects = [&of_q, &of_j];
+    [prolonged(effects, &of_q, h), prolonged(effects, &of_j, h)]
 }
 
 for_each_path! {

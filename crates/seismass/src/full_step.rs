@@ -229,30 +229,41 @@ impl<'a> System<'a> {
         sums
     }
 
+    /// Forces that stop what a unit has set going, by rate and drift, by the end of the first half.
+    #[inline(always)]
+    fn stopping<V: Vector>(&self, rate: &Square, drift: &Square) -> Vec<[f64; WIDTH]> {
+        let mut forces = rate.times::<V>(&self.damping, rate.size).transposed();
+        forces.add(&drift.with_rows_times(self.tangent), 1.0);
+        forces.packed()
+    }
+
     /// G and its integrals over twice `h`.
     #[inline(always)]
     fn doubled<V: Vector>(&self, [value, once, twice]: &[Square; 3], h: f64) -> [Square; 3] {
-        // Forces that stop what a unit of s, or of r, has set going by the end of the first half.
-        let stopped = |rate: &Square, drift: &Square| {
-            let mut forces = rate.times::<V>(&self.damping, rate.size).transposed();
-            forces.add(&drift.with_rows_times(self.tangent), 1.0);
-            forces.packed()
-        };
-        let (of_s, of_r) = (stopped(value, once), stopped(once, twice));
+        // Of a unit of s, and of r.
+        let of_s = self.stopping::<V>(value, once);
+        let of_r = self.stopping::<V>(once, twice);
         let [springs_of_s, springs_of_r] = [value, once].map(|rate| rate.with_rows_times(self.tangent).packed());
-        let sum = |terms: [(&Square, f64); 2], products: [(&Square, &[[f64; WIDTH]]); 2]| {
-            let mut out = Square::zeros(value.size);
-            terms.into_iter().for_each(|(term, factor)| out.add(term, factor));
-            products.into_iter().for_each(|(left, right)| out.add(&left.times::<V>(right, 0), -1.0));
-            out.mirror();
-            out
-        };
         [
-            sum([(value, 2.0), (value, 0.0)], [(once, &springs_of_s), (value, &of_s)]),
-            sum([(once, 2.0), (value, h)], [(twice, &springs_of_s), (once, &of_s)]),
-            sum([(twice, 2.0), (once, 2.0 * h)], [(twice, &springs_of_r), (once, &of_r)]),
+            sum::<V>([(value, 2.0), (value, 0.0)], [(once, &springs_of_s), (value, &of_s)]),
+            sum::<V>([(once, 2.0), (value, h)], [(twice, &springs_of_s), (once, &of_s)]),
+            sum::<V>([(twice, 2.0), (once, 2.0 * h)], [(twice, &springs_of_r), (once, &of_r)]),
         ]
     }
+}
+
+/// Terms times their factors, less products with packed matrices.
+#[inline(always)]
+fn sum<V: Vector>(terms: [(&Square, f64); 2], products: [(&Square, &[[f64; WIDTH]]); 2]) -> Square {
+    let mut out = Square::zeros(terms[0].0.size);
+    for (term, factor) in terms {
+        out.add(term, factor);
+    }
+    for (left, right) in products {
+        out.add(&left.times::<V>(right, 0), -1.0);
+    }
+    out.mirror();
+    out
 }
 
 for_each_path! {

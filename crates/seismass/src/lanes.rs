@@ -438,7 +438,8 @@ mod x86 {
     /// A 256-bit vector with fused multiply-add.
     ///
     /// To be used only inside functions compiled for `avx2,fma`, which call nothing that is not inlined into them: these
-    /// are reached through [`super::InstructionSet::in_use`] alone.
+    /// are reached through [`super::InstructionSet::in_use`] alone. A closure is a call: it is compiled for the baseline,
+    /// and each operation of a vector in it becomes a call too.
     #[derive(Clone, Copy)]
     pub(crate) struct Fused(__m256d);
 
