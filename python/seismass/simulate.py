@@ -429,7 +429,8 @@ def simulate(
     motion : Motion or Record
         Ground motion.
     histories : bool or int, default False
-        True keeps histories at every sample, a number at every so many samples from the first.
+        True keeps histories at every sample, a number at every so many samples from the first. A row at the time of an
+        event is the state after it.
     displacements_only : bool, default False
         Keep the histories of drifts and slips alone, not those of velocities, accelerations and forces: a third of the
         memory, and less time.

@@ -125,7 +125,8 @@ impl EventCounts {
     }
 }
 
-/// Histories at every `every`-th sample, row-major: `rows` x storeys or `rows` x blocks.
+/// Histories at every `every`-th sample, row-major: `rows` x storeys or `rows` x blocks. A row at the time of an event is
+/// the state after it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Histories {
     /// Decimation: one row every so many samples, from sample 0.
