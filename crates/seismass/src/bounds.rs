@@ -1,6 +1,6 @@
 //! Bounds between which no guard of a storey or floor falls and no peak is beaten, kept up to date storey by storey.
 
-use crate::lanes::{FAR, filled};
+use crate::lanes::{FAR, Vector, filled};
 use crate::observe::Observer;
 use crate::state::State;
 use crate::storey::Sign;
@@ -68,6 +68,17 @@ impl Bounds {
     pub(crate) fn spring_changed(&mut self, i: usize) {
         self.stale |= only(i);
     }
+}
+
+/// How far values are from their middles after h / 3 at their rates, to either side: of drifts, of the negative of plastic
+/// storeys' rates, of accelerations; from (x, v, q) of drifts and (a, jerk) of floors.
+#[inline(always)]
+pub(crate) fn apart<V: Vector>([x, v, q]: [V; 3], [a, jerk]: [V; 2], middle: V, sign: V, third: V) -> [V; 3] {
+    [
+        third.mul_add(v.abs(), x.sub(middle).abs()),
+        third.mul(q.abs()).sub(sign.mul(v)),
+        third.mul_add(jerk.abs(), a.abs()),
+    ]
 }
 
 /// The middle of a range and half its length, made finite.

@@ -130,10 +130,10 @@ impl Recorder {
         let is_last = self.next_sample == sample + self.every;
         if is_last {
             self.next_sample = sample;
-            let of_storeys = [&mut self.drift, &mut self.floor_velocity, &mut self.floor_acceleration];
-            for table in
-                of_storeys.into_iter().chain([&mut self.storey_force, &mut self.slip, &mut self.block_velocity])
-            {
+            let of_storeys =
+                [&mut self.drift, &mut self.floor_velocity, &mut self.floor_acceleration, &mut self.storey_force];
+            let of_blocks = [&mut self.slip, &mut self.block_velocity];
+            for table in of_storeys.into_iter().chain(of_blocks) {
                 table.end -= table.width;
             }
         }

@@ -300,6 +300,23 @@ impl Vector for Plain {
     }
 }
 
+/// Vectors of padded values.
+#[inline(always)]
+pub(crate) fn lanes(values: &[f64]) -> &[[f64; WIDTH]] {
+    values.as_chunks::<WIDTH>().0
+}
+
+#[inline(always)]
+pub(crate) fn lanes_mut(values: &mut [f64]) -> &mut [[f64; WIDTH]] {
+    values.as_chunks_mut::<WIDTH>().0
+}
+
+/// Vector `k` of padded values.
+#[inline(always)]
+pub(crate) fn at<V: Vector>(values: &[f64], k: usize) -> V {
+    V::load(&lanes(values)[k])
+}
+
 /// The first `K` vectors of padded values; zeros where there are fewer.
 #[inline(always)]
 pub(crate) fn load<V: Vector, const K: usize>(values: &[f64]) -> [V; K] {

@@ -24,7 +24,9 @@ use crate::observe::Observer;
 use crate::propagator::Whole;
 use crate::regime::{Regime, Row};
 use crate::scene::Motion;
-use crate::sliding::{GroundBlock, Layer, LayerInLanes, Linear, Push, SMALL_DIFFERENCE, move_on_ground};
+use crate::sliding::{
+    GroundBlock, Layer, LayerInLanes, Linear, Push, SMALL_DIFFERENCE, holds_on_ground, move_on_ground,
+};
 use crate::state::{State, range};
 use crate::storey::Sign;
 use crate::tall_run;
@@ -136,15 +138,13 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
         }
     }
 
-    /// How far values are from their middles after h / 3 at their rates, to either side: of drifts, of the negative of
-    /// plastic storeys' rates, of accelerations.
+    /// [`bounds::apart`] of all vectors.
     #[inline(always)]
     fn apart(&self, sample: &Sample<V, K>, third: V) -> [[V; K]; 3] {
         let mut out = [sample.x, sample.v, sample.a];
         for k in 0..K {
-            out[0][k] = third.mul_add(sample.v[k].abs(), sample.x[k].sub(self.middle[k]).abs());
-            out[1][k] = third.mul(sample.q[k].abs()).sub(self.sign[k].mul(sample.v[k]));
-            out[2][k] = third.mul_add(sample.jerk[k].abs(), sample.a[k].abs());
+            let (drift, floor) = ([sample.x[k], sample.v[k], sample.q[k]], [sample.a[k], sample.jerk[k]]);
+            [out[0][k], out[1][k], out[2][k]] = bounds::apart(drift, floor, self.middle[k], self.sign[k], third);
         }
         out
     }
@@ -367,6 +367,8 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             true => (contact_at(vertical, reached), contact_at(vertical, reached + 1)),
             false => (STANDARD_GRAVITY, STANDARD_GRAVITY),
         };
+        let of_ground = Linear { start: before, end: after };
+        let of_contact = Linear { start: contact.0, end: contact.1 };
         if VERTICAL {
             let slope = (contact.1 - contact.0) * per_second;
             for k in 0..K {
@@ -439,8 +441,8 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             }
             let push = Push {
                 h,
-                ground: Linear { start: before, end: after },
-                contact: Linear { start: contact.0, end: contact.1 },
+                ground: of_ground,
+                contact: of_contact,
                 velocity: prefix_sums(&dv),
                 displacement: prefix_sums(&beyond),
                 a: [sample.a, taken.a],
@@ -455,7 +457,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 is_turning |= turning;
             }
         }
-        let ground_holds = before.abs() < stuck_mu * contact.0 && after.abs() < stuck_mu * contact.1;
+        let ground_holds = holds_on_ground(of_ground, of_contact, stuck_mu);
         let has_contact = !VERTICAL || contact.0 > 0.0 && contact.1 > 0.0;
         if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact || ground_slides || !ground_holds
         {
@@ -519,7 +521,12 @@ impl Closer<'_, '_> {
         self.walk.liveliness * (h2 * h2 / 384.0)
     }
 
-    /// Whether no guard fell and no peak was beaten inside the step.
+    /// Storeys and floors whose peaks the end of the step may beat; nothing if a guard may have fallen, or a peak been
+    /// beaten, inside the step.
+    fn look(mut self) -> Option<[Set; 2]> {
+        self.clears().then_some(self.beaten)
+    }
+
     fn clears(&mut self) -> bool {
         let [drifts, rates, accelerations] = self.walk.suspects;
         let within = bounds::first(self.state.storeys());
@@ -631,8 +638,7 @@ fn clear_steps_of_scene(
     steps(state, walk, recorder, motion, first, end)
 }
 
-/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached, and
-/// whether it is known not to be plain.
+/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
 fn run(
     state: &mut State,
     walk: &mut Walk,
@@ -640,7 +646,7 @@ fn run(
     motion: &Motion,
     first: usize,
     end: usize,
-) -> (usize, bool) {
+) -> usize {
     let h = motion.dt();
     let samples = motion.acceleration();
     let vertical = motion.vertical().filter(|_| state.vertical).unwrap_or(&[]);
@@ -658,20 +664,18 @@ fn run(
             break;
         }
         let contact = (contact_at(vertical, reached), contact_at(vertical, reached + 1));
-        let mut look = Closer { state, walk, observer, h, contact, beaten: [0; 2] };
-        let mut clears = look.clears();
-        if !clears && followed != 0 {
+        let mut beaten = Closer { state, walk, observer, h, contact, beaten: [0; 2] }.look();
+        if beaten.is_none() && followed != 0 {
             // Once more, with the peaks up to here: whether a step is plain must not depend on where its run began.
             take_peaks(state, observer, followed, reached as f64 * h);
             state.update_bounds(observer);
             walk.suspects[0] |= std::mem::take(&mut followed);
-            look = Closer { state, walk, observer, h, contact, beaten: [0; 2] };
-            clears = look.clears();
+            beaten = Closer { state, walk, observer, h, contact, beaten: [0; 2] }.look();
         }
-        let [drifts, accelerations] = look.beaten;
+        let Some([drifts, accelerations]) = beaten else { break };
         let ground = Linear { start: samples[reached], end: samples[reached + 1] };
         let contact = Linear { start: contact.0, end: contact.1 };
-        if !clears || !move_on_ground(&mut walk.on_ground, ground, contact, h, state.stuck_mu[0]) {
+        if !move_on_ground(&mut walk.on_ground, ground, contact, h, state.stuck_mu[0]) {
             break;
         }
         walk.accept(state);
@@ -694,7 +698,7 @@ fn run(
     }
     walk.put_blocks(&mut state.motions);
     take_peaks(state, observer, followed, reached as f64 * h);
-    (reached, reached < end)
+    reached
 }
 
 /// Takes the peaks of drifts that have been followed, at the end of doing so.
@@ -707,7 +711,7 @@ fn take_peaks(state: &mut State, observer: &mut Observer, followed: Set, time: f
 
 impl State<'_> {
     /// Takes plain steps from interval `first` until `end`, or until one is not plain, and records their histories;
-    /// returns the interval reached, whose start the state is then at, and whether that one is known not to be plain.
+    /// returns the interval reached, whose start the state is then at.
     pub(crate) fn plain_run(
         &mut self,
         walk: &mut Walk,
@@ -715,14 +719,14 @@ impl State<'_> {
         motion: &Motion,
         first: usize,
         end: usize,
-    ) -> (usize, bool) {
+    ) -> usize {
         if self.airborne || !self.cache.visit(self.regime, self.model, self.vertical) {
-            return (first, true);
+            return first;
         }
-        let (reached, is_open) = match self.regime().steps.as_deref().map(|steps| &steps.whole) {
+        let reached = match self.regime().steps.as_deref().map(|steps| &steps.whole) {
             Some(Whole::Tall(step)) => {
                 let step = Arc::clone(step);
-                (tall_run::run(self, observer, motion, &step, first, end), false)
+                tall_run::run(self, observer, motion, &step, first, end)
             }
             _ => {
                 self.prepare_effects();
@@ -733,7 +737,7 @@ impl State<'_> {
         if self.is_sliding {
             observer.observe_slips(self, reached as f64 * motion.dt());
         }
-        (reached, is_open)
+        reached
     }
 
     /// Forms the effect of the floor loads on the step, if they have changed.

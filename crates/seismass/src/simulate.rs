@@ -212,7 +212,7 @@ impl Run<'_> {
     }
 
     /// Takes plain steps from interval `i` as far as nothing has to be looked at between; returns the interval reached,
-    /// and whether that one is known not to be plain.
+    /// and whether that one is not plain.
     fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> (usize, bool) {
         let last = motion.acceleration().len() - 1;
         let mut end = last.min(i + INTERVALS_PER_POLL);
@@ -226,13 +226,13 @@ impl Run<'_> {
             end = i + 1;
             state.moment()
         });
-        let (reached, is_open) = state.plain_run(&mut self.walk, &mut self.observer, motion, i, end);
+        let reached = state.plain_run(&mut self.walk, &mut self.observer, motion, i, end);
         self.statistics.intervals += reached - i;
         self.statistics.plain_steps += reached - i;
         if let Some(before) = before.filter(|_| reached > i) {
             state.add_energy_of_interval(before, &mut self.observer);
         }
-        (reached, is_open)
+        (reached, reached < end)
     }
 
     /// Solves the present interval by series; returns the storey that collapsed, and when.

@@ -156,6 +156,12 @@ impl Linear {
     }
 }
 
+/// Whether the ground holds blocks that are stuck to it with `stuck_mu`, by accelerations and contact forces over a step.
+#[inline(always)]
+pub(crate) fn holds_on_ground(ground: Linear, contact: Linear, stuck_mu: f64) -> bool {
+    ground.start.abs() < stuck_mu * contact.start && ground.end.abs() < stuck_mu * contact.end
+}
+
 /// Moves the blocks that slide on the ground over a step; false when one may have turned, or one that is stuck broken
 /// away: then nothing is moved.
 #[inline(never)]
@@ -166,9 +172,7 @@ pub(crate) fn move_on_ground(
     h: f64,
     stuck_mu: f64,
 ) -> bool {
-    if stuck_mu.is_finite()
-        && !(ground.start.abs() < stuck_mu * contact.start && ground.end.abs() < stuck_mu * contact.end)
-    {
+    if stuck_mu.is_finite() && !holds_on_ground(ground, contact, stuck_mu) {
         return false;
     }
     let end = |b: &GroundBlock| b.velocity - b.friction * contact.once(h) - ground.once(h);

@@ -1,14 +1,14 @@
 //! Bounds of tall buildings between which no guard falls and no peak is beaten, and the peaks that runs of theirs beat:
 //! those of [`crate::bounds`] and [`crate::observe`], of any number of storeys, four at a time.
 
-use crate::bounds::{Set, members};
-use crate::lanes::{FAR, Vector, WIDTH, filled_to};
+use crate::bounds::{self, Set, members};
+use crate::lanes::{FAR, Vector, WIDTH, at, filled_to, lanes};
 use crate::observe::Observer;
 use crate::regime::Row;
 use crate::response::Peak;
 use crate::state::State;
 use crate::storey::Sign;
-use crate::tall_run::{Sample, at, lanes};
+use crate::tall_run::Sample;
 
 /// The bounds of [`crate::bounds::Bounds`] in a vector of storeys and their floors.
 pub(crate) struct VectorBounds {
@@ -114,8 +114,7 @@ pub(crate) struct Bounds {
     largest: [[f64; WIDTH]; 2],
 }
 
-/// How far values are from their middles after h / 3 at their rates, to either side: of drifts, of the negative of
-/// plastic storeys' rates, of accelerations.
+/// [`bounds::apart`] of a vector.
 pub(crate) type Apart = [[f64; WIDTH]; 3];
 
 impl Bounds {
@@ -161,14 +160,10 @@ impl Bounds {
     /// [`Apart`] of vector `k`.
     #[inline(always)]
     pub(crate) fn apart<V: Vector>(&self, sample: &Sample, margin: usize, third: V, k: usize) -> [V; 3] {
-        let bounds = &self.vectors[k];
-        let (x, v, q) = (at::<V>(&sample.x, k), at::<V>(&sample.v, k), at::<V>(&sample.q[margin..], k));
-        let (a, jerk) = (at::<V>(&sample.a[1..], k), at::<V>(&sample.jerk[1..], k));
-        [
-            third.mul_add(v.abs(), x.sub(V::load(&bounds.middle)).abs()),
-            third.mul(q.abs()).sub(V::load(&bounds.sign).mul(v)),
-            third.mul_add(jerk.abs(), a.abs()),
-        ]
+        let of_vector = &self.vectors[k];
+        let drift = [at(&sample.x, k), at(&sample.v, k), at(&sample.q[margin..], k)];
+        let floor = [at(&sample.a[1..], k), at(&sample.jerk[1..], k)];
+        bounds::apart(drift, floor, V::load(&of_vector.middle), V::load(&of_vector.sign), third)
     }
 
     /// Takes drifts and shears of vector `k` at drift coordinates into their peaks.

@@ -5,11 +5,10 @@
 //! same bounds hold there, and tell much more of a storey that moves less than others.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Vector, WIDTH, filled_to};
+use crate::lanes::{Vector, WIDTH, filled_to, lanes};
 use crate::plain_run::MARGINS;
 use crate::regime::Row;
 use crate::state::State;
-use crate::tall_run::lanes;
 
 /// What a run reads of its regime.
 pub(crate) struct Rows {

@@ -13,7 +13,7 @@ use crate::banded_step::{BandedStep, whole_blocks};
 use crate::bernstein::{MAX_DEGREE, Polynomial};
 use crate::bounds::{Set, members};
 use crate::full_step::{FullStep, Shears};
-use crate::lanes::{Plain, Vector, WIDTH, filled_to, for_each_path};
+use crate::lanes::{Plain, Vector, WIDTH, at, filled_to, for_each_path, lanes, lanes_mut};
 use crate::observe::Observer;
 use crate::regime::Row;
 use crate::scene::Motion;
@@ -33,23 +33,6 @@ const LOWEST_ORDER: usize = 8;
 const ROUNDING: f64 = 0.25 * f64::EPSILON;
 /// The same as a part of the largest value in the building.
 const FAR_BELOW: f64 = 1.0 / (1u64 << 60) as f64;
-
-/// Vectors of padded values.
-#[inline(always)]
-pub(crate) fn lanes(values: &[f64]) -> &[[f64; WIDTH]] {
-    values.as_chunks::<WIDTH>().0
-}
-
-#[inline(always)]
-pub(crate) fn lanes_mut(values: &mut [f64]) -> &mut [[f64; WIDTH]] {
-    values.as_chunks_mut::<WIDTH>().0
-}
-
-/// Vector `k` of padded values.
-#[inline(always)]
-pub(crate) fn at<V: Vector>(values: &[f64], k: usize) -> V {
-    V::load(&lanes(values)[k])
-}
 
 /// The state at a sample.
 pub(crate) struct Sample {

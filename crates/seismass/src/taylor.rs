@@ -339,20 +339,39 @@ impl Series {
         }
     }
 
+    /// Accelerations of storey `i`'s floor less those of what it stands on.
+    #[inline(always)]
+    fn difference(&self, i: usize) -> Difference<'_> {
+        Difference { above: self.terms_of(i + 1), below: self.terms_of(i) }
+    }
+
+    /// The polynomial whose orders from the fourth on are terms so many orders lower, times their weights and a factor; the
+    /// first four are left to be set.
+    #[inline(always)]
+    fn integrated<V: Vector>(
+        &self,
+        terms: &impl TermByOrder,
+        orders: usize,
+        weights: &Weights,
+        factor: f64,
+    ) -> Polynomial {
+        let mut p = Polynomial::zeros(self.order + 1);
+        let mut k = WIDTH - orders;
+        for (four, weights) in p.fours_mut().iter_mut().zip(weights.as_chunks().0).skip(1) {
+            terms.four::<V>(k).mul(V::splat(factor)).mul(V::load(weights)).store(four);
+            k += WIDTH;
+        }
+        p
+    }
+
     /// `factor` times the drift coordinate of storey `i`.
     #[inline(always)]
     pub(crate) fn drift<V: Vector>(&self, i: usize, factor: f64) -> Polynomial {
-        let (above, below) = (self.terms_of(i + 1), self.terms_of(i));
+        let difference = self.difference(i);
         let once = factor * self.h;
         let twice = once * self.h;
-        let mut p = Polynomial::zeros(self.order + 1);
-        let mut k = 2;
-        for (four, weights) in p.fours_mut().iter_mut().zip(in_fours(&INVERSE_PAIRS)).skip(1) {
-            let change = above.four::<V>(k).sub(below.four(k));
-            change.mul(V::splat(twice)).mul(V::load(weights)).store(four);
-            k += WIDTH;
-        }
-        let terms = [0, 1].map(|k| twice * INVERSE_PAIRS[k + 2] * (above.term(k) - below.term(k)));
+        let mut p = self.integrated::<V>(&difference, 2, &INVERSE_PAIRS, twice);
+        let terms = [0, 1].map(|k| twice * INVERSE_PAIRS[k + 2] * difference.term(k));
         p.start_with(V::of([factor * self.x[i], once * self.v[i], terms[0], terms[1]]));
         p
     }
@@ -360,16 +379,10 @@ impl Series {
     /// `factor` times the drift rate of storey `i`.
     #[inline(always)]
     pub(crate) fn drift_rate<V: Vector>(&self, i: usize, factor: f64) -> Polynomial {
-        let (above, below) = (self.terms_of(i + 1), self.terms_of(i));
+        let difference = self.difference(i);
         let once = factor * self.h;
-        let mut p = Polynomial::zeros(self.order + 1);
-        let mut k = 3;
-        for (four, weights) in p.fours_mut().iter_mut().zip(in_fours(&INVERSE)).skip(1) {
-            let change = above.four::<V>(k).sub(below.four(k));
-            change.mul(V::splat(once)).mul(V::load(weights)).store(four);
-            k += WIDTH;
-        }
-        let terms = [0, 1, 2].map(|k| once * INVERSE[k + 1] * (above.term(k) - below.term(k)));
+        let mut p = self.integrated::<V>(&difference, 1, &INVERSE, once);
+        let terms = [0, 1, 2].map(|k| once * INVERSE[k + 1] * difference.term(k));
         p.start_with(V::of([factor * self.v[i], terms[0], terms[1], terms[2]]));
         p
     }
@@ -386,12 +399,7 @@ impl Series {
     ) -> Polynomial {
         let acceleration = self.terms_of(floor);
         let once = -factor * self.h;
-        let mut p = Polynomial::zeros(self.order + 1);
-        let mut k = 3;
-        for (four, weights) in p.fours_mut().iter_mut().zip(in_fours(&INVERSE)).skip(1) {
-            acceleration.four::<V>(k).mul(V::splat(once)).mul(V::load(weights)).store(four);
-            k += WIDTH;
-        }
+        let mut p = self.integrated::<V>(&acceleration, 1, &INVERSE, once);
         // Added before they are multiplied, so that small sums keep their digits.
         let [first, second] = [0, 1].map(|k| once * INVERSE[k + 1] * (acceleration.term(k) + more[k]));
         p.start_with(V::of([velocity, first, second, once * INVERSE[3] * acceleration.term(2)]));
@@ -438,29 +446,51 @@ impl Series {
     }
 }
 
+/// Numbers by order.
+type Weights = [f64; MAX_DEGREE + 1];
+
+/// Terms of a series by order.
+trait TermByOrder {
+    fn term(&self, k: usize) -> f64;
+
+    /// Four terms from order `k` on.
+    fn four<V: Vector>(&self, k: usize) -> V;
+}
+
 /// Terms of one floor: so far apart.
-#[derive(Clone, Copy)]
 struct Terms<'a> {
     values: &'a [f64],
     stride: usize,
 }
 
-impl Terms<'_> {
+impl TermByOrder for Terms<'_> {
     #[inline(always)]
     fn term(&self, k: usize) -> f64 {
         self.values[k * self.stride]
     }
 
-    /// Four terms from order `k` on.
     #[inline(always)]
     fn four<V: Vector>(&self, k: usize) -> V {
         V::of([self.term(k), self.term(k + 1), self.term(k + 2), self.term(k + 3)])
     }
 }
 
-#[inline(always)]
-fn in_fours(table: &[f64; MAX_DEGREE + 1]) -> &[[f64; WIDTH]] {
-    table.as_chunks().0
+/// Terms of one floor less those of another.
+struct Difference<'a> {
+    above: Terms<'a>,
+    below: Terms<'a>,
+}
+
+impl TermByOrder for Difference<'_> {
+    #[inline(always)]
+    fn term(&self, k: usize) -> f64 {
+        self.above.term(k) - self.below.term(k)
+    }
+
+    #[inline(always)]
+    fn four<V: Vector>(&self, k: usize) -> V {
+        self.above.four::<V>(k).sub(self.below.four(k))
+    }
 }
 
 /// Sums of terms: value and rate at the end of a step of unit length, first and second integrals from the second order on.
@@ -509,7 +539,7 @@ fn put<V: Vector, const K: usize>(vectors: &[V; K], term: &mut [[f64; WIDTH]; K]
 }
 
 /// 1 / k.
-pub(crate) const INVERSE: [f64; MAX_DEGREE + 1] = {
+pub(crate) const INVERSE: Weights = {
     let mut table = [0.0; MAX_DEGREE + 1];
     let mut k = 1;
     while k <= MAX_DEGREE {
@@ -571,7 +601,7 @@ fn by_recursion<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, 
 }
 
 /// 1 / (k (k - 1)).
-const INVERSE_PAIRS: [f64; MAX_DEGREE + 1] = {
+const INVERSE_PAIRS: Weights = {
     let mut table = [0.0; MAX_DEGREE + 1];
     let mut k = 2;
     while k <= MAX_DEGREE {
