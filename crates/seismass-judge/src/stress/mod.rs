@@ -2,11 +2,15 @@
 
 pub mod cases;
 mod consistency;
+mod family;
 mod grazing;
 mod hard_scene;
 mod pairs;
 pub mod random;
 pub mod report;
+mod tall_scene;
 mod tally_file;
 
+pub use family::Family;
 pub use hard_scene::hard_scene;
+pub use tall_scene::tall_scene;

@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use seismass::{Error, EventCounts, EventKind, Motion, Options, Response, Scene, Status, simulate};
 
 use super::consistency;
+use super::family::Family;
 use super::grazing::{Verdict, explained_residual, judge};
-use super::hard_scene::hard_scene;
-use crate::random_scene::{Draw, random_scene};
+use crate::random_scene::Draw;
 
 /// Largest energy residual that rounding explains.
 pub const LARGEST_RESIDUAL: f64 = 1e-11;
@@ -18,8 +18,6 @@ pub const LARGEST_RESIDUAL: f64 = 1e-11;
 const AFFORDABLE_PIECES: f64 = 3e5;
 /// One scene in so many has its energies balanced; a judged one always.
 const ENERGIES: u64 = 10;
-/// One scene in so many is of the hard family.
-const HARD: u64 = 8;
 
 /// Which scenes to run.
 #[derive(Debug, Clone, Copy)]
@@ -32,20 +30,11 @@ pub struct Selection {
     pub judged: f64,
 }
 
-/// The seed's scene, and whether it is of the hard family.
-///
-/// # Errors
-/// None for any seed.
-pub fn scene_of(seed: u64) -> (bool, seismass::Result<(Scene, Motion)>) {
-    let hard = Draw(!seed).one_in(HARD);
-    (hard, if hard { hard_scene(seed) } else { random_scene(seed) })
-}
-
 /// What one scene came to.
 #[derive(Debug, Clone, Default)]
 struct Found {
     seed: u64,
-    hard: bool,
+    family: Family,
     collapsed: bool,
     events: EventCounts,
     residual: Option<f64>,
@@ -57,9 +46,9 @@ struct Found {
 
 fn examine(seed: u64, judged: bool) -> Found {
     let mut draw = Draw(seed.wrapping_mul(31).wrapping_add(7));
-    let (hard, drawn) = scene_of(seed);
-    let mut found = Found { seed, hard, ..Found::default() };
-    let (scene, motion) = match drawn {
+    let family = Family::of(seed);
+    let mut found = Found { seed, family, ..Found::default() };
+    let (scene, motion) = match family.scene(seed) {
         Ok(drawn) => drawn,
         Err(error) => return Found { defect: Some(format!("the scene was refused: {error}")), ..found },
     };
@@ -108,18 +97,18 @@ fn affordable(scene: &Scene, motion: &Motion) -> bool {
 pub struct Tally {
     /// Scenes run, with seeds from 0.
     pub scenes: u64,
-    /// Of them, of the hard family.
-    pub hard: u64,
+    /// Of them, of each family.
+    pub families: [u64; Family::ALL.len()],
     /// Of them, ended by collapse.
     pub collapsed: u64,
     /// Of them, compared with the judge.
     pub judged: u64,
     /// Of them, with energies.
     pub balanced: u64,
-    /// Largest energy residual of the usual and the hard family, and its seed.
-    pub worst_residual: [(f64, u64); 2],
-    /// Largest difference to the judge where the events agree, and its seed.
-    pub worst_difference: [(f64, u64); 2],
+    /// Largest energy residual of each family, and its seed.
+    pub worst_residual: [(f64, u64); Family::ALL.len()],
+    /// Largest difference of each family to the judge where the events agree, and its seed.
+    pub worst_difference: [(f64, u64); Family::ALL.len()],
     /// How many runs had so many events.
     pub events: BTreeMap<u64, u64>,
     /// Events by kind.
@@ -140,14 +129,14 @@ pub struct Tally {
 
 impl Tally {
     fn add(&mut self, found: Found) {
-        let family = usize::from(found.hard);
+        let family = found.family as usize;
         let raise = |worst: &mut (f64, u64), value: f64| {
             if value > worst.0 || value.is_nan() {
                 *worst = (value, found.seed);
             }
         };
         self.scenes += 1;
-        self.hard += u64::from(found.hard);
+        self.families[family] += 1;
         self.collapsed += u64::from(found.collapsed);
         self.balanced += u64::from(found.residual.is_some());
         self.judged += u64::from(found.verdict.is_some());
@@ -189,9 +178,10 @@ pub fn run(selection: Selection, tally: &mut Tally) {
     let found: Vec<Found> = (first..first + scenes)
         .into_par_iter()
         .map(|seed| {
-            let judged = Draw(seed).between(0.0, 1.0) < judged;
+            let judged = Draw(seed).between(0.0, 1.0) < judged * Family::of(seed).judged();
             catch_unwind(AssertUnwindSafe(|| examine(seed, judged))).unwrap_or_else(|_| Found {
                 seed,
+                family: Family::of(seed),
                 defect: Some("panic".into()),
                 ..Found::default()
             })

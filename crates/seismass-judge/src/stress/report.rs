@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use seismass::EventKind;
 
 use super::cases::Finding;
+use super::family::Family;
 use super::random::{LARGEST_RESIDUAL, Tally};
 
 /// The distribution of a random run, as Markdown.
@@ -16,15 +17,19 @@ pub fn distribution(tally: &Tally) -> String {
     };
     row("quantity", "value".into());
     row("---", "---".into());
-    row("scenes run (seeds from 0)", format!("{}, of them {} of the hard family", tally.scenes, tally.hard));
+    let of_families = Family::ALL.iter().zip(tally.families).map(|(family, n)| format!("{} {n}", family.name()));
+    row("scenes run (seeds from 0)", tally.scenes.to_string());
+    row("of them by family", of_families.collect::<Vec<_>>().join(", "));
     row("completed / collapsed", format!("{} / {}", tally.scenes - tally.collapsed, tally.collapsed));
     let [least, median, most] = tally.event_quantiles();
     row("events of a run: least / median / most", format!("{least} / {median} / {most}"));
     let kinds = EventKind::ALL.iter().zip(tally.kinds).map(|(kind, n)| format!("{} {n}", kind.name()));
     row("events by kind", kinds.collect::<Vec<_>>().join(", "));
     row("energies balanced", tally.balanced.to_string());
-    let worst = |[usual, hard]: [(f64, u64); 2]| {
-        format!("usual {:.1e} (seed {}), hard {:.1e} (seed {})", usual.0, usual.1, hard.0, hard.1)
+    let worst = |worst: [(f64, u64); Family::ALL.len()]| {
+        let of_family = Family::ALL.iter().zip(worst);
+        let texts = of_family.map(|(family, (value, seed))| format!("{} {value:.1e} (seed {seed})", family.name()));
+        texts.collect::<Vec<_>>().join(", ")
     };
     row(&format!("worst energy residual (limit {LARGEST_RESIDUAL:.0e})"), worst(tally.worst_residual));
     row("compared with the plain implementation", tally.judged.to_string());
@@ -93,8 +98,9 @@ pub fn page(findings: &[Finding], tally: &Tally) -> String {
          neither move nor exceed their limit, peaks that no sample beats.\n\n{}\n\
          ## Random scenes\n\n\
          Seeded scenes that draw every feature of the model; the hard family draws every number from a range far wider than \
-         buildings have (`random_scene.rs`, `stress/hard_scene.rs` of `crates/seismass-judge`). Every run is checked by \
-         itself, a tenth with energies, a random part against the judge. Where the two part, the judge is asked again with \
+         buildings have, the tall one has 13 to 64 storeys (`random_scene.rs`, `stress/hard_scene.rs` and \
+         `stress/tall_scene.rs` of `crates/seismass-judge`). Every run is checked by itself, a tenth with energies, a \
+         random part against the judge, of the tall family a larger one. Where the two part, the judge is asked again with \
          its input changed in the last digits: a grazing is explained if it then comes to the same events and numbers as \
          the kernel, and a scene is sensitive if it then moves as far. Where all numbers agree and the logs \
          differ by pairs of events alone (a yield and its unload, a slip and its stick), the judge's state is changed in the \

@@ -18,8 +18,9 @@ impl Tally {
             // Writing to a string does not fail.
             let _ = writeln!(text, "{key}\t{}", fields.join("\t"));
         };
-        let counts = [self.scenes, self.hard, self.collapsed, self.judged, self.balanced];
+        let counts = [self.scenes, self.collapsed, self.judged, self.balanced];
         line("counts", &counts.map(|c| c.to_string()));
+        line("families", &self.families.map(|c| c.to_string()));
         line("kinds", &self.kinds.map(|c| c.to_string()));
         for (key, worst) in [("residual", self.worst_residual), ("difference", self.worst_difference)] {
             for (value, seed) in worst {
@@ -72,10 +73,15 @@ impl Tally {
         let real = |i: usize| fields.get(i)?.parse::<f64>().ok();
         let text = |i: usize| fields.get(i).map(ToString::to_string);
         match *key {
-            "counts" => {
-                let counts =
-                    [&mut self.scenes, &mut self.hard, &mut self.collapsed, &mut self.judged, &mut self.balanced];
+            // Tallies of before had other counts.
+            "counts" if fields.len() == 4 => {
+                let counts = [&mut self.scenes, &mut self.collapsed, &mut self.judged, &mut self.balanced];
                 for (i, count) in counts.into_iter().enumerate() {
+                    *count = whole(i)?;
+                }
+            }
+            "families" => {
+                for (i, count) in self.families.iter_mut().enumerate() {
                     *count = whole(i)?;
                 }
             }
