@@ -35,7 +35,7 @@ pub(crate) struct Model {
 pub(crate) struct ModelLanes {
     /// 1 for a storey, 0 for padding.
     pub(crate) inside: Vec<f64>,
-    /// Columns of the full damping matrix, one after the other, at least a vector's number of them; empty without one.
+    /// Columns of the full damping matrix, one after the other, an even number and at least a vector's; empty without one.
     pub(crate) damping: Vec<f64>,
     /// Rayleigh damping: storey damping of each storey (N s/m), and mass-proportional damping of each floor (N s/m).
     pub(crate) storey_damping: Vec<f64>,
@@ -57,9 +57,7 @@ impl ModelLanes {
             StoreyDamping::Dense(d) => {
                 let mut columns: Vec<f64> =
                     d.column_iter().flat_map(|column| filled(column.iter().copied(), n, 0.0)).collect();
-                if n <= WIDTH {
-                    columns.resize(WIDTH * WIDTH, 0.0);
-                }
+                columns.resize(padded(n) * n.next_multiple_of(2).max(WIDTH), 0.0);
                 Self { inside, damping: columns, ..Self::default() }
             }
         }

@@ -173,14 +173,21 @@ fn multiply<V: Vector, const K: usize, const S: usize>(
             add(rows, &columns[c], weights[0].broadcast(c));
         }
     } else {
-        // Two rows at a time: more would not stay in the registers of every path.
+        // As many rows at a time as stay in the registers of every path.
         let values = numbers(weights);
-        for pair in [[0, 1], [2, 3]] {
-            for (column, &weight) in columns.iter().zip(values.as_flattened()) {
-                let weight = V::splat(weight);
-                for r in pair {
-                    for k in 0..K {
-                        rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
+        let each = columns.iter().zip(values.as_flattened());
+        if K <= 2 {
+            for (column, &weight) in each {
+                add(rows, column, V::splat(weight));
+            }
+        } else {
+            for pair in [[0, 1], [2, 3]] {
+                for (column, &weight) in each.clone() {
+                    let weight = V::splat(weight);
+                    for r in pair {
+                        for k in 0..K {
+                            rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
+                        }
                     }
                 }
             }

@@ -23,9 +23,11 @@ use crate::taylor::{INVERSE, MAX_PHASE, terms};
 
 /// Memory one cache may take before it starts afresh (bytes).
 const CACHE_BYTES: usize = 64 << 20;
-/// Most storeys of which tables of the series are kept: those of one vector. They are formed at once; with more storeys
-/// most regimes of a strong motion are left before tables have paid for themselves.
-pub(crate) const MAX_TABLE: usize = WIDTH;
+/// Most storeys of which tables of the series are kept.
+const MAX_TABLE: usize = 2 * WIDTH;
+/// Most storeys for which steps and tables are formed at once: those of one vector. With more, most regimes of a strong
+/// motion are left before they have paid for themselves.
+const MAX_AT_ONCE: usize = WIDTH;
 
 /// Most storeys for which one matrix without zeros is taken though a tall step would do.
 const MAX_DENSE: usize = 16;
@@ -467,9 +469,9 @@ pub(crate) struct RegimeCache {
 impl RegimeCache {
     /// Whole intervals of a regime that a run solves by series before its steps are formed. To form them costs like
     /// n^3, a series saved like n^2 with full damping matrices and like n with others: about as many series as there are
-    /// storeys pay for them. Where tables serve the series too they are formed at once.
+    /// storeys pay for them. Up to [`MAX_AT_ONCE`] storeys they are formed at once.
     fn series_visits(storeys: usize) -> u32 {
-        if storeys <= MAX_TABLE { 0 } else { storeys as u32 }
+        if storeys <= MAX_AT_ONCE { 0 } else { storeys as u32 }
     }
 
     pub(crate) fn new(dt: f64) -> Self {
@@ -529,13 +531,19 @@ impl RegimeCache {
         &self.entries[index].regime
     }
 
-    /// Forms the tables of a regime, where it has any.
+    /// Whether series of a regime go by its table, which then exists: once the present run has taken as many intervals in
+    /// it as are solved without.
     #[inline]
-    pub(crate) fn prepare_table(&mut self, index: usize, model: &Model, vertical: bool) {
+    pub(crate) fn prepare_table(&mut self, index: usize, model: &Model, vertical: bool) -> bool {
         let n = model.storeys();
-        if n > 0 && n <= MAX_TABLE && self.entries[index].regime.steps.is_none() {
+        let entry = &self.entries[index];
+        if n == 0 || n > MAX_TABLE || n > MAX_AT_ONCE && entry.visits <= Self::series_visits(n) {
+            return false;
+        }
+        if entry.regime.steps.is_none() {
             self.form_steps(index, model, vertical);
         }
+        true
     }
 
     #[cold]

@@ -5,7 +5,7 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Vector, WIDTH, columns_of, load, prefix_sums};
+use crate::lanes::{Vector, WIDTH, columns_of, load, numbers, prefix_sums};
 use crate::model::{Model, ModelLanes};
 use crate::propagator::Steps;
 
@@ -166,15 +166,17 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
                 shear[0] = damping(0, damping(1, shear[0])).add(damping(2, damping(3, zero)));
             }
         } else {
-            let mut rates = [[0.0; 4]; K];
-            for k in 0..K {
-                v[k].store(&mut rates[k]);
-            }
-            for (column, &rate) in columns.iter().zip(rates.as_flattened()) {
-                let rate = V::splat(rate);
+            let rates = numbers(v);
+            let mut others = [zero; K];
+            for (pair, rates) in columns.as_chunks::<2>().0.iter().zip(rates.as_flattened().as_chunks::<2>().0) {
+                let (even, odd) = (V::splat(rates[0]), V::splat(rates[1]));
                 for k in 0..K {
-                    shear[k] = V::load(&column[k]).mul_add(rate, shear[k]);
+                    shear[k] = V::load(&pair[0][k]).mul_add(even, shear[k]);
+                    others[k] = V::load(&pair[1][k]).mul_add(odd, others[k]);
                 }
+            }
+            for k in 0..K {
+                shear[k] = shear[k].add(others[k]);
             }
         }
         if !self.model.storey_damping.is_empty() {

@@ -8,7 +8,7 @@ use crate::lanes::{
     Aligned, FAR, MAX_LANES, Vector, WIDTH, by_width, differences, filled, for_each_path, load, padded, store,
 };
 use crate::model::Model;
-use crate::propagator::{MAX_TABLE, RegimeCache};
+use crate::propagator::RegimeCache;
 use crate::regime::{Operator, Regime, Row};
 use crate::scene::{Motion, Scene};
 use crate::storey::StoreySpring;
@@ -433,16 +433,17 @@ impl<'a> State<'a> {
 
     /// Forms the series over `h` from `tau`, where accelerations and their rates must be those of the state.
     pub(crate) fn form_series(&mut self, tau: f64, h: f64) {
-        if self.storeys() <= MAX_TABLE {
+        let by_table = self.cache.prepare_table(self.regime, self.model, self.vertical);
+        if by_table {
             self.drive.ground = self.interval.ground_at(tau);
             self.drive.ground_slope = self.interval.ground_slope;
         } else {
             self.set_drive(tau);
         }
-        self.cache.prepare_table(self.regime, self.model, self.vertical);
         let start = Start { x: &self.x, v: &self.v, a: &self.a, jerk: &self.jerk };
         let regime = self.cache.regime(self.regime);
-        self.series.form(self.model, regime, start, &self.drive, h);
+        let table = regime.steps.as_deref().and_then(|steps| steps.table.as_ref()).filter(|_| by_table);
+        self.series.form(self.model, (regime, table), start, &self.drive, h);
     }
 
     /// The storeys or floors of a set, or all where there are more than sets hold.

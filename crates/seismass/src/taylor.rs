@@ -71,8 +71,16 @@ pub(crate) fn terms(phase: f64) -> usize {
 }
 
 impl Series {
-    /// Forms the series over a step `h` from its start, whose accelerations must be those of the drive.
-    pub(crate) fn form(&mut self, model: &Model, regime: &Regime, start: Start, drive: &Drive, h: f64) {
+    /// Forms the series over a step `h` from its start, whose accelerations must be those of the drive; the drive's loads
+    /// are not read where there is a table.
+    pub(crate) fn form(
+        &mut self,
+        model: &Model,
+        (regime, table): (&Regime, Option<&Table>),
+        start: Start,
+        drive: &Drive,
+        h: f64,
+    ) {
         let n = model.storeys();
         let (order, stride) = (terms(regime.frequency * h), model.width);
         if self.stride != stride || self.storeys != n {
@@ -86,7 +94,7 @@ impl Series {
         (self.ground[0], self.ground[1]) = (drive.ground, drive.ground_slope * h);
         // Polynomials take terms in fours.
         self.a[(order + 1) * stride..(order + 1).next_multiple_of(WIDTH) * stride].fill(0.0);
-        if let Some(table) = regime.steps.as_ref().and_then(|steps| steps.table.as_ref()) {
+        if let Some(table) = table {
             form_by_table(self, model, table, &start, drive);
         } else if n <= MAX_LANES {
             self.load[0].copy_from_slice(&drive.load);
@@ -102,7 +110,7 @@ impl Series {
     /// From tables: floor accelerations from the second order on are products with drift accelerations and their rates.
     /// `S` is the number of storeys and `COLUMNS` its double.
     #[inline(always)]
-    fn by_table<V: Vector, const S: usize, const COLUMNS: usize>(
+    fn by_table<V: Vector, const K: usize, const S: usize, const COLUMNS: usize>(
         &mut self,
         model: &Model,
         table: &Table,
@@ -110,38 +118,48 @@ impl Series {
         drive: &Drive,
     ) {
         let (h, order) = (self.h, self.order);
-        let inside: [V; 1] = load(&model.lanes.inside);
+        let inside: [V; K] = load(&model.lanes.inside);
         let zero = V::splat(0.0);
-        let ([x], [v]): ([V; 1], [V; 1]) = (load(start.x), load(start.v));
-        let ([a], [jerk]): ([V; 1], [V; 1]) = (load(start.a), load(start.jerk));
-        let [first] = differences(&[a], V::splat(drive.ground));
-        let [rate] = differences(&[jerk], V::splat(drive.ground_slope));
-        let linear = V::splat(h).mul(jerk);
-        store(&[x], &mut self.x);
-        store(&[v], &mut self.v);
-        let (starts, of_floors) = columns_mut::<1>(&mut self.a)[..=order].split_at_mut(2);
-        put(&[a], &mut starts[0]);
-        put(&[linear], &mut starts[1]);
+        let (x, v): ([V; K], [V; K]) = (load(start.x), load(start.v));
+        let (a, jerk): ([V; K], [V; K]) = (load(start.a), load(start.jerk));
+        let first = differences(&a, V::splat(drive.ground));
+        let rate = differences(&jerk, V::splat(drive.ground_slope));
+        let mut sums = Sums { value: a, rate: jerk, integrals: [[zero; K]; 2] };
+        for k in 0..K {
+            sums.rate[k] = V::splat(h).mul(jerk[k]);
+            sums.value[k] = a[k].add(sums.rate[k]);
+        }
+        let linear = sums.rate;
+        store(&x, &mut self.x);
+        store(&v, &mut self.v);
+        let (starts, of_floors) = columns_mut::<K>(&mut self.a)[..=order].split_at_mut(2);
+        put(&a, &mut starts[0]);
+        put(&linear, &mut starts[1]);
         // Powers of the step over that of the table.
         let (ratio, mut power) = (h / table.h, h / table.h);
-        let terms = &columns_of::<1>(&table.terms)[..(order - 1) * COLUMNS];
-        let mut sums = Sums { value: [a.add(linear)], rate: [linear], integrals: [[zero]; 2] };
+        let terms = &columns_of::<K>(&table.terms)[..(order - 1) * COLUMNS];
         let (mut firsts, mut rates) = ([zero; S], [zero; S]);
         for c in 0..S {
-            (firsts[c], rates[c]) = (first.broadcast(c), rate.broadcast(c));
+            firsts[c] = first[c / WIDTH].broadcast(c % WIDTH);
+            rates[c] = rate[c / WIDTH].broadcast(c % WIDTH);
         }
         for ((columns, out), weights) in terms.as_chunks::<COLUMNS>().0.iter().zip(of_floors).zip(&WEIGHTS[2..]) {
-            let (mut even, mut odd) = (zero, zero);
+            let (mut even, mut odd) = ([zero; K], [zero; K]);
             for c in 0..S {
-                even = V::load(&columns[c][0]).mul_add(firsts[c], even);
-                odd = V::load(&columns[S + c][0]).mul_add(rates[c], odd);
+                for k in 0..K {
+                    even[k] = V::load(&columns[c][k]).mul_add(firsts[c], even[k]);
+                    odd[k] = V::load(&columns[S + c][k]).mul_add(rates[c], odd[k]);
+                }
             }
             power *= ratio;
-            let term = [even.add(odd).mul(V::splat(power))];
+            let mut term = even;
+            for k in 0..K {
+                term[k] = even[k].add(odd[k]).mul(V::splat(power));
+            }
             put(&term, out);
             sums.add(&term, weights);
         }
-        self.put_sums(&sums, &[v], &[a], &[linear], &inside);
+        self.put_sums(&sums, &v, &a, &linear, &inside);
     }
 
     /// Keeps what the sums give at the end of the step: `a` and `linear` are the first two terms.
@@ -556,10 +574,14 @@ for_each_path! {
 #[inline(always)]
 fn by_table<V: Vector>(series: &mut Series, model: &Model, table: &Table, start: &Start, drive: &Drive) {
     match series.storeys {
-        1 => series.by_table::<V, 1, 2>(model, table, start, drive),
-        2 => series.by_table::<V, 2, 4>(model, table, start, drive),
-        3 => series.by_table::<V, 3, 6>(model, table, start, drive),
-        _ => series.by_table::<V, 4, 8>(model, table, start, drive),
+        1 => series.by_table::<V, 1, 1, 2>(model, table, start, drive),
+        2 => series.by_table::<V, 1, 2, 4>(model, table, start, drive),
+        3 => series.by_table::<V, 1, 3, 6>(model, table, start, drive),
+        4 => series.by_table::<V, 1, 4, 8>(model, table, start, drive),
+        5 => series.by_table::<V, 2, 5, 10>(model, table, start, drive),
+        6 => series.by_table::<V, 2, 6, 12>(model, table, start, drive),
+        7 => series.by_table::<V, 2, 7, 14>(model, table, start, drive),
+        _ => series.by_table::<V, 2, 8, 16>(model, table, start, drive),
     }
 }
 

@@ -104,6 +104,40 @@ fn a_batch_can_be_stopped() {
     );
 }
 
+/// Runs of one structure share what they form for its regimes, some of it only once a run has stayed there long enough:
+/// which run comes first changes no bit, whatever the number of storeys.
+#[test]
+fn a_run_of_a_batch_is_the_run_alone_to_the_bit() {
+    for (storeys, damping) in [
+        (3, Damping::Modal { ratio: 0.05 }),
+        (6, Damping::Modal { ratio: 0.05 }),
+        (8, Damping::Rayleigh { ratio: 0.05, modes: [1, 2] }),
+        (12, Damping::Modal { ratio: 0.05 }),
+        (20, Damping::Rayleigh { ratio: 0.05, modes: [1, 2] }),
+    ] {
+        let building = Building::uniform(storeys, 0.12 * storeys as f64, 1000.0, damping).unwrap();
+        let yields = |(i, s): (usize, &Storey)| Storey {
+            second_slope: 0.1,
+            ..Storey::yielding(s.stiffness, 900.0 * (storeys - i) as f64)
+        };
+        let yielding = building.storeys().iter().enumerate().map(yields).collect();
+        let building = Arc::new(building.with_storeys(yielding).unwrap());
+        let blocks = (1..=storeys).map(|floor| Block::new(floor, 500.0, 0.15)).collect();
+        let (scenes, motions) = ([Scene::new(Some(building), blocks).unwrap()], [motion(0, 0)]);
+        for factors in [[0.4, 0.7, 1.0, 1.6], [1.6, 1.0, 0.7, 0.4]] {
+            let runs = factors.map(|scale| Run { scale, ..Run::new(0, 0) });
+            let batch = simulate_many(&scenes, &motions, &runs, &Options::default(), Some(1), &Control::default());
+            for (factor, response) in factors.iter().zip(batch.unwrap()) {
+                let samples: Vec<f64> = motions[0].acceleration().iter().map(|a| a * factor).collect();
+                let alone = simulate(&scenes[0], &Motion::new(samples, 0.01, None).unwrap(), &Options::default());
+                let (response, alone) = (response.unwrap(), alone.unwrap());
+                assert!(alone.statistics.regime_hits > 10 && alone.statistics.plain_steps > 10, "{storeys} storeys");
+                assert_eq!(response, alone, "{storeys} storeys, factor {factor}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_scaled_motion_of_a_batch_is_the_motion_times_its_factor() {
     let (scenes, motions) = ([scene(0.2)], [motion(100, 0)]);
