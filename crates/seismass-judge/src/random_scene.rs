@@ -90,8 +90,7 @@ fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Bui
     let law = spring(draw);
     let mut storeys = Vec::new();
     for i in 0..n {
-        let above: f64 =
-            mass[i..].iter().sum::<f64>() + blocks.iter().filter(|b| b.floor > i).map(|b| b.mass).sum::<f64>();
+        let above = mass_above(i, &mass, blocks);
         let stiffness = if equal { k } else { k * draw.between(0.4, 2.0) };
         let yield_shear = if elastic || draw.one_in(8) { f64::INFINITY } else { strength * above * pga.max(1.0) };
         let (overstrength, second_slope, third_slope) = if equal { law } else { spring(draw) };
@@ -124,6 +123,11 @@ fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Bui
         _ => GravityEffect::None,
     };
     Building::new(mass, storeys, damping)?.with_gravity(gravity)
+}
+
+/// Mass that storey `i` carries: of the floors above it and of the blocks on them.
+pub(crate) fn mass_above(i: usize, mass: &[f64], blocks: &[Block]) -> f64 {
+    mass[i..].iter().sum::<f64>() + blocks.iter().filter(|b| b.floor > i).map(|b| b.mass).sum::<f64>()
 }
 
 /// Overstrength, second and third slope, with all their special cases.

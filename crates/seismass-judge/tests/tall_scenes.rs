@@ -79,6 +79,25 @@ fn every_width_agrees_with_events() {
     }
 }
 
+/// Series go by tables up to eight storeys, above four once a regime has lasted; tables of a step that is halved serve
+/// parts longer than it.
+#[test]
+fn tables_agree_at_every_number_of_storeys() {
+    for n in 3..=9 {
+        for damping in [RAYLEIGH, MODAL] {
+            for (period_per_storey, peak_g) in [(0.1, 0.02), (0.1, 0.5), (0.012, 0.02), (0.012, 0.5)] {
+                for vertical in [false, true] {
+                    let scene = tall_with_period(period_per_storey, n, damping.clone());
+                    let (comparison, plain) = judged::<f64>(&scene, &motion(300, peak_g, vertical));
+                    let what = format!("{n} storeys, {damping:?}, {period_per_storey} s, {peak_g} g, {vertical}");
+                    println!("{what}: {:.1e}, {plain} plain", comparison.worst());
+                    assert!(comparison.agrees(AGREEMENT), "{what}: {comparison:?}");
+                }
+            }
+        }
+    }
+}
+
 /// Damping fitted to the lowest modes makes the highest ones overdamped: a step spans several of their time scales.
 #[test]
 fn tall_buildings_agree_however_stiff_their_highest_modes() {
@@ -87,6 +106,24 @@ fn tall_buildings_agree_however_stiff_their_highest_modes() {
         let (comparison, plain) = judged::<DoubleDouble>(&scene, &motion(40, peak_g, false));
         println!("{n} storeys, {ratio} of critical, {peak_g} g: {:.1e}, {plain} plain", comparison.worst());
         assert!(comparison.agrees(AGREEMENT), "{n} storeys, {ratio}, {peak_g} g: {comparison:?}");
+    }
+}
+
+/// Where the disturbance has not come yet, floors move by rounding of the building's motion (docs/limitations.md).
+/// Undamped: damping of the mass acts on all floors at once.
+#[test]
+fn floors_that_nothing_has_reached_move_by_rounding_alone() {
+    for n in [24, 40, 64] {
+        let scene = tall_with_period(0.8, n, Damping::Modal { ratio: 0.0 });
+        let motion = motion(40, 0.5, false);
+        let response = simulate(&scene, &motion, &Options::default()).unwrap();
+        let exact = solve::<DoubleDouble>(&scene, &motion, 3).unwrap();
+        let floors = response.peaks.floor_acceleration.iter().zip(&exact.peaks.floor_acceleration);
+        let largest = exact.peaks.floor_acceleration.iter().fold(0.0, |largest: f64, peak| largest.max(peak.value));
+        let error = floors.map(|(found, exact)| (found.value - exact.value).abs()).fold(0.0, f64::max) / largest;
+        let highest = [&response.peaks, &exact.peaks].map(|peaks| peaks.floor_acceleration[n - 1].value / largest);
+        println!("{n} storeys: highest floor {:.1e}, exactly {:.1e}; worst {error:.1e}", highest[0], highest[1]);
+        assert!(error < 1e-14 && (highest[0] - highest[1]).abs() < 1e-16, "{n} storeys: {highest:?}");
     }
 }
 

@@ -376,14 +376,19 @@ impl<'a> State<'a> {
 
     /// Sets the drive of a series that starts at `tau`.
     pub(crate) fn set_drive(&mut self, tau: f64) {
+        self.set_ground_drive(tau);
         let contact = self.contact_at(tau);
         let contact_slope = if self.airborne { 0.0 } else { self.interval.contact_slope };
-        self.drive.ground = self.interval.ground_at(tau);
-        self.drive.ground_slope = self.interval.ground_slope;
         for i in 0..self.spring_load.len() {
             self.drive.load[i] = self.spring_load[i] + self.friction[i] * contact;
             self.drive.load_slope[i] = self.friction[i] * contact_slope;
         }
+    }
+
+    /// Sets the part of the drive that tables need.
+    fn set_ground_drive(&mut self, tau: f64) {
+        self.drive.ground = self.interval.ground_at(tau);
+        self.drive.ground_slope = self.interval.ground_slope;
     }
 
     /// Forms accelerations and their rates at `tau` from the state.
@@ -435,8 +440,7 @@ impl<'a> State<'a> {
     pub(crate) fn form_series(&mut self, tau: f64, h: f64) {
         let by_table = self.cache.prepare_table(self.regime, self.model, self.vertical);
         if by_table {
-            self.drive.ground = self.interval.ground_at(tau);
-            self.drive.ground_slope = self.interval.ground_slope;
+            self.set_ground_drive(tau);
         } else {
             self.set_drive(tau);
         }

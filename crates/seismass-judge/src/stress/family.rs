@@ -67,3 +67,11 @@ impl Family {
         }
     }
 }
+
+/// The seed's scene, of the family that the seed draws.
+///
+/// # Errors
+/// None for any seed.
+pub fn scene_of(seed: u64) -> seismass::Result<(Scene, Motion)> {
+    Family::of(seed).scene(seed)
+}

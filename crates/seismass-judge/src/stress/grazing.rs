@@ -199,8 +199,8 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::stress::Family;
     use crate::stress::random::{LARGEST_RESIDUAL, solve_checked};
+    use crate::stress::scene_of;
 
     /// The kernel's response, as if its energies did not balance by this.
     fn with_residual(response: &Response, relative_residual: f64) -> Response {
@@ -213,7 +213,7 @@ mod tests {
     /// the contact force and more.
     #[test]
     fn a_residual_of_cancelled_gravity_is_explained_and_a_larger_one_is_not() {
-        let (scene, motion) = Family::of(700_482).scene(700_482).unwrap();
+        let (scene, motion) = scene_of(700_482).unwrap();
         let response = solve_checked(&scene, &motion).unwrap();
         let residual = response.energy.unwrap().relative_residual;
         let explained = explained_residual(&scene, &motion, &response).unwrap();
@@ -230,7 +230,7 @@ mod tests {
     #[test]
     fn a_residual_of_an_ordinary_scene_is_not_explained() {
         for seed in 0..20 {
-            let (scene, motion) = Family::of(seed).scene(seed).unwrap();
+            let (scene, motion) = scene_of(seed).unwrap();
             let response = solve_checked(&scene, &motion).unwrap();
             let planted = with_residual(&response, 2.0 * LARGEST_RESIDUAL);
             assert_eq!(explained_residual(&scene, &motion, &planted), None, "seed {seed}");

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use seismass::scene::uniform_stiffness;
 use seismass::{Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey};
 
-use crate::random_scene::{Draw, samples_of, spring};
+use crate::random_scene::{Draw, mass_above, samples_of, spring};
 
 /// Largest product of the highest frequency and the time step: beyond, one interval has hundreds of vibrations.
 const LARGEST_PHASE: f64 = 200.0;
@@ -55,8 +55,7 @@ fn building(draw: &mut Draw, mass: Vec<f64>, blocks: &[Block], pga: f64) -> Resu
     let strength = draw.scale(1e-3, 10.0) * if draw.one_in(10) { 1e-6 } else { 1.0 };
     let mut storeys = Vec::new();
     for i in 0..n {
-        let above: f64 =
-            mass[i..].iter().sum::<f64>() + blocks.iter().filter(|b| b.floor > i).map(|b| b.mass).sum::<f64>();
+        let above = mass_above(i, &mass, blocks);
         let stiffness = k * draw.scale(1.0 / contrast, 2.0 * contrast);
         let (overstrength, second_slope, third_slope) = spring(draw);
         let yield_shear = if draw.one_in(4) { f64::INFINITY } else { strength * above * pga };

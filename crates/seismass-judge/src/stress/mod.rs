@@ -11,6 +11,6 @@ pub mod report;
 mod tall_scene;
 mod tally_file;
 
-pub use family::Family;
+pub use family::{Family, scene_of};
 pub use hard_scene::hard_scene;
 pub use tall_scene::tall_scene;

@@ -44,9 +44,8 @@ struct Found {
     defect: Option<String>,
 }
 
-fn examine(seed: u64, judged: bool) -> Found {
+fn examine(seed: u64, family: Family, judged: bool) -> Found {
     let mut draw = Draw(seed.wrapping_mul(31).wrapping_add(7));
-    let family = Family::of(seed);
     let mut found = Found { seed, family, ..Found::default() };
     let (scene, motion) = match family.scene(seed) {
         Ok(drawn) => drawn,
@@ -178,10 +177,11 @@ pub fn run(selection: Selection, tally: &mut Tally) {
     let found: Vec<Found> = (first..first + scenes)
         .into_par_iter()
         .map(|seed| {
-            let judged = Draw(seed).between(0.0, 1.0) < judged * Family::of(seed).judged();
-            catch_unwind(AssertUnwindSafe(|| examine(seed, judged))).unwrap_or_else(|_| Found {
+            let family = Family::of(seed);
+            let judged = Draw(seed).between(0.0, 1.0) < judged * family.judged();
+            catch_unwind(AssertUnwindSafe(|| examine(seed, family, judged))).unwrap_or_else(|_| Found {
                 seed,
-                family: Family::of(seed),
+                family,
                 defect: Some("panic".into()),
                 ..Found::default()
             })

@@ -17,19 +17,18 @@ pub fn distribution(tally: &Tally) -> String {
     };
     row("quantity", "value".into());
     row("---", "---".into());
-    let of_families = Family::ALL.iter().zip(tally.families).map(|(family, n)| format!("{} {n}", family.name()));
+    let of_families = Family::ALL.iter().zip(tally.families);
     row("scenes run (seeds from 0)", tally.scenes.to_string());
-    row("of them by family", of_families.collect::<Vec<_>>().join(", "));
+    row("of them by family", listed(of_families.map(|(family, n)| format!("{} {n}", family.name()))));
     row("completed / collapsed", format!("{} / {}", tally.scenes - tally.collapsed, tally.collapsed));
     let [least, median, most] = tally.event_quantiles();
     row("events of a run: least / median / most", format!("{least} / {median} / {most}"));
-    let kinds = EventKind::ALL.iter().zip(tally.kinds).map(|(kind, n)| format!("{} {n}", kind.name()));
-    row("events by kind", kinds.collect::<Vec<_>>().join(", "));
+    let kinds = EventKind::ALL.iter().zip(tally.kinds);
+    row("events by kind", listed(kinds.map(|(kind, n)| format!("{} {n}", kind.name()))));
     row("energies balanced", tally.balanced.to_string());
     let worst = |worst: [(f64, u64); Family::ALL.len()]| {
         let of_family = Family::ALL.iter().zip(worst);
-        let texts = of_family.map(|(family, (value, seed))| format!("{} {value:.1e} (seed {seed})", family.name()));
-        texts.collect::<Vec<_>>().join(", ")
+        listed(of_family.map(|(family, (value, seed))| format!("{} {value:.1e} (seed {seed})", family.name())))
     };
     row(&format!("worst energy residual (limit {LARGEST_RESIDUAL:.0e})"), worst(tally.worst_residual));
     row("compared with the plain implementation", tally.judged.to_string());
@@ -69,6 +68,10 @@ pub fn distribution(tally: &Tally) -> String {
         let _ = writeln!(text, "- seed {seed}: `{defect}`");
     }
     text
+}
+
+fn listed(texts: impl Iterator<Item = String>) -> String {
+    texts.collect::<Vec<_>>().join(", ")
 }
 
 /// The table of the named cases, as Markdown.

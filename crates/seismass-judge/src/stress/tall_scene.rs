@@ -5,7 +5,7 @@ use std::sync::Arc;
 use seismass::scene::uniform_stiffness;
 use seismass::{Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey};
 
-use crate::random_scene::{Draw, samples_of, spring};
+use crate::random_scene::{Draw, mass_above, samples_of, spring};
 
 /// Largest product of the highest frequency and the time step: beyond, the kernel has no step of a whole interval. One
 /// scene in ten goes beyond.
@@ -64,8 +64,7 @@ fn building(draw: &mut Draw, mass: Vec<f64>, blocks: &[Block], pga: f64) -> Resu
     let (elastic, law) = (draw.one_in(3), draw.one_in(2).then(|| spring(draw)));
     let mut storeys = Vec::new();
     for i in 0..n {
-        let above: f64 =
-            mass[i..].iter().sum::<f64>() + blocks.iter().filter(|b| b.floor > i).map(|b| b.mass).sum::<f64>();
+        let above = mass_above(i, &mass, blocks);
         let mut stiffness = k * (1.0 - taper * i as f64 / n as f64) * draw.scale(1.0 / contrast, contrast);
         if soft == Some(i) {
             stiffness *= 1e-3;

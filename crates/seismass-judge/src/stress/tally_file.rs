@@ -76,20 +76,10 @@ impl Tally {
             // Tallies of before had other counts.
             "counts" if fields.len() == 4 => {
                 let counts = [&mut self.scenes, &mut self.collapsed, &mut self.judged, &mut self.balanced];
-                for (i, count) in counts.into_iter().enumerate() {
-                    *count = whole(i)?;
-                }
+                take_numbers(fields, counts.into_iter())?;
             }
-            "families" => {
-                for (i, count) in self.families.iter_mut().enumerate() {
-                    *count = whole(i)?;
-                }
-            }
-            "kinds" => {
-                for (i, count) in self.kinds.iter_mut().enumerate() {
-                    *count = whole(i)?;
-                }
-            }
+            "families" => take_numbers(fields, self.families.iter_mut())?,
+            "kinds" => take_numbers(fields, self.kinds.iter_mut())?,
             "residual" => {
                 *self.worst_residual.get_mut(*residuals)? = (real(0)?, whole(1)?);
                 *residuals += 1;
@@ -110,4 +100,13 @@ impl Tally {
         }
         Some(())
     }
+}
+
+/// Reads a whole number from each field; None if there are fewer fields, or one is no such number.
+fn take_numbers<'a>(fields: &[&str], numbers: impl Iterator<Item = &'a mut u64>) -> Option<()> {
+    let mut fields = fields.iter();
+    for number in numbers {
+        *number = fields.next()?.parse().ok()?;
+    }
+    Some(())
 }
