@@ -55,6 +55,13 @@ def test_response_arrays() -> None:
         response.drift[0, 0] = 1.0
 
 
+def test_histories_are_not_copied() -> None:
+    run = sm.simulate(scene(), shaking(), histories=True)._run
+    assert run is not None
+    assert run.drift is run.drift
+    assert run.block_velocity is run.block_velocity
+
+
 def test_decimated_histories_are_rows_of_the_full_ones() -> None:
     full, tenth = (sm.simulate(scene(), shaking(), histories=every) for every in (True, 10))
     assert np.array_equal(tenth.drift, full.drift[::10])

@@ -276,7 +276,7 @@ class ReferenceRun:
 @final
 class Response:
     """
-    The response of one run, held by the kernel; arrays are made when asked for.
+    The response of one run. Its histories are the memory that the run wrote; other arrays are made when asked for.
     """
     @property
     def block_velocity(self, /) -> NDArray[float64] | None:

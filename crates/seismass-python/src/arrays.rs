@@ -89,6 +89,34 @@ impl<'py, T: Number> IntoPyObject<'py> for Output<T> {
     }
 }
 
+/// An array that Python already holds: handed out again and again, never copied.
+pub(crate) struct Kept<T>(Py<PyArrayDyn<T>>);
+
+impl<T: Number> Kept<T> {
+    /// The same array once more.
+    pub(crate) fn again(&self, py: Python<'_>) -> Self {
+        Self(self.0.clone_ref(py))
+    }
+}
+
+impl<T: Number> Output<T> {
+    /// Makes the array now, of the very memory of the values.
+    pub(crate) fn keep(self, py: Python<'_>) -> PyResult<Kept<T>> {
+        Ok(Kept(self.into_pyobject(py)?.unbind()))
+    }
+}
+
+impl<'py, T: Number> IntoPyObject<'py> for Kept<T> {
+    type Target = PyArrayDyn<T>;
+    type Output = Bound<'py, Self::Target>;
+    type Error = PyErr;
+    const OUTPUT_TYPE: PyStaticExpr = <Output<T> as IntoPyObject>::OUTPUT_TYPE;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        Ok(self.0.into_bound(py))
+    }
+}
+
 /// Numbers by name, in order, as a dictionary.
 pub(crate) struct Named<T, const N: usize>(pub(crate) [(&'static str, T); N]);
 

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use seismass::simulate::simulate_until;
 use seismass::{EventKind, InstructionSet, Options, Peak, Status};
 
-use crate::arrays::{Named, Output};
+use crate::arrays::{Kept, Named, Output};
 use crate::interrupt::{run_inline, run_watched};
 use crate::scene::{Motion, Scene};
 
@@ -38,12 +38,46 @@ pub(crate) fn simulate(
         let (scene, motion) = (scene.clone(), motion.clone());
         run_watched(py, |_| Ok(()), move |control| simulate_until(&scene, &motion, &options, &control.stop))
     }?;
-    Ok(Response(response))
+    Response::new(py, response)
 }
 
-/// The response of one run, held by the kernel; arrays are made when asked for.
+/// The response of one run. Its histories are the memory that the run wrote; other arrays are made when asked for.
 #[pyclass(frozen, module = "seismass._kernel")]
-pub(crate) struct Response(seismass::Response);
+pub(crate) struct Response {
+    /// Without its histories.
+    run: seismass::Response,
+    histories: Option<Histories>,
+}
+
+/// The histories as arrays, where they are kept.
+struct Histories {
+    every: usize,
+    drift: Option<Kept<f64>>,
+    slip: Option<Kept<f64>>,
+    floor_velocity: Option<Kept<f64>>,
+    block_velocity: Option<Kept<f64>>,
+    floor_acceleration: Option<Kept<f64>>,
+    storey_force: Option<Kept<f64>>,
+}
+
+impl Histories {
+    fn new(py: Python<'_>, histories: seismass::Histories, storeys: usize, blocks: usize) -> PyResult<Self> {
+        let rows = histories.rows;
+        let kept = |values: Vec<f64>, columns: usize| {
+            let is_kept = values.len() == rows * columns;
+            is_kept.then(|| Output::shaped(&[rows, columns], values).keep(py)).transpose()
+        };
+        Ok(Self {
+            every: histories.every,
+            drift: kept(histories.drift, storeys)?,
+            slip: kept(histories.slip, blocks)?,
+            floor_velocity: kept(histories.floor_velocity, storeys)?,
+            block_velocity: kept(histories.block_velocity, blocks)?,
+            floor_acceleration: kept(histories.floor_acceleration, storeys)?,
+            storey_force: kept(histories.storey_force, storeys)?,
+        })
+    }
+}
 
 /// Name of the instruction set that the hot loops use: "baseline", "avx2" or "avx512".
 #[pyfunction]
@@ -76,21 +110,18 @@ fn times(peaks: &[Peak]) -> Output<f64> {
 }
 
 impl Response {
-    fn history(&self, of: impl Fn(&seismass::Histories) -> &Vec<f64>, columns: usize) -> Option<Output<f64>> {
-        let histories = self.0.histories.as_ref().filter(|h| of(h).len() == h.rows * columns)?;
-        Some(Output::shaped(&[histories.rows, columns], of(histories).clone()))
+    fn new(py: Python<'_>, mut run: seismass::Response) -> PyResult<Self> {
+        let (storeys, blocks) = (run.peaks.drift.len(), run.peaks.slip.len());
+        let histories = run.histories.take().map(|histories| Histories::new(py, histories, storeys, blocks));
+        Ok(Self { run, histories: histories.transpose()? })
     }
 
-    fn storeys(&self) -> usize {
-        self.0.peaks.drift.len()
-    }
-
-    fn blocks(&self) -> usize {
-        self.0.peaks.slip.len()
+    fn history(&self, py: Python<'_>, of: impl Fn(&Histories) -> &Option<Kept<f64>>) -> Option<Kept<f64>> {
+        self.histories.as_ref().and_then(|histories| of(histories).as_ref()).map(|kept| kept.again(py))
     }
 
     fn event_column<T>(&self, of: impl Fn(&seismass::Event) -> T) -> Option<Output<T>> {
-        self.0.events.as_ref().map(|events| Output::new(events.iter().map(of)))
+        self.run.events.as_ref().map(|events| Output::new(events.iter().map(of)))
     }
 }
 
@@ -99,127 +130,127 @@ impl Response {
     /// "completed" or "collapsed".
     #[getter]
     fn status(&self) -> &'static str {
-        status_name(self.0.status)
+        status_name(self.run.status)
     }
 
     /// Time reached (s).
     #[getter]
     fn end_time(&self) -> f64 {
-        self.0.end_time
+        self.run.end_time
     }
 
     /// Storey that collapsed, counted from 1.
     #[getter]
     fn collapsed_storey(&self) -> Option<usize> {
-        collapsed_storey(self.0.status)
+        collapsed_storey(self.run.status)
     }
 
     /// Peak storey drift (m).
     #[getter]
     fn peak_drift(&self) -> Output<f64> {
-        values(&self.0.peaks.drift)
+        values(&self.run.peaks.drift)
     }
 
     /// Time of the peak drift (s).
     #[getter]
     fn peak_drift_time(&self) -> Output<f64> {
-        times(&self.0.peaks.drift)
+        times(&self.run.peaks.drift)
     }
 
     /// Peak slip of each block (m).
     #[getter]
     fn peak_slip(&self) -> Output<f64> {
-        values(&self.0.peaks.slip)
+        values(&self.run.peaks.slip)
     }
 
     /// Time of the peak slip (s).
     #[getter]
     fn peak_slip_time(&self) -> Output<f64> {
-        times(&self.0.peaks.slip)
+        times(&self.run.peaks.slip)
     }
 
     /// Peak absolute floor acceleration (m/s2).
     #[getter]
     fn peak_floor_acceleration(&self) -> Output<f64> {
-        values(&self.0.peaks.floor_acceleration)
+        values(&self.run.peaks.floor_acceleration)
     }
 
     /// Time of the peak floor acceleration (s).
     #[getter]
     fn peak_floor_acceleration_time(&self) -> Output<f64> {
-        times(&self.0.peaks.floor_acceleration)
+        times(&self.run.peaks.floor_acceleration)
     }
 
     /// Peak storey shear, the spring force alone (N).
     #[getter]
     fn peak_storey_shear(&self) -> Output<f64> {
-        values(&self.0.peaks.storey_shear)
+        values(&self.run.peaks.storey_shear)
     }
 
     /// Time of the peak storey shear (s).
     #[getter]
     fn peak_storey_shear_time(&self) -> Output<f64> {
-        times(&self.0.peaks.storey_shear)
+        times(&self.run.peaks.storey_shear)
     }
 
     /// Drift at the end (m).
     #[getter]
     fn residual_drift(&self) -> Output<f64> {
-        Output::new(self.0.residual_drift.iter().copied())
+        Output::new(self.run.residual_drift.iter().copied())
     }
 
     /// Slip at the end (m).
     #[getter]
     fn residual_slip(&self) -> Output<f64> {
-        Output::new(self.0.residual_slip.iter().copied())
+        Output::new(self.run.residual_slip.iter().copied())
     }
 
     /// Path slipped (m).
     #[getter]
     fn slip_path(&self) -> Output<f64> {
-        Output::new(self.0.slip_path.iter().copied())
+        Output::new(self.run.slip_path.iter().copied())
     }
 
     /// Samples per row of the histories; None without histories.
     #[getter]
     fn every(&self) -> Option<usize> {
-        self.0.histories.as_ref().map(|histories| histories.every)
+        self.histories.as_ref().map(|histories| histories.every)
     }
 
     /// Drift history (m), rows x storeys.
     #[getter]
-    fn drift(&self) -> Option<Output<f64>> {
-        self.history(|h| &h.drift, self.storeys())
+    fn drift(&self, py: Python<'_>) -> Option<Kept<f64>> {
+        self.history(py, |h| &h.drift)
     }
 
     /// Slip history (m), rows x blocks.
     #[getter]
-    fn slip(&self) -> Option<Output<f64>> {
-        self.history(|h| &h.slip, self.blocks())
+    fn slip(&self, py: Python<'_>) -> Option<Kept<f64>> {
+        self.history(py, |h| &h.slip)
     }
 
     /// Floor velocity relative to the ground (m/s), rows x storeys.
     #[getter]
-    fn floor_velocity(&self) -> Option<Output<f64>> {
-        self.history(|h| &h.floor_velocity, self.storeys())
+    fn floor_velocity(&self, py: Python<'_>) -> Option<Kept<f64>> {
+        self.history(py, |h| &h.floor_velocity)
     }
 
     /// Block velocity relative to the ground (m/s), rows x blocks.
     #[getter]
-    fn block_velocity(&self) -> Option<Output<f64>> {
-        self.history(|h| &h.block_velocity, self.blocks())
+    fn block_velocity(&self, py: Python<'_>) -> Option<Kept<f64>> {
+        self.history(py, |h| &h.block_velocity)
     }
 
     /// Absolute floor acceleration (m/s2), rows x storeys.
     #[getter]
-    fn floor_acceleration(&self) -> Option<Output<f64>> {
-        self.history(|h| &h.floor_acceleration, self.storeys())
+    fn floor_acceleration(&self, py: Python<'_>) -> Option<Kept<f64>> {
+        self.history(py, |h| &h.floor_acceleration)
     }
 
     /// Spring force (N), rows x storeys.
     #[getter]
-    fn storey_force(&self) -> Option<Output<f64>> {
-        self.history(|h| &h.storey_force, self.storeys())
+    fn storey_force(&self, py: Python<'_>) -> Option<Kept<f64>> {
+        self.history(py, |h| &h.storey_force)
     }
 
     /// Times of the events (s).
@@ -261,13 +292,13 @@ impl Response {
     /// Number of events of each kind, in the order of `event_kinds`.
     #[getter]
     fn event_counts(&self) -> Vec<usize> {
-        self.0.statistics.events.0.to_vec()
+        self.run.statistics.events.0.to_vec()
     }
 
     /// Energies (J) and their relative residual, if asked for.
     #[getter]
     fn energy(&self) -> Option<Named<f64, 8>> {
-        self.0.energy.map(|energy| {
+        self.run.energy.map(|energy| {
             Named([
                 ("initial", energy.initial),
                 ("input", energy.input),
@@ -290,7 +321,7 @@ impl Response {
     /// Work done and skipped.
     #[getter]
     fn statistics(&self) -> Named<usize, 11> {
-        let statistics = &self.0.statistics;
+        let statistics = &self.run.statistics;
         let skipped = &statistics.skipped;
         Named([
             ("intervals", statistics.intervals),
