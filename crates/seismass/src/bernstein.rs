@@ -43,14 +43,6 @@ impl Polynomial {
         &mut fours[..length]
     }
 
-    /// Sets the first coefficients.
-    #[inline(always)]
-    pub(crate) fn start_with<V: Vector>(&mut self, first: V) {
-        if let Some(four) = self.fours_mut().first_mut() {
-            first.store(four);
-        }
-    }
-
     /// The coefficients, lowest first.
     #[inline(always)]
     pub(crate) fn coefficients(&self) -> &[f64] {
@@ -61,16 +53,6 @@ impl Polynomial {
     #[inline(always)]
     pub(crate) fn coefficients_mut(&mut self) -> &mut [f64] {
         &mut self.coefficients[..self.length.min(MAX_DEGREE + 1)]
-    }
-
-    /// Sum of the absolute coefficients: a bound on [0, 1].
-    #[inline(always)]
-    pub(crate) fn norm<V: Vector>(&self) -> f64 {
-        let mut sum = V::splat(0.0);
-        for four in self.fours() {
-            sum = sum.add(V::load(four).abs());
-        }
-        sum.sum()
     }
 
     /// The coefficients, and zeros beyond, in whole vectors.

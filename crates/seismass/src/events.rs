@@ -6,7 +6,7 @@ use crate::friction::{self, BlockState, Cause, Transition, settle};
 use crate::lanes::Vector;
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
-use crate::state::{State, range};
+use crate::state::{State, THIRD, range};
 use crate::storey::Sign;
 
 /// A guard falls when it is below zero by more than this fraction of its terms.
@@ -65,14 +65,15 @@ impl First {
 }
 
 impl State<'_> {
-    /// `factor`, 1 or -1, times the relative velocity of a block over the present series, which starts at `tau`.
+    /// `p`, of [`Series::zeros`](crate::taylor::Series::zeros), becomes `factor`, 1 or -1, times the relative velocity of a
+    /// block over the present series, which starts at `tau`; returns a bound of its size.
     #[inline(always)]
-    pub(crate) fn relative_velocity<V: Vector>(&self, block: usize, tau: f64, factor: f64) -> Polynomial {
+    pub(crate) fn relative_velocity<V: Vector>(&self, block: usize, tau: f64, factor: f64, p: &mut Polynomial) -> f64 {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
         let change = self.interval.contact_slope * self.series.h();
         let of_friction = [friction * self.contact_at(tau), friction * change];
-        self.series.velocity_against::<V>(law.floor, factor * motion.velocity, factor, of_friction)
+        self.series.velocity_against::<V>(law.floor, factor * motion.velocity, factor, of_friction, p)
     }
 
     /// The first guard that falls within the present series, which starts at `tau` and whose ranges are formed: its place
@@ -142,10 +143,11 @@ impl State<'_> {
                 continue;
             }
             *isolated += 1;
-            let p = self.series.drift_rate::<V>(i, sign.factor());
+            let mut p = self.series.zeros();
+            let size = self.series.drift_rate::<V>(i, sign.factor(), &mut p);
             let contact = self.contact_at(tau);
             let sizes = self.acceleration_size(i + 1, contact) + self.acceleration_size(i, contact);
-            let tolerance = ROUNDING * (p.norm::<V>() + self.series.h() * sizes);
+            let tolerance = ROUNDING * (size + self.series.h() * sizes);
             first.consider::<V>(Guard::Unload { storey: i }, &p, tolerance);
         }
     }
@@ -153,12 +155,11 @@ impl State<'_> {
     /// Considers the guard of a drift coordinate that, times `sign`, must stay below `limit`.
     #[inline(always)]
     fn drift_guard<V: Vector>(&self, i: usize, limit: f64, sign: Sign, guard: Guard, first: &mut First) {
-        let mut p = self.series.drift::<V>(i, -sign.factor());
-        p.coefficients_mut()[0] = 0.0;
-        let excursion = p.norm::<V>();
+        let mut p = self.series.zeros();
+        let size = self.series.drift::<V>(i, -sign.factor(), &mut p);
         p.coefficients_mut()[0] = limit - sign.factor() * self.x[i];
-        let size = self.model.laws[i].yield_range(self.springs[i].yielded());
-        first.consider::<V>(guard, &p, ROUNDING * (limit.abs() + self.x[i].abs() + excursion + size));
+        let range = self.model.laws[i].yield_range(self.springs[i].yielded());
+        first.consider::<V>(guard, &p, ROUNDING * (limit.abs() + size + range));
     }
 
     #[inline(always)]
@@ -183,9 +184,10 @@ impl State<'_> {
                 if size < mu * least_contact {
                     continue;
                 }
-                let mut p = self.series.acceleration::<V>(floor, -sign.factor());
+                let mut p = self.series.zeros();
+                let size = self.series.acceleration::<V>(floor, -sign.factor(), &mut p);
                 // Not below what a decision takes as equal: what has just stuck must not break away for that.
-                let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + p.norm::<V>() + sizes);
+                let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size + sizes);
                 if let [c0, c1, ..] = p.coefficients_mut() {
                     (*c0, *c1) = (*c0 + limit, *c1 + mu * contact_change);
                 }
@@ -203,11 +205,12 @@ impl State<'_> {
                 continue;
             }
             *isolated += 1;
-            let p = self.relative_velocity::<V>(j, tau, sign.factor());
+            let mut p = self.series.zeros();
+            let size = self.relative_velocity::<V>(j, tau, sign.factor(), &mut p);
             let law = &self.model.blocks[j];
             let contact = self.interval.contact_at(tau);
-            let size = self.acceleration_size(law.floor, contact) + law.mu_k * STANDARD_GRAVITY;
-            first.consider::<V>(Guard::Arrival { block: j }, &p, ROUNDING * (p.norm::<V>() + self.series.h() * size));
+            let rates = self.acceleration_size(law.floor, contact) + law.mu_k * STANDARD_GRAVITY;
+            first.consider::<V>(Guard::Arrival { block: j }, &p, ROUNDING * (size + self.series.h() * rates));
         }
     }
 
@@ -240,7 +243,7 @@ impl State<'_> {
         };
         let (velocity, _) = self.block_change(block, tau);
         let rates = (-friction * contact.0 - a.0, -friction * contact.1 - a.1);
-        range(motion.velocity, rates.0, motion.velocity + velocity, rates.1, h / 3.0, margin)
+        range(motion.velocity, rates.0, motion.velocity + velocity, rates.1, h * THIRD, margin)
     }
 
     /// Changes of relative velocity and slip of a block over the present series, which starts at `tau`, up to its place:

@@ -208,6 +208,8 @@ pub(crate) trait Vector: Copy {
     /// Bits of the lanes that are not below those of `other`; lanes that are no numbers are not.
     fn not_below(self, other: Self) -> u32;
     fn sum(self) -> f64;
+    /// The same sum in every lane.
+    fn total(self) -> Self;
     /// a * b + c of numbers, fused where the path has it.
     fn fused(a: f64, b: f64, c: f64) -> f64;
 }
@@ -295,6 +297,10 @@ impl Vector for Plain {
         (self.0[0] + self.0[2]) + (self.0[1] + self.0[3])
     }
     #[inline(always)]
+    fn total(self) -> Self {
+        Self::splat(self.sum())
+    }
+    #[inline(always)]
     fn fused(a: f64, b: f64, c: f64) -> f64 {
         a * b + c
     }
@@ -327,6 +333,18 @@ pub(crate) fn load<V: Vector, const K: usize>(values: &[f64]) -> [V; K] {
         }
     }
     vectors
+}
+
+/// The vectors of storey `i`, of at most [`MAX_LANES`], alone: 1 in its lane, 0 elsewhere. They are read from one place for
+/// all: a vector read where a number has just been written waits for it to arrive in memory.
+#[inline(always)]
+pub(crate) fn unit<V: Vector, const K: usize>(i: usize) -> [V; K] {
+    static UNIT: [f64; 2 * MAX_LANES] = {
+        let mut values = [0.0; 2 * MAX_LANES];
+        values[MAX_LANES] = 1.0;
+        values
+    };
+    load(&UNIT[MAX_LANES - i..])
 }
 
 /// Puts vectors into padded values, if these hold as many.
@@ -547,6 +565,13 @@ mod x86 {
                 let pair = _mm_add_pd(_mm256_castpd256_pd128(self.0), _mm256_extractf128_pd::<1>(self.0));
                 _mm_cvtsd_f64(_mm_add_sd(pair, _mm_unpackhi_pd(pair, pair)))
             }
+        }
+        #[inline(always)]
+        fn total(self) -> Self {
+            Self(unsafe {
+                let pairs = _mm256_add_pd(self.0, _mm256_permute2f128_pd::<0x01>(self.0, self.0));
+                _mm256_add_pd(pairs, _mm256_permute_pd::<0b0101>(pairs))
+            })
         }
     }
 }

@@ -27,7 +27,7 @@ use crate::scene::Motion;
 use crate::sliding::{
     GroundBlock, Layer, LayerInLanes, Linear, Push, SMALL_DIFFERENCE, holds_on_ground, move_on_ground,
 };
-use crate::state::{State, range};
+use crate::state::{State, THIRD, off_cubic, range};
 use crate::storey::Sign;
 use crate::tall_run;
 
@@ -195,10 +195,10 @@ fn multiply<V: Vector, const K: usize, const S: usize>(
     }
 }
 
-/// Lanes, as bits, in which the larger of two values and a margin times its factor are not below a bound.
+/// Lanes, as bits, in which the larger of two values and a norm times the margin per unit of it are not below a bound.
 #[inline(always)]
-fn not_clear<V: Vector>((before, after): (V, V), margin: V, factor: V, bound: V) -> Set {
-    Set::from(margin.mul_add(factor, before.max(after)).not_below(bound))
+fn not_clear<V: Vector>((before, after): (V, V), norm: V, margin: V, bound: V) -> Set {
+    Set::from(norm.mul_add(margin, before.max(after)).not_below(bound))
 }
 
 /// A run of plain steps between two calls of [`clear_steps`]: the step that was not cleared, and the blocks that slide.
@@ -327,15 +327,19 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
 ) -> usize {
     let Some(course) = Course::<K>::new(state, motion.dt()) else { return first };
     let h = course.h;
-    let (length, third, per_second) = (V::splat(h), V::splat(h / 3.0), 1.0 / h);
+    let (length, third, per_second) = (V::splat(h), V::splat(h * THIRD), 1.0 / h);
     let regime = course.regime;
     let (mass, tangent): ([V; K], [V; K]) = (regime.lanes(Row::RootMass), regime.lanes(Row::RootTangent));
+    let growth = regime.growth_over(h);
+    // Per unit of the norm at the start of a step.
+    let widening = V::splat(growth * off_cubic(h));
     let mut margins = [[V::splat(0.0); K]; 4];
     for which in 0..4 {
         margins[which] = regime.lanes(MARGINS[which]);
+        for k in 0..K {
+            margins[which][k] = margins[which][k].mul(widening);
+        }
     }
-    let growth = regime.growth_over(h);
-    let widening = h * h * h * h / 384.0;
     let mut sample = Sample::<V, K>::of(state);
     let bounds = BoundsInLanes::<V, K>::of(state);
     let samples = motion.acceleration();
@@ -391,8 +395,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             sizes = mass[k].mul_add(sample.jerk[k].sub(slope).abs(), sizes);
             sizes = tangent[k].mul_add(sample.q[k].abs(), sizes);
         }
-        let liveliness = sizes.sum() * growth;
-        let margin = V::splat(liveliness * widening);
+        let norm = sizes.total();
         // The step.
         let mut rows = [[V::splat(0.0); K]; 4];
         let (ground, ramp) = (V::splat(before), V::splat(change));
@@ -434,9 +437,9 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         for k in 0..K {
             let most = |which: usize| (apart_before[which][k], apart_after[which][k]);
             let limit = bounds.stuck_mu[k].mul(least_contact).min(bounds.a_peak[k]);
-            suspects[0] |= not_clear(most(0), margin, margins[0][k], bounds.reach[k]) << (WIDTH * k);
-            suspects[1] |= not_clear(most(1), margin, margins[1][k], bounds.turn[k]) << (WIDTH * k);
-            suspects[2] |= not_clear(most(2), margin, margins[2][k], limit) << (WIDTH * k);
+            suspects[0] |= not_clear(most(0), norm, margins[0][k], bounds.reach[k]) << (WIDTH * k);
+            suspects[1] |= not_clear(most(1), norm, margins[1][k], bounds.turn[k]) << (WIDTH * k);
+            suspects[2] |= not_clear(most(2), norm, margins[2][k], limit) << (WIDTH * k);
         }
         let (mut layer_after, mut is_turning) = (layer, false);
         if SLIDING {
@@ -444,7 +447,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             let mut of_velocity = margins[3];
             for k in 0..K {
                 beyond[k] = dx[k].sub(length.mul(sample.v[k]));
-                of_velocity[k] = margin.mul(margins[3][k]);
+                of_velocity[k] = norm.mul(margins[3][k]);
             }
             let push = Push {
                 h,
@@ -468,7 +471,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         let has_contact = !VERTICAL || contact.0 > 0.0 && contact.1 > 0.0;
         if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact || ground_slides || !ground_holds
         {
-            break Some((taken, layer_after, liveliness, suspects, is_turning));
+            break Some((taken, layer_after, sizes.sum() * growth, suspects, is_turning));
         }
         (sample, apart_before, layer) = (taken, apart_after, layer_after);
         for other in others.iter_mut() {
@@ -524,8 +527,7 @@ struct Closer<'a, 'b> {
 impl Closer<'_, '_> {
     /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
     fn remainder(&self) -> f64 {
-        let h2 = self.h * self.h;
-        self.walk.liveliness * (h2 * h2 / 384.0)
+        self.walk.liveliness * off_cubic(self.h)
     }
 
     /// Storeys and floors whose peaks the end of the step may beat; nothing if a guard may have fallen, or a peak been
@@ -549,7 +551,7 @@ impl Closer<'_, '_> {
     fn rate_range(&self, i: usize) -> (f64, f64) {
         let (start, end) = (self.state, self.walk);
         let margin = self.remainder() * start.regime().row(Row::FourthOfRate)[i];
-        range(start.v[i], start.drift_acceleration[i], end.v[i], end.q[i], self.h / 3.0, margin)
+        range(start.v[i], start.drift_acceleration[i], end.v[i], end.q[i], self.h * THIRD, margin)
     }
 
     /// Whether the drift rate of a storey keeps the sign that it must keep: of plastic storeys, and where a peak is
@@ -569,7 +571,7 @@ impl Closer<'_, '_> {
     fn stays_in_bounds(&mut self, i: usize) -> bool {
         let (start, end) = (self.state, self.walk);
         let margin = self.remainder() * start.regime().row(Row::FourthOfDrift)[i];
-        let (low, high) = range(start.x[i], start.v[i], end.x[i], end.v[i], self.h / 3.0, margin);
+        let (low, high) = range(start.x[i], start.v[i], end.x[i], end.v[i], self.h * THIRD, margin);
         let (middle, reach) = (start.bounds.middle[i], start.bounds.reach[i]);
         if high < middle + reach && low > middle - reach {
             return true;
@@ -586,7 +588,7 @@ impl Closer<'_, '_> {
         let (start, end) = (self.state, self.walk);
         let regime = start.regime();
         let margin = self.remainder() * regime.row(Row::FourthOfAcceleration)[i];
-        let (low, high) = range(start.a[i], start.jerk[i], end.a[i], end.jerk[i], self.h / 3.0, margin);
+        let (low, high) = range(start.a[i], start.jerk[i], end.a[i], end.jerk[i], self.h * THIRD, margin);
         let size = high.max(-low);
         let below_limit = size < start.stuck_mu[i + 1] * self.contact.0.min(self.contact.1);
         if !below_limit || size < self.observer.peaks.floor_acceleration[i].value {
@@ -606,7 +608,7 @@ impl Closer<'_, '_> {
         let rates = (-friction * self.contact.0 - start.a[lane], -friction * self.contact.1 - end.a[lane]);
         let margin = self.remainder() * start.regime().row(Row::ThirdOfAcceleration)[lane];
         let [after, _] = &layer.after;
-        let (low, high) = range(layer.velocity[lane], rates.0, after[lane], rates.1, self.h / 3.0, margin);
+        let (low, high) = range(layer.velocity[lane], rates.0, after[lane], rates.1, self.h * THIRD, margin);
         let floor: f64 = end.v[..=lane].iter().zip(&start.v).map(|(end, start)| end - start).sum();
         let least = SMALL_DIFFERENCE * floor.abs();
         !(if sign > 0.0 { low > least } else { high < -least })

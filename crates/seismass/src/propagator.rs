@@ -15,6 +15,7 @@ use rustc_hash::FxBuildHasher;
 
 use crate::lanes::{
     Aligned, MAX_LANES, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, padded, store,
+    unit,
 };
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
@@ -74,6 +75,24 @@ enum Cause {
     Ground,
     /// A ground acceleration that grows from zero by one per second.
     GroundRamp,
+}
+
+impl Cause {
+    /// Its storey or floor, and 1 for what it is: drift, drift rate, load, ramp, ground acceleration, ramp of that; else 0.
+    #[inline(always)]
+    fn units(self) -> (usize, [f64; 6]) {
+        let (i, which) = match self {
+            Self::Drift(i) => (i, 0),
+            Self::DriftRate(i) => (i, 1),
+            Self::Load(i) => (i, 2),
+            Self::Ramp(i) => (i, 3),
+            Self::Ground => (0, 4),
+            Self::GroundRamp => (0, 5),
+        };
+        let mut units = [0.0; 6];
+        units[which] = 1.0;
+        (i, units)
+    }
 }
 
 for_each_path! {
@@ -137,9 +156,7 @@ fn remainders_of_storeys<V: Vector, const K: usize, const COLUMNS: usize>(
     let (mut x, mut v) = ([zero; COLUMNS], [zero; COLUMNS]);
     let place = |column: usize| column % 2 * n + first + column / 2;
     for column in 0..COLUMNS {
-        let mut unit = [[0.0; WIDTH]; K];
-        unit.as_flattened_mut()[first + column / 2] = 1.0;
-        let unit = load(unit.as_flattened());
+        let unit = unit(first + column / 2);
         if column % 2 == 0 { x[column] = unit } else { v[column] = unit }
     }
     let mut rows = [[zero; 4]; COLUMNS];
@@ -191,6 +208,7 @@ fn columns_by_width<V: Vector>(
     by_width!(model.width, K => columns::<V, K>(model, regime, h, sums, causes, out))
 }
 
+/// Two at a time of one vector: each is a chain of dependent operations that the processor waits for.
 #[inline(always)]
 fn columns<V: Vector, const K: usize>(
     model: &Model,
@@ -200,45 +218,67 @@ fn columns<V: Vector, const K: usize>(
     causes: &[Cause],
     out: &mut [f64],
 ) {
-    let n = model.storeys();
     let operator = Operator::<V, K>::new(model, regime);
-    let zero = [[0.0; WIDTH]; K];
-    for (out, &cause) in
-        out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0.as_chunks_mut::<4>().0.iter_mut().zip(causes)
-    {
-        let [mut x, mut v, mut force, mut slope] = [zero; 4];
-        let (mut ground, mut ground_slope) = (0.0, 0.0);
-        match cause {
-            Cause::Drift(i) => x.as_flattened_mut()[i] = 1.0,
-            Cause::DriftRate(i) => v.as_flattened_mut()[i] = 1.0,
-            Cause::Load(i) => force.as_flattened_mut()[i] = 1.0,
-            Cause::Ramp(i) => slope.as_flattened_mut()[i] = 1.0,
-            Cause::Ground => ground = 1.0,
-            Cause::GroundRamp => ground_slope = 1.0,
-        }
-        let (x, v): ([V; K], [V; K]) = (load(x.as_flattened()), load(v.as_flattened()));
-        let a = operator.accelerations(&x, &v, load(force.as_flattened()));
-        let q = differences(&a, V::splat(ground));
-        let jerk = operator.accelerations(&v, &q, load(slope.as_flattened()));
-        let rate = differences(&jerk, V::splat(ground_slope));
-        let mut rows = [[V::splat(0.0); K]; 4];
+    let sums = &columns_of::<K>(sums).as_chunks::<4>().0[..2 * model.storeys()];
+    let out = out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0.as_chunks_mut::<4>().0;
+    let paired = if K == 1 { causes.len() / 2 * 2 } else { 0 };
+    let ((pairs, others), (of_pairs, of_others)) = (causes.split_at(paired), out.split_at_mut(paired));
+    for (causes, out) in pairs.as_chunks::<2>().0.iter().zip(of_pairs.as_chunks_mut::<2>().0) {
+        columns_of_causes(&operator, h, sums, causes, out);
+    }
+    for (causes, out) in others.as_chunks::<1>().0.iter().zip(of_others.as_chunks_mut::<1>().0) {
+        columns_of_causes(&operator, h, sums, causes, out);
+    }
+}
+
+/// The columns of so many causes.
+#[inline(always)]
+fn columns_of_causes<V: Vector, const K: usize, const COUNT: usize>(
+    operator: &Operator<V, K>,
+    h: f64,
+    sums: &[[[[f64; WIDTH]; K]; 4]],
+    causes: &[Cause; COUNT],
+    out: &mut [[[[f64; WIDTH]; K]; 4]; COUNT],
+) {
+    let zero = [V::splat(0.0); K];
+    let mut rows = [[zero; 4]; COUNT];
+    let (mut of_q, mut of_rate) = ([[[0.0; WIDTH]; K]; COUNT], [[[0.0; WIDTH]; K]; COUNT]);
+    for c in 0..COUNT {
+        let (i, [of_drift, of_drift_rate, of_load, of_ramp, ground, ground_slope]) = causes[c].units();
+        let [mut x, mut v, mut force, mut slope] = [unit::<V, K>(i); 4];
         for k in 0..K {
-            rows[0][k] = V::splat(h).mul(v[k]);
-            rows[2][k] = V::splat(h).mul_add(jerk[k], a[k]);
-            rows[3][k] = jerk[k];
+            x[k] = x[k].mul(V::splat(of_drift));
+            v[k] = v[k].mul(V::splat(of_drift_rate));
+            force[k] = force[k].mul(V::splat(of_load));
+            slope[k] = slope[k].mul(V::splat(of_ramp));
         }
-        let weights = [numbers(&q), numbers(&rate)];
-        let weights = weights[0].as_flattened()[..n].iter().chain(&weights[1].as_flattened()[..n]);
-        for (column, &weight) in columns_of::<K>(sums).as_chunks::<4>().0.iter().zip(weights) {
-            let weight = V::splat(weight);
-            for r in 0..4 {
-                for k in 0..K {
-                    rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
+        let a = operator.accelerations(&x, &v, force);
+        let q = differences(&a, V::splat(ground));
+        let jerk = operator.accelerations(&v, &q, slope);
+        of_q[c] = numbers(&q);
+        of_rate[c] = numbers(&differences(&jerk, V::splat(ground_slope)));
+        for k in 0..K {
+            rows[c][0][k] = V::splat(h).mul(v[k]);
+            rows[c][2][k] = V::splat(h).mul_add(jerk[k], a[k]);
+            rows[c][3][k] = jerk[k];
+        }
+    }
+    let (sums_of_q, sums_of_rate) = sums.split_at(sums.len() / 2);
+    for (sums, weights) in [(sums_of_q, &of_q), (sums_of_rate, &of_rate)] {
+        for (i, sums) in sums.iter().enumerate() {
+            for c in 0..COUNT {
+                let weight = V::splat(weights[c].as_flattened()[i]);
+                for r in 0..4 {
+                    for k in 0..K {
+                        rows[c][r][k] = V::load(&sums[r][k]).mul_add(weight, rows[c][r][k]);
+                    }
                 }
             }
         }
+    }
+    for c in 0..COUNT {
         for r in 0..4 {
-            out[r] = numbers(&rows[r]);
+            out[c][r] = numbers(&rows[c][r]);
         }
     }
 }
@@ -369,23 +409,25 @@ impl Steps {
 }
 
 for_each_path! {
-    /// out = columns * weights; columns are as long as `out`, in whole vectors.
+    /// out = columns * weights; columns are as long as `out`, in fours of vectors.
     fn combine(columns: &[f64], weights: &[f64], out: &mut [f64]) = combine_by_path
 }
 
 #[inline(always)]
 fn combine_by_path<V: Vector>(columns: &[f64], weights: &[f64], out: &mut [f64]) {
-    let (columns, out) = (columns.as_chunks::<WIDTH>().0, out.as_chunks_mut::<WIDTH>().0);
-    let rows = out.len();
+    let (columns, out) = (columns_of::<4>(columns), out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<4>().0);
+    let fours = out.len();
     for (r, out) in out.iter_mut().enumerate() {
-        let mut sum = V::splat(0.0);
+        let mut sums = [V::splat(0.0); 4];
         let mut at = r;
         for &weight in weights {
             let Some(column) = columns.get(at) else { break };
-            sum = V::load(column).mul_add(V::splat(weight), sum);
-            at += rows;
+            for k in 0..4 {
+                sums[k] = V::load(&column[k]).mul_add(V::splat(weight), sums[k]);
+            }
+            at += fours;
         }
-        sum.store(out);
+        *out = numbers(&sums);
     }
 }
 

@@ -373,7 +373,8 @@ struct Moment {
 impl State<'_> {
     /// Slip of a block since the start of the present series, which begins at `tau`.
     pub(crate) fn slip_change(&self, block: usize, tau: f64) -> Polynomial {
-        let velocity = self.relative_velocity::<Plain>(block, tau, 1.0);
+        let mut velocity = self.series.zeros();
+        self.relative_velocity::<Plain>(block, tau, 1.0, &mut velocity);
         let h = self.series.h();
         let terms = velocity.coefficients().iter().enumerate().map(|(k, c)| h * c / (k + 1) as f64);
         Polynomial::new(std::iter::once(0.0).chain(terms))

@@ -4,7 +4,7 @@ use std::mem::swap;
 
 use crate::lanes::{FAR, Vector, load};
 use crate::model::Model;
-use crate::state::range;
+use crate::state::{THIRD, range};
 
 /// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits.
 pub(crate) const SMALL_DIFFERENCE: f64 = 1e-6;
@@ -104,7 +104,7 @@ impl<V: Vector, const K: usize> LayerInLanes<V, K> {
     /// The layer at the end of a step, and whether a block may have turned in it.
     #[inline(always)]
     pub(crate) fn pushed(&self, push: &Push<V, K>) -> (Self, bool) {
-        let (length, third) = (V::splat(push.h), V::splat(push.h / 3.0));
+        let (length, third) = (V::splat(push.h), V::splat(push.h * THIRD));
         let (once, ground_once) = (V::splat(push.contact.once(push.h)), V::splat(push.ground.once(push.h)));
         let (twice, ground_twice) = (V::splat(push.contact.twice(push.h)), V::splat(push.ground.twice(push.h)));
         // A velocity that is a small difference of large ones is left to the series.
@@ -178,7 +178,7 @@ pub(crate) fn move_on_ground(
     let end = |b: &GroundBlock| b.velocity - b.friction * contact.once(h) - ground.once(h);
     let keeps = |b: &GroundBlock| {
         let rate = (-b.friction * contact.start - ground.start, -b.friction * contact.end - ground.end);
-        let (low, high) = range(b.velocity, rate.0, end(b), rate.1, h / 3.0, 0.0);
+        let (low, high) = range(b.velocity, rate.0, end(b), rate.1, h * THIRD, 0.0);
         if b.sign > 0.0 { low > 0.0 } else { high < 0.0 }
     };
     if !blocks.iter().all(keeps) {

@@ -137,6 +137,17 @@ impl Iterator for LookedAt {
     }
 }
 
+/// The Bezier points of a cubic are so much of a step's length apart. Divisions would be waited for.
+pub(crate) const THIRD: f64 = 1.0 / 3.0;
+
+/// What a quantity differs at most from the cubic through values and rates at both ends of a step of length `h`, per unit
+/// of its fourth derivative.
+#[inline(always)]
+pub(crate) fn off_cubic(h: f64) -> f64 {
+    let square = h * h;
+    square * square * (1.0 / 384.0)
+}
+
 /// The cubic through values and rates at both ends of a step stays between the least and the largest of its Bezier
 /// points; what deviates from it by at most `margin` stays within these widened by it.
 #[inline(always)]
@@ -469,8 +480,7 @@ impl<'a> State<'a> {
     fn bound_derivatives(&mut self, square: f64) {
         let h = self.series.h();
         let liveliness = self.regime().liveliness_of(square, h);
-        let square = h * h;
-        (self.ranges.remainder, self.ranges.chord) = (liveliness * square * square / 384.0, liveliness * square / 8.0);
+        (self.ranges.remainder, self.ranges.chord) = (liveliness * off_cubic(h), liveliness * (0.125 * h * h));
     }
 
     /// [`State::form_ranges`] for more storeys than vectors hold.
@@ -500,7 +510,7 @@ impl<'a> State<'a> {
             ];
             for (which, (start, start_rate, end, end_rate)) in ends.into_iter().enumerate() {
                 let margin = self.ranges.remainder * margins[which][i];
-                let (low, high) = range(start, start_rate, end, end_rate, h / 3.0, margin);
+                let (low, high) = range(start, start_rate, end, end_rate, h * THIRD, margin);
                 (self.ranges.bounds[which][0][i], self.ranges.bounds[which][1][i]) = (low, high);
             }
         }
@@ -663,7 +673,7 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     state.bound_derivatives(squares.sum());
     let contact = state.contact_at(tau).min(state.contact_at(tau + h));
     let regime = state.cache.regime(state.regime);
-    let (third, remainder) = (V::splat(h / 3.0), V::splat(state.ranges.remainder));
+    let (third, remainder) = (V::splat(h * THIRD), V::splat(state.ranges.remainder));
     let ([dx, dv], [a_end, jerk_end]) = (state.series.changes(), state.series.accelerations_at_end());
     let (dx, dv, a_end): ([V; K], [V; K], [V; K]) = (load(dx), load(dv), load(a_end));
     let (x, v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));

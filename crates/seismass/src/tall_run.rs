@@ -18,7 +18,7 @@ use crate::observe::Observer;
 use crate::regime::Row;
 use crate::scene::Motion;
 use crate::sliding::{GroundBlock, Linear, SMALL_DIFFERENCE, move_on_ground};
-use crate::state::{State, range, ranges};
+use crate::state::{State, THIRD, off_cubic, range, ranges};
 use crate::storey::Sign;
 use crate::symmetric::Symmetric;
 use crate::tall_bounds::{Apart, Bounds};
@@ -446,9 +446,8 @@ impl Closer<'_> {
         if beats == 0 {
             return Some((0, 0));
         }
-        let h2 = self.h * self.h;
-        let fifth = V::splat(self.curvature.norms.values[k] * (h2 * h2 / 384.0)).mul(at(&self.rows.fourth[3], k));
-        let third = V::splat(self.h / 3.0);
+        let fifth = V::splat(self.curvature.norms.values[k] * off_cubic(self.h)).mul(at(&self.rows.fourth[3], k));
+        let third = V::splat(self.h * THIRD);
         let (positive, negative) = signs(ranges([jerk, second], [jerk_end, second_end], third, fifth));
         let matters = a.abs().max(a_end.abs()).not_below(V::splat(self.least.1));
         Some((beats, beats & matters & !(positive | negative)))
@@ -755,8 +754,8 @@ fn run_lanes<V: Vector>(
         TallStep::Full(step) => Map::Full(step, Shears::new(state.regime(), n)),
     };
     let margin = if let TallStep::Banded(step) = step { step.half_width } else { 0 };
-    let (third, per_second) = (V::splat(h / 3.0), 1.0 / h);
-    let widening = h * h * h * h / 384.0;
+    let (third, per_second) = (V::splat(h * THIRD), 1.0 / h);
+    let widening = off_cubic(h);
     let vertical = motion.vertical().filter(|_| state.vertical);
     let contact_at = |i: usize| STANDARD_GRAVITY + vertical.map_or(0.0, |vertical| vertical[i]);
     let rows = Rows::new(state, h, length);
@@ -868,7 +867,7 @@ fn run_lanes<V: Vector>(
                 let rates =
                     (-block.friction * contact.0 - before.a[i + 1], -block.friction * contact.1 - after.a[i + 1]);
                 let fourth = liveliness * widening * rows.fourth[3][i];
-                let (low, high) = range(block.velocity, rates.0, block.velocity_after, rates.1, h / 3.0, fourth);
+                let (low, high) = range(block.velocity, rates.0, block.velocity_after, rates.1, h * THIRD, fourth);
                 let least = SMALL_DIFFERENCE * floors[i].abs();
                 may_turn |= !(if block.sign > 0.0 { low > least } else { high < -least });
             }

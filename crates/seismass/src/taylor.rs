@@ -363,50 +363,62 @@ impl Series {
         Difference { above: self.terms_of(i + 1), below: self.terms_of(i) }
     }
 
-    /// The polynomial whose orders from the fourth on are terms so many orders lower, times their weights and a factor; the
-    /// first four are left to be set.
+    /// Zeros as long as the polynomials of the series, which are formed in place: to return one would copy it before it is
+    /// out of the processor's stores, and wait for that.
     #[inline(always)]
-    fn integrated<V: Vector>(
-        &self,
+    pub(crate) fn zeros(&self) -> Polynomial {
+        Polynomial::zeros(self.order + 1)
+    }
+
+    /// Sets the first four coefficients, and the others to terms so many orders lower, times their weights and a factor.
+    /// Returns the sum of all their sizes: a bound on [0, 1].
+    #[inline(always)]
+    fn integrate<V: Vector>(
+        first: V,
         terms: &impl TermByOrder,
         orders: usize,
         weights: &Weights,
         factor: f64,
-    ) -> Polynomial {
-        let mut p = Polynomial::zeros(self.order + 1);
+        p: &mut Polynomial,
+    ) -> f64 {
+        let mut sizes = first.abs();
         let mut k = WIDTH - orders;
-        for (four, weights) in p.fours_mut().iter_mut().zip(weights.as_chunks().0).skip(1) {
-            terms.four::<V>(k).mul(V::splat(factor)).mul(V::load(weights)).store(four);
+        let mut fours = p.fours_mut().iter_mut().zip(weights.as_chunks().0);
+        if let Some((four, _)) = fours.next() {
+            first.store(four);
+        }
+        for (four, weights) in fours {
+            let coefficients = terms.four::<V>(k).mul(V::splat(factor)).mul(V::load(weights));
+            coefficients.store(four);
+            sizes = sizes.add(coefficients.abs());
             k += WIDTH;
         }
-        p
+        sizes.sum()
     }
 
-    /// `factor` times the drift coordinate of storey `i`.
+    /// `p`, of [`Series::zeros`], becomes `factor` times the drift coordinate of storey `i`; returns a bound of its size.
     #[inline(always)]
-    pub(crate) fn drift<V: Vector>(&self, i: usize, factor: f64) -> Polynomial {
+    pub(crate) fn drift<V: Vector>(&self, i: usize, factor: f64, p: &mut Polynomial) -> f64 {
         let difference = self.difference(i);
         let once = factor * self.h;
         let twice = once * self.h;
-        let mut p = self.integrated::<V>(&difference, 2, &INVERSE_PAIRS, twice);
         let terms = [0, 1].map(|k| twice * INVERSE_PAIRS[k + 2] * difference.term(k));
-        p.start_with(V::of([factor * self.x[i], once * self.v[i], terms[0], terms[1]]));
-        p
+        let first = V::of([factor * self.x[i], once * self.v[i], terms[0], terms[1]]);
+        Self::integrate(first, &difference, 2, &INVERSE_PAIRS, twice, p)
     }
 
-    /// `factor` times the drift rate of storey `i`.
+    /// `p`, of [`Series::zeros`], becomes `factor` times the drift rate of storey `i`; returns a bound of its size.
     #[inline(always)]
-    pub(crate) fn drift_rate<V: Vector>(&self, i: usize, factor: f64) -> Polynomial {
+    pub(crate) fn drift_rate<V: Vector>(&self, i: usize, factor: f64, p: &mut Polynomial) -> f64 {
         let difference = self.difference(i);
         let once = factor * self.h;
-        let mut p = self.integrated::<V>(&difference, 1, &INVERSE, once);
         let terms = [0, 1, 2].map(|k| once * INVERSE[k + 1] * difference.term(k));
-        p.start_with(V::of([factor * self.v[i], terms[0], terms[1], terms[2]]));
-        p
+        let first = V::of([factor * self.v[i], terms[0], terms[1], terms[2]]);
+        Self::integrate(first, &difference, 1, &INVERSE, once, p)
     }
 
-    /// The velocity that starts from `velocity`, whose rate is -`factor` times the absolute acceleration of a floor, or of
-    /// the ground (0), and two more terms.
+    /// `p`, of [`Series::zeros`], becomes the velocity that starts from `velocity`, whose rate is -`factor` times the absolute
+    /// acceleration of a floor, or of the ground (0), and two more terms; returns a bound of its size.
     #[inline(always)]
     pub(crate) fn velocity_against<V: Vector>(
         &self,
@@ -414,27 +426,30 @@ impl Series {
         velocity: f64,
         factor: f64,
         more: [f64; 2],
-    ) -> Polynomial {
+        p: &mut Polynomial,
+    ) -> f64 {
         let acceleration = self.terms_of(floor);
         let once = -factor * self.h;
-        let mut p = self.integrated::<V>(&acceleration, 1, &INVERSE, once);
         // Added before they are multiplied, so that small sums keep their digits.
         let [first, second] = [0, 1].map(|k| once * INVERSE[k + 1] * (acceleration.term(k) + more[k]));
-        p.start_with(V::of([velocity, first, second, once * INVERSE[3] * acceleration.term(2)]));
-        p
+        let first = V::of([velocity, first, second, once * INVERSE[3] * acceleration.term(2)]);
+        Self::integrate(first, &acceleration, 1, &INVERSE, once, p)
     }
 
-    /// `factor` times the absolute acceleration of a floor, or of the ground (0).
+    /// `p`, of [`Series::zeros`], becomes `factor` times the absolute acceleration of a floor, or of the ground (0); returns
+    /// a bound of its size.
     #[inline(always)]
-    pub(crate) fn acceleration<V: Vector>(&self, floor: usize, factor: f64) -> Polynomial {
+    pub(crate) fn acceleration<V: Vector>(&self, floor: usize, factor: f64, p: &mut Polynomial) -> f64 {
         let terms = self.terms_of(floor);
-        let mut p = Polynomial::zeros(self.order + 1);
+        let mut sizes = V::splat(0.0);
         let mut k = 0;
         for four in p.fours_mut() {
-            terms.four::<V>(k).mul(V::splat(factor)).store(four);
+            let coefficients = terms.four::<V>(k).mul(V::splat(factor));
+            coefficients.store(four);
+            sizes = sizes.add(coefficients.abs());
             k += WIDTH;
         }
-        p
+        sizes.sum()
     }
 
     /// The first two terms of the absolute acceleration of floor `i`, and the first and second integrals of the others up
@@ -459,7 +474,9 @@ impl Series {
     /// Drift rates at `s`.
     pub(crate) fn rates_at(&self, s: f64, out: &mut [f64]) {
         for (i, out) in out.iter_mut().enumerate() {
-            *out = self.drift_rate::<Plain>(i, 1.0).at::<Plain>(s);
+            let mut rate = self.zeros();
+            self.drift_rate::<Plain>(i, 1.0, &mut rate);
+            *out = rate.at::<Plain>(s);
         }
     }
 }
