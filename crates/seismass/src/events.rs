@@ -3,7 +3,7 @@
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
 use crate::friction::{self, BlockState, Cause, Transition, settle};
-use crate::lanes::Vector;
+use crate::lanes::{Plain, Vector};
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
 use crate::state::{State, THIRD, range};
@@ -74,6 +74,13 @@ impl State<'_> {
         let change = self.interval.contact_slope * self.series.h();
         let of_friction = [friction * self.contact_at(tau), friction * change];
         self.series.velocity_against::<V>(law.floor, factor * motion.velocity, factor, of_friction, p)
+    }
+
+    /// The relative velocity of a block over the present series, which starts at `tau`, for what is not in a hot loop.
+    pub(crate) fn velocity_of_block(&self, block: usize, tau: f64) -> Polynomial {
+        let mut p = self.series.zeros();
+        self.relative_velocity::<Plain>(block, tau, 1.0, &mut p);
+        p
     }
 
     /// The first guard that falls within the present series, which starts at `tau` and whose ranges are formed: its place

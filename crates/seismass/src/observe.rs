@@ -176,10 +176,11 @@ impl Observer {
             let turns = !(rate.0 > 0.0 || rate.1 < 0.0);
             if turns && self.drift_may_peak(state, i, low, high) {
                 *isolated += 1;
-                let (mut drift, mut rate) = (state.series.zeros(), state.series.zeros());
+                let mut rate = state.series.zeros();
                 state.series.drift_rate::<V>(i, 1.0, &mut rate);
                 let (first, others) = rate.sign_changes::<V>();
                 for s in first.into_iter().chain(others).filter(|&s| s < end) {
+                    let mut drift = state.series.zeros();
                     state.series.drift::<V>(i, 1.0, &mut drift);
                     self.take_drift(state, i, drift.at::<V>(s), start + s * h);
                 }
@@ -204,8 +205,7 @@ impl Observer {
     pub(crate) fn observe_flights(&mut self, state: &mut State, tau: f64, end: f64) {
         let (start, h) = (state.interval.start + tau, state.series.h());
         for j in 0..state.motions.len() {
-            let mut velocity = state.series.zeros();
-            state.relative_velocity::<Plain>(j, tau, 1.0, &mut velocity);
+            let velocity = state.velocity_of_block(j, tau);
             let slip = state.slip_change(j, tau);
             let at_start = state.motions[j].slip;
             let (peak, motion) = (&mut self.peaks.slip[j], &mut state.motions[j]);
@@ -254,11 +254,7 @@ impl Observer {
         let length = state.series.h() * end;
         let (mut rates, mut scratch) = (vec![0.0; n], vec![0.0; n]);
         let velocities: Vec<Option<Polynomial>> = (0..state.motions.len())
-            .map(|j| {
-                let mut velocity = state.series.zeros();
-                state.relative_velocity::<Plain>(j, tau, 1.0, &mut velocity);
-                (!state.motions[j].is_stuck()).then_some(velocity)
-            })
+            .map(|j| (!state.motions[j].is_stuck()).then(|| state.velocity_of_block(j, tau)))
             .collect();
         for (node, weight) in GAUSS {
             let s = node * end;

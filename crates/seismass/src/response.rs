@@ -130,7 +130,7 @@ impl EventCounts {
 ///
 /// They are fresh memory of each run. Where the allocator gives it back to the system in between (glibc does so with
 /// several arrays of some 100 kB), the faults of its new pages can cost as much as the run: one that keeps memory, or a
-/// large `MALLOC_TRIM_THRESHOLD_` and `MALLOC_MMAP_THRESHOLD_` in the environment of glibc, halves the time.
+/// large `MALLOC_TRIM_THRESHOLD_` and `MALLOC_MMAP_THRESHOLD_` in the environment of glibc, avoids them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Histories {
     /// Decimation: one row every so many samples, from sample 0.

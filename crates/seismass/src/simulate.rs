@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::events::{Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
 use crate::histories::Recorder;
-use crate::lanes::{Plain, Vector, by_width, for_each_path};
+use crate::lanes::{Vector, by_width, for_each_path};
 use crate::model::Model;
 use crate::observe::Observer;
 use crate::plain_run::Walk;
@@ -373,8 +373,7 @@ struct Moment {
 impl State<'_> {
     /// Slip of a block since the start of the present series, which begins at `tau`.
     pub(crate) fn slip_change(&self, block: usize, tau: f64) -> Polynomial {
-        let mut velocity = self.series.zeros();
-        self.relative_velocity::<Plain>(block, tau, 1.0, &mut velocity);
+        let velocity = self.velocity_of_block(block, tau);
         let h = self.series.h();
         let terms = velocity.coefficients().iter().enumerate().map(|(k, c)| h * c / (k + 1) as f64);
         Polynomial::new(std::iter::once(0.0).chain(terms))
