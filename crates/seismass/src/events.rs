@@ -6,7 +6,7 @@ use crate::friction::{self, BlockState, Cause, Transition, settle};
 use crate::lanes::{Plain, Vector};
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
-use crate::state::{State, THIRD, range};
+use crate::state::{State, THIRD, stays_above_zero};
 use crate::storey::Sign;
 
 /// A guard falls when it is below zero by more than this fraction of its terms.
@@ -133,7 +133,7 @@ impl State<'_> {
             for (sign, reached, yields, collapses) in
                 [(Sign::Positive, high, yields.1, collapses.1), (Sign::Negative, -low, -yields.0, -collapses.0)]
             {
-                if reached >= yields && yields < f64::INFINITY {
+                if reached >= yields && yields < f64::INFINITY && !self.stays_below(i, yields, sign) {
                     *isolated += 1;
                     self.drift_guard::<V>(i, yields, sign, Guard::Yield { storey: i, sign }, first);
                 }
@@ -157,6 +157,15 @@ impl State<'_> {
             let tolerance = ROUNDING * (size + self.series.h() * sizes);
             first.consider::<V>(Guard::Unload { storey: i }, &p, tolerance);
         }
+    }
+
+    /// Whether a drift coordinate, times `sign`, stays below a limit over the present series, but for its start.
+    #[inline(always)]
+    fn stays_below(&self, i: usize, limit: f64, sign: Sign) -> bool {
+        let ([dx, dv], factor, third) = (self.series.changes(), sign.factor(), self.series.h() * THIRD);
+        let margin = self.ranges.remainder * self.regime().row(Row::FourthOfDrift)[i];
+        let of = |x: f64, v: f64| [limit - factor * x, -factor * v];
+        stays_above_zero(of(self.x[i], self.v[i]), of(self.x[i] + dx[i], self.v[i] + dv[i]), third, margin, 0.0)
     }
 
     /// Considers the guard of a drift coordinate that, times `sign`, must stay below `limit`.
@@ -207,8 +216,7 @@ impl State<'_> {
     fn arrival_guards<V: Vector>(&self, tau: f64, first: &mut First, isolated: &mut usize) {
         for (j, motion) in self.motions.iter().enumerate() {
             let Some(sign) = motion.sliding() else { continue };
-            let (low, high) = self.velocity_range(j, tau);
-            if if sign == Sign::Positive { low > 0.0 } else { high < 0.0 } {
+            if self.keeps_sliding(j, tau, sign.factor()) {
                 continue;
             }
             *isolated += 1;
@@ -232,12 +240,12 @@ impl State<'_> {
         }
     }
 
-    /// Range of the relative velocity of a sliding block over the present series, which starts at `tau`.
+    /// Whether the relative velocity of a sliding block keeps its sign over the present series, which starts at `tau`.
     #[inline(always)]
-    fn velocity_range(&self, block: usize, tau: f64) -> (f64, f64) {
+    fn keeps_sliding(&self, block: usize, tau: f64, sign: f64) -> bool {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let h = self.series.h();
-        let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
+        let friction = sign * law.mu_k;
         // Linear up to the end, also where contact is lost before: as the change below is.
         let start = self.contact_at(tau);
         let contact = (start, start + self.interval.contact_slope * h);
@@ -250,7 +258,10 @@ impl State<'_> {
         };
         let (velocity, _) = self.block_change(block, tau);
         let rates = (-friction * contact.0 - a.0, -friction * contact.1 - a.1);
-        range(motion.velocity, rates.0, motion.velocity + velocity, rates.1, h * THIRD, margin)
+        let (start, end) = ([motion.velocity, rates.0], [motion.velocity + velocity, rates.1]);
+        // A block that breaks away where both coefficients are the same starts without relative acceleration.
+        let least = ROUNDING * law.mu_k * STANDARD_GRAVITY;
+        stays_above_zero(start.map(|value| sign * value), end.map(|value| sign * value), h * THIRD, margin, least)
     }
 
     /// Changes of relative velocity and slip of a block over the present series, which starts at `tau`, up to its place:

@@ -173,7 +173,8 @@ impl Observer {
         for i in state.looked_at(drifts) {
             let (low, high) = state.ranges.drift(i);
             let rate = state.ranges.rate(i);
-            let turns = !(rate.0 > 0.0 || rate.1 < 0.0);
+            // A plastic storey's rate is a guard: it does not turn before an event.
+            let turns = !(rate.0 > 0.0 || rate.1 < 0.0) && state.springs[i].plastic().is_none();
             if turns && self.drift_may_peak(state, i, low, high) {
                 *isolated += 1;
                 let mut rate = state.series.zeros();

@@ -160,6 +160,24 @@ pub(crate) fn range(start: f64, start_rate: f64, end: f64, end_rate: f64, third:
     (low - margin, high + margin)
 }
 
+/// Whether what does not start below zero stays above it from there on, a rate of -`least` at the start being as good as
+/// none. It differs by at most 16 `margin` s^2 (1 - s)^2 from the cubic through values and rates at both ends, which is
+/// less than 16 / 3 `margin` times the Bernstein polynomial of the second inner Bezier point: the others need no margin,
+/// the start among them, where what has just fired is zero and often at rest.
+#[inline(always)]
+pub(crate) fn stays_above_zero(
+    [start, start_rate]: [f64; 2],
+    [end, end_rate]: [f64; 2],
+    third: f64,
+    margin: f64,
+    least: f64,
+) -> bool {
+    start >= 0.0
+        && start + third * (start_rate + least) >= 0.0
+        && end - third * end_rate > (16.0 / 3.0) * margin
+        && end > 0.0
+}
+
 /// [`range`] of several, from values and rates.
 #[inline(always)]
 pub(crate) fn ranges<V: Vector>(start: [V; 2], end: [V; 2], third: V, margin: V) -> (V, V) {
