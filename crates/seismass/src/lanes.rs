@@ -143,6 +143,13 @@ impl Spare {
 impl Aligned {
     /// So many zeros.
     pub(crate) fn zeros(length: usize) -> Self {
+        let mut zeros = Self::unset(length);
+        zeros.fill(0.0);
+        zeros
+    }
+
+    /// So many numbers, any, each of which is to be set.
+    pub(crate) fn unset(length: usize) -> Self {
         const LINE: usize = 64;
         let slack = LINE / size_of::<f64>() - 1;
         if length == 0 {
@@ -152,8 +159,11 @@ impl Aligned {
         let kept = SPARE.try_with(|spare| spare.borrow_mut().take(capacity)).ok().flatten();
         let mut values = kept.unwrap_or_else(|| Vec::with_capacity(capacity));
         let offset = values.as_ptr().align_offset(LINE).min(slack);
-        values.clear();
         values.resize(offset + length, 0.0);
+        if cfg!(debug_assertions) {
+            // What is read before it is set shows.
+            values.fill(f64::NAN);
+        }
         Self { values, offset }
     }
 }
@@ -205,6 +215,10 @@ pub(crate) trait Vector: Copy {
     fn shifted_up(self, before: Self) -> Self;
     /// Each lane takes that above it, the highest takes the lowest of `after`.
     fn shifted_down(self, after: Self) -> Self;
+    /// The same with the lanes of `other` of which the bits are set.
+    fn with(self, bits: u32, other: Self) -> Self;
+    /// Lane j of vector i becomes lane i of vector j.
+    fn transposed(vectors: [Self; WIDTH]) -> [Self; WIDTH];
     /// Bits of the lanes that are not below those of `other`; lanes that are no numbers are not.
     fn not_below(self, other: Self) -> u32;
     fn sum(self) -> f64;
@@ -282,6 +296,25 @@ impl Vector for Plain {
     #[inline(always)]
     fn shifted_down(self, after: Self) -> Self {
         Self([self.0[1], self.0[2], self.0[3], after.0[0]])
+    }
+    #[inline(always)]
+    fn with(mut self, bits: u32, other: Self) -> Self {
+        for l in 0..WIDTH {
+            if bits >> l & 1 != 0 {
+                self.0[l] = other.0[l];
+            }
+        }
+        self
+    }
+    #[inline(always)]
+    fn transposed(vectors: [Self; WIDTH]) -> [Self; WIDTH] {
+        let mut out = vectors;
+        for i in 0..WIDTH {
+            for j in 0..WIDTH {
+                out[j].0[i] = vectors[i].0[j];
+            }
+        }
+        out
     }
     #[inline(always)]
     fn not_below(self, other: Self) -> u32 {
@@ -550,6 +583,29 @@ mod x86 {
                 let middle = _mm256_permute2f128_pd::<0x21>(self.0, after.0);
                 _mm256_shuffle_pd::<0b0101>(self.0, middle)
             })
+        }
+        #[inline(always)]
+        fn with(self, bits: u32, other: Self) -> Self {
+            let lane = |l: u32| -i64::from(bits >> l & 1);
+            let [first, second, third, fourth] = [lane(0), lane(1), lane(2), lane(3)];
+            Self(unsafe {
+                let mask = _mm256_set_epi64x(fourth, third, second, first);
+                _mm256_blendv_pd(self.0, other.0, _mm256_castsi256_pd(mask))
+            })
+        }
+        #[inline(always)]
+        fn transposed([first, second, third, fourth]: [Self; WIDTH]) -> [Self; WIDTH] {
+            unsafe {
+                let (even, odd) = (_mm256_unpacklo_pd(first.0, second.0), _mm256_unpackhi_pd(first.0, second.0));
+                let (more_even, more_odd) =
+                    (_mm256_unpacklo_pd(third.0, fourth.0), _mm256_unpackhi_pd(third.0, fourth.0));
+                [
+                    Self(_mm256_permute2f128_pd::<0x20>(even, more_even)),
+                    Self(_mm256_permute2f128_pd::<0x20>(odd, more_odd)),
+                    Self(_mm256_permute2f128_pd::<0x31>(even, more_even)),
+                    Self(_mm256_permute2f128_pd::<0x31>(odd, more_odd)),
+                ]
+            }
         }
         #[inline(always)]
         fn not_below(self, other: Self) -> u32 {

@@ -111,10 +111,107 @@ fn remainders_by_width<V: Vector>(
     sums: &mut [f64],
     terms: &mut [f64],
 ) {
-    by_width!(model.width, K => remainders::<V, K>(model, regime, h, order, sums, terms))
+    match model.storeys() {
+        1 => remainders_of_few::<V, 1>(model, regime, h, order, sums, terms),
+        2 => remainders_of_few::<V, 2>(model, regime, h, order, sums, terms),
+        3 => remainders_of_few::<V, 3>(model, regime, h, order, sums, terms),
+        4 => remainders_of_few::<V, 4>(model, regime, h, order, sums, terms),
+        _ => by_width!(model.width, K => remainders::<V, K>(model, regime, h, order, sums, terms)),
+    }
 }
 
-/// As many columns at a time as stay in registers: each is a chain of dependent operations that the processor waits for.
+/// [`form_remainders`] of `S` storeys, at most a vector's, with the terms of a table: a vector holds one floor in all
+/// columns, those of q and those of its rate, so that the recursion needs neither shifts nor sums within vectors. What is
+/// summed follows from the terms.
+#[inline(always)]
+fn remainders_of_few<V: Vector, const S: usize>(
+    model: &Model,
+    regime: &Regime,
+    h: f64,
+    order: usize,
+    sums: &mut [f64],
+    terms: &mut [f64],
+) {
+    let zero = V::splat(0.0);
+    let mut coefficients = [[0.0; 4]; S];
+    let (tangent, inverse_mass) = (regime.row(Row::Tangent), regime.row(Row::InverseMass));
+    let padded = |values: &[f64], i: usize| values.get(i).copied().unwrap_or(0.0);
+    let (storey_damping, floor_damping) = (&model.lanes.storey_damping, &model.lanes.floor_damping);
+    for i in 0..S {
+        coefficients[i] = [tangent[i], inverse_mass[i], padded(storey_damping, i), padded(floor_damping, i)];
+    }
+    let full_damping = columns_of::<1>(&model.lanes.damping).first_chunk::<S>();
+    let by_order = terms.as_chunks_mut::<WIDTH>().0;
+    let (mut x, mut v) = ([[zero; S]; 2], [[zero; S]; 2]);
+    for i in 0..S {
+        let [unit] = unit(i);
+        (x[0][i], v[1][i]) = (unit, unit);
+    }
+    for (k, out) in by_order.chunks_exact_mut(2 * S).enumerate() {
+        let (once, twice) = (V::splat(h * INVERSE[k + 1]), V::splat(h * h * (INVERSE[k + 1] * INVERSE[k + 2])));
+        for set in 0..2 {
+            let (mut shear, mut others, mut velocity) = ([zero; S], [zero; S], [zero; S]);
+            let mut below = zero;
+            for i in 0..S {
+                shear[i] = V::splat(coefficients[i][0]).mul(x[set][i]);
+            }
+            if let Some(columns) = full_damping {
+                for j in 0..S {
+                    let sums = if j % 2 == 0 { &mut shear } else { &mut others };
+                    for i in 0..S {
+                        sums[i] = V::splat(columns[j][0][i]).mul_add(v[set][j], sums[i]);
+                    }
+                }
+            } else {
+                for i in 0..S {
+                    others[i] = V::splat(coefficients[i][2]).mul(v[set][i]);
+                    below = below.add(v[set][i]);
+                    velocity[i] = V::splat(coefficients[i][3]).mul(below);
+                }
+            }
+            let mut term = [zero; WIDTH];
+            below = zero;
+            for i in 0..S {
+                let shear_above = if i + 1 < S { shear[i + 1].add(others[i + 1]) } else { zero };
+                let net = shear_above.sub(shear[i].add(others[i])).sub(velocity[i]);
+                let a = net.mul(V::splat(coefficients[i][1]));
+                term[i] = twice.mul(a);
+                x[set][i] = once.mul(v[set][i]);
+                v[set][i] = once.mul(a.sub(below));
+                below = a;
+            }
+            let columns = V::transposed(term);
+            for c in 0..S {
+                columns[c].store(&mut out[set * S + c]);
+            }
+        }
+    }
+    // Terms of order k + 2 of the accelerations: drifts and drift rates are integrals of their differences.
+    let [inside]: [V; 1] = load(&model.lanes.inside);
+    let (length, per_second) = (V::splat(h), V::splat(1.0 / h));
+    for (column, out) in sums.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<4>().0.iter_mut().take(2 * S).enumerate() {
+        let [mut once, mut twice, mut value, mut rate] = [zero; 4];
+        for (k, term) in by_order.iter().skip(column).step_by(2 * S).enumerate().take(order - 1) {
+            let term = V::load(term);
+            once = V::splat(INVERSE[k + 3]).mul_add(term, once);
+            twice = V::splat(INVERSE[k + 3] * INVERSE[k + 4]).mul_add(term, twice);
+            value = value.add(term);
+            rate = V::splat((k + 2) as f64).mul_add(term, rate);
+        }
+        let [unit] = unit(column % S);
+        // Of a unit of q its integrals, of a unit of its rate the next.
+        let (first, second) = if column < S { (h, 0.5 * h * h) } else { (0.5 * h * h, h * h * h / 6.0) };
+        let [of_rate] = differences(&[once], zero);
+        let [of_drift] = differences(&[twice], zero);
+        let of_rate = length.mul(of_rate).mul(inside);
+        let of_drift = length.mul(length).mul(of_drift).mul(inside);
+        V::splat(second).mul_add(unit, of_drift).store(&mut out[0]);
+        V::splat(first).mul_add(unit, of_rate).store(&mut out[1]);
+        value.store(&mut out[2]);
+        per_second.mul(rate).store(&mut out[3]);
+    }
+}
+
 #[inline(always)]
 fn remainders<V: Vector, const K: usize>(
     model: &Model,
@@ -126,24 +223,18 @@ fn remainders<V: Vector, const K: usize>(
 ) {
     let n = model.storeys();
     let operator = Operator::<V, K>::new(model, regime);
-    let mut i = 0;
-    while K == 1 && i + 1 < n {
-        remainders_of_storeys::<V, K, 4>(model, &operator, i, h, order, sums, terms);
-        i += 2;
-    }
-    while i < n {
-        remainders_of_storeys::<V, K, 2>(model, &operator, i, h, order, sums, terms);
-        i += 1;
+    for i in 0..n {
+        remainders_of_storey(model, &operator, i, h, order, sums, terms);
     }
 }
 
 /// The series of (q, q') = unit vectors, as drifts and drift rates of the homogeneous system, whose accelerations then
-/// are the second derivatives of the floor accelerations: two columns of each of `COLUMNS` / 2 storeys from `first` on.
+/// are the second derivatives of the floor accelerations: the two columns of a storey.
 #[inline(always)]
-fn remainders_of_storeys<V: Vector, const K: usize, const COLUMNS: usize>(
+fn remainders_of_storey<V: Vector, const K: usize>(
     model: &Model,
     operator: &Operator<V, K>,
-    first: usize,
+    storey: usize,
     h: f64,
     order: usize,
     sums: &mut [f64],
@@ -153,17 +244,13 @@ fn remainders_of_storeys<V: Vector, const K: usize, const COLUMNS: usize>(
     let zero = [V::splat(0.0); K];
     let inside: [V; K] = load(&model.lanes.inside);
     let keeps_terms = !terms.is_empty();
-    let (mut x, mut v) = ([zero; COLUMNS], [zero; COLUMNS]);
-    let place = |column: usize| column % 2 * n + first + column / 2;
-    for column in 0..COLUMNS {
-        let unit = unit(first + column / 2);
-        if column % 2 == 0 { x[column] = unit } else { v[column] = unit }
-    }
-    let mut rows = [[zero; 4]; COLUMNS];
+    let (mut x, mut v) = ([unit(storey), zero], [zero, unit(storey)]);
+    let places = [storey, n + storey];
+    let mut rows = [[zero; 4]; 2];
     for k in 0..=order {
         let (once, twice) = (h * INVERSE[k + 1], h * h * (INVERSE[k + 1] * INVERSE[k + 2]));
         let (once, twice) = (V::splat(once), V::splat(twice));
-        for column in 0..COLUMNS {
+        for column in 0..2 {
             let a = operator.accelerations(&x[column], &v[column], zero);
             let drift_acceleration = differences(&a, V::splat(0.0));
             let mut term = zero;
@@ -178,12 +265,12 @@ fn remainders_of_storeys<V: Vector, const K: usize, const COLUMNS: usize>(
                 v[column][l] = once.mul(drift_acceleration[l]).mul(inside[l]);
             }
             if keeps_terms && k + 2 <= order {
-                store(&term, &mut terms[(k * 2 * n + place(column)) * width..]);
+                store(&term, &mut terms[(k * 2 * n + places[column]) * width..]);
             }
         }
     }
-    for column in 0..COLUMNS {
-        let out = &mut sums[4 * place(column) * width..];
+    for column in 0..2 {
+        let out = &mut sums[4 * places[column] * width..];
         for r in 0..4 {
             store(&rows[column][r], &mut out[r * width..]);
         }
@@ -352,7 +439,7 @@ impl Steps {
         // Parts of a halved interval may be longer than its table's step.
         let order = terms(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
         sums.resize(2 * n * 4 * width, 0.0);
-        let mut table = Aligned::zeros(if n <= MAX_TABLE { (order - 1) * 2 * n * width } else { 0 });
+        let mut table = Aligned::unset(if n <= MAX_TABLE { (order - 1) * 2 * n * width } else { 0 });
         form_remainders(model, regime, h, order, sums, &mut table);
         let composed = (halvings > 0.0).then(|| {
             let mut step = Step::new(n, |cause| {
@@ -374,7 +461,7 @@ impl Steps {
             .chain((0..n).map(Cause::Load))
             .chain((0..if with_ramps { n } else { 0 }).map(Cause::Ramp))
             .collect();
-        let mut columns = Aligned::zeros(causes.len() * 4 * width);
+        let mut columns = Aligned::unset(causes.len() * 4 * width);
         match &composed {
             None => form_columns(model, regime, h, sums, &causes, &mut columns),
             Some(step) => {
@@ -481,6 +568,7 @@ fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64]
     regime.accelerations(model, &v, &drift_acceleration, &slope, &mut jerk);
     for (row, part) in out.chunks_exact_mut(model.width).zip([&change[..n], &change[n..], &a, &jerk]) {
         row[..n].copy_from_slice(part);
+        row[n..].fill(0.0);
     }
 }
 
