@@ -32,18 +32,22 @@ pub(crate) fn members(mut set: Set) -> impl Iterator<Item = usize> {
 
 /// Bounds of all storeys and floors, padded; in lanes beyond the last storey they are far. They hold once they are
 /// brought up to date ([`State::update_bounds`]), until a spring changes or a peak is beaten; where a run of plain steps
-/// follows a peak that a drift beats, they are the guards alone and the sign that its rate must keep, up to the run's end.
+/// follows a peak that a drift beats, they are the guard ahead and the sign that its rate must keep, up to the run's end.
 #[derive(Debug)]
 pub(crate) struct Bounds {
     /// Drift coordinates: the middle, and how far they may go from it.
     pub(crate) middle: Vec<f64>,
     pub(crate) reach: Vec<f64>,
+    /// Drift coordinates between which no guard falls.
+    pub(crate) guarded: [Vec<f64>; 2],
     /// Drift rates of plastic storeys: their signs, and what their negative may not reach (0; else far).
     pub(crate) sign: Vec<f64>,
     pub(crate) turn: Vec<f64>,
     /// Smallest mu_s of the blocks stuck to each floor, far where none is; peak of the floor acceleration.
     pub(crate) stuck_mu: Vec<f64>,
     pub(crate) a_peak: Vec<f64>,
+    /// Plastic storeys.
+    pub(crate) plastic: Set,
     /// Storeys whose springs have changed since the last update.
     stale: Set,
 }
@@ -55,10 +59,12 @@ impl Bounds {
         Self {
             middle: lanes(0.0, 0.0),
             reach: lanes(0.0, FAR),
+            guarded: [lanes(0.0, -FAR), lanes(0.0, FAR)],
             sign: lanes(0.0, 0.0),
             turn: lanes(FAR, FAR),
             stuck_mu: lanes(FAR, FAR),
             a_peak: lanes(0.0, FAR),
+            plastic: 0,
             stale: Set::MAX,
         }
     }
@@ -102,8 +108,10 @@ impl State<'_> {
             (self.bounds.middle[i], self.bounds.reach[i]) = self.quiet_middle_and_reach(observer, i);
         }
         for i in members(springs & within) {
+            (self.bounds.guarded[0][i], self.bounds.guarded[1][i]) = self.guarded_drift(i);
             let sign = self.springs[i].plastic().map_or(0.0, Sign::factor);
             (self.bounds.sign[i], self.bounds.turn[i]) = (sign, if sign == 0.0 { FAR } else { 0.0 });
+            self.bounds.plastic = self.bounds.plastic & !only(i) | if sign == 0.0 { 0 } else { only(i) };
         }
         for i in members(accelerations & within) {
             self.bounds.a_peak[i] = observer.peaks.floor_acceleration[i].value;

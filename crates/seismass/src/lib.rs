@@ -51,6 +51,7 @@ mod banded_step;
 pub mod batch;
 mod bernstein;
 mod bounds;
+mod closer_look;
 pub mod columns;
 pub mod damping;
 pub mod error;

@@ -1,7 +1,7 @@
 //! What is kept of a run: peaks in continuous time, histories, energies.
 
 use crate::bernstein::Polynomial;
-use crate::bounds::{Set, only};
+use crate::bounds::{Set, members, only};
 use crate::friction::BlockState;
 use crate::histories::Recorder;
 use crate::lanes::{Plain, Vector};
@@ -164,7 +164,6 @@ impl Observer {
     /// state is advanced.
     #[inline(always)]
     pub(crate) fn observe_series<V: Vector>(&mut self, state: &State, tau: f64, end: f64, isolated: &mut usize) {
-        let h = state.series.h();
         let start = state.interval.start + tau;
         let [drifts, _, accelerations] = state.ranges.suspects;
         if drifts | accelerations == 0 {
@@ -177,27 +176,52 @@ impl Observer {
             let turns = !(rate.0 > 0.0 || rate.1 < 0.0) && state.springs[i].plastic().is_none();
             if turns && self.drift_may_peak(state, i, low, high) {
                 *isolated += 1;
-                let mut rate = state.series.zeros();
-                state.series.drift_rate::<V>(i, 1.0, &mut rate);
-                let (first, others) = rate.sign_changes::<V>();
-                for s in first.into_iter().chain(others).filter(|&s| s < end) {
-                    let mut drift = state.series.zeros();
-                    state.series.drift::<V>(i, 1.0, &mut drift);
-                    self.take_drift(state, i, drift.at::<V>(s), start + s * h);
-                }
+                self.take_turns_of_drift::<V>(state, i, start, end);
             }
         }
         for i in state.looked_at(accelerations) {
             let (low, high) = state.ranges.acceleration(i);
             if self.acceleration_may_peak(i, low, high) && !state.is_steady(i) {
                 *isolated += 1;
-                let mut acceleration = state.series.zeros();
-                state.series.acceleration::<V>(i + 1, 1.0, &mut acceleration);
-                let (first, others) = acceleration.derivative().sign_changes::<V>();
-                for s in first.into_iter().chain(others).filter(|&s| s < end) {
-                    self.take_acceleration(i, acceleration.at::<V>(s), start + s * h);
-                }
+                self.take_turns_of_acceleration::<V>(state, i, start, end);
             }
+        }
+    }
+
+    /// Takes the turns of a storey's drift inside the present series, which starts at the time `start`, up to its place
+    /// `end` into its peaks.
+    #[inline(always)]
+    fn take_turns_of_drift<V: Vector>(&mut self, state: &State, i: usize, start: f64, end: f64) {
+        let mut rate = state.series.zeros();
+        state.series.drift_rate::<V>(i, 1.0, &mut rate);
+        let (first, others) = rate.sign_changes::<V>();
+        for s in first.into_iter().chain(others).filter(|&s| s < end) {
+            let mut drift = state.series.zeros();
+            state.series.drift::<V>(i, 1.0, &mut drift);
+            self.take_drift(state, i, drift.at::<V>(s), start + s * state.series.h());
+        }
+    }
+
+    /// The same of a floor's acceleration.
+    #[inline(always)]
+    fn take_turns_of_acceleration<V: Vector>(&mut self, state: &State, i: usize, start: f64, end: f64) {
+        let mut acceleration = state.series.zeros();
+        state.series.acceleration::<V>(i + 1, 1.0, &mut acceleration);
+        let (first, others) = acceleration.derivative().sign_changes::<V>();
+        for s in first.into_iter().chain(others).filter(|&s| s < end) {
+            self.take_acceleration(i, acceleration.at::<V>(s), start + s * state.series.h());
+        }
+    }
+
+    /// Takes the turns of the drifts of some storeys and of the accelerations of some floors inside the present series, of
+    /// a whole interval.
+    #[inline(always)]
+    pub(crate) fn take_turns<V: Vector>(&mut self, state: &State, [drifts, accelerations]: [Set; 2]) {
+        for i in members(drifts) {
+            self.take_turns_of_drift::<V>(state, i, state.interval.start, 1.0);
+        }
+        for i in members(accelerations) {
+            self.take_turns_of_acceleration::<V>(state, i, state.interval.start, 1.0);
         }
     }
 

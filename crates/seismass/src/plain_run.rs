@@ -1,19 +1,20 @@
-//! Runs of whole sample intervals by the propagator, each accepted only when bounds prove that no guard fell inside it
-//! and no peak was beaten at a turn.
+//! Runs of whole sample intervals by the propagator, each accepted only when bounds prove that no guard fell inside
+//! it.
 //!
 //! Value and rate at both ends give the Bezier points of a cubic; the quantity differs from that cubic by at most
 //! h^4 / 384 times its largest fourth derivative, which the regime bounds. The loop itself looks at each end once: a
 //! value must keep the distance of h / 3 times its rate from its bound, and the margin of the fourth derivative, to
-//! either side. Steps that this does not clear are looked at closer, by the Bezier points themselves.
+//! either side. Steps that this does not clear are looked at closer ([`crate::closer_look`]), by the Bezier points
+//! themselves.
 //!
 //! The loop ([`clear_steps`]) is a function of its own whose steps call no other, so that what it needs stays in
 //! registers; what is between two calls of it is kept in a [`Walk`].
 
-use std::mem::swap;
 use std::sync::Arc;
 
 use crate::STANDARD_GRAVITY;
-use crate::bounds::{self, Set, members, middle_and_reach};
+use crate::bounds::{self, Set};
+use crate::closer_look::{Beaten, BoundsInLanes, Closer, Sample};
 use crate::friction::BlockMotion;
 use crate::histories::{Recorder, RowInLanes};
 use crate::lanes::{
@@ -24,12 +25,11 @@ use crate::observe::Observer;
 use crate::propagator::Whole;
 use crate::regime::{Regime, Row};
 use crate::scene::Motion;
-use crate::sliding::{
-    GroundBlock, Layer, LayerInLanes, Linear, Push, SMALL_DIFFERENCE, holds_on_ground, move_on_ground,
-};
-use crate::state::{State, THIRD, off_cubic, range};
+use crate::sliding::{GroundBlock, Layer, LayerInLanes, Linear, OnGround, Push};
+use crate::state::{State, THIRD, off_cubic};
 use crate::storey::Sign;
 use crate::tall_run;
+use crate::taylor::MAX_PHASE;
 
 /// What bounds the fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
 pub(crate) const MARGINS: [Row; 4] =
@@ -80,74 +80,6 @@ impl<'a, const K: usize> Course<'a, K> {
 #[inline(always)]
 fn four_rows<const K: usize>(values: &[f64]) -> &[Column<K>] {
     columns_of::<K>(values).as_chunks::<4>().0
-}
-
-/// The state at a sample: drifts, drift rates, floor accelerations, their rates, and drift accelerations.
-#[derive(Clone, Copy)]
-struct Sample<V, const K: usize> {
-    x: [V; K],
-    v: [V; K],
-    a: [V; K],
-    jerk: [V; K],
-    q: [V; K],
-}
-
-impl<V: Vector, const K: usize> Sample<V, K> {
-    #[inline(always)]
-    fn of(state: &State) -> Self {
-        Self {
-            x: load(&state.x),
-            v: load(&state.v),
-            a: load(&state.a),
-            jerk: load(&state.jerk),
-            q: load(&state.drift_acceleration),
-        }
-    }
-
-    #[inline(always)]
-    fn put_into(&self, x: &mut [f64], v: &mut [f64], a: &mut [f64], jerk: &mut [f64], q: &mut [f64]) {
-        store(&self.x, x);
-        store(&self.v, v);
-        store(&self.a, a);
-        store(&self.jerk, jerk);
-        store(&self.q, q);
-    }
-}
-
-/// The bounds of [`crate::bounds::Bounds`] in vectors.
-struct BoundsInLanes<V, const K: usize> {
-    middle: [V; K],
-    reach: [V; K],
-    sign: [V; K],
-    turn: [V; K],
-    stuck_mu: [V; K],
-    a_peak: [V; K],
-}
-
-impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
-    #[inline(always)]
-    fn of(state: &State) -> Self {
-        let bounds = &state.bounds;
-        Self {
-            middle: load(&bounds.middle),
-            reach: load(&bounds.reach),
-            sign: load(&bounds.sign),
-            turn: load(&bounds.turn),
-            stuck_mu: load(&bounds.stuck_mu),
-            a_peak: load(&bounds.a_peak),
-        }
-    }
-
-    /// [`bounds::apart`] of all vectors.
-    #[inline(always)]
-    fn apart(&self, sample: &Sample<V, K>, third: V) -> [[V; K]; 3] {
-        let mut out = [sample.x, sample.v, sample.a];
-        for k in 0..K {
-            let (drift, floor) = ([sample.x[k], sample.v[k], sample.q[k]], [sample.a[k], sample.jerk[k]]);
-            [out[0][k], out[1][k], out[2][k]] = bounds::apart(drift, floor, self.middle[k], self.sign[k], third);
-        }
-        out
-    }
 }
 
 /// rows += column * weight.
@@ -201,21 +133,12 @@ fn not_clear<V: Vector>((before, after): (V, V), norm: V, margin: V, bound: V) -
     Set::from(norm.mul_add(margin, before.max(after)).not_below(bound))
 }
 
-/// A run of plain steps between two calls of [`clear_steps`]: the step that was not cleared, and the blocks that slide.
+/// A run of plain steps between two calls of [`clear_steps`]: the blocks that slide, and the peaks that are beaten.
 pub(crate) struct Walk {
-    /// Whether there is a step that was not cleared.
-    is_open: bool,
-    /// Its end: drifts, drift rates, floor accelerations, their rates, drift accelerations; padded.
-    x: Vec<f64>,
-    v: Vec<f64>,
-    a: Vec<f64>,
-    jerk: Vec<f64>,
-    q: Vec<f64>,
-    liveliness: f64,
-    /// Storeys and floors whose drifts, drift rates and accelerations were not cleared.
-    suspects: [Set; 3],
-    /// Whether blocks were not.
-    turning: bool,
+    beaten: Beaten,
+    /// Series formed for turns beyond peaks, and turns looked at.
+    pub(crate) series: usize,
+    pub(crate) isolated: usize,
     /// With vertical motion: slope of the contact force that the rates of accelerations have followed.
     contact_slope: f64,
     layers: Vec<Layer>,
@@ -223,37 +146,31 @@ pub(crate) struct Walk {
     used: usize,
     /// Blocks that slide on floors: block, layer, lane.
     on_floors: Vec<(usize, usize, usize)>,
-    on_ground: Vec<GroundBlock>,
+    on_ground: OnGround,
 }
 
 impl Walk {
     pub(crate) fn new(model: &Model) -> Self {
-        let zero = || vec![0.0; model.width];
         Self {
-            is_open: false,
-            x: zero(),
-            v: zero(),
-            a: zero(),
-            jerk: zero(),
-            q: zero(),
-            liveliness: 0.0,
-            suspects: [0; 3],
-            turning: false,
+            beaten: Beaten::new(model),
+            series: 0,
+            isolated: 0,
             contact_slope: 0.0,
             layers: Vec::new(),
             used: 0,
             on_floors: Vec::new(),
-            on_ground: Vec::new(),
+            on_ground: OnGround::new(),
         }
     }
 
-    /// Takes up the sliding blocks.
-    fn begin(&mut self, state: &State) {
+    /// Takes up the sliding blocks at a sample.
+    fn begin(&mut self, state: &State, sample: usize) {
         for (_, layer, lane) in self.on_floors.drain(..) {
             self.layers[layer].leave(lane);
         }
         self.used = 0;
-        self.on_ground.clear();
+        self.beaten.forget_turned();
+        self.on_ground.begin(sample, state.stuck_mu[0]);
         if state.is_sliding {
             self.take_blocks(state);
         }
@@ -285,19 +202,9 @@ impl Walk {
             let (layer, motion) = (&self.layers[layer], &mut motions[block]);
             (motion.velocity, motion.slip) = (layer.velocity[lane], layer.slip[lane]);
         }
-        for ground in &self.on_ground {
+        for ground in self.on_ground.sliding() {
             (motions[ground.block].velocity, motions[ground.block].slip) = (ground.velocity, ground.slip);
         }
-    }
-
-    /// Makes the end of the step that was not cleared the state.
-    fn accept(&mut self, state: &mut State) {
-        swap(&mut self.x, &mut state.x);
-        swap(&mut self.v, &mut state.v);
-        swap(&mut self.a, &mut state.a);
-        swap(&mut self.jerk, &mut state.jerk);
-        swap(&mut self.q, &mut state.drift_acceleration);
-        self.layers[..self.used].iter_mut().for_each(Layer::accept);
     }
 }
 
@@ -341,7 +248,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         }
     }
     let mut sample = Sample::<V, K>::of(state);
-    let bounds = BoundsInLanes::<V, K>::of(state);
+    let mut bounds = BoundsInLanes::<V, K>::of(state);
     let samples = motion.acceleration();
     let vertical = motion.vertical().unwrap_or(&[]);
     // Rate of the floor accelerations per slope of the contact force: it turns at every sample.
@@ -350,8 +257,6 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         *jerk = jerk.mul(inverse_mass);
     }
     let mut slope_before = walk.contact_slope;
-    let stuck_mu = state.stuck_mu[0];
-    let ground_slides = !walk.on_ground.is_empty();
     let mut apart_before = bounds.apart(&sample, third);
     let (mut lowest, others) = match walk.layers[..walk.used].split_first_mut() {
         Some((lowest, others)) if SLIDING => (Some(lowest), others),
@@ -367,10 +272,11 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     };
     let mut next_recorded = recorder.as_ref().map_or(usize::MAX, |recorder| recorder.next_sample());
     let last = end.min(samples.len() - 1);
+    let within = bounds::first(state.storeys());
     let mut reached = first;
-    let open = loop {
+    loop {
         if reached >= last {
-            break None;
+            break;
         }
         let (before, after) = (samples[reached], samples[reached + 1]);
         let change = after - before;
@@ -378,8 +284,6 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             true => (contact_at(vertical, reached), contact_at(vertical, reached + 1)),
             false => (STANDARD_GRAVITY, STANDARD_GRAVITY),
         };
-        let of_ground = Linear { start: before, end: after };
-        let of_contact = Linear { start: contact.0, end: contact.1 };
         if VERTICAL {
             let slope = (contact.1 - contact.0) * per_second;
             for k in 0..K {
@@ -431,7 +335,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             taken.v[k] = sample.v[k].add(dv[k]);
         }
         // The proof.
-        let apart_after = bounds.apart(&taken, third);
+        let mut apart_after = bounds.apart(&taken, third);
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
         let mut suspects: [Set; 3] = [0; 3];
         for k in 0..K {
@@ -451,27 +355,39 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             }
             let push = Push {
                 h,
-                ground: of_ground,
-                contact: of_contact,
+                ground: Linear { start: before, end: after },
+                contact: Linear { start: contact.0, end: contact.1 },
                 velocity: prefix_sums(&dv),
                 displacement: prefix_sums(&beyond),
                 a: [sample.a, taken.a],
                 margin: of_velocity,
             };
             (layer_after, is_turning) = layer.pushed(&push);
+            is_turning = is_turning && layer.turns(&layer_after.velocity, &push);
             for other in others.iter_mut() {
-                let (after, turning) = LayerInLanes::<V, K>::of(other).pushed(&push);
+                let before = LayerInLanes::<V, K>::of(other);
+                let (after, turning) = before.pushed(&push);
                 let [velocity, slip] = &mut other.after;
                 store(&after.velocity, velocity);
                 store(&after.slip, slip);
-                is_turning |= turning;
+                is_turning |= turning && before.turns(&after.velocity, &push);
             }
         }
-        let ground_holds = holds_on_ground(of_ground, of_contact, stuck_mu);
         let has_contact = !VERTICAL || contact.0 > 0.0 && contact.1 > 0.0;
-        if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact || ground_slides || !ground_holds
-        {
-            break Some((taken, layer_after, sizes.sum() * growth, suspects, is_turning));
+        if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact {
+            for suspects in &mut suspects {
+                *suspects &= within;
+            }
+            let guarded = [load(&state.bounds.guarded[0]), load(&state.bounds.guarded[1])];
+            let guards = (&guarded, state.bounds.plastic);
+            let samples = [&sample, &taken];
+            let closer = Closer::look(suspects, &bounds, guards, samples, (norm, &margins), h, least_contact);
+            let (fails, time) = (is_turning || !has_contact, (reached + 1) as f64 * h);
+            let in_state = (&state.bounds, &mut bounds);
+            if !walk.beaten.note(&closer, fails, reached == first, samples, time, in_state) {
+                break;
+            }
+            apart_after = bounds.apart(&taken, third);
         }
         (sample, apart_before, layer) = (taken, apart_after, layer_after);
         for other in others.iter_mut() {
@@ -494,125 +410,17 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             recorder.append(state.model, &RowInLanes { x: &sample.x, v: &sample.v, a: &sample.a });
             next_recorded = recorder.next_sample();
         }
-    };
+    }
     if let Some(lowest) = &mut lowest {
         store(&layer.velocity, &mut lowest.velocity);
         store(&layer.slip, &mut lowest.slip);
     }
-    if let Some((taken, layer_after, liveliness, suspects, is_turning)) = open {
-        taken.put_into(&mut walk.x, &mut walk.v, &mut walk.a, &mut walk.jerk, &mut walk.q);
-        if let Some(lowest) = &mut lowest {
-            let [velocity, slip] = &mut lowest.after;
-            store(&layer_after.velocity, velocity);
-            store(&layer_after.slip, slip);
-        }
-        (walk.is_open, walk.liveliness, walk.suspects, walk.turning) = (true, liveliness, suspects, is_turning);
-    }
     walk.contact_slope = slope_before;
+    if walk.beaten.any() {
+        bounds.put_into(&mut state.bounds);
+    }
     sample.put_into(&mut state.x, &mut state.v, &mut state.a, &mut state.jerk, &mut state.drift_acceleration);
     reached
-}
-
-/// A closer look at the step that the loop did not clear.
-struct Closer<'a, 'b> {
-    state: &'a State<'b>,
-    walk: &'a Walk,
-    observer: &'a Observer,
-    h: f64,
-    contact: (f64, f64),
-    /// Storeys and floors whose peaks of drift or shear and of acceleration the end of the step may beat.
-    beaten: [Set; 2],
-}
-
-impl Closer<'_, '_> {
-    /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
-    fn remainder(&self) -> f64 {
-        self.walk.liveliness * off_cubic(self.h)
-    }
-
-    /// Storeys and floors whose peaks the end of the step may beat; nothing if a guard may have fallen, or a peak been
-    /// beaten, inside the step.
-    fn look(mut self) -> Option<[Set; 2]> {
-        self.clears().then_some(self.beaten)
-    }
-
-    fn clears(&mut self) -> bool {
-        let [drifts, rates, accelerations] = self.walk.suspects;
-        let within = bounds::first(self.state.storeys());
-        members(rates & within).all(|i| self.keeps_direction(i))
-            && members(drifts & within).all(|i| self.stays_in_bounds(i))
-            && members(accelerations & within).all(|i| self.holds_blocks(i))
-            && !(self.walk.turning && self.walk.on_floors.iter().any(|&place| self.may_turn(place)))
-            && self.contact.0 > 0.0
-            && self.contact.1 > 0.0
-    }
-
-    #[inline]
-    fn rate_range(&self, i: usize) -> (f64, f64) {
-        let (start, end) = (self.state, self.walk);
-        let margin = self.remainder() * start.regime().row(Row::FourthOfRate)[i];
-        range(start.v[i], start.drift_acceleration[i], end.v[i], end.q[i], self.h * THIRD, margin)
-    }
-
-    /// Whether the drift rate of a storey keeps the sign that it must keep: of plastic storeys, and where a peak is
-    /// followed.
-    #[inline]
-    fn keeps_direction(&self, i: usize) -> bool {
-        let (low, high) = self.rate_range(i);
-        match self.state.bounds.sign[i] {
-            0.0 => true,
-            sign if sign > 0.0 => low > 0.0,
-            _ => high < 0.0,
-        }
-    }
-
-    /// Whether a storey neither yields nor collapses, and beats no peak, or at the end of the step.
-    #[inline]
-    fn stays_in_bounds(&mut self, i: usize) -> bool {
-        let (start, end) = (self.state, self.walk);
-        let margin = self.remainder() * start.regime().row(Row::FourthOfDrift)[i];
-        let (low, high) = range(start.x[i], start.v[i], end.x[i], end.v[i], self.h * THIRD, margin);
-        let (middle, reach) = (start.bounds.middle[i], start.bounds.reach[i]);
-        if high < middle + reach && low > middle - reach {
-            return true;
-        }
-        let (lower, upper) = start.guarded_drift(i);
-        let rate = self.rate_range(i);
-        self.beaten[0] |= bounds::only(i);
-        high < upper && low > lower && (rate.0 > 0.0 || rate.1 < 0.0)
-    }
-
-    /// Whether no block breaks away from a floor, and its acceleration beats no peak, or at the end of the step.
-    #[inline]
-    fn holds_blocks(&mut self, i: usize) -> bool {
-        let (start, end) = (self.state, self.walk);
-        let regime = start.regime();
-        let margin = self.remainder() * regime.row(Row::FourthOfAcceleration)[i];
-        let (low, high) = range(start.a[i], start.jerk[i], end.a[i], end.jerk[i], self.h * THIRD, margin);
-        let size = high.max(-low);
-        let below_limit = size < start.stuck_mu[i + 1] * self.contact.0.min(self.contact.1);
-        if !below_limit || size < self.observer.peaks.floor_acceleration[i].value {
-            return below_limit;
-        }
-        // Between its ends the jerk differs from its chord by at most h^2 / 8 times its second derivative.
-        let turn = 0.125 * self.h * self.h * end.liveliness * regime.row(Row::ThirdOfAcceleration)[i];
-        let (jerk, jerk_end) = (start.jerk[i], end.jerk[i]);
-        self.beaten[1] |= bounds::only(i);
-        jerk * jerk_end > 0.0 && jerk.abs().min(jerk_end.abs()) > turn
-    }
-
-    /// Whether the relative velocity of a block may have turned.
-    fn may_turn(&self, (_, layer, lane): (usize, usize, usize)) -> bool {
-        let (start, end, layer) = (self.state, self.walk, &self.walk.layers[layer]);
-        let (friction, sign) = (layer.friction[lane], layer.sign[lane]);
-        let rates = (-friction * self.contact.0 - start.a[lane], -friction * self.contact.1 - end.a[lane]);
-        let margin = self.remainder() * start.regime().row(Row::ThirdOfAcceleration)[lane];
-        let [after, _] = &layer.after;
-        let (low, high) = range(layer.velocity[lane], rates.0, after[lane], rates.1, self.h * THIRD, margin);
-        let floor: f64 = end.v[..=lane].iter().zip(&start.v).map(|(end, start)| end - start).sum();
-        let least = SMALL_DIFFERENCE * floor.abs();
-        !(if sign > 0.0 { low > least } else { high < -least })
-    }
 }
 
 /// [`clear_steps`] of the present scene.
@@ -659,63 +467,64 @@ fn run(
     let h = motion.dt();
     let samples = motion.acceleration();
     let vertical = motion.vertical().filter(|_| state.vertical).unwrap_or(&[]);
-    walk.begin(state);
-    walk.contact_slope = (contact_at(vertical, first + 1) - contact_at(vertical, first)) * (1.0 / h);
+    let contact = |sample: usize| contact_at(vertical, sample);
+    let drive = |i: usize| {
+        (Linear { start: samples[i], end: samples[i + 1] }, Linear { start: contact(i), end: contact(i + 1) })
+    };
+    walk.begin(state, first);
+    walk.contact_slope = (contact(first + 1) - contact(first)) * (1.0 / h);
     if let Some(recorder) = &mut observer.histories {
         recorder.take_up(state);
     }
     let mut reached = first;
-    let mut followed = 0;
     while reached < end {
-        walk.is_open = false;
-        reached = clear_steps_of_scene(state, walk, observer.histories.as_mut(), motion, reached, end);
-        if !walk.is_open {
+        let mut last = end;
+        if walk.on_ground.is_watched() {
+            let sliding = !walk.on_ground.sliding().is_empty();
+            last = walk.on_ground.go_ahead(reached, end, sliding && observer.histories.is_some(), h, drive);
+            if last == reached {
+                break;
+            }
+            for block in walk.on_ground.sliding() {
+                if let Some(recorder) = &mut observer.histories {
+                    recorder.move_block(block.block, block.velocity, block.slip);
+                }
+            }
+        }
+        let first = reached;
+        reached = clear_steps_of_scene(state, walk, observer.histories.as_mut(), motion, reached, last);
+        walk.beaten.take_steps(state, observer, (first + 1) as f64 * h);
+        if reached > first {
+            walk.beaten.forget_turned();
+        }
+        if reached == last {
+            continue;
+        }
+        let (turns, waits) = walk.beaten.take_turns();
+        if turns == [0; 2] {
             break;
         }
-        let contact = (contact_at(vertical, reached), contact_at(vertical, reached + 1));
-        let mut beaten = Closer { state, walk, observer, h, contact, beaten: [0; 2] }.look();
-        if beaten.is_none() && followed != 0 {
-            // Once more, with the peaks up to here: whether a step is plain must not depend on where its run began.
-            take_peaks(state, observer, followed, reached as f64 * h);
+        walk.beaten.take_followed(state, observer, reached as f64 * h);
+        if waits {
+            // Whether a step is plain must not depend on where its run began.
             state.update_bounds(observer);
-            walk.suspects[0] |= std::mem::take(&mut followed);
-            beaten = Closer { state, walk, observer, h, contact, beaten: [0; 2] }.look();
+            continue;
         }
-        let Some([drifts, accelerations]) = beaten else { break };
-        let ground = Linear { start: samples[reached], end: samples[reached + 1] };
-        let contact = Linear { start: contact.0, end: contact.1 };
-        if !move_on_ground(&mut walk.on_ground, ground, contact, h, state.stuck_mu[0]) {
+        if state.regime().frequency * h > MAX_PHASE {
             break;
         }
-        walk.accept(state);
-        reached += 1;
-        // Peaks that are beaten from here on: accelerations are taken at each sample; drifts at the end of the run, up to
-        // which their rates must keep their signs.
-        for i in members(accelerations) {
-            observer.take_acceleration(i, state.a[i], reached as f64 * h);
-            state.bounds.a_peak[i] = observer.peaks.floor_acceleration[i].value;
-        }
-        for i in members(drifts) {
-            (state.bounds.middle[i], state.bounds.reach[i]) = middle_and_reach(state.guarded_drift(i));
-            (state.bounds.sign[i], state.bounds.turn[i]) = (state.v[i].signum(), 0.0);
-        }
-        followed |= drifts;
-        if observer.recorder_at(reached).is_some() {
-            walk.put_blocks(&mut state.motions);
-            observer.record(state, reached);
-        }
+        // The series of the step gives the extremes; then the run goes on.
+        state.begin_interval(motion, reached);
+        state.form_series(0.0, h);
+        walk.beaten.turn(state, observer, turns);
+        state.update_bounds(observer);
+        walk.series += 1;
+        walk.isolated += (turns[0].count_ones() + turns[1].count_ones()) as usize;
     }
+    walk.on_ground.go_back(reached, h, drive);
     walk.put_blocks(&mut state.motions);
-    take_peaks(state, observer, followed, reached as f64 * h);
+    walk.beaten.take_followed(state, observer, reached as f64 * h);
     reached
-}
-
-/// Takes the peaks of drifts that have been followed, at the end of doing so.
-fn take_peaks(state: &mut State, observer: &mut Observer, followed: Set, time: f64) {
-    for i in members(followed) {
-        state.bounds.spring_changed(i);
-        observer.take_drift(state, i, state.x[i], time);
-    }
 }
 
 impl State<'_> {

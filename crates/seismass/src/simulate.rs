@@ -1,5 +1,6 @@
 //! The run: a scene and a motion in, a response out.
 
+use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::bernstein::Polynomial;
@@ -77,14 +78,14 @@ pub(crate) fn run(
         if i >= quiet_from && run.no_peak_can_be_beaten() {
             break;
         }
-        run.set_interval(motion, i);
+        run.state.begin_interval(motion, i);
         let (reached, is_open) = run.plain_run(motion, i, quiet_from);
         if reached > i {
             i = reached;
             if !is_open {
                 continue;
             }
-            run.set_interval(motion, i);
+            run.state.begin_interval(motion, i);
         }
         if let Some((storey, time)) = run.series_interval()? {
             status = Status::Collapsed { storey: storey + 1, time };
@@ -203,14 +204,6 @@ impl Run<'_> {
         })
     }
 
-    /// Moves on to the interval between samples `i` and `i + 1`.
-    fn set_interval(&mut self, motion: &Motion, i: usize) {
-        self.state.set_interval(motion, i);
-        if self.state.vertical {
-            self.state.refresh_accelerations(0.0);
-        }
-    }
-
     /// Takes plain steps from interval `i` as far as nothing has to be looked at between; returns the interval reached,
     /// and whether that one is not plain.
     fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> (usize, bool) {
@@ -229,6 +222,8 @@ impl Run<'_> {
         let reached = state.plain_run(&mut self.walk, &mut self.observer, motion, i, end);
         self.statistics.intervals += reached - i;
         self.statistics.plain_steps += reached - i;
+        self.statistics.series_steps += take(&mut self.walk.series);
+        self.statistics.guards_isolated += take(&mut self.walk.isolated);
         if let Some(before) = before.filter(|_| reached > i) {
             state.add_energy_of_interval(before, &mut self.observer);
         }

@@ -4,7 +4,7 @@ use std::mem::swap;
 
 use crate::lanes::{FAR, Vector, load};
 use crate::model::Model;
-use crate::state::{THIRD, range};
+use crate::state::{THIRD, range, ranges};
 
 /// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits.
 pub(crate) const SMALL_DIFFERENCE: f64 = 1e-6;
@@ -18,7 +18,7 @@ pub(crate) struct Layer {
     pub(crate) turn: Vec<f64>,
     pub(crate) velocity: Vec<f64>,
     pub(crate) slip: Vec<f64>,
-    /// Velocity and slip at the end of the step that was not cleared.
+    /// Velocity and slip at the end of the present step.
     pub(crate) after: [Vec<f64>; 2],
 }
 
@@ -51,7 +51,7 @@ impl Layer {
         (self.velocity[lane], self.slip[lane]) = (0.0, 0.0);
     }
 
-    /// Takes the step that was not cleared.
+    /// Takes the present step.
     pub(crate) fn accept(&mut self) {
         let [velocity, slip] = &mut self.after;
         swap(&mut self.velocity, velocity);
@@ -126,7 +126,27 @@ impl<V: Vector, const K: usize> LayerInLanes<V, K> {
     }
 }
 
+impl<V: Vector, const K: usize> LayerInLanes<V, K> {
+    /// A closer look at whether a block may turn in the step to `velocity`, by the Bezier points of relative velocities.
+    #[inline(always)]
+    pub(crate) fn turns(&self, velocity: &[V; K], push: &Push<V, K>) -> bool {
+        let (zero, third, digits) = (V::splat(0.0), V::splat(push.h * THIRD), V::splat(-SMALL_DIFFERENCE));
+        let mut turning = 0;
+        for k in 0..K {
+            let rate = zero.sub(self.friction[k].mul(V::splat(push.contact.start)).add(push.a[0][k]));
+            let rate_after = zero.sub(self.friction[k].mul(V::splat(push.contact.end)).add(push.a[1][k]));
+            let ends = ([self.velocity[k], rate], [velocity[k], rate_after]);
+            let (low, high) = ranges(ends.0, ends.1, third, push.margin[k]);
+            let towards = zero.sub(self.sign[k].mul(low)).max(zero.sub(self.sign[k].mul(high)));
+            let bound = digits.mul_add(push.velocity[k].abs(), self.turn[k]);
+            turning |= towards.not_below(bound);
+        }
+        turning != 0
+    }
+}
+
 /// A block that slides on the ground.
+#[derive(Clone, Copy)]
 pub(crate) struct GroundBlock {
     pub(crate) block: usize,
     pub(crate) friction: f64,
@@ -157,8 +177,7 @@ impl Linear {
 }
 
 /// Whether the ground holds blocks that are stuck to it with `stuck_mu`, by accelerations and contact forces over a step.
-#[inline(always)]
-pub(crate) fn holds_on_ground(ground: Linear, contact: Linear, stuck_mu: f64) -> bool {
+fn holds_on_ground(ground: Linear, contact: Linear, stuck_mu: f64) -> bool {
     ground.start.abs() < stuck_mu * contact.start && ground.end.abs() < stuck_mu * contact.end
 }
 
@@ -189,4 +208,85 @@ pub(crate) fn move_on_ground(
         block.velocity = end(block);
     }
     true
+}
+
+/// Blocks on the ground, which nothing but the ground moves: they go ahead of the building as far as none has an event.
+pub(crate) struct OnGround {
+    sliding: Vec<GroundBlock>,
+    /// The same where they last went ahead from.
+    before: Vec<GroundBlock>,
+    /// Samples that they last went ahead from, and have come to.
+    from: usize,
+    ahead: usize,
+    stuck_mu: f64,
+}
+
+impl OnGround {
+    /// Intervals that they go ahead at once.
+    const STRETCH: usize = 32;
+
+    pub(crate) fn new() -> Self {
+        Self { sliding: Vec::new(), before: Vec::new(), from: 0, ahead: 0, stuck_mu: f64::INFINITY }
+    }
+
+    /// Starts anew at a sample, without blocks that slide and with `stuck_mu` of those that do not.
+    #[inline]
+    pub(crate) fn begin(&mut self, sample: usize, stuck_mu: f64) {
+        self.sliding.clear();
+        (self.from, self.ahead, self.stuck_mu) = (sample, sample, stuck_mu);
+    }
+
+    pub(crate) fn push(&mut self, block: GroundBlock) {
+        self.sliding.push(block);
+    }
+
+    /// Those that slide, where they have come to.
+    pub(crate) fn sliding(&self) -> &[GroundBlock] {
+        &self.sliding
+    }
+
+    /// Whether there is anything to look at.
+    #[inline]
+    pub(crate) fn is_watched(&self) -> bool {
+        !self.sliding.is_empty() || self.stuck_mu < f64::INFINITY
+    }
+
+    /// Lets them go ahead of the building, which has come to sample `reached`, if they are not; to `end` at most, and by
+    /// one interval if they are to stay together. `drive` gives ground acceleration and contact force in an interval.
+    /// Returns the sample that they have come to.
+    pub(crate) fn go_ahead(
+        &mut self,
+        reached: usize,
+        end: usize,
+        stay_together: bool,
+        h: f64,
+        drive: impl Fn(usize) -> (Linear, Linear),
+    ) -> usize {
+        if reached == self.ahead {
+            self.before.clone_from(&self.sliding);
+            self.from = reached;
+            let stretch = if stay_together { 1 } else { Self::STRETCH };
+            self.move_to(end.min(reached + stretch), h, drive);
+        }
+        self.ahead
+    }
+
+    /// Takes them back to the sample that the building has come to.
+    pub(crate) fn go_back(&mut self, reached: usize, h: f64, drive: impl Fn(usize) -> (Linear, Linear)) {
+        if reached < self.ahead {
+            self.sliding.clone_from(&self.before);
+            self.ahead = self.from;
+            self.move_to(reached, h, drive);
+        }
+    }
+
+    fn move_to(&mut self, end: usize, h: f64, drive: impl Fn(usize) -> (Linear, Linear)) {
+        while self.ahead < end {
+            let (ground, contact) = drive(self.ahead);
+            if !move_on_ground(&mut self.sliding, ground, contact, h, self.stuck_mu) {
+                break;
+            }
+            self.ahead += 1;
+        }
+    }
 }

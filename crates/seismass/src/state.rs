@@ -602,6 +602,15 @@ impl<'a> State<'a> {
         let vertical = motion.vertical().filter(|_| self.vertical);
         self.interval = interval(motion, vertical, i);
     }
+
+    /// Moves on to the interval between samples `i` and `i + 1` of a motion, at whose start the state is: with vertical
+    /// motion, the rates of accelerations turn there.
+    pub(crate) fn begin_interval(&mut self, motion: &Motion, i: usize) {
+        self.set_interval(motion, i);
+        if self.vertical {
+            self.refresh_accelerations(0.0);
+        }
+    }
 }
 
 fn interval(motion: &Motion, vertical: Option<&[f64]>, i: usize) -> Interval {
@@ -732,5 +741,36 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
             suspects |= Set::from(reached.not_below(bound)) << (WIDTH * k);
         }
         state.ranges.suspects[which] = suspects & state.ranges.within;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said to stay above zero does so: cubics that deviate by their margin times 16 s^2 (1 - s)^2 either way.
+    #[test]
+    fn what_stays_above_zero_does_so() {
+        let points = || (0..=8).map(|k| -1.0 + 0.25 * f64::from(k));
+        let (mut proved, mut others) = (0, 0);
+        for (start, b1, b2, end) in [0.0, 0.25, 1.0]
+            .into_iter()
+            .flat_map(|start| points().map(move |b1| (start, b1)))
+            .flat_map(|(start, b1)| points().map(move |b2| (start, b1, b2)))
+            .flat_map(|(start, b1, b2)| points().map(move |end| (start, b1, b2, end)))
+        {
+            for margin in [0.0, 0.01, 0.1] {
+                let rates = [3.0 * (b1 - start), 3.0 * (end - b2)];
+                let stays = stays_above_zero([start, rates[0]], [end, rates[1]], 1.0 / 3.0, margin, 0.0);
+                let lowest = (1..=1000).map(|k| f64::from(k) / 1000.0).fold(f64::INFINITY, |lowest, s| {
+                    let t = 1.0 - s;
+                    let cubic = start * t * t * t + 3.0 * s * t * (b1 * t + b2 * s) + end * s * s * s;
+                    lowest.min(cubic - 16.0 * margin * s * s * t * t)
+                });
+                assert!(!stays || lowest > 0.0, "{start} {b1} {b2} {end} {margin}: {lowest}");
+                if stays { proved += 1 } else { others += usize::from(lowest > 0.0) }
+            }
+        }
+        assert!(proved > 500 && others < 3 * proved, "proved {proved}, true without proof {others}");
     }
 }

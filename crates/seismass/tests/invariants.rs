@@ -51,6 +51,10 @@ impl Case {
         let mut plain = simulate(&self.scene(), &self.motion(), &Options { energy: false, ..options }).unwrap();
         plain.energy = series.energy;
         assert!(same_bits(&series, &plain), "energies change nothing else");
+        let without = simulate(&self.scene(), &self.motion(), &Options { histories: None, energy: false, ..options });
+        plain.histories = None;
+        plain.energy = None;
+        assert!(same_bits(&plain, &without.unwrap()), "histories change nothing else");
         series
     }
 
