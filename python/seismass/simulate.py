@@ -137,7 +137,7 @@ class Statistics(TypedDict):
     plain_steps: int
     """Steps by a propagator that were proved free of events by bounds alone."""
     series_steps: int
-    """Steps for which a Taylor series was formed."""
+    """Steps for which a Taylor series was formed, plain steps inside which a peak is beaten among them."""
     guards_isolated: int
     """Guards and peaks looked at with Bernstein polynomials."""
     events: int

@@ -192,7 +192,7 @@ pub struct Statistics {
     pub intervals: usize,
     /// Steps by a regime's propagator whose guards were proved clear by bounds alone.
     pub plain_steps: usize,
-    /// Steps for which the Taylor series was formed.
+    /// Steps for which the Taylor series was formed, plain steps inside which a peak is beaten among them.
     pub series_steps: usize,
     /// Guards and peaks looked at with Bernstein polynomials.
     pub guards_isolated: usize,

@@ -6,8 +6,9 @@ use crate::lanes::{FAR, Vector, load};
 use crate::model::Model;
 use crate::state::{THIRD, range, ranges};
 
-/// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits.
-pub(crate) const SMALL_DIFFERENCE: f64 = 1e-6;
+/// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits: at 1e-6, slips
+/// of blocks that hardly move were known to 1e-9.
+pub(crate) const SMALL_DIFFERENCE: f64 = 1e-4;
 
 /// Blocks that slide, at most one on each floor. Padded; lanes in which no block slides never turn.
 pub(crate) struct Layer {
@@ -124,9 +125,7 @@ impl<V: Vector, const K: usize> LayerInLanes<V, K> {
         }
         (after, turning != 0)
     }
-}
 
-impl<V: Vector, const K: usize> LayerInLanes<V, K> {
     /// A closer look at whether a block may turn in the step to `velocity`, by the Bezier points of relative velocities.
     #[inline(always)]
     pub(crate) fn turns(&self, velocity: &[V; K], push: &Push<V, K>) -> bool {
