@@ -87,6 +87,26 @@ pub(crate) fn apart<V: Vector>([x, v, q]: [V; 3], [a, jerk]: [V; 2], middle: V, 
     ]
 }
 
+/// How far ranges go from their middles, to either side.
+#[inline(always)]
+pub(crate) fn farthest<V: Vector>((low, high): (V, V), middle: V) -> V {
+    high.sub(middle).max(middle.sub(low))
+}
+
+/// How far ranges go against a sign.
+#[inline(always)]
+pub(crate) fn against<V: Vector>((low, high): (V, V), sign: V) -> V {
+    let zero = V::splat(0.0);
+    zero.sub(sign.mul(low)).max(zero.sub(sign.mul(high)))
+}
+
+/// Lanes, as bits, of ranges above zero, and of those below it.
+#[inline(always)]
+pub(crate) fn signs<V: Vector>((low, high): (V, V)) -> (u32, u32) {
+    let zero = V::splat(0.0);
+    (!zero.not_below(low), !high.not_below(zero))
+}
+
 /// The middle of a range and half its length, made finite.
 #[inline(always)]
 pub(crate) fn middle_and_reach((low, high): (f64, f64)) -> (f64, f64) {

@@ -5,7 +5,7 @@
 
 use std::mem::take;
 
-use crate::bounds::{self, Bounds, Set, members};
+use crate::bounds::{self, Bounds, Set, against, farthest, members, signs};
 use crate::lanes::{Vector, WIDTH, for_each_path, load, store};
 use crate::model::Model;
 use crate::observe::Observer;
@@ -91,26 +91,28 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
 /// What a closer look at a step finds that the loop did not clear.
 pub(crate) struct Closer {
     /// Whether a guard may fall.
-    pub(crate) fails: bool,
+    fails: bool,
     /// Storeys and floors whose peaks of drift or shear and of acceleration the end of the step may beat.
     beaten: [Set; 2],
     /// Those that may turn beyond their peaks inside the step.
-    pub(crate) turns: [Set; 2],
+    turns: [Set; 2],
 }
 
 impl Closer {
-    /// Looks at what the loop did not clear in a step by the Bezier points themselves. Margins are per unit of `norm`.
+    /// Looks at what the loop did not clear in a step by the Bezier points themselves. Margins are per unit of `norm`;
+    /// `bounds` are those of the run, `in_state` those that the state has.
     #[inline(always)]
     pub(crate) fn look<V: Vector, const K: usize>(
         suspects: [Set; 3],
         bounds: &BoundsInLanes<V, K>,
-        (guarded, plastic): (&[[V; K]; 2], Set),
+        in_state: &Bounds,
         [before, after]: [&Sample<V, K>; 2],
         (norm, margins): (V, &[[V; K]; 4]),
         h: f64,
         least_contact: V,
     ) -> Self {
         let (zero, third) = (V::splat(0.0), V::splat(h * THIRD));
+        let (lowest, highest): ([V; K], [V; K]) = (load(&in_state.guarded[0]), load(&in_state.guarded[1]));
         // Between its ends a jerk differs from its chord by at most h^2 / 8 times its second derivative.
         let chord = V::splat(0.125 * h * h / off_cubic(h));
         let mut closer = Self { fails: false, beaten: [0; 2], turns: [0; 2] };
@@ -121,17 +123,15 @@ impl Closer {
             // Rates keep the signs that they must keep: those of plastic storeys, and where a peak is followed.
             let (start, end) = ([before.v[k], before.q[k]], [after.v[k], after.q[k]]);
             let rate = ranges(start, end, third, norm.mul(margins[1][k]));
-            let sign = bounds.sign[k];
-            let towards = zero.sub(sign.mul(rate.0)).max(zero.sub(sign.mul(rate.1)));
-            let turning = of[1] & towards.not_below(bounds.turn[k]);
+            let turning = of[1] & against(rate, bounds.sign[k]).not_below(bounds.turn[k]);
             // Drifts come to no guard; they beat no peak, or at the end of the step.
             let (start, end) = ([before.x[k], before.v[k]], [after.x[k], after.v[k]]);
-            let (low, high) = ranges(start, end, third, norm.mul(margins[0][k]));
-            let middle = bounds.middle[k];
-            let beaten = of[0] & high.sub(middle).max(middle.sub(low)).not_below(bounds.reach[k]);
-            let guarded = high.not_below(guarded[1][k]) | guarded[0][k].not_below(low);
-            let steady = !zero.not_below(rate.0) | !rate.1.not_below(zero);
-            let plastic = (plastic >> lanes) as u32;
+            let drift = ranges(start, end, third, norm.mul(margins[0][k]));
+            let beaten = of[0] & farthest(drift, bounds.middle[k]).not_below(bounds.reach[k]);
+            let guarded = drift.1.not_below(highest[k]) | lowest[k].not_below(drift.0);
+            let (forward, backward) = signs(rate);
+            let steady = forward | backward;
+            let plastic = (in_state.plastic >> lanes) as u32;
             closer.fails |= (beaten | turning) & guarded | turning & plastic != 0;
             closer.beaten[0] |= Set::from(beaten) << lanes;
             closer.turns[0] |= Set::from(turning & !plastic | beaten & !steady) << lanes;

@@ -130,16 +130,16 @@ impl State<'_> {
         for i in self.looked_at(drifts) {
             let (low, high) = self.ranges.drift(i);
             let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
-            for (sign, reached, yields, collapses) in
-                [(Sign::Positive, high, yields.1, collapses.1), (Sign::Negative, -low, -yields.0, -collapses.0)]
-            {
-                if reached >= yields && yields < f64::INFINITY && !self.stays_below(i, yields, sign) {
+            let (storey, collapse) = (i, Guard::Collapse { storey: i });
+            for (sign, reached, limit, guard) in [
+                (Sign::Positive, high, yields.1, Guard::Yield { storey, sign: Sign::Positive }),
+                (Sign::Positive, high, collapses.1, collapse),
+                (Sign::Negative, -low, -yields.0, Guard::Yield { storey, sign: Sign::Negative }),
+                (Sign::Negative, -low, -collapses.0, collapse),
+            ] {
+                if reached >= limit && limit < f64::INFINITY && !self.stays_below(i, limit, sign) {
                     *isolated += 1;
-                    self.drift_guard::<V>(i, yields, sign, Guard::Yield { storey: i, sign }, first);
-                }
-                if reached >= collapses && collapses < f64::INFINITY {
-                    *isolated += 1;
-                    self.drift_guard::<V>(i, collapses, sign, Guard::Collapse { storey: i }, first);
+                    self.drift_guard::<V>(i, limit, sign, guard, first);
                 }
             }
         }

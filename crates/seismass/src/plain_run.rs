@@ -378,10 +378,8 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             for suspects in &mut suspects {
                 *suspects &= within;
             }
-            let guarded = [load(&state.bounds.guarded[0]), load(&state.bounds.guarded[1])];
-            let guards = (&guarded, state.bounds.plastic);
             let samples = [&sample, &taken];
-            let closer = Closer::look(suspects, &bounds, guards, samples, (norm, &margins), h, least_contact);
+            let closer = Closer::look(suspects, &bounds, &state.bounds, samples, (norm, &margins), h, least_contact);
             let (fails, time) = (is_turning || !has_contact, (reached + 1) as f64 * h);
             let in_state = (&state.bounds, &mut bounds);
             if !walk.beaten.note(&closer, fails, reached == first, samples, time, in_state) {

@@ -212,6 +212,8 @@ fn remainders_of_few<V: Vector, const S: usize>(
     }
 }
 
+/// [`form_remainders`] storey by storey: the series of (q, q') = unit vectors, as drifts and drift rates of the homogeneous
+/// system, whose accelerations then are the second derivatives of the floor accelerations.
 #[inline(always)]
 fn remainders<V: Vector, const K: usize>(
     model: &Model,
@@ -221,58 +223,42 @@ fn remainders<V: Vector, const K: usize>(
     sums: &mut [f64],
     terms: &mut [f64],
 ) {
-    let n = model.storeys();
-    let operator = Operator::<V, K>::new(model, regime);
-    for i in 0..n {
-        remainders_of_storey(model, &operator, i, h, order, sums, terms);
-    }
-}
-
-/// The series of (q, q') = unit vectors, as drifts and drift rates of the homogeneous system, whose accelerations then
-/// are the second derivatives of the floor accelerations: the two columns of a storey.
-#[inline(always)]
-fn remainders_of_storey<V: Vector, const K: usize>(
-    model: &Model,
-    operator: &Operator<V, K>,
-    storey: usize,
-    h: f64,
-    order: usize,
-    sums: &mut [f64],
-    terms: &mut [f64],
-) {
     let (n, width) = (model.storeys(), WIDTH * K);
+    let operator = Operator::<V, K>::new(model, regime);
     let zero = [V::splat(0.0); K];
     let inside: [V; K] = load(&model.lanes.inside);
     let keeps_terms = !terms.is_empty();
-    let (mut x, mut v) = ([unit(storey), zero], [zero, unit(storey)]);
-    let places = [storey, n + storey];
-    let mut rows = [[zero; 4]; 2];
-    for k in 0..=order {
-        let (once, twice) = (h * INVERSE[k + 1], h * h * (INVERSE[k + 1] * INVERSE[k + 2]));
-        let (once, twice) = (V::splat(once), V::splat(twice));
-        for column in 0..2 {
-            let a = operator.accelerations(&x[column], &v[column], zero);
-            let drift_acceleration = differences(&a, V::splat(0.0));
-            let mut term = zero;
-            for l in 0..K {
-                let rows = &mut rows[column];
-                term[l] = twice.mul(a[l]);
-                rows[0][l] = twice.mul_add(x[column][l], rows[0][l]);
-                rows[1][l] = once.mul_add(x[column][l], rows[1][l]);
-                rows[2][l] = rows[2][l].add(term[l]);
-                rows[3][l] = once.mul_add(a[l], rows[3][l]);
-                x[column][l] = once.mul(v[column][l]);
-                v[column][l] = once.mul(drift_acceleration[l]).mul(inside[l]);
-            }
-            if keeps_terms && k + 2 <= order {
-                store(&term, &mut terms[(k * 2 * n + places[column]) * width..]);
+    for storey in 0..n {
+        let (mut x, mut v) = ([unit(storey), zero], [zero, unit(storey)]);
+        let places = [storey, n + storey];
+        let mut rows = [[zero; 4]; 2];
+        for k in 0..=order {
+            let (once, twice) = (h * INVERSE[k + 1], h * h * (INVERSE[k + 1] * INVERSE[k + 2]));
+            let (once, twice) = (V::splat(once), V::splat(twice));
+            for column in 0..2 {
+                let a = operator.accelerations(&x[column], &v[column], zero);
+                let drift_acceleration = differences(&a, V::splat(0.0));
+                let mut term = zero;
+                for l in 0..K {
+                    let rows = &mut rows[column];
+                    term[l] = twice.mul(a[l]);
+                    rows[0][l] = twice.mul_add(x[column][l], rows[0][l]);
+                    rows[1][l] = once.mul_add(x[column][l], rows[1][l]);
+                    rows[2][l] = rows[2][l].add(term[l]);
+                    rows[3][l] = once.mul_add(a[l], rows[3][l]);
+                    x[column][l] = once.mul(v[column][l]);
+                    v[column][l] = once.mul(drift_acceleration[l]).mul(inside[l]);
+                }
+                if keeps_terms && k + 2 <= order {
+                    store(&term, &mut terms[(k * 2 * n + places[column]) * width..]);
+                }
             }
         }
-    }
-    for column in 0..2 {
-        let out = &mut sums[4 * places[column] * width..];
-        for r in 0..4 {
-            store(&rows[column][r], &mut out[r * width..]);
+        for column in 0..2 {
+            let out = &mut sums[4 * places[column] * width..];
+            for r in 0..4 {
+                store(&rows[column][r], &mut out[r * width..]);
+            }
         }
     }
 }

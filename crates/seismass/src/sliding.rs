@@ -2,6 +2,7 @@
 
 use std::mem::swap;
 
+use crate::bounds::against;
 use crate::lanes::{FAR, Vector, load};
 use crate::model::Model;
 use crate::state::{THIRD, range, ranges};
@@ -135,10 +136,9 @@ impl<V: Vector, const K: usize> LayerInLanes<V, K> {
             let rate = zero.sub(self.friction[k].mul(V::splat(push.contact.start)).add(push.a[0][k]));
             let rate_after = zero.sub(self.friction[k].mul(V::splat(push.contact.end)).add(push.a[1][k]));
             let ends = ([self.velocity[k], rate], [velocity[k], rate_after]);
-            let (low, high) = ranges(ends.0, ends.1, third, push.margin[k]);
-            let towards = zero.sub(self.sign[k].mul(low)).max(zero.sub(self.sign[k].mul(high)));
+            let range = ranges(ends.0, ends.1, third, push.margin[k]);
             let bound = digits.mul_add(push.velocity[k].abs(), self.turn[k]);
-            turning |= towards.not_below(bound);
+            turning |= against(range, self.sign[k]).not_below(bound);
         }
         turning != 0
     }

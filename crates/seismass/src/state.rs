@@ -1,7 +1,7 @@
 //! The state of a run: drifts, drift rates, spring and block machines, and what one sample interval does to them.
 
 use crate::STANDARD_GRAVITY;
-use crate::bounds::{Bounds, Set, first};
+use crate::bounds::{Bounds, Set, against, farthest, first};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand};
 use crate::lanes::{
@@ -734,8 +734,8 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
         let mut suspects = 0;
         for k in 0..K {
             let (reached, bound) = match which {
-                0 => (highs[k].sub(about[k]).max(about[k].sub(lows[k])), bound[k]),
-                1 => (zero.sub(about[k].mul(lows[k])).max(zero.sub(about[k].mul(highs[k]))), bound[k]),
+                0 => (farthest((lows[k], highs[k]), about[k]), bound[k]),
+                1 => (against((lows[k], highs[k]), about[k]), bound[k]),
                 _ => (highs[k].max(zero.sub(lows[k])), about[k].mul(V::splat(contact)).min(bound[k])),
             };
             suspects |= Set::from(reached.not_below(bound)) << (WIDTH * k);

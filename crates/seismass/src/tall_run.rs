@@ -11,7 +11,7 @@
 use crate::STANDARD_GRAVITY;
 use crate::banded_step::{BandedStep, whole_blocks};
 use crate::bernstein::{MAX_DEGREE, Polynomial};
-use crate::bounds::{Set, members};
+use crate::bounds::{Set, members, signs};
 use crate::full_step::{FullStep, Shears};
 use crate::lanes::{Plain, Vector, WIDTH, at, filled_to, for_each_path, lanes, lanes_mut};
 use crate::observe::Observer;
@@ -302,13 +302,6 @@ fn quintic_ranges<V: Vector>(start: [V; 3], end: [V; 3], h: f64, margin: V) -> (
         (low, high) = (low.min(point), high.max(point));
     }
     (low.sub(margin), high.add(margin))
-}
-
-/// Lanes that are above zero, and those that are below it.
-#[inline(always)]
-fn signs<V: Vector>((low, high): (V, V)) -> (u32, u32) {
-    let zero = V::splat(0.0);
-    (!zero.not_below(low), !high.not_below(zero))
 }
 
 /// Second derivatives of floor and drift accelerations at both ends of a step, and the norm of the derivatives there.
