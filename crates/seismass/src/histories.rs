@@ -1,6 +1,8 @@
 //! Histories while a run writes them, row by row.
 
-use crate::lanes::{Vector, WIDTH, load, numbers, store};
+use std::hint::black_box;
+
+use crate::lanes::{Vector, WIDTH, load, store};
 use crate::model::Model;
 use crate::regime::Row;
 use crate::response::Histories;
@@ -12,53 +14,59 @@ use crate::state::State;
 struct Table {
     values: Vec<f64>,
     width: usize,
-    /// Numbers written so far.
-    end: usize,
 }
 
 impl Table {
     /// Room for so many rows, of `width` numbers, written in `written` numbers.
     fn new(rows: usize, width: usize, written: usize) -> Self {
         let length = if width > 0 { rows * width + written - width } else { 0 };
-        Self { values: vec![0.0; length], width, end: 0 }
+        Self { values: vec![0.0; length], width }
     }
 
-    /// The place of the next row, and all after it; the row counts as written.
+    /// The place of a row, and all after it.
     #[inline(always)]
-    fn next_row(&mut self) -> &mut [f64] {
-        let from = self.end;
-        self.end += self.width;
-        self.values.get_mut(from..).unwrap_or_default()
+    fn rows_from(&mut self, row: usize) -> &mut [f64] {
+        self.values.get_mut(row * self.width..).unwrap_or_default()
     }
 
-    /// Appends a row in vectors.
+    /// Writes a row in vectors.
     #[inline(always)]
-    fn append<V: Vector, const K: usize>(&mut self, row: &[V; K]) {
-        store(row, self.next_row());
+    fn put<V: Vector, const K: usize>(&mut self, row: usize, values: &[V; K]) {
+        store(values, self.rows_from(row));
     }
 
-    /// Appends a padded row.
+    /// Writes a row.
     #[inline(always)]
-    fn append_padded(&mut self, row: &[f64]) {
-        let out = self.next_row().as_chunks_mut::<WIDTH>().0;
-        for (out, row) in out.iter_mut().zip(row.as_chunks::<WIDTH>().0) {
-            *out = *row;
-        }
+    fn put_row(&mut self, row: usize, values: impl Iterator<Item = f64>) {
+        self.rows_from(row).iter_mut().zip(values).for_each(|(out, value)| *out = value);
     }
 
-    /// Appends a row.
-    fn append_row(&mut self, row: impl Iterator<Item = f64>) {
-        self.next_row().iter_mut().zip(row).for_each(|(out, value)| *out = value);
-    }
-
-    /// The rows, with NaN in those that were not written.
-    fn finish(mut self, rows: usize) -> Vec<f64> {
+    /// The rows, with NaN in those from `written` on.
+    fn finish(mut self, rows: usize, written: usize) -> Vec<f64> {
         self.values.truncate(rows * self.width);
-        if let Some(missing) = self.values.get_mut(self.end..) {
-            missing.fill(f64::NAN);
-        }
+        self.rows_from(written).fill(f64::NAN);
         self.values
     }
+}
+
+/// Sums of each lane and all below it, each added to the sum below it, as those of numbers are formed.
+#[inline(always)]
+fn running_sums<V: Vector, const K: usize>(values: &[V; K]) -> [V; K] {
+    let (mut below, mut sums) = (V::splat(0.0), *values);
+    for k in 0..K {
+        // Each turn makes one lane more right; below the lowest of all is zero.
+        for _ in usize::from(k == 0)..WIDTH {
+            sums[k] = values[k].add(sums[k].shifted_up(below));
+        }
+        below = sums[k];
+    }
+    sums
+}
+
+/// Has glibc keep memory of so many numbers from run to run: it does so once it has seen as much in one piece (`mallopt`,
+/// `M_TRIM_THRESHOLD`), and gives several smaller pieces back to the system each time. New pages cost more than the run.
+fn keep_memory(numbers: usize) {
+    drop(black_box(Vec::<f64>::with_capacity(numbers)));
 }
 
 /// Drift coordinates, drift rates and floor accelerations of a row, in vectors.
@@ -73,7 +81,8 @@ pub(crate) struct Recorder {
     every: usize,
     rows: usize,
     displacements_only: bool,
-    /// The next sample of which a row is kept.
+    /// Rows written so far, and the sample of the next.
+    written: usize,
     next_sample: usize,
     drift: Table,
     slip: Table,
@@ -88,6 +97,8 @@ pub(crate) struct Recorder {
     /// By block, padded: slip and relative velocity as the next row has them.
     slips: Vec<f64>,
     velocities: Vec<f64>,
+    /// Of the ground and of the floors, padded: velocity in the row that is written.
+    floor_velocities: Vec<f64>,
 }
 
 impl Recorder {
@@ -96,27 +107,40 @@ impl Recorder {
         let (n, blocks) = (model.storeys(), model.blocks.len());
         let rows = samples.div_ceil(every);
         let (storeys, blocks_written) = (model.width, blocks.next_multiple_of(WIDTH));
-        let others = if options.displacements_only { 0 } else { rows };
-        let of_storeys = |rows: usize| Table::new(rows, if rows > 0 { n } else { 0 }, storeys);
-        let of_blocks = |rows: usize| Table::new(rows, if rows > 0 { blocks } else { 0 }, blocks_written);
+        let all = !options.displacements_only;
+        let of_storeys = |is_kept: bool| Table::new(rows, if is_kept { n } else { 0 }, storeys);
+        let of_blocks = |is_kept: bool| Table::new(rows, if is_kept { blocks } else { 0 }, blocks_written);
         let zero = |length: usize| vec![0.0; length];
+        if cfg!(target_env = "gnu") {
+            keep_memory(rows * if all { 4 * storeys + 2 * blocks_written } else { storeys + blocks_written });
+        }
         Self {
             every,
             rows,
             displacements_only: options.displacements_only,
+            written: 0,
             next_sample: 0,
-            drift: of_storeys(rows),
-            slip: of_blocks(rows),
-            floor_velocity: of_storeys(others),
-            block_velocity: of_blocks(others),
-            floor_acceleration: of_storeys(others),
-            storey_force: of_storeys(others),
+            drift: of_storeys(true),
+            slip: of_blocks(true),
+            floor_velocity: of_storeys(all),
+            block_velocity: of_blocks(all),
+            floor_acceleration: of_storeys(all),
+            storey_force: of_storeys(all),
             base_drift: zero(storeys),
             base_force: zero(storeys),
             tangent: zero(storeys),
             slips: zero(blocks_written),
             velocities: zero(blocks_written),
+            floor_velocities: zero(1 + storeys),
         }
+    }
+
+    /// The row to be written, which counts as written.
+    #[inline(always)]
+    fn next_row(&mut self) -> usize {
+        self.next_sample += self.every;
+        self.written += 1;
+        self.written - 1
     }
 
     /// The next sample of which a row is kept.
@@ -130,12 +154,7 @@ impl Recorder {
         let is_last = self.next_sample == sample + self.every;
         if is_last {
             self.next_sample = sample;
-            let of_storeys =
-                [&mut self.drift, &mut self.floor_velocity, &mut self.floor_acceleration, &mut self.storey_force];
-            let of_blocks = [&mut self.slip, &mut self.block_velocity];
-            for table in of_storeys.into_iter().chain(of_blocks) {
-                table.end -= table.width;
-            }
+            self.written -= 1;
         }
         is_last
     }
@@ -163,7 +182,7 @@ impl Recorder {
     /// Appends a row with the springs and blocks taken up.
     #[inline(always)]
     pub(crate) fn append<V: Vector, const K: usize>(&mut self, model: &Model, row: &RowInLanes<V, K>) {
-        self.next_sample += self.every;
+        let at = self.next_row();
         let base: [V; K] = load(&self.base_drift);
         let (force, tangent): ([V; K], [V; K]) = (load(&self.base_force), load(&self.tangent));
         let (mut drift, mut storey_force) = (base, force);
@@ -171,24 +190,28 @@ impl Recorder {
             drift[k] = base[k].add(row.x[k]);
             storey_force[k] = tangent[k].mul(row.x[k]).add(force[k]);
         }
-        self.drift.append(&drift);
-        self.slip.append_padded(&self.slips);
+        self.drift.put(at, &drift);
+        for (out, slips) in self.slip.rows_from(at).as_chunks_mut().0.iter_mut().zip(self.slips.as_chunks::<WIDTH>().0)
+        {
+            *out = *slips;
+        }
         if self.displacements_only {
             return;
         }
-        // Summed from the ground upwards, as in any other row.
-        let mut velocity = numbers(row.v);
-        let mut below = 0.0;
-        for velocity in velocity.as_flattened_mut() {
-            below += *velocity;
-            *velocity = below;
-        }
-        self.storey_force.append(&storey_force);
-        self.floor_velocity.append_padded(velocity.as_flattened());
-        self.floor_acceleration.append(row.a);
-        let floor = |floor: usize| floor.checked_sub(1).map_or(0.0, |i| velocity.as_flattened()[i]);
-        let blocks = model.blocks.iter().zip(&self.velocities);
-        self.block_velocity.append_row(blocks.map(|(law, relative)| floor(law.floor) + relative));
+        let velocity = running_sums(row.v);
+        self.storey_force.put(at, &storey_force);
+        self.floor_velocity.put(at, &velocity);
+        self.floor_acceleration.put(at, row.a);
+        store(&velocity, &mut self.floor_velocities[1..]);
+        self.put_block_velocities(at, model);
+    }
+
+    /// Writes the velocities of the blocks of a row.
+    #[inline(always)]
+    fn put_block_velocities(&mut self, at: usize, model: &Model) {
+        let velocities = model.blocks.iter().zip(&self.velocities);
+        let velocities = velocities.map(|(law, relative)| self.floor_velocities[law.floor] + relative);
+        self.block_velocity.put_row(at, velocities);
     }
 
     /// Appends a row: drift coordinates, drift rates, floor accelerations, and (velocity, slip) of the blocks, in the
@@ -199,41 +222,43 @@ impl Recorder {
         x: &[f64],
         v: &[f64],
         a: &[f64],
-        blocks: impl Iterator<Item = (f64, f64)> + Clone,
+        blocks: impl Iterator<Item = (f64, f64)>,
     ) {
-        self.next_sample += self.every;
-        self.drift.append_row(state.springs.iter().zip(x).map(|(spring, &x)| spring.drift(x)));
-        self.slip.append_row(blocks.clone().map(|(_, slip)| slip));
+        let at = self.next_row();
+        for (block, (velocity, slip)) in blocks.enumerate() {
+            self.move_block(block, velocity, slip);
+        }
+        self.drift.put_row(at, state.springs.iter().zip(x).map(|(spring, &x)| spring.drift(x)));
+        self.slip.put_row(at, self.slips.iter().copied());
         if self.displacements_only {
             return;
         }
         let n = state.storeys();
         let tangent = state.regime().row(Row::SpringTangent);
         let forces = state.base_force.iter().zip(tangent).zip(x).map(|((base, tangent), x)| tangent * x + base);
-        self.storey_force.append_row(forces);
-        let from = self.floor_velocity.end;
-        self.floor_velocity.append_row(v[..n].iter().scan(0.0, |velocity, rate| {
-            *velocity += rate;
-            Some(*velocity)
-        }));
-        self.floor_acceleration.append_row(a[..n].iter().copied());
-        let floor = |floor: usize| floor.checked_sub(1).map_or(0.0, |i| self.floor_velocity.values[from + i]);
-        let velocities = blocks.zip(&state.model.blocks).map(|((relative, _), law)| floor(law.floor) + relative);
-        self.block_velocity.append_row(velocities);
+        self.storey_force.put_row(at, forces);
+        let mut velocity = 0.0;
+        for (out, rate) in self.floor_velocities[1..].iter_mut().zip(&v[..n]) {
+            velocity += rate;
+            *out = velocity;
+        }
+        self.floor_velocity.put_row(at, self.floor_velocities[1..=n].iter().copied());
+        self.floor_acceleration.put_row(at, a[..n].iter().copied());
+        self.put_block_velocities(at, state.model);
     }
 
     /// The histories; NaN fills what a collapsed run did not reach.
     pub(crate) fn finish(self) -> Histories {
-        let rows = self.rows;
+        let (rows, written) = (self.rows, self.written);
         Histories {
             every: self.every,
             rows,
-            drift: self.drift.finish(rows),
-            slip: self.slip.finish(rows),
-            floor_velocity: self.floor_velocity.finish(rows),
-            block_velocity: self.block_velocity.finish(rows),
-            floor_acceleration: self.floor_acceleration.finish(rows),
-            storey_force: self.storey_force.finish(rows),
+            drift: self.drift.finish(rows, written),
+            slip: self.slip.finish(rows, written),
+            floor_velocity: self.floor_velocity.finish(rows, written),
+            block_velocity: self.block_velocity.finish(rows, written),
+            floor_acceleration: self.floor_acceleration.finish(rows, written),
+            storey_force: self.storey_force.finish(rows, written),
         }
     }
 }

@@ -128,9 +128,8 @@ impl EventCounts {
 /// Histories at every `every`-th sample, row-major: `rows` x storeys or `rows` x blocks. A row at the time of an event is
 /// the state after it.
 ///
-/// They are fresh memory of each run. Where the allocator gives it back to the system in between (glibc does so with
-/// several arrays of some 100 kB), the faults of its new pages can cost as much as the run: one that keeps memory, or a
-/// large `MALLOC_TRIM_THRESHOLD_` and `MALLOC_MMAP_THRESHOLD_` in the environment of glibc, avoids them.
+/// They are memory of their own in each run. Where the allocator gives it back to the system in between, the faults of its
+/// new pages can cost as much as the run. glibc is made to keep it, up to 32 MB, unless its thresholds are set by hand.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Histories {
     /// Decimation: one row every so many samples, from sample 0.
