@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import pickle
+import platform
 import subprocess
 import sys
 import textwrap
@@ -60,6 +62,26 @@ def test_histories_are_not_copied() -> None:
     assert run is not None
     assert run.drift is run.drift
     assert run.block_velocity is run.block_velocity
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="glibc is made to keep memory; others decide themselves")
+def test_memory_of_histories_is_kept_from_run_to_run() -> None:
+    code = textwrap.dedent("""
+        import resource
+        import seismass as sm
+        scene = sm.Scene(sm.Building.uniform(3, 0.5), sm.blocks_on_floors([1.0, 1.0, 1.0], 0.3))
+        motion = sm.Motion([0.0, 1.0] * 4000, 0.005)
+        faults = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+        runs = lambda count: [sm.simulate(scene, motion, histories=True).drift.size for _ in range(count)]
+        runs(5)
+        before = faults()
+        runs(20)
+        print(faults() - before)
+    """)
+    usual = {name: value for name, value in os.environ.items() if not name.startswith("MALLOC_")}
+    child = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=usual)
+    # The histories of one run take 281 pages.
+    assert int(child.stdout) < 20 * 28, child.stdout
 
 
 def test_decimated_histories_are_rows_of_the_full_ones() -> None:

@@ -66,7 +66,11 @@ fn running_sums<V: Vector, const K: usize>(values: &[V; K]) -> [V; K] {
 /// Has glibc keep memory of so many numbers from run to run: it does so once it has seen as much in one piece (`mallopt`,
 /// `M_TRIM_THRESHOLD`), and gives several smaller pieces back to the system each time. New pages cost more than the run.
 fn keep_memory(numbers: usize) {
-    drop(black_box(Vec::<f64>::with_capacity(numbers)));
+    /// Of a larger piece it learns nothing.
+    const MOST: usize = 32 << 20;
+    if cfg!(target_env = "gnu") && numbers * size_of::<f64>() <= MOST {
+        drop(black_box(Vec::<f64>::with_capacity(numbers)));
+    }
 }
 
 /// Drift coordinates, drift rates and floor accelerations of a row, in vectors.
@@ -111,9 +115,7 @@ impl Recorder {
         let of_storeys = |is_kept: bool| Table::new(rows, if is_kept { n } else { 0 }, storeys);
         let of_blocks = |is_kept: bool| Table::new(rows, if is_kept { blocks } else { 0 }, blocks_written);
         let zero = |length: usize| vec![0.0; length];
-        if cfg!(target_env = "gnu") {
-            keep_memory(rows * if all { 4 * storeys + 2 * blocks_written } else { storeys + blocks_written });
-        }
+        keep_memory(rows * if all { 4 * storeys + 2 * blocks_written } else { storeys + blocks_written });
         Self {
             every,
             rows,
