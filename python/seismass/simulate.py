@@ -134,6 +134,8 @@ class Statistics(TypedDict):
 
     intervals: int
     """Sample intervals solved."""
+    substeps: int
+    """Equal parts that each of them was solved in: more than one where the building is stiff."""
     plain_steps: int
     """Steps by a propagator that were proved free of events by bounds alone."""
     series_steps: int

@@ -1,5 +1,6 @@
-//! Tall buildings, whose steps the fast kernel takes by bands or by matrices of its own, beside the judge: the widths at
-//! which its vectors end, and buildings that are stiff in their highest modes. Short motions: rounding has no time to grow.
+//! Tall and stiff buildings beside the judge: the fast kernel takes the steps of tall ones by bands or by matrices of their
+//! own, those of stiff ones in substeps. The widths at which its vectors end, and how long a step may be. Short motions:
+//! rounding has no time to grow.
 
 #![allow(clippy::unwrap_used)]
 
@@ -160,4 +161,42 @@ fn full_damping_agrees_however_long_the_step() {
         assert!(comparison.agrees(AGREEMENT), "{period_per_storey} s per storey, {ratio}: {comparison:?}");
         assert!(plain > 30, "{period_per_storey} s per storey, {ratio}: {plain} plain steps");
     }
+}
+
+/// A storey so stiff that a sample interval is many radians of its mode long: intervals are solved in substeps, of which
+/// no event, history or count by sample shows anything.
+#[test]
+fn stiff_storeys_are_solved_in_substeps() {
+    for (n, contrast, damping, vertical) in [
+        (3, 1e3, MODAL, false),
+        (4, 1e5, Damping::Modal { ratio: 0.0 }, true),
+        (7, 1e3, RAYLEIGH, false),
+        (12, 1e3, MODAL, true),
+        (20, 1e3, RAYLEIGH, true),
+        (49, 1e3, MODAL, false),
+    ] {
+        let (scene, motion) = (stiffened(n, contrast, damping.clone()), motion(60, 0.5, vertical));
+        let what = format!("{n} storeys, {contrast:e}, {damping:?}, vertical {vertical}");
+        let options = Options { histories: NonZeroUsize::new(3), events: true, ..Options::default() };
+        let response = simulate(&scene, &motion, &options).unwrap();
+        let comparison = compare(&response, &solve::<f64>(&scene, &motion, 3).unwrap());
+        let (statistics, histories) = (&response.statistics, response.histories.as_ref().unwrap());
+        let steps = (statistics.plain_steps, statistics.series_steps);
+        println!("{what}: {:.1e}, {} substeps, steps {steps:?}", comparison.worst(), statistics.substeps);
+        assert!(comparison.agrees(AGREEMENT), "{what}: {comparison:?}");
+        assert!(statistics.substeps > 1, "{what}");
+        assert_eq!(statistics.intervals, 59, "{what}");
+        assert_eq!((histories.every, histories.rows, histories.drift.len()), (3, 20, 20 * n), "{what}");
+    }
+}
+
+/// A tall building with one storey that many times as stiff, and as strong as that takes.
+fn stiffened(n: usize, contrast: f64, damping: Damping) -> Scene {
+    let scene = tall(n, damping);
+    let building = scene.building().unwrap();
+    let mut storeys = building.storeys().to_vec();
+    let storey = &mut storeys[n / 2];
+    (storey.stiffness, storey.yield_shear) = (contrast * storey.stiffness, 10.0 * storey.yield_shear);
+    Scene::new(Some(Arc::new(Building::clone(building).with_storeys(storeys).unwrap())), scene.blocks().to_vec())
+        .unwrap()
 }

@@ -320,11 +320,12 @@ impl Response {
 
     /// Work done and skipped.
     #[getter]
-    fn statistics(&self) -> Named<usize, 11> {
+    fn statistics(&self) -> Named<usize, 12> {
         let statistics = &self.run.statistics;
         let skipped = &statistics.skipped;
         Named([
             ("intervals", statistics.intervals),
+            ("substeps", statistics.substeps),
             ("plain_steps", statistics.plain_steps),
             ("series_steps", statistics.series_steps),
             ("guards_isolated", statistics.guards_isolated),

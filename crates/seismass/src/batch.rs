@@ -161,7 +161,6 @@ impl Batch<'_> {
             };
             let result = match scaled_motion {
                 Ok(motion) => {
-                    debug_assert!(cache.dt().to_bits() == motion.dt().to_bits(), "a group has one time step");
                     // Made here and not kept, so that a large batch holds its scenes and responses alone.
                     let model = Model::new(&self.scenes[scene]);
                     run(&self.scenes[scene], &model, motion, self.options, cache, &self.control.stop)

@@ -32,6 +32,10 @@ const MAX_AT_ONCE: usize = WIDTH;
 
 /// Most storeys for which one matrix without zeros is taken though a tall step would do.
 const MAX_DENSE: usize = 16;
+/// Largest ratio of a floor's mass, with blocks, to the smallest mass of a floor at which intervals are solved in substeps.
+/// Each plain step repeats the rounding of its matrix, some 1e-15 of the drift rates: with many substeps it sums up to what
+/// can be seen in the energy of a floor so heavy.
+const MAX_MASS_RATIO: f64 = 1e4;
 
 /// The steps of a regime.
 pub(crate) struct Steps {
@@ -571,6 +575,8 @@ struct Entry {
 /// its first [`RegimeCache::series_visits`] intervals by series whether or not another run has already paid for them.
 pub(crate) struct RegimeCache {
     dt: f64,
+    /// See [`RegimeCache::frequency`]; none before it is asked for.
+    frequency: Option<f64>,
     entries: Vec<Entry>,
     index: HashMap<Vec<u64>, usize, FxBuildHasher>,
     run: u64,
@@ -590,13 +596,33 @@ impl RegimeCache {
         if storeys <= MAX_AT_ONCE { 0 } else { storeys as u32 }
     }
 
+    /// A cache of steps of `dt`.
     pub(crate) fn new(dt: f64) -> Self {
-        Self { dt, entries: Vec::new(), index: HashMap::default(), run: 0, bytes: 0, run_bytes: 0, sums: Vec::new() }
+        let index = HashMap::default();
+        let (entries, sums) = (Vec::new(), Vec::new());
+        Self { dt, frequency: None, entries, index, run: 0, bytes: 0, run_bytes: 0, sums }
     }
 
-    /// Time step of the propagators (s).
-    pub(crate) fn dt(&self) -> f64 {
-        self.dt
+    /// Makes it one of steps of `dt`: what it holds of others is forgotten.
+    pub(crate) fn set_time_step(&mut self, dt: f64) {
+        if self.dt.to_bits() != dt.to_bits() {
+            self.dt = dt;
+            self.clear();
+        }
+    }
+
+    /// The frequency that a step of a run must suit (rad/s): a bound on those of the elastic building, all blocks stuck.
+    /// 0, so that any step does, where floors and their blocks differ too much in mass ([`MAX_MASS_RATIO`]).
+    pub(crate) fn frequency(&mut self, model: &Model) -> f64 {
+        *self.frequency.get_or_insert_with(|| {
+            let mut stuck_mass = vec![0.0; model.storeys()];
+            for block in model.blocks.iter().filter(|block| block.floor > 0) {
+                stuck_mass[block.floor - 1] += block.mass;
+            }
+            let heaviest = model.mass.iter().zip(&stuck_mass).map(|(floor, stuck)| floor + stuck).fold(0.0, f64::max);
+            let lightest = model.mass.iter().copied().fold(f64::INFINITY, f64::min);
+            if heaviest > MAX_MASS_RATIO * lightest { 0.0 } else { Regime::new(model, |_| 0, &stuck_mass).frequency }
+        })
     }
 
     /// Begins a run: counts of visits start afresh.
@@ -609,7 +635,7 @@ impl RegimeCache {
     }
 
     fn clear(&mut self) {
-        *self = Self { run: self.run, ..Self::new(self.dt) };
+        *self = Self { run: self.run, frequency: self.frequency, ..Self::new(self.dt) };
     }
 
     /// The regime of a key, formed by `form` when it is new. Returns its index and whether this run knew it.

@@ -189,6 +189,8 @@ pub struct Skipped {
 pub struct Statistics {
     /// Sample intervals solved.
     pub intervals: usize,
+    /// Equal parts that each of them was solved in: more than one where the building is stiff.
+    pub substeps: usize,
     /// Steps by a regime's propagator whose guards were proved clear by bounds alone.
     pub plain_steps: usize,
     /// Steps for which the Taylor series was formed, plain steps inside which a peak is beaten among them.

@@ -550,6 +550,19 @@ impl Motion {
         Self::new(multiply(&self.acceleration), self.dt, self.vertical.as_ref().map(multiply))
     }
 
+    /// The same motion with each sample interval divided into `parts`.
+    pub(crate) fn divided(&self, parts: usize) -> Self {
+        let divide = |samples: &Arc<[f64]>| -> Arc<[f64]> {
+            let (intervals, last) = (samples.iter().zip(&samples[1..]), samples.last().copied());
+            let within = |part: usize| part as f64 / parts as f64;
+            let divided =
+                intervals.flat_map(|(&start, &end)| (0..parts).map(move |part| start + (end - start) * within(part)));
+            divided.chain(last).collect()
+        };
+        let (acceleration, vertical) = (divide(&self.acceleration), self.vertical.as_ref().map(divide));
+        Self { dt: self.dt / parts as f64, acceleration, vertical }
+    }
+
     /// Time step (s).
     pub fn dt(&self) -> f64 {
         self.dt

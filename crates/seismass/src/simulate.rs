@@ -1,6 +1,7 @@
 //! The run: a scene and a motion in, a response out.
 
 use std::mem::take;
+use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::bernstein::Polynomial;
@@ -23,8 +24,15 @@ use crate::taylor::MAX_PHASE;
 const EVENTS_PER_INTERVAL: usize = 256;
 /// Events each storey and block may have within one vibration of the stiffest mode.
 const EVENTS_PER_MACHINE: usize = 64;
-/// Sample intervals between two looks at the caller's wish to stop.
-const INTERVALS_PER_POLL: usize = 1024;
+/// Longest step of a run, as the frequency of the elastic building times time; a motion with longer sample intervals is
+/// solved in substeps. What clears a step is a bound that grows with its fourth power, and a step that it does not clear
+/// is solved by a series for each radian: shorter steps cost less.
+const LONGEST_PHASE: f64 = 4.0;
+/// Most substeps of a sample interval, and of a motion: they are held in memory.
+const MOST_SUBSTEPS: usize = 1 << 10;
+const MOST_SUBSTEPS_OF_MOTION: usize = 1 << 21;
+/// Steps between two looks at the caller's wish to stop.
+const STEPS_PER_POLL: usize = 1024;
 
 /// Solves one scene under one motion.
 ///
@@ -52,15 +60,57 @@ pub(crate) fn run(
     cache: &mut RegimeCache,
     stop: &AtomicBool,
 ) -> Result<Response> {
+    let samples = motion.acceleration().len();
+    let substeps = substeps(cache.frequency(model) * motion.dt(), samples);
+    cache.set_time_step(motion.dt() / substeps as f64);
+    if substeps == 1 {
+        return run_at_samples(scene, model, motion, options, cache, stop);
+    }
+    let every = options.histories.map(NonZeroUsize::get);
+    let of_substeps = every.and_then(|every| NonZeroUsize::new(every.saturating_mul(substeps)));
+    let options = Options { histories: of_substeps, ..*options };
+    let mut response = run_at_samples(scene, model, &motion.divided(substeps), &options, cache, stop)?;
+    if let (Some(histories), Some(every)) = (&mut response.histories, every) {
+        histories.every = every;
+    }
+    let statistics = &mut response.statistics;
+    let skipped = &mut statistics.skipped;
+    statistics.substeps = substeps;
+    statistics.intervals = statistics.intervals.div_ceil(substeps);
+    skipped.head_samples /= substeps;
+    skipped.tail_samples /= substeps;
+    Ok(response)
+}
+
+/// Substeps of each sample interval, a power of two: a time step divided by it, and times that multiples of that are, are
+/// exact. `phase` is the frequency that a step must suit times the interval.
+fn substeps(phase: f64, samples: usize) -> usize {
+    let most = (MOST_SUBSTEPS_OF_MOTION / samples).min(MOST_SUBSTEPS);
+    let mut substeps = 1;
+    while phase > LONGEST_PHASE * substeps as f64 && 2 * substeps <= most {
+        substeps *= 2;
+    }
+    substeps
+}
+
+/// Solves one scene by steps from sample to sample.
+fn run_at_samples(
+    scene: &Scene,
+    model: &Model,
+    motion: &Motion,
+    options: &Options,
+    cache: &mut RegimeCache,
+    stop: &AtomicBool,
+) -> Result<Response> {
     let vertical = motion.vertical().is_some() && !model.blocks.is_empty();
     let samples = motion.acceleration().len();
-    let every = options.histories.map(std::num::NonZeroUsize::get);
+    let every = options.histories.map(NonZeroUsize::get);
     let peaks_only = options.peaks_only && every.is_none() && !options.energy;
     let mut run = Run {
         state: State::new(scene, model, cache, vertical),
         walk: Walk::new(model),
         observer: Observer::new(model, options, samples),
-        statistics: Statistics::default(),
+        statistics: Statistics { substeps: 1, ..Statistics::default() },
         log: Vec::new(),
         keep_log: options.events,
     };
@@ -208,7 +258,7 @@ impl Run<'_> {
     /// and whether that one is not plain.
     fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> (usize, bool) {
         let last = motion.acceleration().len() - 1;
-        let mut end = last.min(i + INTERVALS_PER_POLL);
+        let mut end = last.min(i + STEPS_PER_POLL);
         if i < quiet_from {
             end = end.min(quiet_from);
         } else {
@@ -428,5 +478,18 @@ impl State<'_> {
             (None, j) => format!("block {}", j.map_or(0, |j| j + 1)),
         };
         Error::NotFinite { time: self.interval.start + tau, element }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn substeps_are_short_enough_unless_they_are_too_many() {
+        let phases = [0.0, 4.0, 4.1, 8.0, 8.1, 1e3, 1e9, f64::INFINITY, f64::NAN];
+        assert_eq!(phases.map(|phase| substeps(phase, 8000)), [1, 1, 2, 2, 4, 256, 256, 256, 1]);
+        assert_eq!(phases.map(|phase| substeps(phase, 100)), [1, 1, 2, 2, 4, 256, 1024, 1024, 1]);
+        assert_eq!(phases.map(|phase| substeps(phase, MOST_SUBSTEPS_OF_MOTION)), [1; 9]);
     }
 }

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use seismass::{
@@ -151,4 +152,49 @@ fn a_scaled_motion_of_a_batch_is_the_motion_times_its_factor() {
     }
     let message = batch[4].as_ref().unwrap_err().to_string();
     assert!(message.starts_with("acceleration of motion must be finite at every sample; got "), "{message}");
+}
+
+/// A long motion has fewer substeps than a short one, so as to be held in memory: what one run of a group forms is no
+/// other run's.
+#[test]
+fn runs_of_a_batch_have_substeps_of_their_own() {
+    let storeys = vec![Storey { second_slope: 0.1, ..Storey::yielding(5e8, 5000.0) }, Storey::elastic(5.5e5)];
+    let building = Building::new(vec![1000.0; 2], storeys, Damping::Modal { ratio: 0.05 }).unwrap();
+    let scenes = [Scene::new(Some(Arc::new(building)), vec![Block::new(2, 1000.0, 0.1)]).unwrap()];
+    let motions = [motion(0, 0), motion(1_100_000, 0), motion(10, 10)];
+    let runs = [0, 1, 2, 1, 0].map(|motion| Run::new(0, motion));
+    let options = Options { events: true, ..Options::default() };
+    let batch = simulate_many(&scenes, &motions, &runs, &options, Some(1), &Control::default()).unwrap();
+    let alone = motions.map(|motion| simulate(&scenes[0], &motion, &options).unwrap());
+    assert_eq!(alone.each_ref().map(|response| response.statistics.substeps), [2, 1, 2]);
+    assert!(alone.iter().all(|response| response.statistics.events.total() > 10));
+    for (run, response) in runs.iter().zip(batch) {
+        assert_eq!(response.unwrap(), alone[run.motion], "motion {}", run.motion);
+    }
+}
+
+/// Rows of histories, and what is skipped, go by samples, whatever a step is.
+#[test]
+fn substeps_leave_rows_and_skipped_samples_as_they_are() {
+    let storeys = vec![Storey::yielding(5e9, 5000.0), Storey::yielding(5.5e5, 3000.0)];
+    let building = Building::new(vec![1000.0; 2], storeys, Damping::Modal { ratio: 0.05 }).unwrap();
+    let scene = Scene::new(Some(Arc::new(building)), vec![Block::new(2, 1000.0, 0.1)]).unwrap();
+    for tail in 0..7 {
+        let motion = motion(100, tail);
+        let of_every = |every: usize| {
+            let response =
+                simulate(&scene, &motion, &Options { histories: NonZeroUsize::new(every), ..Options::default() });
+            let response = response.unwrap();
+            assert!(response.statistics.substeps > 1);
+            assert_eq!(response.statistics.skipped.head_samples, 100);
+            assert_eq!(response.statistics.intervals, 800 - 1 + tail);
+            response.histories.unwrap()
+        };
+        let (all, few) = (of_every(1), of_every(7));
+        assert_eq!((all.rows, few.rows), (900 + tail, (900 + tail).div_ceil(7)));
+        assert_eq!((all.every, few.every), (1, 7));
+        for (row, of_few) in few.drift.chunks_exact(2).enumerate() {
+            assert_eq!(of_few, &all.drift[2 * 7 * row..][..2], "row {row}");
+        }
+    }
 }
