@@ -7,7 +7,7 @@
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, Motion, Options, STANDARD_GRAVITY, Scene, Storey, simulate};
+use seismass::{Block, Building, Damping, Motion, Options, Response, STANDARD_GRAVITY, Scene, Storey, simulate};
 use seismass_judge::{Comparison, DoubleDouble, Real, compare, solve};
 
 /// Both are right to some 1e-14 (printed); a guard or a peak that is missed is far beyond this.
@@ -50,10 +50,16 @@ fn motion(samples: usize, peak_g: f64, vertical: bool) -> Motion {
 
 /// Solves by the kernel and by the judge; returns the comparison and how many steps were plain.
 fn judged<R: Real>(scene: &Scene, motion: &Motion) -> (Comparison, usize) {
+    let (comparison, response) = compared::<R>(scene, motion);
+    (comparison, response.statistics.plain_steps)
+}
+
+/// Solves by the kernel, histories at every third sample, and by the judge; returns the comparison and the response.
+fn compared<R: Real>(scene: &Scene, motion: &Motion) -> (Comparison, Response) {
     let options = Options { histories: NonZeroUsize::new(3), events: true, ..Options::default() };
     let response = simulate(scene, motion, &options).unwrap();
     let exact = solve::<R>(scene, motion, 3).unwrap();
-    (compare(&response, &exact), response.statistics.plain_steps)
+    (compare(&response, &exact), response)
 }
 
 #[test]
@@ -177,9 +183,7 @@ fn stiff_storeys_are_solved_in_substeps() {
     ] {
         let (scene, motion) = (stiffened(n, contrast, damping.clone()), motion(60, 0.5, vertical));
         let what = format!("{n} storeys, {contrast:e}, {damping:?}, vertical {vertical}");
-        let options = Options { histories: NonZeroUsize::new(3), events: true, ..Options::default() };
-        let response = simulate(&scene, &motion, &options).unwrap();
-        let comparison = compare(&response, &solve::<f64>(&scene, &motion, 3).unwrap());
+        let (comparison, response) = compared::<f64>(&scene, &motion);
         let (statistics, histories) = (&response.statistics, response.histories.as_ref().unwrap());
         let steps = (statistics.plain_steps, statistics.series_steps);
         println!("{what}: {:.1e}, {} substeps, steps {steps:?}", comparison.worst(), statistics.substeps);

@@ -85,9 +85,10 @@ pub(crate) struct Recorder {
     every: usize,
     rows: usize,
     displacements_only: bool,
-    /// Rows written so far, and the sample of the next.
+    /// Samples of the run from row to row.
+    stride: usize,
+    /// Rows written so far.
     written: usize,
-    next_sample: usize,
     drift: Table,
     slip: Table,
     floor_velocity: Table,
@@ -106,10 +107,11 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
-    /// A recorder of a run over so many samples, a row every so many.
-    pub(crate) fn new(model: &Model, options: &Options, samples: usize, every: usize) -> Self {
+    /// A recorder of a run over so many samples, a row every so many of the caller's, which every `substeps`-th is.
+    pub(crate) fn new(model: &Model, options: &Options, samples: usize, every: usize, substeps: usize) -> Self {
         let (n, blocks) = (model.storeys(), model.blocks.len());
-        let rows = samples.div_ceil(every);
+        let stride = every.saturating_mul(substeps);
+        let rows = samples.div_ceil(stride);
         let (storeys, blocks_written) = (model.width, blocks.next_multiple_of(WIDTH));
         let all = !options.displacements_only;
         let of_storeys = |is_kept: bool| Table::new(rows, if is_kept { n } else { 0 }, storeys);
@@ -120,8 +122,8 @@ impl Recorder {
             every,
             rows,
             displacements_only: options.displacements_only,
+            stride,
             written: 0,
-            next_sample: 0,
             drift: of_storeys(true),
             slip: of_blocks(true),
             floor_velocity: of_storeys(all),
@@ -140,7 +142,6 @@ impl Recorder {
     /// The row to be written, which counts as written.
     #[inline(always)]
     fn next_row(&mut self) -> usize {
-        self.next_sample += self.every;
         self.written += 1;
         self.written - 1
     }
@@ -148,17 +149,14 @@ impl Recorder {
     /// The next sample of which a row is kept.
     #[inline]
     pub(crate) fn next_sample(&self) -> usize {
-        self.next_sample
+        self.written * self.stride
     }
 
     /// Takes the last row back, if it is that of a sample: it is then the next to be written.
     pub(crate) fn take_back(&mut self, sample: usize) -> bool {
-        let is_last = self.next_sample == sample + self.every;
-        if is_last {
-            self.next_sample = sample;
-            self.written -= 1;
-        }
-        is_last
+        let last = self.written.checked_sub(1).filter(|last| last * self.stride == sample);
+        self.written = last.unwrap_or(self.written);
+        last.is_some()
     }
 
     /// Takes up the springs and blocks of the present state, for rows in vectors.

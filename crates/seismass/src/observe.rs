@@ -44,10 +44,10 @@ struct EnergyBalance {
 }
 
 impl Observer {
-    /// An observer of a run over so many samples.
-    pub(crate) fn new(model: &Model, options: &Options, samples: usize) -> Self {
+    /// An observer of a run over so many samples, of which every `substeps`-th is one of the caller's.
+    pub(crate) fn new(model: &Model, options: &Options, samples: usize, substeps: usize) -> Self {
         let (n, blocks) = (model.storeys(), model.blocks.len());
-        let histories = options.histories.map(|every| Recorder::new(model, options, samples, every.get()));
+        let histories = options.histories.map(|every| Recorder::new(model, options, samples, every.get(), substeps));
         let peaks = Peaks {
             drift: vec![Default::default(); n],
             slip: vec![Default::default(); blocks],

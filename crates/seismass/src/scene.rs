@@ -552,6 +552,9 @@ impl Motion {
 
     /// The same motion with each sample interval divided into `parts`.
     pub(crate) fn divided(&self, parts: usize) -> Self {
+        if parts == 1 {
+            return self.clone();
+        }
         let divide = |samples: &Arc<[f64]>| -> Arc<[f64]> {
             let (intervals, last) = (samples.iter().zip(&samples[1..]), samples.last().copied());
             let within = |part: usize| part as f64 / parts as f64;

@@ -1,7 +1,6 @@
 //! The run: a scene and a motion in, a response out.
 
 use std::mem::take;
-use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::bernstein::Polynomial;
@@ -60,57 +59,17 @@ pub(crate) fn run(
     cache: &mut RegimeCache,
     stop: &AtomicBool,
 ) -> Result<Response> {
-    let samples = motion.acceleration().len();
-    let substeps = substeps(cache.frequency(model) * motion.dt(), samples);
-    cache.set_time_step(motion.dt() / substeps as f64);
-    if substeps == 1 {
-        return run_at_samples(scene, model, motion, options, cache, stop);
-    }
-    let every = options.histories.map(NonZeroUsize::get);
-    let of_substeps = every.and_then(|every| NonZeroUsize::new(every.saturating_mul(substeps)));
-    let options = Options { histories: of_substeps, ..*options };
-    let mut response = run_at_samples(scene, model, &motion.divided(substeps), &options, cache, stop)?;
-    if let (Some(histories), Some(every)) = (&mut response.histories, every) {
-        histories.every = every;
-    }
-    let statistics = &mut response.statistics;
-    let skipped = &mut statistics.skipped;
-    statistics.substeps = substeps;
-    statistics.intervals = statistics.intervals.div_ceil(substeps);
-    skipped.head_samples /= substeps;
-    skipped.tail_samples /= substeps;
-    Ok(response)
-}
-
-/// Substeps of each sample interval, a power of two: a time step divided by it, and times that multiples of that are, are
-/// exact. `phase` is the frequency that a step must suit times the interval.
-fn substeps(phase: f64, samples: usize) -> usize {
-    let most = (MOST_SUBSTEPS_OF_MOTION / samples).min(MOST_SUBSTEPS);
-    let mut substeps = 1;
-    while phase > LONGEST_PHASE * substeps as f64 && 2 * substeps <= most {
-        substeps *= 2;
-    }
-    substeps
-}
-
-/// Solves one scene by steps from sample to sample.
-fn run_at_samples(
-    scene: &Scene,
-    model: &Model,
-    motion: &Motion,
-    options: &Options,
-    cache: &mut RegimeCache,
-    stop: &AtomicBool,
-) -> Result<Response> {
+    let substeps = substeps(cache.frequency(model) * motion.dt(), motion.acceleration().len());
+    let motion = &motion.divided(substeps);
+    cache.set_time_step(motion.dt());
     let vertical = motion.vertical().is_some() && !model.blocks.is_empty();
     let samples = motion.acceleration().len();
-    let every = options.histories.map(NonZeroUsize::get);
-    let peaks_only = options.peaks_only && every.is_none() && !options.energy;
+    let peaks_only = options.peaks_only && options.histories.is_none() && !options.energy;
     let mut run = Run {
         state: State::new(scene, model, cache, vertical),
         walk: Walk::new(model),
-        observer: Observer::new(model, options, samples),
-        statistics: Statistics { substeps: 1, ..Statistics::default() },
+        observer: Observer::new(model, options, samples, substeps),
+        statistics: Statistics { substeps, ..Statistics::default() },
         log: Vec::new(),
         keep_log: options.events,
     };
@@ -152,6 +111,17 @@ fn run_at_samples(
         Status::Collapsed { time, .. } => time,
     };
     Ok(run.finish(status, end_time, peaks_only))
+}
+
+/// Substeps of each sample interval, a power of two: a time step divided by it, and times that multiples of that are, are
+/// exact. `phase` is the frequency that a step must suit times the interval.
+fn substeps(phase: f64, samples: usize) -> usize {
+    let most = (MOST_SUBSTEPS_OF_MOTION / samples).min(MOST_SUBSTEPS);
+    let mut substeps = 1;
+    while phase > LONGEST_PHASE * substeps as f64 && 2 * substeps <= most {
+        substeps *= 2;
+    }
+    substeps
 }
 
 for_each_path! {
@@ -392,7 +362,11 @@ impl Run<'_> {
     fn finish(mut self, status: Status, end_time: f64, peaks_only: bool) -> Response {
         let n = self.state.storeys();
         let state = &self.state;
-        (self.statistics.regimes, self.statistics.regime_hits) = state.regimes;
+        let statistics = &mut self.statistics;
+        (statistics.regimes, statistics.regime_hits) = state.regimes;
+        statistics.intervals = statistics.intervals.div_ceil(statistics.substeps);
+        statistics.skipped.head_samples /= statistics.substeps;
+        statistics.skipped.tail_samples /= statistics.substeps;
         let at_end = |value: f64| if peaks_only { f64::NAN } else { value };
         Response {
             status,
