@@ -49,11 +49,11 @@ def _module(name: str) -> Any:
 
 
 def _records(count: int, samples: int) -> list[sm.Motion]:
-    """So many motions of so many samples: those of the suite, forwards and backwards, cut or followed by zeros."""
+    """So many motions of so many samples: those of the suite, forwards and backwards, cut or repeated."""
     motions = [record.motion for record in suite()]
     both = [m.acceleration for m in motions] + [m.acceleration[::-1] for m in motions]
     steps = [m.dt for m in motions] * 2
-    fitted = [np.pad(a[:samples], (0, max(0, samples - len(a)))) for a in both]
+    fitted = [np.resize(a, samples) for a in both]
     return [sm.Motion(a, dt) for a, dt in zip(fitted, steps, strict=True)][:count]
 
 

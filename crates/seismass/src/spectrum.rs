@@ -21,10 +21,12 @@ use crate::scene::Motion;
 
 mod oscillator;
 
-use oscillator::{Oscillator, SMALL_STEP};
+use oscillator::Oscillator;
 
 /// Oscillators advanced together.
 const LANES: usize = 16;
+/// A number of each of them.
+type Values = [f64; LANES];
 /// Steps that share one bound of |u|.
 const BLOCK: usize = 32;
 /// Blocks between two searches for peaks inside steps; what is kept of them fits the second-level cache.
@@ -54,27 +56,8 @@ pub fn response_spectra(
         return Ok(peaks);
     }
     let solve = |peaks: &mut [f64]| {
-        peaks.par_chunks_mut(per_motion).zip(motions).try_for_each(|(peaks, motion)| {
-            let load = Load::new(motion);
-            peaks.par_chunks_mut(LANES).enumerate().try_for_each(|(group, peaks)| {
-                let oscillators: [Oscillator; LANES] = std::array::from_fn(|lane| {
-                    let index = group * LANES + lane.min(peaks.len() - 1);
-                    Oscillator::new(periods[index % periods.len()], damping[index / periods.len()], motion.dt())
-                });
-                let found = advance(&load, &oscillators, control)?;
-                peaks.copy_from_slice(&found[..peaks.len()]);
-                match peaks.iter().position(|peak| !peak.is_finite()) {
-                    None => Ok(()),
-                    Some(lane) => Err(Error::NotFinite {
-                        time: motion.dt() * motion.acceleration().len() as f64,
-                        element: format!(
-                            "the oscillator of period {} s",
-                            periods[(group * LANES + lane) % periods.len()]
-                        ),
-                    }),
-                }
-            })
-        })
+        let each = peaks.par_chunks_mut(per_motion).zip(motions);
+        each.try_for_each(|(peaks, motion)| solve(motion, periods, damping, control, peaks))
     };
     match threads {
         None => solve(&mut peaks)?,
@@ -90,6 +73,40 @@ pub fn response_spectra(
         }
     }
     Ok(peaks)
+}
+
+/// Peak displacements under one motion.
+fn solve(motion: &Motion, periods: &[f64], damping: &[f64], control: &Control, peaks: &mut [f64]) -> Result<()> {
+    let load = Load::new(motion);
+    let of = |index: usize| (periods[index % periods.len()], damping[index / periods.len()]);
+    let found = |indices: &[usize], peaks_of: PeaksOf| -> Result<Vec<Values>> {
+        let groups = indices.par_chunks(LANES).map(|indices| {
+            let oscillators = std::array::from_fn(|lane| {
+                let (period, zeta) = of(indices[lane.min(indices.len() - 1)]);
+                Oscillator::new(period, zeta, motion.dt())
+            });
+            let peaks = peaks_of(&load, &oscillators, control)?;
+            match indices.iter().zip(peaks).find(|(_, peak)| !peak.is_finite()) {
+                None => Ok(peaks),
+                Some((&index, _)) => Err(Error::NotFinite {
+                    time: motion.dt() * motion.acceleration().len() as f64,
+                    element: format!("the oscillator of period {} s", of(index).0),
+                }),
+            }
+        });
+        groups.collect()
+    };
+    // Side by side are oscillators of about the same period: what bounds them is large in the same blocks.
+    let by_period = (0..periods.len()).flat_map(|i| (i..peaks.len()).step_by(periods.len()));
+    let (small, large): (Vec<usize>, Vec<usize>) =
+        by_period.partition(|&index| oscillator::is_small_step(of(index).0, of(index).1, motion.dt()));
+    let of_both = rayon::join(|| found(&small, peaks_of::<SmallSteps>), || found(&large, peaks_of::<LargeSteps>));
+    for (indices, found) in [(small, of_both.0?), (large, of_both.1?)] {
+        for (index, peak) in indices.into_iter().zip(found.into_iter().flatten()) {
+            peaks[index] = peak;
+        }
+    }
+    Ok(())
 }
 
 fn validate(motions: &[Motion], periods: &[f64], damping: &[f64]) -> Result<()> {
@@ -114,7 +131,8 @@ fn validate(motions: &[Motion], periods: &[f64], damping: &[f64]) -> Result<()> 
     Ok(())
 }
 
-/// A motion times dt^2 (m), with the zero that follows it, and what bounds it in each block of steps.
+/// A motion times dt^2 (m), without its quiet head and tail but for the zeros that follow it, and what bounds it in each
+/// block of steps. Before it nothing moves; the free vibration after it is known in closed form.
 struct Load {
     samples: Vec<f64>,
     blocks: Vec<LoadBounds>,
@@ -129,12 +147,15 @@ struct LoadBounds {
 impl Load {
     fn new(motion: &Motion) -> Self {
         let square = motion.dt() * motion.dt();
-        let mut samples: Vec<f64> = motion.acceleration().iter().map(|a| square * a).collect();
-        samples.push(0.0);
-        let blocks = (0..samples.len() - 1)
+        let acceleration = motion.acceleration();
+        let first = acceleration.iter().position(|&a| a != 0.0).unwrap_or(0).saturating_sub(1);
+        let last = acceleration.iter().rposition(|&a| a != 0.0).unwrap_or(0);
+        let samples: Vec<f64> = acceleration[first..=last].iter().map(|a| square * a).chain([0.0; 2]).collect();
+        let ends = &samples[..samples.len() - 1];
+        let blocks = (0..ends.len() - 1)
             .step_by(BLOCK)
             .map(|start| {
-                let within = &samples[start..samples.len().min(start + BLOCK + 1)];
+                let within = &ends[start..ends.len().min(start + BLOCK + 1)];
                 LoadBounds {
                     sample: within.iter().fold(0.0, |most, b| b.abs().max(most)),
                     increment: within.windows(2).fold(0.0, |most, b| (b[1] - b[0]).abs().max(most)),
@@ -144,33 +165,86 @@ impl Load {
         Self { samples, blocks }
     }
 
-    /// Samples at the ends of the steps of a block.
+    /// Samples at the ends of the steps of a block, and the next.
     fn block(&self, index: usize) -> &[f64] {
         let start = index * BLOCK;
-        &self.samples[start..self.samples.len().min(start + BLOCK + 1)]
+        &self.samples[start..self.samples.len().min(start + BLOCK + 2)]
     }
 }
 
-/// Coefficients of several oscillators side by side.
-struct Lanes {
-    step_u: [[f64; LANES]; 4],
-    step_v: [[f64; LANES]; 4],
-    particular: [[f64; LANES]; 2],
-    decay: [f64; LANES],
-    /// 1 / (q s).
-    quarter: [f64; LANES],
-    /// Bound of |u| within a block, per the two measures of `advance`, largest |b| and largest |increment of b|.
-    screen: [[f64; LANES]; 4],
+/// Numbers of several oscillators side by side.
+fn gather<const N: usize>(oscillators: &[Oscillator; LANES], of: impl Fn(&Oscillator) -> [f64; N]) -> [Values; N] {
+    std::array::from_fn(|i| std::array::from_fn(|lane| of(&oscillators[lane])[i]))
 }
 
-impl Lanes {
-    fn new(oscillators: &[Oscillator; LANES], small: bool) -> Self {
-        fn gather<const N: usize>(
-            oscillators: &[Oscillator; LANES],
-            of: impl Fn(&Oscillator) -> [f64; N],
-        ) -> [[f64; LANES]; N] {
-            std::array::from_fn(|i| std::array::from_fn(|lane| of(&oscillators[lane])[i]))
+/// Several oscillators side by side, advanced by steps of one size: the displacement u and another number of each.
+trait Steps {
+    fn new(oscillators: &[Oscillator; LANES]) -> Self;
+
+    /// u and the other number of an oscillator with u and u' at the start of a block.
+    fn from_rate(oscillator: &Oscillator, state: [f64; 2], samples: &[f64]) -> [f64; 2];
+
+    /// u and u' of an oscillator with u and the other number at the start of a block.
+    fn to_rate(oscillator: &Oscillator, state: [f64; 2], samples: &[f64]) -> [f64; 2];
+
+    /// Carries the oscillators through a block. Returns the largest |u| of its samples, and a bound of |u| within it.
+    fn advance<const FUSED: bool>(&self, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2];
+}
+
+/// Steps small enough that |u| is bounded by its samples ([`oscillator::is_small_step`]). The other number is the increment of
+/// u over the next step: seven operations, where u and u' take ten.
+struct SmallSteps {
+    step_w: [Values; 5],
+    screen: [Values; 2],
+}
+
+impl Steps for SmallSteps {
+    fn new(oscillators: &[Oscillator; LANES]) -> Self {
+        Self { step_w: gather(oscillators, |o| o.step_w), screen: gather(oscillators, Oscillator::screen) }
+    }
+
+    fn from_rate(oscillator: &Oscillator, state: [f64; 2], samples: &[f64]) -> [f64; 2] {
+        [state[0], oscillator.increment(state, [samples[0], samples[1]])]
+    }
+
+    fn to_rate(oscillator: &Oscillator, state: [f64; 2], samples: &[f64]) -> [f64; 2] {
+        [state[0], oscillator.rate(state, [samples[0], samples[1]])]
+    }
+
+    #[inline(always)]
+    fn advance<const FUSED: bool>(&self, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
+        let [of_u, of_w, first, second, third] = &self.step_w;
+        let [mut u, mut w] = *state;
+        let mut most = u.map(f64::abs);
+        for b in samples.windows(3) {
+            for lane in 0..LANES {
+                let of_load = multiply_add::<FUSED>(first[lane], b[0], third[lane] * b[2]);
+                let of_load = multiply_add::<FUSED>(second[lane], b[1], of_load);
+                let of_load = multiply_add::<FUSED>(of_u[lane], u[lane], of_load);
+                u[lane] += w[lane];
+                w[lane] += multiply_add::<FUSED>(of_w[lane], w[lane], of_load);
+                most[lane] = larger(u[lane].abs(), most[lane]);
+            }
         }
+        *state = [u, w];
+        let [of_u, of_load] = &self.screen;
+        [most, std::array::from_fn(|lane| of_u[lane] * most[lane] + of_load[lane] * load.sample)]
+    }
+}
+
+/// Steps of any size. The other number is u', and |u| is bounded by the particular solution, which is linear within a
+/// step, and the amplitude of the free vibration about it.
+struct LargeSteps {
+    step_u: [Values; 4],
+    step_v: [Values; 4],
+    particular: [Values; 2],
+    decay: Values,
+    /// 1 / (q s).
+    quarter: Values,
+}
+
+impl Steps for LargeSteps {
+    fn new(oscillators: &[Oscillator; LANES]) -> Self {
         let [decay, quarter] = gather(oscillators, |o| [o.zeta * o.s, 1.0 / (o.q * o.s)]);
         Self {
             step_u: gather(oscillators, |o| o.step_u),
@@ -178,32 +252,27 @@ impl Lanes {
             particular: gather(oscillators, |o| o.particular),
             decay,
             quarter,
-            screen: gather(oscillators, |o| {
-                if small {
-                    [1.0 + o.chord * o.s * o.s, o.chord * 2.0 * o.zeta * o.s, o.chord, 0.0]
-                } else {
-                    [0.0, 1.0, o.particular[0], o.particular[1]]
-                }
-            }),
         }
     }
 
-    /// Carries `u` and `v` through a block. Returns the largest |u| after a step, and the largest |v| where s is
-    /// `SMALL`, otherwise the largest squared amplitude of the free vibration about the particular solution.
+    fn from_rate(_: &Oscillator, state: [f64; 2], _: &[f64]) -> [f64; 2] {
+        state
+    }
+
+    fn to_rate(_: &Oscillator, state: [f64; 2], _: &[f64]) -> [f64; 2] {
+        state
+    }
+
     #[inline(always)]
-    fn advance<const SMALL: bool, const FUSED: bool>(
-        &self,
-        u: &mut [f64; LANES],
-        v: &mut [f64; LANES],
-        samples: &[f64],
-    ) -> [[f64; LANES]; 2] {
+    fn advance<const FUSED: bool>(&self, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
         let [uu, uv, u0, u1] = &self.step_u;
         let [vu, vv, v0, v1] = &self.step_v;
         let [per_load, per_increment] = &self.particular;
-        let mut most_u = [0.0; LANES];
-        let mut most_other = if SMALL { v.map(f64::abs) } else { [0.0; LANES] };
-        for pair in samples.windows(2) {
-            let (b0, b1) = (pair[0], pair[1]);
+        let [mut u, mut v] = *state;
+        let mut most = u.map(f64::abs);
+        let mut square = [0.0; LANES];
+        for b in samples.windows(3) {
+            let (b0, b1) = (b[0], b[1]);
             let increment = b1 - b0;
             for lane in 0..LANES {
                 let (from_u, from_v) = (u[lane], v[lane]);
@@ -213,19 +282,17 @@ impl Lanes {
                 let of_load = multiply_add::<FUSED>(v0[lane], b0, v1[lane] * b1);
                 let of_state = multiply_add::<FUSED>(vu[lane], from_u, of_load);
                 v[lane] = from_v + multiply_add::<FUSED>(vv[lane], from_v, of_state);
-                most_u[lane] = larger(u[lane].abs(), most_u[lane]);
-                let other = if SMALL {
-                    v[lane].abs()
-                } else {
-                    let free = from_u + (per_load[lane] * b0 - per_increment[lane] * increment);
-                    let free_rate = from_v + per_load[lane] * increment;
-                    let out_of_phase = (free_rate + self.decay[lane] * free) * self.quarter[lane];
-                    free * free + out_of_phase * out_of_phase
-                };
-                most_other[lane] = larger(other, most_other[lane]);
+                most[lane] = larger(u[lane].abs(), most[lane]);
+                let free = from_u + (per_load[lane] * b0 - per_increment[lane] * increment);
+                let free_rate = from_v + per_load[lane] * increment;
+                let out_of_phase = (free_rate + self.decay[lane] * free) * self.quarter[lane];
+                square[lane] = larger(free * free + out_of_phase * out_of_phase, square[lane]);
             }
         }
-        [most_u, most_other]
+        *state = [u, v];
+        let bound =
+            |lane: usize| square[lane].sqrt() + (per_load[lane] * load.sample + per_increment[lane] * load.increment);
+        [most, std::array::from_fn(bound)]
     }
 }
 
@@ -242,88 +309,78 @@ fn larger(a: f64, b: f64) -> f64 {
 }
 
 /// A block of steps as the search for peaks inside steps finds it.
+#[derive(Clone)]
 struct Block {
-    /// u and u' at its start.
-    start: [[f64; LANES]; 2],
+    /// u and the other number at its start.
+    start: [Values; 2],
     /// Bound of |u| within it.
-    bound: [f64; LANES],
+    bound: Values,
 }
 
-/// Peak displacement of each oscillator, by the widest vectors of the machine.
+/// [`Steps::advance`] by the widest vectors of the machine. A function of its own, so that what it needs stays in registers.
 #[allow(unsafe_code)]
-fn advance(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<[f64; LANES]> {
+fn advance<S: Steps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
-    fn avx512(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<[f64; LANES]> {
-        advance_on::<true>(load, oscillators, control)
+    fn avx512<S: Steps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
+        steps.advance::<true>(state, samples, load)
     }
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
-    fn avx2(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<[f64; LANES]> {
-        advance_on::<true>(load, oscillators, control)
+    fn avx2<S: Steps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
+        steps.advance::<true>(state, samples, load)
     }
     match InstructionSet::in_use() {
         // SAFETY: `in_use` returns only what this machine has.
         #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx512 => unsafe { avx512(load, oscillators, control) },
+        InstructionSet::Avx512 => unsafe { avx512(steps, state, samples, load) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 => unsafe { avx2(load, oscillators, control) },
-        _ => advance_on::<false>(load, oscillators, control),
+        InstructionSet::Avx2 => unsafe { avx2(steps, state, samples, load) },
+        _ => steps.advance::<false>(state, samples, load),
     }
 }
 
-#[inline(always)]
-fn advance_on<const FUSED: bool>(
-    load: &Load,
-    oscillators: &[Oscillator; LANES],
-    control: &Control,
-) -> Result<[f64; LANES]> {
-    let small = oscillators.iter().all(|oscillator| oscillator.s <= SMALL_STEP);
-    let lanes = Lanes::new(oscillators, small);
-    let [of_u, of_other, of_load, of_increment] = &lanes.screen;
-    let (mut u, mut v) = ([0.0; LANES], [0.0; LANES]);
+/// [`peaks_of`] steps of one size.
+type PeaksOf = fn(&Load, &[Oscillator; LANES], &Control) -> Result<Values>;
+
+/// Peak displacement of each oscillator.
+fn peaks_of<S: Steps>(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<Values> {
+    let steps = S::new(oscillators);
+    let mut state = gather(oscillators, |o| S::from_rate(o, [0.0; 2], load.block(0)));
     let mut peak = [0.0; LANES];
-    let mut blocks = Vec::with_capacity(BLOCKS_PER_SEARCH.min(load.blocks.len()));
+    let zeros = [0.0; LANES];
+    let blocks = &mut vec![Block { start: [zeros; 2], bound: zeros }; BLOCKS_PER_SEARCH.min(load.blocks.len())];
     for first in (0..load.blocks.len()).step_by(BLOCKS_PER_SEARCH) {
         if control.stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        blocks.clear();
-        for index in first..load.blocks.len().min(first + BLOCKS_PER_SEARCH) {
-            let start = [u, v];
-            let LoadBounds { sample, increment } = load.blocks[index];
-            let [most_u, other] = if small {
-                lanes.advance::<true, FUSED>(&mut u, &mut v, load.block(index))
-            } else {
-                let [most_u, square] = lanes.advance::<false, FUSED>(&mut u, &mut v, load.block(index));
-                [most_u, square.map(f64::sqrt)]
-            };
-            let bound = std::array::from_fn(|lane| {
-                peak[lane] = larger(most_u[lane], peak[lane]);
-                // A block starts where the one before ended, so `peak` holds its first sample too.
-                let most_u = larger(start[0][lane].abs(), most_u[lane]);
-                of_u[lane] * most_u
-                    + of_other[lane] * other[lane]
-                    + (of_load[lane] * sample + of_increment[lane] * increment)
-            });
-            blocks.push(Block { start, bound });
+        let bounds = &load.blocks[first..];
+        for (index, (block, bounds)) in blocks.iter_mut().zip(bounds).enumerate() {
+            block.start = state;
+            let most;
+            [most, block.bound] = advance(&steps, &mut state, load.block(first + index), bounds);
+            peak = std::array::from_fn(|lane| larger(most[lane], peak[lane]));
         }
-        for (index, block) in blocks.iter().enumerate() {
+        for (index, block) in blocks.iter().enumerate().take(bounds.len()) {
             // Most blocks beat no lane's peak: asked of all lanes at once.
             if !(0..LANES).fold(false, |any, lane| any | (block.bound[lane] > peak[lane])) {
                 continue;
             }
+            let samples = load.block(first + index);
             for (lane, peak) in peak.iter_mut().enumerate() {
                 if block.bound[lane] > *peak {
-                    let start = block.start.map(|values| values[lane]);
-                    *peak = oscillators[lane].peak_inside_steps(start, load.block(first + index), *peak);
+                    let oscillator = &oscillators[lane];
+                    let start = S::to_rate(oscillator, block.start.map(|values| values[lane]), samples);
+                    *peak = oscillator.peak_inside_steps(start, &samples[..samples.len() - 1], *peak);
                 }
             }
         }
     }
+    // Nothing moves the ground any more.
     Ok(std::array::from_fn(|lane| {
-        let finite = u[lane].is_finite() && v[lane].is_finite();
-        if finite { peak[lane].max(oscillators[lane].free_peak(u[lane], v[lane])) } else { f64::NAN }
+        let [u, v] = S::to_rate(&oscillators[lane], state.map(|values| values[lane]), &[0.0; 2]);
+        let finite = u.is_finite() && v.is_finite();
+        if finite { peak[lane].max(oscillators[lane].free_peak(u, v)) } else { f64::NAN }
     }))
 }

@@ -140,6 +140,20 @@ fn order_company_and_threads_change_no_bit() {
     assert_eq!(all, alone.collect::<Vec<_>>());
 }
 
+/// Neither costs a step: the same oscillators go through the same samples.
+#[test]
+fn a_quiet_head_and_tail_change_no_bit() {
+    let solve = |head: usize, tail: usize| {
+        let quiet = |length: usize| vec![0.0; length];
+        let samples = [quiet(head), jagged().acceleration().to_vec(), quiet(tail)].concat();
+        let motion = Motion::new(samples, 0.01, None).unwrap();
+        response_spectra(&[motion], &[0.03, 0.25, 1.0, 10.0], &[0.0, 0.05, 0.999], None, &Control::default()).unwrap()
+    };
+    assert_eq!(solve(1, 0), solve(500, 3000));
+    let still = Motion::new(vec![0.0; 3], 0.01, None).unwrap();
+    assert_eq!(spectrum(&still, 1.0, 0.05), 0.0);
+}
+
 #[test]
 fn wrong_input_is_refused_by_name() {
     let refused = |periods: &[f64], damping: &[f64], threads| {

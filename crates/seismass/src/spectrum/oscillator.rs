@@ -1,7 +1,9 @@
 //! One linear oscillator seen in steps of a motion: its exact step, and its extremes inside steps and after the last.
 
 /// Largest s = w dt for which the power series is used and for which u is bounded by its chord.
-pub(super) const SMALL_STEP: f64 = 1.0;
+const SMALL_STEP: f64 = 1.0;
+/// Largest zeta s of steps taken as small: 8 zeta s `chord` is below 0.4 up to there, and has to be below 1.
+const MOST_DECAY: f64 = 0.25;
 /// Terms of the power series: s^k / k! is below 1e-19 at s = 1 beyond them, and k of them at zeta = 1.
 const SERIES_TERMS: usize = 23;
 /// Terms that change no sum any more: the smallest, `phi2`, is above 0.1.
@@ -75,6 +77,12 @@ impl ImpulseResponse {
     }
 }
 
+/// Whether steps `dt` are so small that |u| within them is bounded by its samples and the load ([`Oscillator::screen`]).
+pub(super) fn is_small_step(period: f64, zeta: f64, dt: f64) -> bool {
+    let s = std::f64::consts::TAU / period * dt;
+    s <= SMALL_STEP && zeta * s <= MOST_DECAY
+}
+
 /// One oscillator seen in steps of the motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Oscillator {
@@ -87,6 +95,8 @@ pub(super) struct Oscillator {
     pub(super) step_u: [f64; 4],
     /// Increment of u' over a step, per the same.
     pub(super) step_v: [f64; 4],
+    /// Increment over a step of the increment w of u, per u, w, and the load at the two ends and at the end of the next.
+    pub(super) step_w: [f64; 5],
     /// Particular solution per b and per increment of b: u_p = -(first b - second increment).
     pub(super) particular: [f64; 2],
     /// Bound of |u - chord| within a step over the largest |u''| at its ends; only where s is small.
@@ -110,10 +120,34 @@ impl Oscillator {
         let (square, viscous) = (s * s, 2.0 * zeta * s);
         let step_u = [-square * phi1, gamma, -psi, -phi2];
         let step_v = [-square * gamma, -(viscous * gamma + square * phi1), phi1 - gamma, -phi1];
+        let ([uu, uv, u0, u1], [vu, vv, v0, v1]) = (step_u, step_v);
+        // w = uu u + uv v + u0 b0 + u1 b1 in place of v. Where the step is small, no sum loses more than a digit.
+        let step_w = [uv * vu - vv * uu, uu + vv, uv * v0 - vv * u0 - u0, uv * v1 - vv * u1 + (u0 - u1), u1];
         // u'' is a free vibration: within a small step at most e^(zeta s) / cos(q s / 2) times its largest end value.
         let chord = (zeta * s).exp() / (8.0 * (0.5 * q * s).cos());
         let particular = [1.0 / square, viscous / (square * square)];
-        Self { s, zeta, q, step_u, step_v, particular, chord }
+        Self { s, zeta, q, step_u, step_v, step_w, particular, chord }
+    }
+
+    /// Bound of |u| within a block of small steps, per largest |u| and |b| of its samples.
+    ///
+    /// With Y the largest |u''| at samples, |u''| <= 8 `chord` Y, so v differs from the increment of u by 4 `chord` Y at
+    /// most, and u'' = -(b + 2 zeta s v + s^2 u) gives Y <= |b| + s^2 |u| + 2 zeta s (2 |u| + 4 `chord` Y).
+    pub(super) fn screen(&self) -> [f64; 2] {
+        let of_load = self.chord / (1.0 - 8.0 * self.zeta * self.s * self.chord);
+        [1.0 + of_load * (self.s * self.s + 4.0 * self.zeta * self.s), of_load]
+    }
+
+    /// The increment of u over the step to which loads belong.
+    pub(super) fn increment(&self, [u, v]: [f64; 2], [b0, b1]: [f64; 2]) -> f64 {
+        let [uu, uv, u0, u1] = self.step_u;
+        uu * u + uv * v + (u0 * b0 + u1 * b1)
+    }
+
+    /// The v at its start, where the increment of u over the step is `w`.
+    pub(super) fn rate(&self, [u, w]: [f64; 2], [b0, b1]: [f64; 2]) -> f64 {
+        let [uu, uv, u0, u1] = self.step_u;
+        (w - uu * u - (u0 * b0 + u1 * b1)) / uv
     }
 
     fn second_derivative(&self, u: f64, v: f64, b: f64) -> f64 {
