@@ -2,7 +2,7 @@
 
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
-use crate::friction::{self, BlockState, Cause, Transition, settle};
+use crate::friction::{self, BlockState, Cause, settle};
 use crate::lanes::{Plain, Vector};
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
@@ -346,11 +346,10 @@ impl State<'_> {
     }
 
     fn settle_floor(&mut self, floor: usize, tau: f64, cause: Cause, log: &mut Vec<Event>) {
-        let demand = self.demand(floor, tau);
-        let contact = self.contact_at(tau);
-        let mut transitions: Vec<Transition> = Vec::new();
-        let blocks = &self.model.on_floor[floor];
-        settle(demand, &self.model.blocks, &mut self.motions, blocks, contact, cause, &mut transitions);
+        let (demand, contact, model) = (self.demand(floor, tau), self.contact_at(tau), self.model);
+        let transitions = &mut self.transitions;
+        transitions.clear();
+        settle(demand, &model.blocks, &mut self.motions, &model.on_floor[floor], contact, cause, transitions);
         let time = self.interval.start + tau;
         log.extend(transitions.iter().map(|t| Event {
             time,

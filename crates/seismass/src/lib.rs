@@ -56,6 +56,7 @@ pub mod columns;
 pub mod damping;
 pub mod error;
 mod events;
+mod few_storeys;
 mod friction;
 mod full_step;
 mod histories;

@@ -13,6 +13,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 use rustc_hash::FxBuildHasher;
 
+use crate::few_storeys;
 use crate::lanes::{
     Aligned, MAX_LANES, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, padded, store,
     unit,
@@ -82,21 +83,23 @@ enum Cause {
 }
 
 impl Cause {
-    /// Its storey or floor, and 1 for what it is: drift, drift rate, load, ramp, ground acceleration, ramp of that; else 0.
+    /// Of a column of a step of `n` storeys.
     #[inline(always)]
-    fn units(self) -> (usize, [f64; 6]) {
-        let (i, which) = match self {
-            Self::Drift(i) => (i, 0),
-            Self::DriftRate(i) => (i, 1),
-            Self::Load(i) => (i, 2),
-            Self::Ramp(i) => (i, 3),
-            Self::Ground => (0, 4),
-            Self::GroundRamp => (0, 5),
-        };
-        let mut units = [0.0; 6];
-        units[which] = 1.0;
-        (i, units)
+    fn of(column: usize, n: usize) -> Self {
+        match column.checked_sub(2 * n) {
+            None if column < n => Self::Drift(column),
+            None => Self::DriftRate(column - n),
+            Some(0) => Self::Ground,
+            Some(1) => Self::GroundRamp,
+            Some(load) if load < n + 2 => Self::Load(load - 2),
+            Some(ramp) => Self::Ramp(ramp - n - 2),
+        }
     }
+}
+
+/// Columns of a step of `n` storeys, with the ramps of floor loads or without.
+fn column_count(n: usize, with_ramps: bool) -> usize {
+    if with_ramps { 4 * n + 2 } else { 3 * n + 2 }
 }
 
 for_each_path! {
@@ -116,103 +119,11 @@ fn remainders_by_width<V: Vector>(
     terms: &mut [f64],
 ) {
     match model.storeys() {
-        1 => remainders_of_few::<V, 1>(model, regime, h, order, sums, terms),
-        2 => remainders_of_few::<V, 2>(model, regime, h, order, sums, terms),
-        3 => remainders_of_few::<V, 3>(model, regime, h, order, sums, terms),
-        4 => remainders_of_few::<V, 4>(model, regime, h, order, sums, terms),
+        1 => few_storeys::remainders::<V, 1>(model, regime, h, order, sums, terms),
+        2 => few_storeys::remainders::<V, 2>(model, regime, h, order, sums, terms),
+        3 => few_storeys::remainders::<V, 3>(model, regime, h, order, sums, terms),
+        4 => few_storeys::remainders::<V, 4>(model, regime, h, order, sums, terms),
         _ => by_width!(model.width, K => remainders::<V, K>(model, regime, h, order, sums, terms)),
-    }
-}
-
-/// [`form_remainders`] of `S` storeys, at most a vector's, with the terms of a table: a vector holds one floor in all
-/// columns, those of q and those of its rate, so that the recursion needs neither shifts nor sums within vectors. What is
-/// summed follows from the terms.
-#[inline(always)]
-fn remainders_of_few<V: Vector, const S: usize>(
-    model: &Model,
-    regime: &Regime,
-    h: f64,
-    order: usize,
-    sums: &mut [f64],
-    terms: &mut [f64],
-) {
-    let zero = V::splat(0.0);
-    let mut coefficients = [[0.0; 4]; S];
-    let (tangent, inverse_mass) = (regime.row(Row::Tangent), regime.row(Row::InverseMass));
-    let padded = |values: &[f64], i: usize| values.get(i).copied().unwrap_or(0.0);
-    let (storey_damping, floor_damping) = (&model.lanes.storey_damping, &model.lanes.floor_damping);
-    for i in 0..S {
-        coefficients[i] = [tangent[i], inverse_mass[i], padded(storey_damping, i), padded(floor_damping, i)];
-    }
-    let full_damping = columns_of::<1>(&model.lanes.damping).first_chunk::<S>();
-    let by_order = terms.as_chunks_mut::<WIDTH>().0;
-    let (mut x, mut v) = ([[zero; S]; 2], [[zero; S]; 2]);
-    for i in 0..S {
-        let [unit] = unit(i);
-        (x[0][i], v[1][i]) = (unit, unit);
-    }
-    for (k, out) in by_order.chunks_exact_mut(2 * S).enumerate() {
-        let (once, twice) = (V::splat(h * INVERSE[k + 1]), V::splat(h * h * (INVERSE[k + 1] * INVERSE[k + 2])));
-        for set in 0..2 {
-            let (mut shear, mut others, mut velocity) = ([zero; S], [zero; S], [zero; S]);
-            let mut below = zero;
-            for i in 0..S {
-                shear[i] = V::splat(coefficients[i][0]).mul(x[set][i]);
-            }
-            if let Some(columns) = full_damping {
-                for j in 0..S {
-                    let sums = if j % 2 == 0 { &mut shear } else { &mut others };
-                    for i in 0..S {
-                        sums[i] = V::splat(columns[j][0][i]).mul_add(v[set][j], sums[i]);
-                    }
-                }
-            } else {
-                for i in 0..S {
-                    others[i] = V::splat(coefficients[i][2]).mul(v[set][i]);
-                    below = below.add(v[set][i]);
-                    velocity[i] = V::splat(coefficients[i][3]).mul(below);
-                }
-            }
-            let mut term = [zero; WIDTH];
-            below = zero;
-            for i in 0..S {
-                let shear_above = if i + 1 < S { shear[i + 1].add(others[i + 1]) } else { zero };
-                let net = shear_above.sub(shear[i].add(others[i])).sub(velocity[i]);
-                let a = net.mul(V::splat(coefficients[i][1]));
-                term[i] = twice.mul(a);
-                x[set][i] = once.mul(v[set][i]);
-                v[set][i] = once.mul(a.sub(below));
-                below = a;
-            }
-            let columns = V::transposed(term);
-            for c in 0..S {
-                columns[c].store(&mut out[set * S + c]);
-            }
-        }
-    }
-    // Terms of order k + 2 of the accelerations: drifts and drift rates are integrals of their differences.
-    let [inside]: [V; 1] = load(&model.lanes.inside);
-    let (length, per_second) = (V::splat(h), V::splat(1.0 / h));
-    for (column, out) in sums.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<4>().0.iter_mut().take(2 * S).enumerate() {
-        let [mut once, mut twice, mut value, mut rate] = [zero; 4];
-        for (k, term) in by_order.iter().skip(column).step_by(2 * S).enumerate().take(order - 1) {
-            let term = V::load(term);
-            once = V::splat(INVERSE[k + 3]).mul_add(term, once);
-            twice = V::splat(INVERSE[k + 3] * INVERSE[k + 4]).mul_add(term, twice);
-            value = value.add(term);
-            rate = V::splat((k + 2) as f64).mul_add(term, rate);
-        }
-        let [unit] = unit(column % S);
-        // Of a unit of q its integrals, of a unit of its rate the next.
-        let (first, second) = if column < S { (h, 0.5 * h * h) } else { (0.5 * h * h, h * h * h / 6.0) };
-        let [of_rate] = differences(&[once], zero);
-        let [of_drift] = differences(&[twice], zero);
-        let of_rate = length.mul(of_rate).mul(inside);
-        let of_drift = length.mul(length).mul(of_drift).mul(inside);
-        V::splat(second).mul_add(unit, of_drift).store(&mut out[0]);
-        V::splat(first).mul_add(unit, of_rate).store(&mut out[1]);
-        value.store(&mut out[2]);
-        per_second.mul(rate).store(&mut out[3]);
     }
 }
 
@@ -268,94 +179,62 @@ fn remainders<V: Vector, const K: usize>(
 }
 
 for_each_path! {
-    /// Forms the columns of causes over a step of length `h`, whose remainders are `sums`: rows (dx, dv, a, j).
-    fn form_columns(model: &Model, regime: &Regime, h: f64, sums: &[f64], causes: &[Cause], out: &mut [f64])
+    /// Forms the columns over a step of length `h`, whose remainders are `sums`: rows (dx, dv, a, j).
+    fn form_columns(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64])
         = columns_by_width
 }
 
 #[inline(always)]
-fn columns_by_width<V: Vector>(
-    model: &Model,
-    regime: &Regime,
-    h: f64,
-    sums: &[f64],
-    causes: &[Cause],
-    out: &mut [f64],
-) {
-    by_width!(model.width, K => columns::<V, K>(model, regime, h, sums, causes, out))
+fn columns_by_width<V: Vector>(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64]) {
+    match model.storeys() {
+        1 => few_storeys::columns::<V, 1>(model, regime, h, sums, out),
+        2 => few_storeys::columns::<V, 2>(model, regime, h, sums, out),
+        3 => few_storeys::columns::<V, 3>(model, regime, h, sums, out),
+        4 => few_storeys::columns::<V, 4>(model, regime, h, sums, out),
+        _ => by_width!(model.width, K => columns::<V, K>(model, regime, h, sums, out)),
+    }
 }
 
-/// Two at a time of one vector: each is a chain of dependent operations that the processor waits for.
+/// [`form_columns`] one after the other.
 #[inline(always)]
-fn columns<V: Vector, const K: usize>(
-    model: &Model,
-    regime: &Regime,
-    h: f64,
-    sums: &[f64],
-    causes: &[Cause],
-    out: &mut [f64],
-) {
+fn columns<V: Vector, const K: usize>(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64]) {
     let operator = Operator::<V, K>::new(model, regime);
-    let sums = &columns_of::<K>(sums).as_chunks::<4>().0[..2 * model.storeys()];
-    let out = out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0.as_chunks_mut::<4>().0;
-    let paired = if K == 1 { causes.len() / 2 * 2 } else { 0 };
-    let ((pairs, others), (of_pairs, of_others)) = (causes.split_at(paired), out.split_at_mut(paired));
-    for (causes, out) in pairs.as_chunks::<2>().0.iter().zip(of_pairs.as_chunks_mut::<2>().0) {
-        columns_of_causes(&operator, h, sums, causes, out);
-    }
-    for (causes, out) in others.as_chunks::<1>().0.iter().zip(of_others.as_chunks_mut::<1>().0) {
-        columns_of_causes(&operator, h, sums, causes, out);
-    }
-}
-
-/// The columns of so many causes.
-#[inline(always)]
-fn columns_of_causes<V: Vector, const K: usize, const COUNT: usize>(
-    operator: &Operator<V, K>,
-    h: f64,
-    sums: &[[[[f64; WIDTH]; K]; 4]],
-    causes: &[Cause; COUNT],
-    out: &mut [[[[f64; WIDTH]; K]; 4]; COUNT],
-) {
-    let zero = [V::splat(0.0); K];
-    let mut rows = [[zero; 4]; COUNT];
-    let (mut of_q, mut of_rate) = ([[[0.0; WIDTH]; K]; COUNT], [[[0.0; WIDTH]; K]; COUNT]);
-    for c in 0..COUNT {
-        let (i, [of_drift, of_drift_rate, of_load, of_ramp, ground, ground_slope]) = causes[c].units();
-        let [mut x, mut v, mut force, mut slope] = [unit::<V, K>(i); 4];
-        for k in 0..K {
-            x[k] = x[k].mul(V::splat(of_drift));
-            v[k] = v[k].mul(V::splat(of_drift_rate));
-            force[k] = force[k].mul(V::splat(of_load));
-            slope[k] = slope[k].mul(V::splat(of_ramp));
+    let (sums_of_q, sums_of_rate) =
+        columns_of::<K>(sums).as_chunks::<4>().0[..2 * model.storeys()].split_at(model.storeys());
+    let columns = out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0.as_chunks_mut::<4>().0;
+    for (column, out) in columns.iter_mut().enumerate() {
+        let zero = [V::splat(0.0); K];
+        let (mut x, mut v, mut force, mut slope, mut ground, mut ground_slope) = (zero, zero, zero, zero, 0.0, 0.0);
+        match Cause::of(column, model.storeys()) {
+            Cause::Drift(i) => x = unit(i),
+            Cause::DriftRate(i) => v = unit(i),
+            Cause::Load(i) => force = unit(i),
+            Cause::Ramp(i) => slope = unit(i),
+            Cause::Ground => ground = 1.0,
+            Cause::GroundRamp => ground_slope = 1.0,
         }
         let a = operator.accelerations(&x, &v, force);
         let q = differences(&a, V::splat(ground));
         let jerk = operator.accelerations(&v, &q, slope);
-        of_q[c] = numbers(&q);
-        of_rate[c] = numbers(&differences(&jerk, V::splat(ground_slope)));
+        let rate = differences(&jerk, V::splat(ground_slope));
+        let mut rows = [zero; 4];
         for k in 0..K {
-            rows[c][0][k] = V::splat(h).mul(v[k]);
-            rows[c][2][k] = V::splat(h).mul_add(jerk[k], a[k]);
-            rows[c][3][k] = jerk[k];
+            rows[0][k] = V::splat(h).mul(v[k]);
+            rows[2][k] = V::splat(h).mul_add(jerk[k], a[k]);
+            rows[3][k] = jerk[k];
         }
-    }
-    let (sums_of_q, sums_of_rate) = sums.split_at(sums.len() / 2);
-    for (sums, weights) in [(sums_of_q, &of_q), (sums_of_rate, &of_rate)] {
-        for (i, sums) in sums.iter().enumerate() {
-            for c in 0..COUNT {
-                let weight = V::splat(weights[c].as_flattened()[i]);
+        for (sums, weights) in [(sums_of_q, numbers(&q)), (sums_of_rate, numbers(&rate))] {
+            for (sums, &weight) in sums.iter().zip(weights.as_flattened()) {
+                let weight = V::splat(weight);
                 for r in 0..4 {
                     for k in 0..K {
-                        rows[c][r][k] = V::load(&sums[r][k]).mul_add(weight, rows[c][r][k]);
+                        rows[r][k] = V::load(&sums[r][k]).mul_add(weight, rows[r][k]);
                     }
                 }
             }
         }
-    }
-    for c in 0..COUNT {
         for r in 0..4 {
-            out[c][r] = numbers(&rows[c][r]);
+            out[r] = numbers(&rows[r]);
         }
     }
 }
@@ -370,21 +249,21 @@ struct Step {
 }
 
 impl Step {
-    /// The step from its columns of rows (dx, dv, a, j).
-    fn new(n: usize, mut rows: impl FnMut(Cause) -> Vec<f64>) -> Self {
-        let mut column = |cause: Cause| {
-            let rows = rows(cause);
-            DVector::from_iterator(2 * n, rows[..n].iter().chain(&rows[padded(n)..padded(n) + n]).copied())
-        };
-        let state: Vec<_> = (0..n).map(Cause::Drift).chain((0..n).map(Cause::DriftRate)).map(&mut column).collect();
-        let load: Vec<_> = (0..n).map(|i| column(Cause::Load(i))).collect();
-        let ramp: Vec<_> = (0..n).map(|i| column(Cause::Ramp(i))).collect();
+    /// The step from its columns of rows (dx, dv, a, j), those of ramps among them.
+    fn new(n: usize, columns: &[f64]) -> Self {
+        let changes: Vec<_> = columns
+            .chunks_exact(4 * padded(n))
+            .map(|rows| DVector::from_iterator(2 * n, rows[..n].iter().chain(&rows[padded(n)..][..n]).copied()))
+            .collect();
+        let (state, others) = changes.split_at(2 * n);
+        let (motion, others) = others.split_at(2);
+        let (load, ramp) = others.split_at(n);
         Self {
-            state: DMatrix::from_columns(&state),
-            load: DMatrix::from_columns(&load),
-            ramp: DMatrix::from_columns(&ramp),
-            ground: column(Cause::Ground),
-            ground_ramp: column(Cause::GroundRamp),
+            state: DMatrix::from_columns(state),
+            load: DMatrix::from_columns(load),
+            ramp: DMatrix::from_columns(ramp),
+            ground: motion[0].clone(),
+            ground_ramp: motion[1].clone(),
         }
     }
 
@@ -431,41 +310,30 @@ impl Steps {
         sums.resize(2 * n * 4 * width, 0.0);
         let mut table = Aligned::unset(if n <= MAX_TABLE { (order - 1) * 2 * n * width } else { 0 });
         form_remainders(model, regime, h, order, sums, &mut table);
-        let composed = (halvings > 0.0).then(|| {
-            let mut step = Step::new(n, |cause| {
-                let mut rows = vec![0.0; 4 * width];
-                form_columns(model, regime, h, sums, &[cause], &mut rows);
-                rows
-            });
+        let formed = |with_ramps: bool| {
+            let mut columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
+            form_columns(model, regime, h, sums, &mut columns);
+            columns
+        };
+        let mut columns;
+        if halvings > 0.0 {
+            let mut step = Step::new(n, &formed(true));
             let mut length = h;
             for _ in 0..halvings as usize {
                 step = step.doubled(length);
                 length *= 2.0;
             }
-            step
-        });
-        let causes: Vec<Cause> = (0..n)
-            .map(Cause::Drift)
-            .chain((0..n).map(Cause::DriftRate))
-            .chain([Cause::Ground, Cause::GroundRamp])
-            .chain((0..n).map(Cause::Load))
-            .chain((0..if with_ramps { n } else { 0 }).map(Cause::Ramp))
-            .collect();
-        let mut columns = Aligned::unset(causes.len() * 4 * width);
-        match &composed {
-            None => form_columns(model, regime, h, sums, &causes, &mut columns),
-            Some(step) => {
-                for (column, &cause) in columns.chunks_exact_mut(4 * width).zip(&causes) {
-                    column_of_change(model, regime, cause, step.change(cause), dt, column);
-                }
+            columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
+            for (i, column) in columns.chunks_exact_mut(4 * width).enumerate() {
+                column_of_change(model, regime, Cause::of(i, n), &step, dt, column);
             }
+        } else {
+            columns = formed(with_ramps);
         }
-        for (column, cause) in columns.chunks_exact_mut(4 * width).zip(&causes) {
-            if matches!(cause, Cause::Ramp(_) | Cause::GroundRamp) {
-                // Per interval instead of per second.
-                column.iter_mut().for_each(|entry| *entry /= dt);
-            }
-        }
+        // Ramps per interval instead of per second.
+        let (others, ramps) = columns.split_at_mut(column_count(n, false) * 4 * width);
+        let ground_ramp = &mut others[(2 * n + 1) * 4 * width..][..4 * width];
+        ground_ramp.iter_mut().chain(ramps).for_each(|entry| *entry /= dt);
         let table = (n <= MAX_TABLE).then_some(Table { h, terms: table });
         Self { table, whole: Whole::Dense(Propagator { storeys: n, rows: 4 * width, columns }) }
     }
@@ -538,9 +406,9 @@ impl Propagator {
     }
 }
 
-/// Forms the rows (dx, dv, a, j) of a column from the change of the state over `h`.
-fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64], h: f64, out: &mut [f64]) {
-    let n = model.storeys();
+/// Forms the rows (dx, dv, a, j) of a column from the step's change of the state, over `h`.
+fn column_of_change(model: &Model, regime: &Regime, cause: Cause, step: &Step, h: f64, out: &mut [f64]) {
+    let (n, change) = (model.storeys(), step.change(cause));
     let (mut x, mut v) = (change[..n].to_vec(), change[n..].to_vec());
     let (mut load, mut slope, mut ground) = (vec![0.0; n], vec![0.0; n], 0.0);
     match cause {

@@ -296,22 +296,23 @@ impl Regime {
         let n = model.storeys();
         let (tangent, root_tangent) = (self.row(Row::Tangent), self.row(Row::RootTangent));
         let (inverse_mass, root_mass) = (self.row(Row::InverseMass), self.row(Row::RootMass));
+        let inverse_root = |i: usize| root_mass[i] * inverse_mass[i];
         let (mut stiffness_bound, mut damping_bound, mut growth) = (0.0f64, 0.0f64, 0.0f64);
         for i in 0..n {
             let mut row = tangent[i].abs() * inverse_mass[i];
             if i > 0 {
-                row += tangent[i].abs() / (root_mass[i] * root_mass[i - 1]);
+                row += tangent[i].abs() * (inverse_root(i) * inverse_root(i - 1));
             }
             if i + 1 < n {
-                row += tangent[i + 1].abs() * (inverse_mass[i] + 1.0 / (root_mass[i] * root_mass[i + 1]));
+                row += tangent[i + 1].abs() * (inverse_mass[i] + inverse_root(i) * inverse_root(i + 1));
             }
             stiffness_bound = stiffness_bound.max(row);
             let mut damping = 0.0;
-            damping_row(model, i, |j, c| damping += c / (root_mass[i] * root_mass[j]));
+            damping_row(model, i, |j, c| damping += c * (inverse_root(i) * inverse_root(j)));
             damping_bound = damping_bound.max(damping);
             if tangent[i] < 0.0 {
-                let below = if i > 0 { 1.0 / root_mass[i - 1] } else { 0.0 };
-                growth += 2.0 * root_tangent[i] * (1.0 / root_mass[i] + below);
+                let below = if i > 0 { inverse_root(i - 1) } else { 0.0 };
+                growth += 2.0 * root_tangent[i] * (inverse_root(i) + below);
             }
         }
         if model.damping_may_feed() {
@@ -323,38 +324,54 @@ impl Regime {
     /// Forms the bounds of the derivatives: with energy norm e, |v''| <= e / sqrt(mass) and |v'| <= e / sqrt(tangent).
     fn bound_derivatives(&mut self, model: &Model) {
         let n = model.storeys();
+        let (known, bounds) = self.rows.split_at_mut(Row::SecondOfAcceleration as usize * self.vectors);
+        let known = |row: Row| &known[row as usize * self.vectors..].as_flattened()[..n];
+        let (tangent, root_tangent) = (known(Row::Tangent), known(Row::RootTangent));
+        let (inverse_mass, root_mass) = (known(Row::InverseMass), known(Row::RootMass));
+        let mut rows = bounds.chunks_exact_mut(self.vectors).map(|row| &mut row.as_flattened_mut()[..n]);
+        let mut next = || rows.next().unwrap_or_default();
+        let [second, third, fourth, of_drift, of_rate] = [next(), next(), next(), next(), next()];
+        let above = |values: &[f64], i: usize| values.get(i + 1).copied().unwrap_or(0.0);
         for i in 0..n {
-            let root = |s: usize| if s < n { self.row(Row::RootTangent)[s] } else { 0.0 };
             let mut square = 0.0;
-            damping_row(model, i, |j, c| square += c * c * self.row(Row::InverseMass)[j]);
-            let bound = (root(i) + root(i + 1) + square.sqrt()) * self.row(Row::InverseMass)[i];
-            self.set(Row::SecondOfAcceleration, i, bound);
+            damping_row(model, i, |j, c| square += c * c * inverse_mass[j]);
+            second[i] = (root_tangent[i] + above(root_tangent, i) + square.sqrt()) * inverse_mass[i];
         }
-        for (row, one_below) in [
-            (Row::ThirdOfAcceleration, Row::SecondOfAcceleration),
-            (Row::FourthOfAcceleration, Row::ThirdOfAcceleration),
-        ] {
-            for i in 0..n {
-                let stiffness = |s: usize| if s < n { self.row(Row::Tangent)[s].abs() } else { 0.0 };
-                // The floor accelerations' derivative of this order comes from relative velocities two orders below.
-                let two_below = |j: usize| match row {
-                    Row::ThirdOfAcceleration => 1.0 / self.row(Row::RootMass)[j],
-                    _ => self.row(Row::SecondOfAcceleration)[j],
-                };
-                let below = if i > 0 { two_below(i - 1) } else { 0.0 };
-                let above = if i + 1 < n { two_below(i + 1) } else { 0.0 };
-                let mut sum = stiffness(i) * (two_below(i) + below) + stiffness(i + 1) * (above + two_below(i));
-                damping_row(model, i, |j, c| sum += c * self.row(one_below)[j]);
-                self.set(row, i, sum * self.row(Row::InverseMass)[i]);
+        // The floor accelerations' derivative of one order comes from relative velocities two orders below. Those of the
+        // first are kept where the last row will be.
+        for i in 0..n {
+            of_rate[i] = root_mass[i] * inverse_mass[i];
+        }
+        bound_from(model, [tangent, inverse_mass], of_rate, second, third);
+        bound_from(model, [tangent, inverse_mass], second, third, fourth);
+        for (out, of_acceleration) in [(of_drift, &*second), (of_rate, &*third)] {
+            let mut below = 0.0;
+            for (out, &bound) in out.iter_mut().zip(of_acceleration) {
+                *out = bound + below;
+                below = bound;
             }
         }
-        for (row, of_acceleration) in
-            [(Row::FourthOfDrift, Row::SecondOfAcceleration), (Row::FourthOfRate, Row::ThirdOfAcceleration)]
-        {
-            for i in 0..n {
-                let below = if i > 0 { self.row(of_acceleration)[i - 1] } else { 0.0 };
-                self.set(row, i, self.row(of_acceleration)[i] + below);
-            }
-        }
+    }
+}
+
+/// Bounds of a derivative of the floor accelerations, from those of two orders and of one order below.
+#[inline]
+fn bound_from(
+    model: &Model,
+    [tangent, inverse_mass]: [&[f64]; 2],
+    two_below: &[f64],
+    one_below: &[f64],
+    out: &mut [f64],
+) {
+    let mut below = 0.0;
+    for i in 0..out.len() {
+        let (stiffness_above, above) = match (tangent.get(i + 1), two_below.get(i + 1)) {
+            (Some(stiffness), Some(&above)) => (stiffness.abs(), above),
+            _ => (0.0, 0.0),
+        };
+        let mut sum = tangent[i].abs() * (two_below[i] + below) + stiffness_above * (above + two_below[i]);
+        damping_row(model, i, |j, c| sum += c * one_below[j]);
+        out[i] = sum * inverse_mass[i];
+        below = two_below[i];
     }
 }

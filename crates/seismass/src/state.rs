@@ -3,7 +3,7 @@
 use crate::STANDARD_GRAVITY;
 use crate::bounds::{Bounds, Set, against, farthest, first};
 use crate::damping::StoreyDamping;
-use crate::friction::{BlockMotion, BlockState, Demand};
+use crate::friction::{BlockMotion, BlockState, Demand, Transition};
 use crate::lanes::{
     Aligned, FAR, MAX_LANES, Vector, WIDTH, by_width, differences, filled, for_each_path, load, padded, store,
 };
@@ -232,6 +232,8 @@ pub(crate) struct State<'a> {
     pub(crate) ranges: Ranges,
     /// Working space: constant loads of the floors.
     pub(crate) loads: Vec<f64>,
+    /// Working space: what becomes of the blocks of a floor.
+    pub(crate) transitions: Vec<Transition>,
     stuck_mass: Vec<f64>,
     /// Plastic elements of each storey, and which blocks are stuck, as bits: the key of the regime.
     key: Vec<u64>,
@@ -287,6 +289,7 @@ impl<'a> State<'a> {
             bounds: Bounds::new(n),
             ranges: Ranges::new(n),
             loads: vec![0.0; n],
+            transitions: Vec::new(),
             stuck_mass: vec![0.0; n],
             key: vec![0; n.div_ceil(STOREYS_PER_WORD) + blocks.div_ceil(u64::BITS as usize)],
             regimes: (0, 0),

@@ -549,7 +549,7 @@ impl<V: Vector, const K: usize> Sums<V, K> {
 }
 
 /// Orders k, and from the second on the first and second integrals of s^k over [0, 1].
-const WEIGHTS: [[f64; 3]; MAX_DEGREE + 1] = {
+pub(crate) const WEIGHTS: [[f64; 3]; MAX_DEGREE + 1] = {
     let mut table = [[0.0; 3]; MAX_DEGREE + 1];
     let mut k = 1;
     while k <= MAX_DEGREE {
