@@ -5,7 +5,8 @@
 //! and the two samples (Nigam and Jennings 1969, Bull. Seism. Soc. Am. 59:909). Time is measured in steps: with
 //! s = w dt and b = dt^2 a, the oscillator is u'' + 2 zeta s u' + s^2 u = -b. Within a step u'' is a free vibration,
 //! so its zeros are known in closed form; between them u' is monotone and each of its zeros is bracketed. Samples come
-//! first, several oscillators at a time; then only steps are looked into whose bound on |u| exceeds the largest sample.
+//! first, several oscillators at a time, small steps by the increment of u in place of u'; then only steps are looked
+//! into whose bound on |u| exceeds the largest sample.
 //!
 //! # Limitation
 //! Damping ratios from 0 to below 1. After the last sample the motion goes to zero over one step and stays there.
@@ -191,8 +192,8 @@ trait Steps {
     fn advance<const FUSED: bool>(&self, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2];
 }
 
-/// Steps small enough that |u| is bounded by its samples ([`oscillator::is_small_step`]). The other number is the increment of
-/// u over the next step: seven operations, where u and u' take ten.
+/// Steps small enough that |u| is bounded by its samples ([`oscillator::is_small_step`]). The other number is the increment
+/// of u over the next step: seven operations, where u and u' take ten.
 struct SmallSteps {
     step_w: [Values; 5],
     screen: [Values; 2],
@@ -317,7 +318,8 @@ struct Block {
     bound: Values,
 }
 
-/// [`Steps::advance`] by the widest vectors of the machine. A function of its own, so that what it needs stays in registers.
+/// [`Steps::advance`] by the widest vectors of the machine. A function of its own, so that what it needs stays in
+/// registers.
 #[allow(unsafe_code)]
 fn advance<S: Steps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
     #[cfg(target_arch = "x86_64")]
