@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import sys
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -127,6 +128,16 @@ def test_part_of_the_benchmark_is_run_and_not_written(
     assert set(rows) == {"seismass,"}
     with pytest.raises(SystemExit):
         benchmark.main(["--contestants", "heyoka"])
+
+
+def test_the_profile_is_told_in_words(module: Any) -> None:
+    profile = module("targets.profile")
+    counts = Counter({"plain_run": 30, "closer_look": 10, "taylor": 20, profile.MEMORY: 4, "lanes": 36})
+    told = profile.in_words("a scene", 100, counts)
+    for part in ("40 % take plain steps", "20 % form the series", "0 % form regimes", "4 % allocate", "other 36 %"):
+        assert part in told
+    named = {name for _, names in profile.ACTIVITIES for name in names} - {profile.MEMORY}
+    assert named <= {path.stem for path in (FOLDER.parent / "crates/seismass/src").glob("*.rs")}
 
 
 def test_a_large_batch_is_streamed_whole(module: Any, monkeypatch: pytest.MonkeyPatch) -> None:

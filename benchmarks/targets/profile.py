@@ -35,13 +35,27 @@ What each change brought, in instructions (`benchmarks/results/instructions.csv`
 
 {history}"""
 PROFILE: Final = """\
-Instructions of one run, peaks only ({scene}, built-in motion; {total:.2f} million), by callgrind on the path for AVX2.
-By module of the kernel, inlined code counted where it stands in the sources:
+Instructions of one run, peaks only, under a built-in motion, by callgrind on the path for AVX2. In words:
+
+{words}
+
+By module of the kernel, inlined code counted where it stands in the sources ({scene}):
 
 {modules}
 By function, inlined code counted in the function that it was inlined into:
 
 {functions}"""
+
+MEMORY: Final = "memory: allocated, copied, cleared"
+ACTIVITIES: Final = (
+    ("take plain steps and prove them clear", ("plain_run", "closer_look", "sliding")),
+    ("form the series of intervals in which something may happen", ("taylor",)),
+    ("bound quantities over them, look at guards and locate their roots", ("state", "bounds", "events", "bernstein")),
+    ("go from event to event and follow springs, blocks and peaks", ("simulate", "observe", "storey", "friction")),
+    ("form regimes with their steps and tables", ("regime", "propagator", "few_storeys")),
+    ("allocate, copy and clear memory", (MEMORY,)),
+)
+"""What modules do, as a sentence tells it."""
 
 _LINE: Final = re.compile(r"^\s*([\d,]+) \(\s*[\d.]+%\)\s+([^:]+):(.+?)(?: \[.*\])?$")
 _KERNEL: Final = re.compile(r"crates/seismass/src/(\w+)")
@@ -55,7 +69,7 @@ def module_of(file: str, function: str) -> str:
     if found:
         return found.group(1)
     if _MEMORY.search(function):
-        return "memory: allocated, copied, cleared"
+        return MEMORY
     return "other libraries"
 
 
@@ -72,19 +86,33 @@ def shares(annotated: str) -> tuple[Counter[str], Counter[str]]:
     return modules, functions
 
 
-def _profile() -> str:
+def _counted(scene: str) -> tuple[int, Counter[str], Counter[str]]:
+    """Instructions of a run: in all, by module and by function."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "callgrind.out"
-        counted = instructions.profile("run", SCENE, out)
+        total = instructions.profile("run", scene, out).instructions
         command = ["callgrind_annotate", "--threshold=100", "--auto=no", str(out)]
         annotated = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    modules, functions = shares(annotated)
-    total = counted.instructions
+    return total, *shares(annotated)
+
+
+def in_words(scene: str, total: int, modules: Counter[str]) -> str:
+    """Return what the instructions of a run do, as a sentence."""
+    done = [(sum(modules[name] for name in names), what) for what, names in ACTIVITIES]
+    parts = ", ".join(f"{100.0 * count / total:.0f} % {what}" for count, what in done)
+    rest = 100.0 * (total - sum(count for count, _ in done)) / total
+    others = f"the other {rest:.0f} % are operations of vectors that all of these share, and what is set up once"
+    return f"- {scene}: of {total / 1e6:.2f} million instructions {parts}; {others}."
+
+
+def _profile() -> str:
+    counted = {scene: _counted(scene) for scene in instructions.SECTION4}
+    total, modules, functions = counted[SCENE]
     large = [(name, count) for name, count in modules.most_common() if count >= LEAST * total]
     rest = total - sum(count for _, count in large)
     return PROFILE.format(
         scene=SCENE,
-        total=total / 1e6,
+        words="\n".join(in_words(scene, total, modules) for scene, (total, modules, _) in counted.items()),
         modules=table(
             ("module", "share"), [[name, f"{100.0 * n / total:.1f} %"] for name, n in [*large, ("rest", rest)]]
         ),
