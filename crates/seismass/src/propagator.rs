@@ -390,12 +390,12 @@ impl Propagator {
 
     /// Effect of floor loads that grow from zero to `load` (N) over the interval.
     pub(crate) fn of_ramp(&self, load: &[f64], out: &mut [f64]) {
-        combine(self.columns_from(3 * self.storeys + 2), &load[..self.storeys], out);
+        combine(self.columns_from(column_count(self.storeys, false)), &load[..self.storeys], out);
     }
 
     /// Whether it knows the effect of loads that grow.
     pub(crate) fn has_ramps(&self) -> bool {
-        !self.columns_from(3 * self.storeys + 2).is_empty()
+        !self.columns_from(column_count(self.storeys, false)).is_empty()
     }
 
     /// Columns of the state (x, v), one after the other, and those of the motion after them: of a constant ground

@@ -38,6 +38,8 @@ pub(crate) enum Row {
     InverseMass,
     /// Root of the mass.
     RootMass,
+    /// 1 / root of the mass: bound on the relative floor velocity.
+    InverseRootMass,
     /// Root of |tangent|.
     RootTangent,
     /// Bound on the second derivative of the floor acceleration.
@@ -69,8 +71,10 @@ impl Regime {
             set(Row::SpringTangent, spring);
             set(Row::SpringFlexibility, if spring > 0.0 { 1.0 / spring } else { 0.0 });
             set(Row::Mass, mass);
-            set(Row::InverseMass, 1.0 / mass);
-            set(Row::RootMass, mass.sqrt());
+            let (inverse_mass, root_mass) = (1.0 / mass, mass.sqrt());
+            set(Row::InverseMass, inverse_mass);
+            set(Row::RootMass, root_mass);
+            set(Row::InverseRootMass, root_mass * inverse_mass);
             set(Row::RootTangent, tangent.abs().sqrt());
         }
         (regime.frequency, regime.growth) = regime.frequency_and_growth(model);
@@ -295,24 +299,23 @@ impl Regime {
     fn frequency_and_growth(&self, model: &Model) -> (f64, f64) {
         let n = model.storeys();
         let (tangent, root_tangent) = (self.row(Row::Tangent), self.row(Row::RootTangent));
-        let (inverse_mass, root_mass) = (self.row(Row::InverseMass), self.row(Row::RootMass));
-        let inverse_root = |i: usize| root_mass[i] * inverse_mass[i];
+        let (inverse_mass, inverse_root) = (self.row(Row::InverseMass), self.row(Row::InverseRootMass));
         let (mut stiffness_bound, mut damping_bound, mut growth) = (0.0f64, 0.0f64, 0.0f64);
         for i in 0..n {
             let mut row = tangent[i].abs() * inverse_mass[i];
             if i > 0 {
-                row += tangent[i].abs() * (inverse_root(i) * inverse_root(i - 1));
+                row += tangent[i].abs() * (inverse_root[i] * inverse_root[i - 1]);
             }
             if i + 1 < n {
-                row += tangent[i + 1].abs() * (inverse_mass[i] + inverse_root(i) * inverse_root(i + 1));
+                row += tangent[i + 1].abs() * (inverse_mass[i] + inverse_root[i] * inverse_root[i + 1]);
             }
             stiffness_bound = stiffness_bound.max(row);
             let mut damping = 0.0;
-            damping_row(model, i, |j, c| damping += c * (inverse_root(i) * inverse_root(j)));
+            damping_row(model, i, |j, c| damping += c * (inverse_root[i] * inverse_root[j]));
             damping_bound = damping_bound.max(damping);
             if tangent[i] < 0.0 {
-                let below = if i > 0 { inverse_root(i - 1) } else { 0.0 };
-                growth += 2.0 * root_tangent[i] * (inverse_root(i) + below);
+                let below = if i > 0 { inverse_root[i - 1] } else { 0.0 };
+                growth += 2.0 * root_tangent[i] * (inverse_root[i] + below);
             }
         }
         if model.damping_may_feed() {
@@ -327,22 +330,18 @@ impl Regime {
         let (known, bounds) = self.rows.split_at_mut(Row::SecondOfAcceleration as usize * self.vectors);
         let known = |row: Row| &known[row as usize * self.vectors..].as_flattened()[..n];
         let (tangent, root_tangent) = (known(Row::Tangent), known(Row::RootTangent));
-        let (inverse_mass, root_mass) = (known(Row::InverseMass), known(Row::RootMass));
+        let (inverse_mass, inverse_root) = (known(Row::InverseMass), known(Row::InverseRootMass));
+        // In the order of their rows.
         let mut rows = bounds.chunks_exact_mut(self.vectors).map(|row| &mut row.as_flattened_mut()[..n]);
         let mut next = || rows.next().unwrap_or_default();
         let [second, third, fourth, of_drift, of_rate] = [next(), next(), next(), next(), next()];
-        let above = |values: &[f64], i: usize| values.get(i + 1).copied().unwrap_or(0.0);
         for i in 0..n {
             let mut square = 0.0;
             damping_row(model, i, |j, c| square += c * c * inverse_mass[j]);
             second[i] = (root_tangent[i] + above(root_tangent, i) + square.sqrt()) * inverse_mass[i];
         }
-        // The floor accelerations' derivative of one order comes from relative velocities two orders below. Those of the
-        // first are kept where the last row will be.
-        for i in 0..n {
-            of_rate[i] = root_mass[i] * inverse_mass[i];
-        }
-        bound_from(model, [tangent, inverse_mass], of_rate, second, third);
+        // The floor accelerations' derivative of one order comes from relative velocities two orders below.
+        bound_from(model, [tangent, inverse_mass], inverse_root, second, third);
         bound_from(model, [tangent, inverse_mass], second, third, fourth);
         for (out, of_acceleration) in [(of_drift, &*second), (of_rate, &*third)] {
             let mut below = 0.0;
@@ -352,6 +351,12 @@ impl Regime {
             }
         }
     }
+}
+
+/// The value above storey or floor `i`, none above the last.
+#[inline(always)]
+fn above(values: &[f64], i: usize) -> f64 {
+    values.get(i + 1).copied().unwrap_or(0.0)
 }
 
 /// Bounds of a derivative of the floor accelerations, from those of two orders and of one order below.
@@ -365,11 +370,8 @@ fn bound_from(
 ) {
     let mut below = 0.0;
     for i in 0..out.len() {
-        let (stiffness_above, above) = match (tangent.get(i + 1), two_below.get(i + 1)) {
-            (Some(stiffness), Some(&above)) => (stiffness.abs(), above),
-            _ => (0.0, 0.0),
-        };
-        let mut sum = tangent[i].abs() * (two_below[i] + below) + stiffness_above * (above + two_below[i]);
+        let mut sum = tangent[i].abs() * (two_below[i] + below);
+        sum += above(tangent, i).abs() * (above(two_below, i) + two_below[i]);
         damping_row(model, i, |j, c| sum += c * one_below[j]);
         out[i] = sum * inverse_mass[i];
         below = two_below[i];

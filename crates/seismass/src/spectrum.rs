@@ -58,7 +58,7 @@ pub fn response_spectra(
     }
     let solve = |peaks: &mut [f64]| {
         let each = peaks.par_chunks_mut(per_motion).zip(motions);
-        each.try_for_each(|(peaks, motion)| solve(motion, periods, damping, control, peaks))
+        each.try_for_each(|(peaks, motion)| solve_one(motion, periods, damping, control, peaks))
     };
     match threads {
         None => solve(&mut peaks)?,
@@ -77,7 +77,7 @@ pub fn response_spectra(
 }
 
 /// Peak displacements under one motion.
-fn solve(motion: &Motion, periods: &[f64], damping: &[f64], control: &Control, peaks: &mut [f64]) -> Result<()> {
+fn solve_one(motion: &Motion, periods: &[f64], damping: &[f64], control: &Control, peaks: &mut [f64]) -> Result<()> {
     let load = Load::new(motion);
     let of = |index: usize| (periods[index % periods.len()], damping[index / periods.len()]);
     let found = |indices: &[usize], peaks_of: PeaksOf| -> Result<Vec<Values>> {
@@ -182,8 +182,8 @@ fn gather<const N: usize>(oscillators: &[Oscillator; LANES], of: impl Fn(&Oscill
 trait Steps {
     fn new(oscillators: &[Oscillator; LANES]) -> Self;
 
-    /// u and the other number of an oscillator with u and u' at the start of a block.
-    fn from_rate(oscillator: &Oscillator, state: [f64; 2], samples: &[f64]) -> [f64; 2];
+    /// u and the other number of an oscillator at rest at the start of a block.
+    fn at_rest(oscillator: &Oscillator, samples: &[f64]) -> [f64; 2];
 
     /// u and u' of an oscillator with u and the other number at the start of a block.
     fn to_rate(oscillator: &Oscillator, state: [f64; 2], samples: &[f64]) -> [f64; 2];
@@ -204,8 +204,8 @@ impl Steps for SmallSteps {
         Self { step_w: gather(oscillators, |o| o.step_w), screen: gather(oscillators, Oscillator::screen) }
     }
 
-    fn from_rate(oscillator: &Oscillator, state: [f64; 2], samples: &[f64]) -> [f64; 2] {
-        [state[0], oscillator.increment(state, [samples[0], samples[1]])]
+    fn at_rest(oscillator: &Oscillator, samples: &[f64]) -> [f64; 2] {
+        [0.0, oscillator.increment([0.0; 2], [samples[0], samples[1]])]
     }
 
     fn to_rate(oscillator: &Oscillator, state: [f64; 2], samples: &[f64]) -> [f64; 2] {
@@ -256,8 +256,8 @@ impl Steps for LargeSteps {
         }
     }
 
-    fn from_rate(_: &Oscillator, state: [f64; 2], _: &[f64]) -> [f64; 2] {
-        state
+    fn at_rest(_: &Oscillator, _: &[f64]) -> [f64; 2] {
+        [0.0; 2]
     }
 
     fn to_rate(_: &Oscillator, state: [f64; 2], _: &[f64]) -> [f64; 2] {
@@ -349,7 +349,7 @@ type PeaksOf = fn(&Load, &[Oscillator; LANES], &Control) -> Result<Values>;
 /// Peak displacement of each oscillator.
 fn peaks_of<S: Steps>(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<Values> {
     let steps = S::new(oscillators);
-    let mut state = gather(oscillators, |o| S::from_rate(o, [0.0; 2], load.block(0)));
+    let mut state = gather(oscillators, |o| S::at_rest(o, load.block(0)));
     let mut peak = [0.0; LANES];
     let zeros = [0.0; LANES];
     let blocks = &mut vec![Block { start: [zeros; 2], bound: zeros }; BLOCKS_PER_SEARCH.min(load.blocks.len())];

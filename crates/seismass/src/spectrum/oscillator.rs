@@ -172,10 +172,10 @@ impl Oscillator {
 
     /// The larger of `peak` and |u| at any zero of u' inside the steps of a block.
     pub(super) fn peak_inside_steps(&self, [mut u, mut v]: [f64; 2], samples: &[f64], mut peak: f64) -> f64 {
-        let ([uu, uv, u0, u1], [vu, vv, v0, v1]) = (self.step_u, self.step_v);
+        let [vu, vv, v0, v1] = self.step_v;
         for pair in samples.windows(2) {
             let (b0, b1) = (pair[0], pair[1]);
-            let u_end = u + (uu * u + uv * v + (u0 * b0 + u1 * b1));
+            let u_end = u + self.increment([u, v], [b0, b1]);
             let v_end = v + (vu * u + vv * v + (v0 * b0 + v1 * b1));
             let step = Step { u: [u, u_end], v: [v, v_end], b: [b0, b1] };
             if self.bound(&step) > peak {
