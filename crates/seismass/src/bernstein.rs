@@ -77,8 +77,9 @@ impl Polynomial {
     fn at_with_rate<V: Vector>(&self, s: f64) -> (f64, f64) {
         let squared = s * s;
         let (cubed, fourth) = (s * squared, V::splat(squared * squared));
-        let (mut value, mut rate) = (V::splat(0.0), V::splat(0.0));
-        for four in self.fours().iter().rev() {
+        let Some((highest, others)) = self.fours().split_last() else { return (0.0, 0.0) };
+        let (mut value, mut rate) = (V::load(highest), V::splat(0.0));
+        for four in others.iter().rev() {
             rate = rate.mul_add(fourth, value);
             value = value.mul_add(fourth, V::load(four));
         }
@@ -205,28 +206,31 @@ impl Polynomial {
     /// The root in [left, right] by Newton's method from a guess, kept inside the bracket by bisection, to rounding.
     #[inline(always)]
     fn newton<V: Vector>(&self, guess: f64, mut left: f64, mut right: f64, falls: bool) -> f64 {
-        let mut s = if guess > left && guess < right { guess } else { 0.5 * (left + right) };
+        let mut s = if guess > left && guess < right { guess } else { middle(left, right) };
         let mut last_step = 0.0;
         for _ in 0..100 {
             let (value, rate) = self.at_with_rate::<V>(s);
             if value == 0.0 {
                 return s;
             }
-            if (value > 0.0) == falls {
-                left = s;
-            } else {
-                right = s;
-            }
+            let is_left = (value > 0.0) == falls;
+            (left, right) = (if is_left { s } else { left }, if is_left { right } else { s });
             let newton = s - value / rate;
-            let inside = newton > left && newton < right;
-            let next = if inside { newton } else { 0.5 * (left + right) };
-            let step = (next - s).abs();
-            // Steps of Newton's method square: the next would be step^3 / last_step^2.
-            let is_last = inside && step * (step * step) <= f64::EPSILON * s * (last_step * last_step);
-            if is_last || step <= f64::EPSILON * s.abs() || right - left <= f64::EPSILON * right {
+            let (next, step);
+            if newton > left && newton < right {
+                (next, step) = (newton, (newton - s).abs());
+                // Steps of Newton's method square: the next would be step^3 / last_step^2.
+                if step * (step * step) <= f64::EPSILON * s * (last_step * last_step) {
+                    return next;
+                }
+                last_step = step;
+            } else {
+                next = middle(left, right);
+                (step, last_step) = ((next - s).abs(), 0.0);
+            }
+            if step <= f64::EPSILON * s.abs() || right - left <= f64::EPSILON * right {
                 return next;
             }
-            last_step = if inside { step } else { 0.0 };
             s = next;
         }
         s
@@ -256,6 +260,13 @@ impl Polynomial {
         }
         (first, others)
     }
+}
+
+/// The middle of a bracket. Newton's method hardly ever needs it: that it is not inlined keeps the choice a branch, which
+/// the processor foresees, where it would wait for a selection.
+#[cold]
+fn middle(left: f64, right: f64) -> f64 {
+    0.5 * (left + right)
 }
 
 /// What the coefficients of a polynomial p say of it on [0, 1].
