@@ -76,6 +76,20 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
         store(&self.a_peak, &mut bounds.a_peak);
     }
 
+    /// Lanes, as bits, of vector `k` whose ranges come to their bounds: of drifts (0), drift rates (1) or floor
+    /// accelerations (2), with this least contact force.
+    #[inline(always)]
+    pub(crate) fn reached(&self, which: usize, k: usize, range: (V, V), least_contact: V) -> u32 {
+        match which {
+            0 => farthest(range, self.middle[k]).not_below(self.reach[k]),
+            1 => against(range, self.sign[k]).not_below(self.turn[k]),
+            _ => {
+                let size = range.1.max(V::splat(0.0).sub(range.0));
+                size.not_below(self.stuck_mu[k].mul(least_contact).min(self.a_peak[k]))
+            }
+        }
+    }
+
     /// [`bounds::apart`] of all vectors.
     #[inline(always)]
     pub(crate) fn apart(&self, sample: &Sample<V, K>, third: V) -> [[V; K]; 3] {
@@ -149,6 +163,12 @@ impl Closer {
             closer.turns[1] |= Set::from(beaten & !steady) << lanes;
         }
         closer
+    }
+
+    /// Whether a guard may fall.
+    #[inline(always)]
+    pub(crate) fn fails(&self) -> bool {
+        self.fails
     }
 }
 
@@ -248,6 +268,11 @@ impl Beaten {
         store(&accelerations, &mut self.acceleration);
         store(&times, &mut self.time);
         true
+    }
+
+    /// Storeys whose drifts beat their peaks, which their bounds do not tell.
+    pub(crate) fn followed(&self) -> Set {
+        self.followed
     }
 
     /// Takes peaks after steps, the first of which ended at a time: of accelerations, and of drifts at the end of a first

@@ -274,6 +274,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     let last = end.min(samples.len() - 1);
     let within = bounds::first(state.storeys());
     let mut reached = first;
+    let mut open = None;
     loop {
         if reached >= last {
             break;
@@ -383,6 +384,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             let (fails, time) = (is_turning || !has_contact, (reached + 1) as f64 * h);
             let in_state = (&state.bounds, &mut bounds);
             if !walk.beaten.note(&closer, fails, reached == first, samples, time, in_state) {
+                open = (has_contact && (fails || closer.fails())).then_some((taken, norm, least_contact));
                 break;
             }
             apart_after = bounds.apart(&taken, third);
@@ -416,6 +418,15 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     walk.contact_slope = slope_before;
     if walk.beaten.any() {
         bounds.put_into(&mut state.bounds);
+    }
+    if let Some((end, norm, least_contact)) = open {
+        let [norm, ..] = numbers(&[norm])[0];
+        let ranges = &mut state.ranges;
+        ranges.set_margins(norm * growth, h);
+        ranges.form([&sample, &end], (state.cache.regime(state.regime), h), (&bounds, least_contact));
+        ranges.suspects[0] |= walk.beaten.followed();
+        ranges.suspects[1] |= walk.beaten.followed();
+        ranges.are_known = true;
     }
     sample.put_into(&mut state.x, &mut state.v, &mut state.a, &mut state.jerk, &mut state.drift_acceleration);
     reached
@@ -550,6 +561,7 @@ impl State<'_> {
                 run(self, walk, observer, motion, first, end)
             }
         };
+        self.is_formed |= reached > first;
         if self.is_sliding {
             observer.observe_slips(self, reached as f64 * motion.dt());
         }

@@ -386,6 +386,8 @@ impl Run<'_> {
 /// What moves: drifts, drift rates, floor accelerations, their rates, drift accelerations, and blocks.
 struct Moment {
     lanes: [Vec<f64>; 5],
+    /// See [`State::is_formed`].
+    is_formed: bool,
     motions: Vec<BlockMotion>,
 }
 
@@ -399,8 +401,7 @@ impl State<'_> {
     }
 
     /// Moves drifts, drift rates and blocks to the place of the present series, which begins at `tau`; at its end,
-    /// accelerations too. They are formed anew: taken from the series, step after step, their errors would add up.
-    /// Returns whether all is finite.
+    /// accelerations too. Returns whether all is finite.
     fn advance(&mut self, tau: f64, to_end: bool) -> bool {
         let mut blocks = 0.0;
         if self.is_sliding || self.airborne {
@@ -420,12 +421,12 @@ impl State<'_> {
     /// What moves, at this moment.
     fn moment(&self) -> Moment {
         let lanes = [&self.x, &self.v, &self.a, &self.jerk, &self.drift_acceleration].map(Clone::clone);
-        Moment { lanes, motions: self.motions.clone() }
+        Moment { lanes, is_formed: self.is_formed, motions: self.motions.clone() }
     }
 
     fn set_moment(&mut self, moment: Moment) {
         [self.x, self.v, self.a, self.jerk, self.drift_acceleration] = moment.lanes;
-        self.motions = moment.motions;
+        (self.is_formed, self.motions) = (moment.is_formed, moment.motions);
     }
 
     /// Integrates the energies of an interval without events from its start, and leaves the state at its end as it is.

@@ -1,7 +1,10 @@
 //! The state of a run: drifts, drift rates, spring and block machines, and what one sample interval does to them.
 
+use std::mem::take;
+
 use crate::STANDARD_GRAVITY;
-use crate::bounds::{Bounds, Set, against, farthest, first};
+use crate::bounds::{Bounds, Set, first};
+use crate::closer_look::{BoundsInLanes, Sample};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand, Transition};
 use crate::lanes::{
@@ -81,6 +84,8 @@ pub(crate) struct Ranges {
     pub(crate) remainder: f64,
     /// h^2 / 8 times the liveliness, for bounds of second derivatives.
     pub(crate) chord: f64,
+    /// Whether they are those of the next series: found by the plain step that was not cleared.
+    pub(crate) are_known: bool,
 }
 
 impl Ranges {
@@ -89,7 +94,41 @@ impl Ranges {
         let pair = || [zero(), zero()];
         let (within, others) = if storeys <= MAX_LANES { (first(storeys), 0) } else { (0, storeys) };
         let bounds = [pair(), pair(), pair()];
-        Self { bounds, suspects: [Set::MAX; 3], within, others, remainder: 0.0, chord: 0.0 }
+        Self { bounds, suspects: [Set::MAX; 3], within, others, remainder: 0.0, chord: 0.0, are_known: false }
+    }
+
+    /// Keeps what the bounds of higher derivatives are multiplied with over `h`, where they are as lively as that.
+    #[inline]
+    pub(crate) fn set_margins(&mut self, liveliness: f64, h: f64) {
+        (self.remainder, self.chord) = (liveliness * off_cubic(h), liveliness * (0.125 * h * h));
+    }
+
+    /// Forms the ranges over a step of `h` in a regime, of which the margins are kept, from the state at its ends, and
+    /// tells which come to their bounds; `contact` is the least contact force.
+    #[inline(always)]
+    pub(crate) fn form<V: Vector, const K: usize>(
+        &mut self,
+        [start, end]: [&Sample<V, K>; 2],
+        (regime, h): (&Regime, f64),
+        (bounds, contact): (&BoundsInLanes<V, K>, V),
+    ) {
+        let (third, remainder) = (V::splat(h * THIRD), V::splat(self.remainder));
+        let of_drifts = (Row::FourthOfDrift, [start.x, start.v], [end.x, end.v]);
+        let of_rates = (Row::FourthOfRate, [start.v, start.q], [end.v, end.q]);
+        let of_accelerations = (Row::FourthOfAcceleration, [start.a, start.jerk], [end.a, end.jerk]);
+        for (which, (row, start, end)) in [of_drifts, of_rates, of_accelerations].into_iter().enumerate() {
+            let margins: [V; K] = regime.lanes(row);
+            let (mut lows, mut highs, mut suspects) = (start[0], start[0], 0);
+            for k in 0..K {
+                let (start, end) = ([start[0][k], start[1][k]], [end[0][k], end[1][k]]);
+                (lows[k], highs[k]) = ranges(start, end, third, remainder.mul(margins[k]));
+                suspects |= Set::from(bounds.reached(which, k, (lows[k], highs[k]), contact)) << (WIDTH * k);
+            }
+            let [low, high] = &mut self.bounds[which];
+            store(&lows, low);
+            store(&highs, high);
+            self.suspects[which] = suspects & self.within;
+        }
     }
 
     #[inline]
@@ -203,6 +242,9 @@ pub(crate) struct State<'a> {
     pub(crate) jerk: Vec<f64>,
     /// Second derivative of each drift.
     pub(crate) drift_acceleration: Vec<f64>,
+    /// Whether accelerations and their rates were formed from drifts and drift rates, not taken from a series: that may
+    /// be done once, for their errors would add up.
+    pub(crate) is_formed: bool,
     pub(crate) springs: Vec<StoreySpring>,
     pub(crate) motions: Vec<BlockMotion>,
     /// Whether the blocks have lost contact.
@@ -266,6 +308,7 @@ impl<'a> State<'a> {
             a: zero(),
             jerk: zero(),
             drift_acceleration: zero(),
+            is_formed: false,
             springs: vec![StoreySpring::new(); n],
             motions,
             airborne: false,
@@ -438,8 +481,9 @@ impl<'a> State<'a> {
         regime.accelerations(self.model, &self.v, &self.drift_acceleration, slope, &mut self.jerk[..n]);
     }
 
-    /// Adds the changes of the present series to drifts and drift rates, and forms accelerations anew if the time of its
-    /// end, `tau`, is given. Returns whether all is finite.
+    /// Adds the changes of the present series to drifts and drift rates; if the time of its end, `tau`, is given,
+    /// accelerations follow: as the series ends, or formed anew where those at its start were taken so. Returns whether all
+    /// is finite.
     pub(crate) fn take_changes(&mut self, tau: Option<f64>) -> bool {
         let n = self.storeys();
         if n <= MAX_LANES {
@@ -488,11 +532,16 @@ impl<'a> State<'a> {
         LookedAt { set: set & self.ranges.within, others: 0..self.ranges.others }
     }
 
-    /// Forms the ranges over the present series, which starts at `tau` and whose start is the state, and tells which come
-    /// to their bounds.
+    /// Forms the ranges over the present series, which starts at `tau` and whose start is the state, unless the plain step
+    /// before it has left them, and tells which come to their bounds.
     #[inline(always)]
     pub(crate) fn form_ranges<V: Vector, const K: usize>(&mut self, tau: f64) {
-        if self.storeys() <= MAX_LANES { ranges_in_lanes::<V, K>(self, tau) } else { self.form_ranges_singly() }
+        if self.storeys() > MAX_LANES {
+            return self.form_ranges_singly();
+        }
+        if !take(&mut self.ranges.are_known) {
+            ranges_in_lanes::<V, K>(self, tau);
+        }
     }
 
     /// Keeps what the bounds of the present series' higher derivatives are multiplied with, from the square of the norm
@@ -501,7 +550,7 @@ impl<'a> State<'a> {
     fn bound_derivatives(&mut self, square: f64) {
         let h = self.series.h();
         let liveliness = self.regime().liveliness_of(square, h);
-        (self.ranges.remainder, self.ranges.chord) = (liveliness * off_cubic(h), liveliness * (0.125 * h * h));
+        self.ranges.set_margins(liveliness, h);
     }
 
     /// [`State::form_ranges`] for more storeys than vectors hold.
@@ -662,6 +711,7 @@ fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     store(&a, &mut state.a);
     store(&drift_acceleration, &mut state.drift_acceleration);
     store(&jerk, &mut state.jerk);
+    state.is_formed = true;
 }
 
 for_each_path! {
@@ -683,68 +733,49 @@ fn changes_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: Option<f6
     store(&x, &mut state.x);
     store(&v, &mut state.v);
     if let Some(tau) = tau {
-        refresh_lanes::<V, K>(state, tau);
+        if state.is_formed {
+            let [a, jerk] = state.series.accelerations_at_end();
+            let (a, jerk): ([V; K], [V; K]) = (load(a), load(jerk));
+            let inside: [V; K] = load(&state.model.lanes.inside);
+            let mut drift_acceleration = differences(&a, V::splat(state.interval.ground_at(tau)));
+            for k in 0..K {
+                drift_acceleration[k] = drift_acceleration[k].mul(inside[k]);
+            }
+            store(&a, &mut state.a);
+            store(&drift_acceleration, &mut state.drift_acceleration);
+            store(&jerk, &mut state.jerk);
+            state.is_formed = false;
+        } else {
+            refresh_lanes::<V, K>(state, tau);
+        }
     }
     zeros.sum() == 0.0
 }
 
-/// See [`range`].
+/// See [`State::form_ranges`].
 #[inline(always)]
 fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
-    let h = state.series.h();
-    let (jerk, q): ([V; K], [V; K]) = (load(&state.jerk), load(&state.drift_acceleration));
+    let start = Sample::<V, K>::of(state);
     let (mass, tangent) = (state.regime().lanes::<V, K>(Row::RootMass), state.regime().lanes::<V, K>(Row::RootTangent));
     let mut squares = V::splat(0.0);
     for k in 0..K {
-        let kinetic = mass[k].mul(jerk[k].sub(V::splat(state.drive.ground_slope)));
-        let elastic = tangent[k].mul(q[k]);
+        let kinetic = mass[k].mul(start.jerk[k].sub(V::splat(state.drive.ground_slope)));
+        let elastic = tangent[k].mul(start.q[k]);
         squares = elastic.mul_add(elastic, kinetic.mul_add(kinetic, squares));
     }
     state.bound_derivatives(squares.sum());
-    let contact = state.contact_at(tau).min(state.contact_at(tau + h));
-    let regime = state.cache.regime(state.regime);
-    let (third, remainder) = (V::splat(h * THIRD), V::splat(state.ranges.remainder));
-    let ([dx, dv], [a_end, jerk_end]) = (state.series.changes(), state.series.accelerations_at_end());
-    let (dx, dv, a_end): ([V; K], [V; K], [V; K]) = (load(dx), load(dv), load(a_end));
-    let (x, v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
-    let (mut x_end, mut v_end) = (x, v);
+    let h = state.series.h();
+    let ([dx, dv], [a, jerk]) = (state.series.changes(), state.series.accelerations_at_end());
+    let (dx, dv, a, jerk): ([V; K], [V; K], [V; K], [V; K]) = (load(dx), load(dv), load(a), load(jerk));
+    let q = differences(&a, V::splat(state.drive.ground + state.drive.ground_slope * h));
+    let mut end = Sample { x: start.x, v: start.v, a, jerk, q };
     for k in 0..K {
-        x_end[k] = x[k].add(dx[k]);
-        v_end[k] = v[k].add(dv[k]);
+        end.x[k] = start.x[k].add(dx[k]);
+        end.v[k] = start.v[k].add(dv[k]);
     }
-    let q_end = differences(&a_end, V::splat(state.drive.ground + state.drive.ground_slope * h));
-    let ends: [[[V; K]; 4]; 3] =
-        [[x, v, x_end, v_end], [v, q, v_end, q_end], [load(&state.a), jerk, a_end, load(jerk_end)]];
-    let margins = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration];
-    let zero = V::splat(0.0);
-    for which in 0..3 {
-        let [start, start_rate, end, end_rate] = ends[which];
-        let margin: [V; K] = regime.lanes(margins[which]);
-        let (mut lows, mut highs) = (start, start);
-        for k in 0..K {
-            let margin = remainder.mul(margin[k]);
-            (lows[k], highs[k]) = ranges([start[k], start_rate[k]], [end[k], end_rate[k]], third, margin);
-        }
-        let [low, high] = &mut state.ranges.bounds[which];
-        store(&lows, low);
-        store(&highs, high);
-        let bounds = &state.bounds;
-        let (about, bound): ([V; K], [V; K]) = match which {
-            0 => (load(&bounds.middle), load(&bounds.reach)),
-            1 => (load(&bounds.sign), load(&bounds.turn)),
-            _ => (load(&bounds.stuck_mu), load(&bounds.a_peak)),
-        };
-        let mut suspects = 0;
-        for k in 0..K {
-            let (reached, bound) = match which {
-                0 => (farthest((lows[k], highs[k]), about[k]), bound[k]),
-                1 => (against((lows[k], highs[k]), about[k]), bound[k]),
-                _ => (highs[k].max(zero.sub(lows[k])), about[k].mul(V::splat(contact)).min(bound[k])),
-            };
-            suspects |= Set::from(reached.not_below(bound)) << (WIDTH * k);
-        }
-        state.ranges.suspects[which] = suspects & state.ranges.within;
-    }
+    let contact = V::splat(state.contact_at(tau).min(state.contact_at(tau + h)));
+    let bounds = BoundsInLanes::of(state);
+    state.ranges.form([&start, &end], (state.cache.regime(state.regime), h), (&bounds, contact));
 }
 
 #[cfg(test)]
