@@ -24,7 +24,7 @@ pub(crate) fn from_kernel(py: Python<'_>, error: &Error) -> PyErr {
         Error::Invalid { domain: Domain::Scene, .. } => exception(py, &SCENE, "InvalidScene", message),
         Error::Invalid { domain: Domain::Motion, .. } => exception(py, &MOTION, "InvalidMotion", message),
         Error::Invalid { domain: Domain::Options, .. } => exception(py, &OPTION, "InvalidOption", message),
-        Error::TooManyEvents { .. } | Error::NotFinite { .. } => simulation_error(py, message),
+        Error::TooStiff { .. } | Error::TooManyEvents { .. } | Error::NotFinite { .. } => simulation_error(py, message),
         Error::Interrupted => PyKeyboardInterrupt::new_err(()),
     }
 }

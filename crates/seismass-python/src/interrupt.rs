@@ -12,7 +12,7 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use seismass::{Control, Domain, Error};
 
-use crate::errors::{from_kernel, from_panic};
+use crate::errors::{from_kernel, from_panic, simulation_error};
 
 /// How often the calling thread looks for signals and reports progress.
 const WATCH_INTERVAL: Duration = Duration::from_millis(50);
@@ -56,10 +56,12 @@ pub(crate) fn run_watched<T: Send + 'static>(
     let control = Arc::new(Control::default());
     let (sender, mut receiver) = channel();
     let shared = Arc::clone(&control);
-    thread::spawn(move || {
+    let work = move || {
         // Nobody receives what an interrupted worker sends.
         let _ = sender.send(catch_unwind(AssertUnwindSafe(|| work(&shared))));
-    });
+    };
+    let started = thread::Builder::new().name("seismass".into()).spawn(work);
+    started.map_err(|error| simulation_error(py, format!("no thread could be started for the run: {error}")))?;
     loop {
         let waiting = &mut receiver;
         let received: Result<Outcome<T>, RecvTimeoutError> = py.detach(move || waiting.recv_timeout(WATCH_INTERVAL));

@@ -11,7 +11,8 @@ use crate::interrupt::{run_inline, run_watched};
 use crate::scene::{Motion, Scene};
 
 /// Bound on samples x (1 + storeys + blocks)^2 of a run that is short enough (tens of milliseconds) to need no watch
-/// for Ctrl-C; starting a thread would cost more than many such runs.
+/// for Ctrl-C; starting a thread would cost more than many such runs. Samples count for each radian of the stiffest
+/// vibration between them.
 const SHORT_RUN: usize = 4_000_000;
 
 /// Solves one scene under one motion; histories at every so many samples (0: none), of drifts and
@@ -31,7 +32,8 @@ pub(crate) fn simulate(
     let options = Options { histories, displacements_only, energy, events, peaks_only: false };
     let (scene, motion) = (&scene.0, &motion.0);
     let size = 1 + scene.storeys() + scene.blocks().len();
-    let work = motion.acceleration().len().saturating_mul(size * size);
+    let phase = scene.building().map_or(0.0, |building| building.frequency_bound() * motion.dt());
+    let work = motion.acceleration().len().saturating_mul(size * size).saturating_mul(phase.max(1.0) as usize);
     let response = if work <= SHORT_RUN {
         run_inline(py, || seismass::simulate(scene, motion, &options))
     } else {

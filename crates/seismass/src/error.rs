@@ -46,6 +46,19 @@ pub enum Error {
         /// Its state after the event.
         state: String,
     },
+    /// The stiffest vibration turns far too often between two samples: the run was not begun, or stopped.
+    #[error(
+        "{phase:.3e} radians of the stiffest vibration between two samples at t = {time} s, of which {limit} can be \
+         solved: take a shorter time step or softer storeys"
+    )]
+    TooStiff {
+        /// Time at which the regime is entered (s).
+        time: f64,
+        /// Circular frequency times sample interval.
+        phase: f64,
+        /// Most that is solved.
+        limit: f64,
+    },
     /// The state grew beyond what a double can hold.
     #[error("the response left the range of numbers at t = {time} s in {element}")]
     NotFinite {

@@ -11,6 +11,8 @@ use crate::storey::Sign;
 
 /// A guard falls when it is below zero by more than this fraction of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Contact forces per unit mass up to this are none (m/s2).
+pub(crate) const NO_CONTACT: f64 = ROUNDING * STANDARD_GRAVITY;
 /// Relative velocities below this fraction of their terms, which nothing but rounding drives on, have arrived.
 const ARRIVED: f64 = 64.0 * f64::EPSILON;
 
@@ -94,7 +96,7 @@ impl State<'_> {
         self.storey_guards::<V>(tau, &mut first, isolated);
         if !self.motions.is_empty() {
             if self.vertical || self.airborne {
-                first.consider::<V>(Guard::Contact, &self.contact_guard(tau), ROUNDING * STANDARD_GRAVITY);
+                first.consider::<V>(Guard::Contact, &self.contact_guard(tau), NO_CONTACT);
             }
             if !self.airborne && (self.ranges.suspects[2] != 0 || self.stuck_mu[0] < f64::INFINITY) {
                 self.breakaway_guards::<V>(tau, &mut first, isolated);
@@ -106,19 +108,24 @@ impl State<'_> {
         // A block whose floor's acceleration is below rounding lifts off stuck.
         if let Some(Guard::Breakaway { .. }) = first.guard
             && self.vertical
-            && let Some(lift) = self.contact_guard(tau).first_fall::<V>(ROUNDING * STANDARD_GRAVITY)
-            && self.interval.contact_at(tau + first.place * h) <= ROUNDING * STANDARD_GRAVITY
+            && let Some(lift) = self.contact_guard(tau).first_fall::<V>(NO_CONTACT)
+            && self.interval.contact_at(tau + first.place * h) <= NO_CONTACT
         {
             return Some((lift, Guard::Contact));
         }
         first.guard.map(|guard| (first.place, guard))
     }
 
-    /// The contact force per unit mass while there is contact, its negative while there is none.
+    /// The contact force per unit mass while there is contact, its negative while there is none. Contact that is none all
+    /// along the series has been lost at its start, though the force never falls below zero.
     fn contact_guard(&self, tau: f64) -> Polynomial {
         let sign = if self.airborne { -1.0 } else { 1.0 };
         let change = self.interval.contact_slope * self.series.h();
-        Polynomial::new([sign * self.interval.contact_at(tau), sign * change])
+        let start = self.interval.contact_at(tau);
+        if !self.airborne && start <= NO_CONTACT && start + change <= NO_CONTACT {
+            return Polynomial::new([-STANDARD_GRAVITY]);
+        }
+        Polynomial::new([sign * start, sign * change])
     }
 
     #[inline(always)]

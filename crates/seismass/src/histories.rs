@@ -2,6 +2,7 @@
 
 use std::hint::black_box;
 
+use crate::error::{Domain, Error, Result};
 use crate::lanes::{Vector, WIDTH, load, store};
 use crate::model::Model;
 use crate::regime::Row;
@@ -63,14 +64,11 @@ fn running_sums<V: Vector, const K: usize>(values: &[V; K]) -> [V; K] {
     sums
 }
 
-/// Has glibc keep memory of so many numbers from run to run: it does so once it has seen as much in one piece (`mallopt`,
-/// `M_TRIM_THRESHOLD`), and gives several smaller pieces back to the system each time. New pages cost more than the run.
-fn keep_memory(numbers: usize) {
-    /// Of a larger piece it learns nothing.
-    const MOST: usize = 32 << 20;
-    if cfg!(target_env = "gnu") && numbers * size_of::<f64>() <= MOST {
-        drop(black_box(Vec::<f64>::with_capacity(numbers)));
-    }
+/// Whether there is memory for so many numbers. To ask has glibc keep it from run to run: it does so once it has seen as
+/// much in one piece (`mallopt`, `M_TRIM_THRESHOLD`), up to 32 MB, and gives several smaller pieces back to the system each
+/// time. New pages cost more than the run.
+fn is_there_memory(numbers: usize) -> bool {
+    black_box(Vec::<f64>::new().try_reserve_exact(numbers)).is_ok()
 }
 
 /// Drift coordinates, drift rates and floor accelerations of a row, in vectors.
@@ -108,7 +106,10 @@ pub(crate) struct Recorder {
 
 impl Recorder {
     /// A recorder of a run over so many samples, a row every so many of the caller's, which every `substeps`-th is.
-    pub(crate) fn new(model: &Model, options: &Options, samples: usize, every: usize, substeps: usize) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] where there is no memory for as many rows.
+    pub(crate) fn new(model: &Model, options: &Options, samples: usize, every: usize, substeps: usize) -> Result<Self> {
         let (n, blocks) = (model.storeys(), model.blocks.len());
         let stride = every.saturating_mul(substeps);
         let rows = samples.div_ceil(stride);
@@ -117,8 +118,13 @@ impl Recorder {
         let of_storeys = |is_kept: bool| Table::new(rows, if is_kept { n } else { 0 }, storeys);
         let of_blocks = |is_kept: bool| Table::new(rows, if is_kept { blocks } else { 0 }, blocks_written);
         let zero = |length: usize| vec![0.0; length];
-        keep_memory(rows * if all { 4 * storeys + 2 * blocks_written } else { storeys + blocks_written });
-        Self {
+        let of_row = if all { 4 * storeys + 2 * blocks_written } else { storeys + blocks_written };
+        if !is_there_memory(rows.saturating_mul(of_row)) {
+            let (requirement, value) =
+                ("of so few samples that they fit into memory", format!("{rows} rows of {of_row} numbers"));
+            return Err(Error::invalid(Domain::Options, "histories", "run", requirement, value));
+        }
+        Ok(Self {
             every,
             rows,
             displacements_only: options.displacements_only,
@@ -136,7 +142,7 @@ impl Recorder {
             slips: zero(blocks_written),
             velocities: zero(blocks_written),
             floor_velocities: zero(1 + storeys),
-        }
+        })
     }
 
     /// The row to be written, which counts as written.
@@ -260,5 +266,15 @@ impl Recorder {
             floor_acceleration: self.floor_acceleration.finish(rows, written),
             storey_force: self.storey_force.finish(rows, written),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_is_asked_for_before_it_is_taken() {
+        assert!(is_there_memory(0) && is_there_memory(1000) && !is_there_memory(1 << 58));
     }
 }

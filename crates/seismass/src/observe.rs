@@ -1,7 +1,10 @@
 //! What is kept of a run: peaks in continuous time, histories, energies.
 
+use std::num::NonZeroUsize;
+
 use crate::bernstein::Polynomial;
 use crate::bounds::{Set, members, only};
+use crate::error::Result;
 use crate::friction::BlockState;
 use crate::histories::Recorder;
 use crate::lanes::{Plain, Vector};
@@ -45,16 +48,21 @@ struct EnergyBalance {
 
 impl Observer {
     /// An observer of a run over so many samples, of which every `substeps`-th is one of the caller's.
-    pub(crate) fn new(model: &Model, options: &Options, samples: usize, substeps: usize) -> Self {
+    ///
+    /// # Errors
+    /// As [`Recorder::new`].
+    pub(crate) fn new(model: &Model, options: &Options, samples: usize, substeps: usize) -> Result<Self> {
         let (n, blocks) = (model.storeys(), model.blocks.len());
-        let histories = options.histories.map(|every| Recorder::new(model, options, samples, every.get(), substeps));
+        let recorder = |every: NonZeroUsize| Recorder::new(model, options, samples, every.get(), substeps);
+        let histories = options.histories.map(recorder).transpose()?;
         let peaks = Peaks {
             drift: vec![Default::default(); n],
             slip: vec![Default::default(); blocks],
             floor_acceleration: vec![Default::default(); n],
             storey_shear: vec![Default::default(); n],
         };
-        Self { peaks, histories, energy: options.energy.then(EnergyBalance::default), beaten: (Set::MAX, Set::MAX) }
+        let energy = options.energy.then(EnergyBalance::default);
+        Ok(Self { peaks, histories, energy, beaten: (Set::MAX, Set::MAX) })
     }
 
     /// Whether energies are kept: then every step needs its series too.

@@ -15,6 +15,7 @@ use std::sync::Arc;
 use crate::STANDARD_GRAVITY;
 use crate::bounds::{self, Set};
 use crate::closer_look::{Beaten, BoundsInLanes, Closer, Sample};
+use crate::events::NO_CONTACT;
 use crate::friction::BlockMotion;
 use crate::histories::{Recorder, RowInLanes};
 use crate::lanes::{
@@ -374,7 +375,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 is_turning |= turning && before.turns(&after.velocity, &push);
             }
         }
-        let has_contact = !VERTICAL || contact.0 > 0.0 && contact.1 > 0.0;
+        let has_contact = !VERTICAL || contact.0 > NO_CONTACT && contact.1 > NO_CONTACT;
         if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact {
             for suspects in &mut suspects {
                 *suspects &= within;

@@ -109,7 +109,7 @@ impl Storey {
 pub enum Damping {
     /// This ratio of critical damping in every vibration mode.
     Modal {
-        /// Damping ratio.
+        /// Damping ratio: 0.05 for 5 %.
         ratio: f64,
     },
     /// C = a M + b K with this ratio in two modes.
@@ -256,6 +256,13 @@ impl Building {
     /// Damping matrix C in floor coordinates (N s/m).
     pub fn damping_matrix(&self) -> DMatrix<f64> {
         self.storey_damping.floor_matrix(&self.mass, &self.stiffness())
+    }
+
+    /// No circular frequency of the bare building, elastic, is above this (rad/s).
+    pub fn frequency_bound(&self) -> f64 {
+        let stiffest = self.storeys.iter().map(|storey| storey.stiffness).fold(0.0, f64::max);
+        let lightest = self.mass.iter().copied().fold(f64::INFINITY, f64::min);
+        2.0 * (stiffest / lightest).sqrt()
     }
 
     /// Natural periods of the bare building (s), longest first, without P-Delta.

@@ -30,13 +30,16 @@ const LONGEST_PHASE: f64 = 4.0;
 /// Most substeps of a sample interval, and of a motion: they are held in memory.
 const MOST_SUBSTEPS: usize = 1 << 10;
 const MOST_SUBSTEPS_OF_MOTION: usize = 1 << 21;
+/// Most radians of the stiffest vibration in a step: each takes a series of its own where something happens.
+const MOST_PHASE: f64 = 65536.0;
 /// Steps between two looks at the caller's wish to stop.
 const STEPS_PER_POLL: usize = 1024;
 
 /// Solves one scene under one motion.
 ///
 /// # Errors
-/// [`Error::TooManyEvents`] and [`Error::NotFinite`] when a run cannot go on.
+/// [`Error::Invalid`] when histories do not fit into memory; [`Error::TooStiff`], [`Error::TooManyEvents`] and
+/// [`Error::NotFinite`] when a run cannot go on.
 pub fn simulate(scene: &Scene, motion: &Motion, options: &Options) -> Result<Response> {
     simulate_until(scene, motion, options, &AtomicBool::new(false))
 }
@@ -68,7 +71,7 @@ pub(crate) fn run(
     let mut run = Run {
         state: State::new(scene, model, cache, vertical),
         walk: Walk::new(model),
-        observer: Observer::new(model, options, samples, substeps),
+        observer: Observer::new(model, options, samples, substeps)?,
         statistics: Statistics { substeps, ..Statistics::default() },
         log: Vec::new(),
         keep_log: options.events,
@@ -87,6 +90,7 @@ pub(crate) fn run(
         if i >= quiet_from && run.no_peak_can_be_beaten() {
             break;
         }
+        run.phase_of(motion.dt())?;
         run.state.begin_interval(motion, i);
         let (reached, is_open) = run.plain_run(motion, i, quiet_from);
         if reached > i {
@@ -96,7 +100,7 @@ pub(crate) fn run(
             }
             run.state.begin_interval(motion, i);
         }
-        if let Some((storey, time)) = run.series_interval()? {
+        if let Some((storey, time)) = run.series_interval(stop)? {
             status = Status::Collapsed { storey: storey + 1, time };
             break;
         }
@@ -107,7 +111,7 @@ pub(crate) fn run(
         run.statistics.skipped.tail_samples = last - i;
     }
     let end_time = match status {
-        Status::Completed => i as f64 * motion.dt(),
+        Status::Completed => last as f64 * motion.dt(),
         Status::Collapsed { time, .. } => time,
     };
     Ok(run.finish(status, end_time, peaks_only))
@@ -250,20 +254,27 @@ impl Run<'_> {
         (reached, reached < end)
     }
 
+    /// Radians of the stiffest vibration of the present regime in a time.
+    fn phase_of(&self, time: f64) -> Result<f64> {
+        let phase = self.state.regime().frequency * time;
+        if phase <= MOST_PHASE { Ok(phase) } else { Err(self.too_stiff(phase)) }
+    }
+
     /// Solves the present interval by series; returns the storey that collapsed, and when.
-    fn series_interval(&mut self) -> Result<Option<(usize, f64)>> {
+    fn series_interval(&mut self, stop: &AtomicBool) -> Result<Option<(usize, f64)>> {
         self.statistics.intervals += 1;
         let h = self.state.interval.h;
-        let phase_at_start = self.state.regime().frequency * h;
+        let phase_at_start = self.phase_of(h)?;
         let mut events = 0;
         let mut tau = 0.0;
         while tau < h {
             let remaining = h - tau;
-            let phase = self.state.regime().frequency * remaining;
+            let phase = self.phase_of(remaining)?;
             let pieces = if phase > MAX_PHASE { (phase / MAX_PHASE).ceil() } else { 1.0 };
             let event = self.series_step(tau, remaining / pieces)?;
             match event {
                 None if pieces == 1.0 => tau = h,
+                None if stop.load(Ordering::Relaxed) => return Err(Error::Interrupted),
                 None => tau += remaining / pieces,
                 Some((place, guard)) => {
                     tau = (tau + place * remaining / pieces).min(h);
@@ -342,6 +353,12 @@ impl Run<'_> {
         if !self.keep_log {
             self.log.clear();
         }
+    }
+
+    #[cold]
+    fn too_stiff(&self, phase: f64) -> Error {
+        let substeps = self.statistics.substeps as f64;
+        Error::TooStiff { time: self.state.interval.start, phase: phase * substeps, limit: MOST_PHASE * substeps }
     }
 
     fn too_many_events(&self, guard: Guard, tau: f64, limit: usize) -> Error {

@@ -15,6 +15,7 @@ use crate::propagator::RegimeCache;
 use crate::regime::{Operator, Regime, Row};
 use crate::scene::{Motion, Scene};
 use crate::storey::StoreySpring;
+use crate::tall_run::Effort;
 use crate::taylor::{Drive, Series, Start};
 
 /// Storeys whose plastic elements fit into a word.
@@ -272,6 +273,8 @@ pub(crate) struct State<'a> {
     pub(crate) series: Series,
     pub(crate) bounds: Bounds,
     pub(crate) ranges: Ranges,
+    /// What a step of a tall building with peaks inside takes.
+    pub(crate) effort: Effort,
     /// Working space: constant loads of the floors.
     pub(crate) loads: Vec<f64>,
     /// Working space: what becomes of the blocks of a floor.
@@ -331,6 +334,7 @@ impl<'a> State<'a> {
             series: Series::default(),
             bounds: Bounds::new(n),
             ranges: Ranges::new(n),
+            effort: Effort::default(),
             loads: vec![0.0; n],
             transitions: Vec::new(),
             stuck_mass: vec![0.0; n],

@@ -12,6 +12,7 @@ use crate::STANDARD_GRAVITY;
 use crate::banded_step::{BandedStep, whole_blocks};
 use crate::bernstein::{MAX_DEGREE, Polynomial};
 use crate::bounds::{Set, members, signs};
+use crate::events::NO_CONTACT;
 use crate::full_step::{FullStep, Shears};
 use crate::lanes::{Plain, Vector, WIDTH, at, filled_to, for_each_path, lanes, lanes_mut};
 use crate::observe::Observer;
@@ -615,23 +616,37 @@ impl Series {
     }
 }
 
+/// What the last step with peaks inside has taken: into how many parts it was divided, and the order of their series.
+/// The run keeps it, so that what the next one takes does not depend on where plain steps begin anew.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Effort {
+    parts: usize,
+    order: usize,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { parts: 1, order: LOWEST_ORDER }
+    }
+}
+
 /// The series of a step with peaks inside: one from its start, or of each half from the sample that it touches.
 struct StepSeries {
     of_parts: [Series; 2],
-    parts: usize,
+    effort: Effort,
 }
 
 impl StepSeries {
-    fn new(length: usize) -> Self {
-        Self { of_parts: [Series::new(length), Series::new(length)], parts: 1 }
+    fn new(length: usize, effort: Effort) -> Self {
+        Self { of_parts: [Series::new(length), Series::new(length)], effort }
     }
 
     /// Forms the series until what they leave out of the values that may beat peaks is proved to be below rounding, of
     /// these or of the largest in the building; false where they cannot.
     #[inline(always)]
     fn form<V: Vector>(&mut self, operator: &Operator, rows: &Rows, closer: &Closer, beaten: &[Beaten]) -> bool {
-        for parts in self.parts..=2 {
-            self.parts = parts;
+        for parts in self.effort.parts..=2 {
+            self.effort.parts = parts;
             if self.form_parts::<V>(operator, rows, closer, beaten) {
                 return true;
             }
@@ -641,7 +656,7 @@ impl StepSeries {
 
     #[inline(always)]
     fn form_parts<V: Vector>(&mut self, operator: &Operator, rows: &Rows, closer: &Closer, beaten: &[Beaten]) -> bool {
-        let h = closer.h / self.parts as f64;
+        let h = closer.h / self.effort.parts as f64;
         let (least, curvature) = (closer.least, closer.curvature);
         // Of what is exactly zero nothing is left out.
         let least = (least.0.max(f64::MIN_POSITIVE), least.1.max(f64::MIN_POSITIVE));
@@ -649,13 +664,13 @@ impl StepSeries {
         let [first, second] = &mut self.of_parts;
         let terms = |which: usize| (&*curvature.a[which], &*curvature.q_rate[which]);
         // Neighbouring steps need about as many terms.
-        let lowest = LOWEST_ORDER.max(first.order.saturating_sub(1));
+        let lowest = LOWEST_ORDER.max(self.effort.order - 1);
         if !first.form::<V>(operator, rows, terms(0), h, lowest, Some(&wanted)) {
             return false;
         }
         // The norm at the start of the step bounds the second half too.
-        let order = first.order;
-        self.parts == 1 || second.form::<V>(operator, rows, terms(1), -h, order, None)
+        self.effort.order = first.order;
+        self.effort.parts == 1 || second.form::<V>(operator, rows, terms(1), -h, first.order, None)
     }
 
     /// Takes the extremes inside the step, which begins at `time`, into the peaks.
@@ -668,7 +683,7 @@ impl StepSeries {
         time: f64,
         beaten: &[Beaten],
     ) {
-        for (which, (series, sample)) in self.of_parts[..self.parts].iter().zip(samples).enumerate() {
+        for (which, (series, sample)) in self.of_parts[..self.effort.parts].iter().zip(samples).enumerate() {
             let from = if which == 0 { time } else { time - 2.0 * series.h };
             for beaten in beaten.iter().filter(|beaten| beaten.turns()) {
                 let k = beaten.vector;
@@ -765,7 +780,7 @@ fn run_lanes<V: Vector>(
     let friction = filled_to(length, state.friction[..n].iter().copied(), 0.0);
     let (mut apart_before, mut apart_after) =
         (vec![Apart::default(); length / WIDTH], vec![Apart::default(); length / WIDTH]);
-    let (mut curvature, mut series) = (Curvature::new(length), StepSeries::new(length));
+    let (mut curvature, mut series) = (Curvature::new(length), StepSeries::new(length, state.effort));
     let (mut suspects, mut beaten): (Vec<Suspects>, Vec<Beaten>) = (Vec::new(), Vec::new());
     let (mut on_floors, mut on_ground) = sliding_blocks(state);
     let watches_ground = !on_ground.is_empty() || state.stuck_mu[0].is_finite();
@@ -773,16 +788,31 @@ fn run_lanes<V: Vector>(
         Some(_) => state.motions.iter().map(|m| (m.velocity, m.slip)).collect(),
         None => Vec::new(),
     };
-    let mut slope_before =
-        if vertical.is_some() { (contact_at(first + 1) - contact_at(first)) * per_second } else { 0.0 };
-    for ((load, spring), friction) in load.iter_mut().zip(&spring_load).zip(&friction) {
-        *load = spring + friction * STANDARD_GRAVITY;
+    let samples = motion.acceleration();
+    let set_loads = |contact: f64, slope: f64, load: &mut [f64], load_slope: &mut [f64]| {
+        for i in 0..length {
+            (load[i], load_slope[i]) = (spring_load[i] + friction[i] * contact, friction[i] * slope);
+        }
+    };
+    set_loads(contact_at(first), 0.0, &mut load, &mut load_slope);
+    let mut slope_before = 0.0;
+    if vertical.is_some() {
+        // As the step that ends here leaves them: the state has formed them anew, to rounding.
+        let last = first.saturating_sub(1);
+        slope_before = (contact_at(last + 1) - contact_at(last)) * per_second;
+        set_loads(contact_at(first), slope_before, &mut load, &mut load_slope);
+        if has_floor_damping {
+            prefix_sums::<V>(&before.v, &mut floors);
+        }
+        operator.accelerations::<V>(&before.x, &before.v, &floors, &load, &mut before.a[1..]);
+        before.a[0] = samples[first];
+        let q = &mut before.q[margin..margin + length];
+        operator.derivatives(&before.v, &before.a, V::splat(1.0), &load_slope, q, &mut before.jerk[1..]);
     }
     for k in 0..length / WIDTH {
         bounds.update::<V>(k);
         store_all(bounds.apart::<V>(&before, margin, third, k), &mut apart_before[k]);
     }
-    let samples = motion.acceleration();
     let mut reached = first;
     for (pair, next) in samples[first..=end].windows(2).zip(first + 1..) {
         let slope = (pair[1] - pair[0]) * per_second;
@@ -794,10 +824,7 @@ fn run_lanes<V: Vector>(
                 *jerk += friction * (contact_slope - slope_before) * inverse_mass;
             }
             slope_before = contact_slope;
-            for i in 0..length {
-                load[i] = spring_load[i] + friction[i] * contact.1;
-                load_slope[i] = friction[i] * contact_slope;
-            }
+            set_loads(contact.1, contact_slope, &mut load, &mut load_slope);
             for (k, apart) in apart_before.iter_mut().enumerate() {
                 store_all(bounds.apart::<V>(&before, margin, third, k), apart);
             }
@@ -893,7 +920,7 @@ fn run_lanes<V: Vector>(
                 break;
             }
         }
-        if vertical.is_some() && !(contact.0 > 0.0 && contact.1 > 0.0)
+        if vertical.is_some() && !(contact.0 > NO_CONTACT && contact.1 > NO_CONTACT)
             || watches_ground && !move_on_ground(&mut on_ground, ground, push, h, state.stuck_mu[0])
         {
             break;
@@ -935,6 +962,7 @@ fn run_lanes<V: Vector>(
             recorder.append_row(state, &before.x, &before.v, &before.a[1..], blocks.iter().copied());
         }
     }
+    state.effort = series.effort;
     if reached > first {
         before.put(state, margin);
         bounds.put_peaks(state, observer);

@@ -198,3 +198,36 @@ fn substeps_leave_rows_and_skipped_samples_as_they_are() {
         }
     }
 }
+
+/// What else is asked for changes no bit, however many storeys: with energies, and in a quiet tail of which peaks alone are
+/// wanted, plain steps are taken one by one.
+#[test]
+fn what_is_asked_for_changes_no_bit() {
+    let swing = |i: usize| 9.0 * (0.05 * i as f64).sin() * (0.004 * i as f64).sin();
+    let horizontal: Vec<f64> = (0..700).map(|i| if i < 400 { swing(i) } else { 0.0 }).collect();
+    let vertical: Arc<[f64]> = (0..700).map(|i| 3.0 * (0.31 * i as f64).sin()).collect();
+    let options = Options { histories: NonZeroUsize::new(1), ..Options::default() };
+    let mut plain_steps = 0;
+    for (storeys, damping, vertical) in [3, 6, 17, 24, 50].into_iter().flat_map(|storeys| {
+        let modal = Damping::Modal { ratio: 0.03 };
+        let rayleigh = Damping::Rayleigh { ratio: 0.03, modes: [1, 2] };
+        [(storeys, modal, None), (storeys, rayleigh.clone(), Some(vertical.clone())), (storeys, rayleigh, None)]
+    }) {
+        let uniform = Building::uniform(storeys, 0.1 * storeys as f64, 1000.0, damping.clone()).unwrap();
+        let springs = uniform.storeys().iter().map(|s| Storey::yielding(s.stiffness, 12e3)).collect();
+        let building = Building::new(vec![1000.0; storeys], springs, damping).unwrap();
+        let blocks = [1, storeys / 2, storeys].map(|floor| Block::new(floor.max(1), 400.0, 0.15));
+        let scene = Scene::new(Some(Arc::new(building)), blocks.to_vec()).unwrap();
+        let motion = Motion::new(horizontal.clone(), 0.01, vertical).unwrap();
+        let whole = simulate(&scene, &motion, &options).unwrap();
+        plain_steps += whole.statistics.plain_steps;
+        let with_energy = simulate(&scene, &motion, &Options { energy: true, ..options }).unwrap();
+        assert_eq!(whole.histories, with_energy.histories, "{storeys} storeys");
+        assert_eq!(whole.peaks, with_energy.peaks, "{storeys} storeys");
+        let without = simulate(&scene, &motion, &Options::default()).unwrap();
+        assert_eq!((&whole.peaks, &whole.slip_path), (&without.peaks, &without.slip_path), "{storeys} storeys");
+        let peaks = simulate(&scene, &motion, &Options { peaks_only: true, ..Options::default() }).unwrap();
+        assert_eq!((whole.peaks, whole.end_time), (peaks.peaks, peaks.end_time), "{storeys} storeys");
+    }
+    assert!(plain_steps > 5000, "{plain_steps}");
+}
