@@ -1,6 +1,8 @@
 //! What must hold for any response by itself: numbers, legal sequences of events, and states that fit the histories.
 
-use seismass::{Event, EventKind, Motion, Response, STANDARD_GRAVITY, Scene, Status};
+use std::num::NonZeroUsize;
+
+use seismass::{Event, EventKind, Histories, Motion, Options, Response, STANDARD_GRAVITY, Scene, Status, simulate};
 
 /// Rounding of floor accelerations and relative velocities in the histories, as a fraction of their peaks.
 const ROUNDING: f64 = 1e-9;
@@ -29,6 +31,39 @@ pub fn check(scene: &Scene, motion: &Motion, response: &Response) -> Result<(), 
     springs(scene, log)?;
     blocks(scene, motion, response, log)?;
     peaks(scene, response)
+}
+
+/// Whether what else is asked for changes a bit of a run with energies: without them plain steps are taken many at a time,
+/// and without histories blocks on the ground run ahead of them.
+pub fn check_others(scene: &Scene, motion: &Motion, response: &Response) -> Result<(), String> {
+    let options = Options { histories: NonZeroUsize::new(1), events: true, ..Options::default() };
+    for (histories, without) in [(true, "energies"), (false, "energies and histories")] {
+        let options = if histories { options } else { Options { histories: None, ..options } };
+        let other = simulate(scene, motion, &options).map_err(|error| format!("without {without}: {error}"))?;
+        let same = bits(&other.residual_drift) == bits(&response.residual_drift)
+            && bits(&other.residual_slip) == bits(&response.residual_slip)
+            && (&other.peaks, &other.slip_path, other.end_time)
+                == (&response.peaks, &response.slip_path, response.end_time)
+            && (&other.events, other.status) == (&response.events, response.status);
+        if !same || histories && !same_histories(&other, response) {
+            return Err(format!("other bits without {without}"));
+        }
+    }
+    Ok(())
+}
+
+fn same_histories(one: &Response, other: &Response) -> bool {
+    let (Some(one), Some(other)) = (&one.histories, &other.histories) else { return false };
+    let all = |of: &Histories| {
+        let lists =
+            [&of.drift, &of.slip, &of.floor_velocity, &of.block_velocity, &of.floor_acceleration, &of.storey_force];
+        lists.map(|values| bits(values))
+    };
+    all(one) == all(other)
+}
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| value.to_bits()).collect()
 }
 
 fn numbers(response: &Response) -> Result<(), String> {

@@ -16,7 +16,7 @@ use crate::random_scene::Draw;
 pub const LARGEST_RESIDUAL: f64 = 1e-11;
 /// The judge is not asked where its series would need more pieces than this.
 const AFFORDABLE_PIECES: f64 = 3e5;
-/// One scene in so many has its energies balanced; a judged one always.
+/// One scene in so many has its energies balanced and is solved without them too; a judged one always.
 const ENERGIES: u64 = 10;
 
 /// Which scenes to run.
@@ -61,6 +61,9 @@ fn examine(seed: u64, family: Family, judged: bool) -> Found {
     found.events = response.statistics.events;
     found.residual = response.energy.map(|e| e.relative_residual.abs());
     found.defect = consistency::check(&scene, &motion, &response).err();
+    if energy && found.defect.is_none() {
+        found.defect = consistency::check_others(&scene, &motion, &response).err();
+    }
     if let Some(residual) = found.residual.filter(|r| *r > LARGEST_RESIDUAL || r.is_nan()) {
         found.explained_residual = explained_residual(&scene, &motion, &response);
         if found.explained_residual.is_none() {

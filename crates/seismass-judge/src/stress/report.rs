@@ -25,7 +25,7 @@ pub fn distribution(tally: &Tally) -> String {
     row("events of a run: least / median / most", format!("{least} / {median} / {most}"));
     let kinds = EventKind::ALL.iter().zip(tally.kinds);
     row("events by kind", listed(kinds.map(|(kind, n)| format!("{} {n}", kind.name()))));
-    row("energies balanced", tally.balanced.to_string());
+    row("energies balanced, and solved without them to the same bits", tally.balanced.to_string());
     let worst = |worst: [(f64, u64); Family::ALL.len()]| {
         let of_family = Family::ALL.iter().zip(worst);
         listed(of_family.map(|(family, (value, seed))| format!("{} {value:.1e} (seed {seed})", family.name())))
