@@ -85,7 +85,7 @@ pub fn simulate_each<T: Clone + Send + Sync>(
         }
     }
     let batch = Batch { scenes, motions, options, control, plan: Plan::new(scenes, motions, runs) };
-    let mut results = in_pool(threads, || batch.solve(&keep))?;
+    let mut results = in_pool(threads, "batch", || batch.solve(&keep))?;
     if control.stop.load(Ordering::Relaxed) {
         return Err(Error::Interrupted);
     }
@@ -102,12 +102,12 @@ pub fn simulate_each<T: Clone + Send + Sync>(
     Ok(of_run.into_iter().map(result_of).collect())
 }
 
-/// Runs `work` in a pool of `threads` threads, or in the global one.
-pub(crate) fn in_pool<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T> {
+/// Runs `work` of a batch or spectrum (`owner`) in a pool of `threads` threads, or in the global one.
+pub(crate) fn in_pool<T: Send>(threads: Option<usize>, owner: &str, work: impl FnOnce() -> T + Send) -> Result<T> {
     match threads {
         None => Ok(work()),
         Some(count) => {
-            let refuse = |reason: String| Error::invalid(Domain::Options, "threads", "batch", reason, count);
+            let refuse = |reason: String| Error::invalid(Domain::Options, "threads", owner, reason, count);
             if count == 0 {
                 return Err(refuse("at least 1".into()));
             }

@@ -254,7 +254,7 @@ impl Polynomial {
         let (mut first, mut others) = (None, Vec::new());
         if self.length > 0 && self.coefficients[0].abs() <= rest {
             Bernstein::new(self).all_sign_changes(0.0, 1.0, MAX_DEPTH, &mut |left, right| {
-                let place = self.refine(left, right);
+                let place = if left < right { self.refine(left, right) } else { left };
                 if first.is_none() { first = Some(place) } else { others.push(place) }
             });
         }
@@ -393,7 +393,8 @@ impl Bernstein {
         }
     }
 
-    /// Every interval with exactly one root, in order. Two roots closer than rounding are none.
+    /// Every interval with exactly one root, in order; a root at a middle is an interval without length. Two roots closer
+    /// than rounding are none.
     fn all_sign_changes(&self, left: f64, right: f64, depth: u32, visit: &mut impl FnMut(f64, f64)) {
         match self.sign_changes() {
             0 => {}
@@ -403,6 +404,15 @@ impl Bernstein {
                 let middle = 0.5 * (left + right);
                 let (first, second) = self.split();
                 first.all_sign_changes(left, middle, depth - 1, visit);
+                // A zero that both halves share counts in neither.
+                let before = first.as_slice().iter().rev().find(|&&b| b != 0.0);
+                let after = second.as_slice().iter().find(|&&b| b != 0.0);
+                if second.coefficients[0] == 0.0
+                    && let (Some(before), Some(after)) = (before, after)
+                    && before * after < 0.0
+                {
+                    visit(middle, middle);
+                }
                 second.all_sign_changes(middle, right, depth - 1, visit);
             }
         }
@@ -433,6 +443,17 @@ mod tests {
         assert_eq!(all.len(), 3);
         for (s, root) in all.iter().zip([0.3, 0.31, 0.7]) {
             assert!((s - root).abs() < 1e-13);
+        }
+    }
+
+    /// A root at a middle of halvings, where a coefficient of both halves is exactly zero.
+    #[test]
+    fn finds_roots_where_intervals_are_split() {
+        for (coefficients, roots) in
+            [(vec![0.125, -0.75, 1.0], vec![0.25, 0.5]), (vec![0.375, -1.25, 1.0], vec![0.5, 0.75])]
+        {
+            let (first, others) = Polynomial::new(coefficients).sign_changes::<Plain>();
+            assert_eq!(first.into_iter().chain(others).collect::<Vec<_>>(), roots);
         }
     }
 

@@ -20,16 +20,23 @@ pub enum InstructionSet {
 
 impl InstructionSet {
     /// The one in use: the widest this machine has, or what the environment variable `SEISMASS_INSTRUCTIONS`
-    /// (`baseline`, `avx2`, `avx512`) names if the machine has it. Read once.
+    /// (`baseline`, `avx2`, `avx512`) names. Where the machine does not have that, or it is no such name, it is the baseline,
+    /// and a line on standard error says so. Read once.
     #[inline]
     pub fn in_use() -> Self {
         static CHOSEN: OnceLock<InstructionSet> = OnceLock::new();
         *CHOSEN.get_or_init(|| {
             let wanted = std::env::var("SEISMASS_INSTRUCTIONS").unwrap_or_default();
-            [Self::Avx512, Self::Avx2]
+            let chosen = [Self::Avx512, Self::Avx2]
                 .into_iter()
                 .find(|set| set.is_available() && (wanted.is_empty() || wanted == set.name()))
-                .unwrap_or(Self::Baseline)
+                .unwrap_or(Self::Baseline);
+            if !wanted.is_empty() && wanted != chosen.name() {
+                let known = [Self::Avx512, Self::Avx2].iter().any(|set| wanted == set.name());
+                let reason = if known { "which this machine does not have" } else { "not baseline, avx2 or avx512" };
+                eprintln!("seismass: SEISMASS_INSTRUCTIONS is {wanted:?}, {reason}: the baseline is used");
+            }
+            chosen
         })
     }
 

@@ -343,10 +343,13 @@ impl Steps {
         model.storeys() > MAX_DENSE && TallStep::exists(regime, dt)
     }
 
-    fn bytes(&self) -> usize {
+    /// Memory taken (bytes), with the columns of ramps or without, whether or not they are there: what a run counts must
+    /// not depend on which runs came before it.
+    fn bytes(&self, with_ramps: bool) -> usize {
         match &self.whole {
             Whole::Dense(propagator) => {
-                8 * (propagator.columns.len() + self.table.as_ref().map_or(0, |table| table.terms.len()))
+                let columns = column_count(propagator.storeys, with_ramps) * propagator.rows;
+                8 * (columns + self.table.as_ref().map_or(0, |table| table.terms.len()))
             }
             Whole::Tall(step) => step.bytes(),
         }
@@ -560,7 +563,7 @@ impl RegimeCache {
     fn form_steps(&mut self, index: usize, model: &Model, vertical: bool) {
         let entry = &mut self.entries[index];
         let steps = Steps::new(model, &entry.regime, self.dt, vertical, &mut self.sums);
-        self.bytes += steps.bytes();
+        self.bytes += steps.bytes(vertical);
         entry.regime.steps = Some(Box::new(steps));
     }
 
@@ -586,7 +589,7 @@ impl RegimeCache {
         }
         let entry = &self.entries[index];
         if entry.visits == series_visits + 1 {
-            self.run_bytes += entry.regime.steps.as_ref().map_or(0, |steps| steps.bytes());
+            self.run_bytes += entry.regime.steps.as_ref().map_or(0, |steps| steps.bytes(vertical));
         }
         true
     }

@@ -15,7 +15,7 @@ use std::sync::atomic::Ordering;
 
 use rayon::prelude::*;
 
-use crate::batch::Control;
+use crate::batch::{Control, in_pool};
 use crate::error::{Domain, Error, Result};
 use crate::lanes::InstructionSet;
 use crate::scene::Motion;
@@ -60,19 +60,7 @@ pub fn response_spectra(
         let each = peaks.par_chunks_mut(per_motion).zip(motions);
         each.try_for_each(|(peaks, motion)| solve_one(motion, periods, damping, control, peaks))
     };
-    match threads {
-        None => solve(&mut peaks)?,
-        Some(threads) => {
-            let refuse = |value: String| {
-                Error::invalid(Domain::Options, "threads", "spectrum", "a number of threads that can be started", value)
-            };
-            if threads == 0 {
-                return Err(refuse("0".into()));
-            }
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            pool.map_err(|error| refuse(format!("{threads} ({error})")))?.install(|| solve(&mut peaks))?;
-        }
-    }
+    in_pool(threads, "spectrum", || solve(&mut peaks))??;
     Ok(peaks)
 }
 

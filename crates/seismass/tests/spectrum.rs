@@ -171,10 +171,7 @@ fn wrong_input_is_refused_by_name() {
         ),
         (refused(&[1.0], &[1.0], None), "damping of spectrum 1 must be at least 0 and below 1; got 1"),
         (refused(&[1.0], &[0.05, -0.1], None), "damping of spectrum 2 must be at least 0 and below 1; got -0.1"),
-        (
-            refused(&[1.0], &[0.05], Some(0)),
-            "threads of spectrum must be a number of threads that can be started; got 0",
-        ),
+        (refused(&[1.0], &[0.05], Some(0)), "threads of spectrum must be at least 1; got 0"),
     ] {
         assert_eq!(message, expected);
     }
