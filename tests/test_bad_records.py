@@ -8,9 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from seismass.errors import InvalidMotion, RecordFormatError, SeismassError
-from seismass.records import Record, read_record, read_suite
+from seismass.records import Record, Suite, read_record, read_suite
 from seismass.records.at2 import parse_at2
 from seismass.records.columns import parse_columns
+from seismass.simulate import Motion
 
 HEADER = "PEER NGA STRONG MOTION DATABASE RECORD\nQuake, 1/1/2000, Town, 90\nACCELERATION TIME SERIES IN UNITS OF G\n"
 FIVE = "  -.1000000E-03   .2000000E-03   .3000000E-03  -.4000000E-03   .5000000E-03\n"
@@ -79,6 +80,9 @@ FILES: list[tuple[str, str | bytes, dict[str, object], str]] = [
         r"dt of a.txt must agree .* first numbers, 0.01 s; got 0.02",
     ),
     ("a.txt", COLUMN, {"unit": "g", "dt": 0.02, "skip": 60}, r"skip of a.txt must be between 0 and 59; got 60"),
+    ("a.txt", COLUMN, {"unit": "g", "dt": 0.02, "skip": "a"}, r"skip of a.txt must be a whole number .*; got 'a'"),
+    ("a.txt", COLUMN, {"unit": "g", "dt": 0.02, "skip": 1.0}, r"skip of a.txt must be a whole number .*; got 1.0"),
+    ("a.txt", COLUMN, {"unit": ["g"], "dt": 0.02}, r"unit of a.txt must be one of g, m/s2, cm/s2; got \['g'\]"),
     ("a.txt", COLUMN + "oops\n", {"unit": "g", "dt": 0.02}, r"line 61 of a.txt must be numbers; got 'oops'"),
     ("a.txt", COLUMN + "1e999\n", {"unit": "g", "dt": 0.02}, r"line 61 of a.txt must be finite; got infinity"),
     (
@@ -126,6 +130,7 @@ def a_list(text: str) -> Callable[[Path], object]:
     def read(folder: Path) -> object:
         (folder / "a.AT2").write_text(GOOD)
         (folder / "up.AT2").write_text(GOOD.replace("Town, 90", "Town, UP"))
+        (folder / "x-UP.AT2").write_text(GOOD)
         (folder / "list.csv").write_text(text)
         return read_suite(folder / "list.csv")
 
@@ -161,6 +166,21 @@ CALLS: list[tuple[Callable[[Path], object], type[SeismassError], str]] = [
     (a_list("file,number\n,1\n"), RecordFormatError, r"file of list.csv, row 1, must be a path; got an empty cell"),
     (a_list("file\na.AT2\n./a.AT2\n"), RecordFormatError, r"file of list.csv, row 2, must be listed once; got ./a.AT2"),
     (a_list("file\nup.AT2\n"), RecordFormatError, r"row 1, must be a horizontal component; got up.AT2, component UP"),
+    (
+        a_list("file,component\nup.AT2,90\n"),
+        RecordFormatError,
+        r"row 1, must be a horizontal component; got up.AT2, component UP",
+    ),
+    (
+        a_list("file,component\na.AT2,Z\n"),
+        RecordFormatError,
+        r"row 1, must be a horizontal component; got a.AT2, component Z",
+    ),
+    (
+        a_list("file,component\na.AT2,\nx-UP.AT2,\n"),
+        RecordFormatError,
+        r"row 2, must be a horizontal component, or have its `component` given; got x-UP.AT2, vertical by its name",
+    ),
     (a_list("file\nb.AT2\n"), RecordFormatError, r"record file must be a file that can be read; got .*b.AT2"),
     (a_list("file,dt\na.AT2,soon\n"), RecordFormatError, r"dt of list.csv, row 1, must be a number; got 'soon'"),
     (lambda _: Record([], 0.01), InvalidMotion, r"acceleration of record must be a list of at least one sample; got"),
@@ -180,6 +200,29 @@ CALLS: list[tuple[Callable[[Path], object], type[SeismassError], str]] = [
     (lambda _: Record([0.0], 0.01, vertical=[0.0, 1.0]), InvalidMotion, r"vertical of record must be as long as"),
     (lambda _: Record([0.0], 0.01).scaled(float("nan")), InvalidMotion, r"factor of scaled record must be a finite"),
     (lambda _: Record([0.0], 0.01).time_scaled(-1), InvalidMotion, r"factor of time-scaled record must be a positive"),
+    (
+        lambda _: Record([9.0], 0.01).scaled(1e308),
+        InvalidMotion,
+        r"must be finite at every sample; got inf at sample 0",
+    ),
+    (lambda _: Record([9.0], 0.01).with_duration(-1.0), InvalidMotion, r"duration of motion must be between 0 and"),
+    (
+        lambda _: Record([0.0], 0.01, name="x").with_vertical(None),
+        InvalidMotion,
+        r"vertical of record x must be a Record; got None",
+    ),
+    (lambda _: Suite("x", 5), InvalidMotion, r"records of suite x must be a tuple of Record objects; got 5"),
+    (
+        lambda _: Suite("x", (Record([0.0], 0.01), Motion([0.0], 0.01))),
+        InvalidMotion,
+        r"record 2 of suite x must be of class Record; got Motion\(",
+    ),
+    (
+        lambda _: Suite("x", (), ("a",)),
+        InvalidMotion,
+        r"excluded file 1 of suite x must be of class Excluded; got 'a'",
+    ),
+    (lambda _: Suite(None, ()), InvalidMotion, r"name of suite must be a string; got None"),
 ]
 
 

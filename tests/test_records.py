@@ -2,6 +2,7 @@
 
 import csv
 import math
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from seismass.errors import InvalidMotion
-from seismass.records import Record, read_record, read_suite
+from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.records.numbers import is_cut_off, split_touching
 from seismass.units import STANDARD_GRAVITY, stated_unit
 
@@ -107,6 +108,15 @@ def test_cut_off_is_seen_in_fixed_formats_only() -> None:
     assert not is_cut_off([*free, "0.25"])
 
 
+def test_a_number_with_its_exponent_is_whole() -> None:
+    """Python prints short exponents' mantissas short; a cut takes the exponent before it takes decimals."""
+    for scale in (1.0, 1e-5):  # few exponents, and one in every number
+        free = [repr(scale * math.sin(i)) for i in range(1, 100)]
+        assert not is_cut_off([*free, "1e-05"])
+        assert not is_cut_off([*free, "1.5e-05"])
+    assert is_cut_off([*free, free[0].partition("e")[0]])
+
+
 @pytest.mark.parametrize(
     ("text", "unit"),
     [
@@ -176,6 +186,30 @@ def test_record_is_immutable_and_scaling_makes_new_ones() -> None:
     assert (record.pga, record.samples, record.dt) == (2.0, 3, 0.01)
 
 
+def test_record_has_the_times_and_durations_of_its_motion() -> None:
+    record = Record([1.0, 2.0, 3.0], 0.01, "x", vertical=[4.0, 5.0, 6.0], remarks=("cut",))
+    np.testing.assert_array_equal(record.time, record.motion.time)
+    assert record.time.tolist() == [0.0, 0.01, 0.02]
+    for duration in (0.0, 0.012, 0.05):
+        changed = record.with_duration(duration)
+        assert changed.motion == record.motion.with_duration(duration)
+        assert (changed.name, changed.remarks) == ("x", ("cut",))
+
+
+def test_records_and_suites_are_equal_by_content() -> None:
+    record = Record([0.0, 1.0], 0.01, "x", vertical=[0.0, 2.0])
+    same = Record(np.array([-0.0, 1.0]), 0.01, "x", vertical=(0.0, 2.0))
+    assert record == same and hash(record) == hash(same) and record is not same
+    assert {record: 1}[same] == 1
+    changes = ({"name": "y"}, {"dt": 0.02}, {"acceleration": [0.0, 2.0]}, {"vertical": None}, {"synthetic": True})
+    assert all(record != record.replace(**change) for change in changes)
+    assert record != record.motion
+    again = pickle.loads(pickle.dumps(record))
+    assert again == record and not again.acceleration.flags.writeable
+    assert builtin_suite() == builtin_suite() and hash(builtin_suite()) == hash(builtin_suite())
+    assert Suite("a", (record,)) == Suite("a", [same]) != Suite("b", (record,))
+
+
 def test_vertical_cuts_both_to_the_shorter() -> None:
     record = Record([1.0, 2.0, 3.0], 0.01).with_vertical(Record([4.0, 5.0], 0.01))
     assert record.acceleration.tolist() == [1.0, 2.0]
@@ -218,6 +252,12 @@ def test_list_of_files_keeps_order_and_labels(tmp_path: Path) -> None:
     assert [record.name for record in suite] == ["b", "a"]
     assert [record.station for record in suite] == ["Here", "Town"]
     assert (suite[0].dt, suite[0].pga, suite[1].remarks) == (0.02, 0.2, ("a substitute",))
+
+
+def test_list_says_that_a_name_is_not_of_a_vertical(tmp_path: Path) -> None:
+    (tmp_path / "river.AT2").write_text(at2())  # ends as HECVER does
+    (tmp_path / "list.csv").write_text("file,component\nriver.AT2,H1\n")
+    assert read_suite(tmp_path / "list.csv")[0].component == "H1"
 
 
 # What the sources of the recordings say: file, step (s), points, PGA (g) to five decimals.

@@ -78,6 +78,7 @@ def test_tables_hold_the_factors_and_spectra(suite: list[sm.Record], result: sm.
         ({"count": 1}, sm.InvalidOption, "count of scaling must be a whole number of at least 2; got 1"),
         ({"count": 10.5}, sm.InvalidOption, "count of scaling must be a whole number of at least 2; got 10.5"),
         ({"damping": -0.05}, sm.InvalidOption, "damping of spectrum 1 must be at least 0 and below 1; got -0.05"),
+        ({"damping": [0.05]}, sm.InvalidOption, "damping of scaling must be a number; got [0.05]"),
         ({"target": 1.0}, sm.InvalidOption, "target of scaling must be a TargetSpectrum; got 1.0"),
         ({"records": [sm.Motion([1.0], 0.01)] * 2}, sm.InvalidMotion, "records of scaling must be at least three"),
         (

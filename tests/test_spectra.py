@@ -156,6 +156,12 @@ def test_missing_or_binary_target_file_is_refused(tmp_path: Path) -> None:
         sm.TargetSpectrum.from_csv(tmp_path / "binary.csv")
 
 
+@pytest.mark.parametrize("path", [None, 3, "a\0b"])
+def test_target_path_that_is_none_is_refused(path: object) -> None:
+    with pytest.raises(sm.RecordFormatError, match=re.escape(f"path of target spectrum must be a path; got {path!r}")):
+        sm.TargetSpectrum.from_csv(path)  # type: ignore[arg-type]
+
+
 def test_csv_target_is_refused_outside_its_range(tmp_path: Path) -> None:
     file = tmp_path / "uhs.csv"
     file.write_text("0.1,0.4\n2.0,0.05\n")
@@ -205,3 +211,8 @@ def test_bad_target_parameters_are_refused(arguments: dict, message: str) -> Non
 def test_mean_spectrum_refuses_factors_that_do_not_fit() -> None:
     with pytest.raises(sm.InvalidOption, match="factors of mean spectrum must be a list of 1 values"):
         mean_spectrum([noise()], [1.0, 2.0], [1.0])
+
+
+def test_mean_spectrum_is_of_one_damping() -> None:
+    with pytest.raises(sm.InvalidOption, match=r"damping of mean spectrum must be a number; got \[0.05\]"):
+        mean_spectrum([noise()], [1.0], [1.0, 2.0], [0.05])  # type: ignore[arg-type]

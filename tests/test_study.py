@@ -14,7 +14,7 @@ from seismass import cli
 from seismass.report import write
 from seismass.report.findings import findings, findings_text
 from seismass.spectra import mean_spectrum
-from seismass.study import StudyParameters, StudyResult, run_study
+from seismass.study import StudyParameters, StudyResult, _display_names, run_study
 
 TARGET = sm.TargetSpectrum.asce7()
 SMALL = StudyParameters(buildings=((2, 0.38), (3, 0.47)), response_modification=(1.0, 4.0), mass_ratios=(1.0,))
@@ -148,6 +148,9 @@ def test_digest_depends_on_motions_target_and_parameters(small: StudyResult) -> 
         run_study(sm.builtin_suite(), sm.TargetSpectrum.asce7(1.0), SMALL),
         run_study(sm.builtin_suite(), TARGET, StudyParameters(**{**vars(SMALL), "second_slope": 0.1})),
     ]
+    with_vertical = (*records[:6], records[6].with_vertical(records[6].scaled(0.6)))
+    others.append(run_study(sm.Suite("vertical", with_vertical), TARGET, SMALL))
+    assert not others[-1].summary["ratio"].equals(small.summary["ratio"])
     digests = [result.metadata["inputs_sha256"] for result in (small, *others)]
     assert all(a != b for a, b in itertools.combinations(digests, 2))
 
@@ -178,7 +181,7 @@ def test_a_failed_run_gives_no_mean(small: StudyResult, monkeypatch: pytest.Monk
 
 def test_findings_are_counted_from_the_summary() -> None:
     rows = [
-        # storeys, R, alpha, storey, underestimation
+        # storeys, R, alpha, storey, underestimation (%)
         (2, 2.0, 0.5, 1, 10.0),
         (2, 2.0, 1.0, 1, 30.0),
         (2, 4.0, 0.5, 1, 20.0),
@@ -190,7 +193,7 @@ def test_findings_are_counted_from_the_summary() -> None:
     ]
     names = ["storeys", "R", "alpha", "storey", "underestimation_percent"]
     summary = pl.DataFrame(rows, schema=names, orient="row").with_columns(
-        pl.lit("storage").alias("occupancy"), pl.lit(0.25).alias("lambda")
+        pl.lit("storage").alias("occupancy"), pl.lit(0.25).alias("lambda"), pl.lit(0.38).alias("period")
     )
     (entry,) = findings(summary)
     assert (entry["storeys_compared"], entry["asce_gives_more"], entry["asce_gives_more_top"]) == (8, 3, 3)
@@ -203,6 +206,28 @@ def test_findings_are_counted_from_the_summary() -> None:
         "R_first_storey": {"pairs": 2, "grows": 1},
     }
     assert "+30 % (storey 1 of 2, R = 2, alpha = 1)" in findings_text([entry])
+
+
+def one_storey(values: dict[tuple[float, float], float | None]) -> pl.DataFrame:
+    """Summary of one-storey buildings: underestimation (%) by period and alpha."""
+    rows = [("all", 1.0, 1, period, 2.0, alpha, 1, value) for (period, alpha), value in values.items()]
+    names = ["occupancy", "lambda", "storeys", "period", "R", "alpha", "storey", "underestimation_percent"]
+    return pl.DataFrame(rows, schema=names, orient="row")
+
+
+def test_growth_is_counted_within_each_building() -> None:
+    """Two buildings that differ in their period alone: 2 steps of alpha each, the second one's downwards."""
+    up = {(0.47, alpha): value for alpha, value in zip((0.5, 1.0, 1.5), (10.0, 20.0, 30.0), strict=True)}
+    down = {(0.8, alpha): value for alpha, value in zip((0.5, 1.0, 1.5), (35.0, 25.0, 15.0), strict=True)}
+    (entry,) = findings(one_storey(up | down))
+    assert entry["growth"]["alpha"] == {"pairs": 4, "grows": 2}
+
+
+@pytest.mark.parametrize("missing", [None, np.nan, np.inf])
+def test_growth_is_not_counted_over_a_gap(missing: float | None) -> None:
+    (entry,) = findings(one_storey({(0.47, 0.5): 10.0, (0.47, 1.0): missing, (0.47, 1.5): 30.0}))
+    assert (entry["storeys_compared"], entry["storeys_without_result"]) == (2, 1)
+    assert entry["growth"]["alpha"] == entry["growth"]["alpha_first_storey"] == {"pairs": 0, "grows": 0}
 
 
 @pytest.mark.parametrize(
@@ -226,11 +251,31 @@ def test_findings_are_counted_from_the_summary() -> None:
         ({"buildings": ((0, 1.0),)}, "storeys of study must be a whole number of at least 1; got 0"),
         ({"buildings": ((1, -1.0),)}, "period of study must be a positive number; got -1"),
         ({"occupancies": (("all", 1.5),)}, "lambda of study must be between 0 and 1; got 1.5"),
+        (
+            {"occupancies": (("a", 0.25), ("a", 0.0))},
+            "occupancies of study must be a tuple of at least one value, none twice; got (('a', 0.25), ('a', 0.0))",
+        ),
+        ({"occupancies": ((1, 0.5),)}, "occupancy name of study must be a string; got 1"),
+        ({"occupancies": ("ab",)}, "occupancies of study must be a tuple of pairs (name, lambda); got 'ab' in it"),
+        ({"buildings": ((3,),)}, "buildings of study must be a tuple of pairs (storeys, period); got (3,) in it"),
+        ({"buildings": (3,)}, "buildings of study must be a tuple of pairs (storeys, period); got 3 in it"),
+        ({"buildings": ([3, 0.4],)}, "buildings of study must be a tuple of pairs (storeys, period); got [3, 0.4]"),
+        ({"buildings": ((3, 0.4), (3, 0.4))}, "buildings of study must be a tuple of at least one value, none twice"),
+        ({"mass_ratios": ([1.0],)}, "mass_ratios of study must be a number; got [1.0]"),
+        ({"yield_at_r1": "no"}, "yield_at_r1 of study must be True or False; got 'no'"),
     ],
 )
 def test_bad_parameters_are_refused(arguments: dict, message: str) -> None:
     with pytest.raises(sm.InvalidOption, match=re.escape(message)):
         StudyParameters(**arguments)
+
+
+def test_numbers_of_any_kind_are_the_same_parameters() -> None:
+    chosen = StudyParameters(
+        buildings=((np.int64(2), np.float64(0.38)),), mass_ratios=(np.float32(1.0), 2), damping=np.array(0.05)
+    )
+    assert chosen == StudyParameters(buildings=((2, 0.38),), mass_ratios=(1.0, 2.0))
+    assert json.dumps(chosen.mass_ratios) == "[1.0, 2.0]"
 
 
 def test_a_suite_is_asked_for() -> None:
@@ -257,6 +302,48 @@ def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -
     before = {file.name: file.read_bytes() for file in files}
     write.write_study(small, out)
     assert {file.name: file.read_bytes() for file in out.iterdir()} == before
+
+
+def test_figures_of_an_earlier_study_do_not_stay(
+    small: StudyResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    earlier = {"drift_R1.png", "drift_R2.5.svg", "drift_R1e+06.png", "spectrum.svg", "underestimation.png"}
+    others = {"drift_R_mine.png", "drift_R1.pdf", "my_spectrum.png", "notes.txt"}
+    for name in earlier | others:
+        (tmp_path / name).write_text("earlier")
+
+    def failing(*_: object) -> None:
+        raise OSError("disk full")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("seismass.report.figures.save_figure", failing)
+        with pytest.raises(OSError, match="disk full"):
+            write.write_study(small, tmp_path)
+    assert {file.name for file in tmp_path.iterdir()} == earlier | others
+
+    files = write.write_study(small, tmp_path)
+    figures = {file.name for file in files if file.suffix in (".png", ".svg")}
+    assert figures == {file.name for file in files if write.FIGURE_FILE.fullmatch(file.name)}
+    assert {file.name for file in tmp_path.iterdir()} == {file.name for file in files} | others
+    tables = write.write_study(small, tmp_path, figures=False)
+    assert {file.name for file in tmp_path.iterdir()} == {file.name for file in tables} | others
+    assert (tmp_path / "drift_R_mine.png").read_text() == "earlier"
+
+
+@pytest.mark.parametrize(
+    ("labels", "names"),
+    [
+        ([("E", "S", "a"), ("E", "S", "b"), ("E", "S", "b"), ("E", "S", "b")], ["E, S", "E, S (b)", "E, S (b) (2)"]),
+        ([("", "", "a"), ("", "", "a"), ("", "", "a")], ["a", "a (2)", "a (3)"]),
+        ([("", "", "a (2)"), ("", "", "a"), ("", "", "a")], ["a (2)", "a", "a (3)"]),
+        ([("", "", ""), ("", "", ""), ("E", "", "")], ["motion 1", "motion 2", "E"]),
+    ],
+)
+def test_names_of_motions_differ(labels: list[tuple[str, str, str]], names: list[str]) -> None:
+    suite = sm.Suite("x", tuple(sm.Record([0.0], 0.01, name, event, station) for event, station, name in labels))
+    shown = _display_names(suite)
+    assert shown[: len(names)] == names
+    assert len(set(shown)) == len(suite)
 
 
 def test_schema_of_the_tables_is_documented(small: StudyResult) -> None:

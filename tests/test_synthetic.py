@@ -24,6 +24,7 @@ from seismass.units import STANDARD_GRAVITY
 
 def test_seven_labelled_synthetic_everywhere() -> None:
     suite = builtin_suite()
+    assert suite.name == "built-in suite"
     assert len(suite) == len(RECIPES) == 7
     assert suite.table()["synthetic"].to_list() == [True] * 7
     for record, recipe in zip(suite, RECIPES, strict=True):

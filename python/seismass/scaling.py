@@ -119,11 +119,12 @@ def scale_asce7_10(
     fundamental = as_number(period, "period", "scaling", InvalidOption)
     if not (np.isfinite(fundamental) and fundamental > 0.0):
         raise refusal(InvalidOption, "period", "scaling", "a positive number", f"{fundamental:g}")
+    damping_ratio = as_number(damping, "damping", "scaling", InvalidOption)
     points = as_count(count, "count", "scaling", InvalidOption, least=2)
     shortest, longest = _range(period_range)
     periods = fundamental * np.geomspace(shortest, longest, points)
     ordinates = target(periods)
-    spectra = response_spectrum(suite, periods, damping, threads=threads)
+    spectra = response_spectrum(suite, periods, damping_ratio, threads=threads)
     for number, row in enumerate(spectra, start=1):
         if not (row > 0.0).all():
             raise refusal(

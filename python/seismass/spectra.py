@@ -7,14 +7,13 @@ import io
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Final, Literal, Protocol, TypeAlias, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_array, as_count, as_number, brief, frozen, refusal
+from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption, RecordFormatError
 from seismass.units import STANDARD_GRAVITY
 
@@ -118,7 +117,8 @@ def mean_spectrum(
     threads: int | None = None,
 ) -> FloatArray:
     """Return the mean pseudo-acceleration spectrum (m/s2) of motions times their factors, shape (periods,)."""
-    spectra = response_spectrum(motions, periods, damping, threads=threads)
+    ratio = as_number(damping, "damping", "mean spectrum", InvalidOption)
+    spectra = response_spectrum(motions, periods, ratio, threads=threads)
     scale = as_array(factors, "factors", "mean spectrum", InvalidOption)
     if len(scale) != len(spectra):
         raise refusal(
@@ -218,7 +218,7 @@ class TargetSpectrum:
             The file cannot be read, has fewer than two points, a value that is not a positive number, or periods that
             do not increase.
         """
-        source = Path(path)
+        source = as_path(path, "target spectrum", RecordFormatError)
         try:
             text = source.read_text(encoding="utf-8-sig")
         except (OSError, UnicodeDecodeError) as error:

@@ -10,7 +10,7 @@ import hashlib
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
-from itertools import product
+from itertools import chain, count, product
 from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -44,6 +44,8 @@ MODELS: Final = get_args(Model)
 SPECTRUM_PERIODS: Final = np.geomspace(0.05, 3.0, 200)
 """Periods (s) at which the spectra are tabulated for the figure; nothing is interpolated from them."""
 
+_LISTED: Final = "a tuple of at least one value, none twice"
+
 
 @dataclass(frozen=True)
 class StudyParameters:
@@ -58,7 +60,7 @@ class StudyParameters:
     mass_ratios : tuple of float
         Block mass over floor mass, alpha, the same on every floor but the roof, which is bare.
     occupancies : tuple of (str, float)
-        Name and fraction lambda of the block mass that the standard counts in design and analysis.
+        Name, no two the same, and fraction lambda of the block mass that the standard counts in design and analysis.
     mu : float
         Friction coefficient, static and kinetic.
     overstrength, second_slope, third_slope : float
@@ -73,6 +75,11 @@ class StudyParameters:
         Modal combination of the response spectrum analysis.
     yield_at_r1 : bool
         Let R = 1 yield at V_e.
+
+    Raises
+    ------
+    InvalidOption
+        A parameter is out of its range or of another kind.
     """
 
     buildings: tuple[tuple[int, float], ...] = ((2, 0.38), (3, 0.47), (4, 0.57))
@@ -89,31 +96,70 @@ class StudyParameters:
     yield_at_r1: bool = False
 
     def __post_init__(self) -> None:
-        def within(name: str, values: Any, low: float, high: float, requirement: str) -> None:
-            for value in values:
-                number = as_number(value, name, "study", InvalidOption)
-                if not low <= number <= high:
-                    raise refusal(InvalidOption, name, "study", requirement, f"{number:g}")
-
-        for name in ("buildings", "response_modification", "mass_ratios", "occupancies"):
-            values = getattr(self, name)
-            if not isinstance(values, tuple) or not values or len(set(values)) != len(values):
-                raise refusal(InvalidOption, name, "study", "a tuple of at least one value, none twice", brief(values))
+        """Keep numbers as Python's own, so that equal parameters have the same digest."""
         tiny, huge = np.nextafter(0.0, 1.0), np.finfo(np.float64).max
-        for storeys, _ in self.buildings:
-            as_count(storeys, "storeys", "study", InvalidOption, least=1)
-        within("period", (period for _, period in self.buildings), tiny, huge, "a positive number")
-        within("response_modification", self.response_modification, 1.0, huge, "at least 1")
-        within("mass_ratios", self.mass_ratios, tiny, huge, "positive")
-        within("lambda", (fraction for _, fraction in self.occupancies), 0.0, 1.0, "between 0 and 1")
-        within("mu", [self.mu], 0.0, huge, "zero or positive")
-        within("overstrength", [self.overstrength], 1.0, huge, "a number of at least 1")
-        within("second_slope", [self.second_slope], 0.0, 1.0, "between 0 and 1")
-        within("third_slope", [self.third_slope], 0.0, self.second_slope, "between 0 and the second slope")
-        within("damping", [self.damping], tiny, np.nextafter(1.0, 0.0), "above 0 and below 1")
-        within("scaling_period", [self.scaling_period], tiny, huge, "a positive number")
+
+        def within(name: str, value: Any, low: float, high: float, requirement: str) -> float:
+            number = as_number(value, name, "study", InvalidOption)
+            if not low <= number <= high:
+                raise refusal(InvalidOption, name, "study", requirement, f"{number:g}")
+            return number
+
+        def listed(name: str) -> tuple[Any, ...]:
+            values = getattr(self, name)
+            if not isinstance(values, tuple) or not values:
+                raise refusal(InvalidOption, name, "study", _LISTED, brief(values))
+            return values
+
+        def pairs(name: str, of: str) -> tuple[tuple[Any, Any], ...]:
+            for pair in listed(name):
+                if not isinstance(pair, tuple) or len(pair) != 2:
+                    raise refusal(InvalidOption, name, "study", f"a tuple of pairs {of}", f"{brief(pair)} in it")
+            return listed(name)
+
+        def unique(name: str, keys: list[Any]) -> None:
+            if len(set(keys)) != len(keys):
+                raise refusal(InvalidOption, name, "study", _LISTED, brief(getattr(self, name)))
+
+        buildings = [
+            (
+                as_count(storeys, "storeys", "study", InvalidOption, least=1),
+                within("period", period, tiny, huge, "a positive number"),
+            )
+            for storeys, period in pairs("buildings", "(storeys, period)")
+        ]
+        factors = [
+            within("response_modification", value, 1.0, huge, "at least 1") for value in listed("response_modification")
+        ]
+        ratios = [within("mass_ratios", value, tiny, huge, "positive") for value in listed("mass_ratios")]
+        occupancies = []
+        for name, fraction in pairs("occupancies", "(name, lambda)"):
+            if not isinstance(name, str):
+                raise refusal(InvalidOption, "occupancy name", "study", "a string", brief(name))
+            occupancies.append((name, within("lambda", fraction, 0.0, 1.0, "between 0 and 1")))
+        unique("buildings", buildings)
+        unique("response_modification", factors)
+        unique("mass_ratios", ratios)
+        unique("occupancies", [name for name, _ in occupancies])
+        second_slope = within("second_slope", self.second_slope, 0.0, 1.0, "between 0 and 1")
+        checked = {
+            "buildings": tuple(buildings),
+            "response_modification": tuple(factors),
+            "mass_ratios": tuple(ratios),
+            "occupancies": tuple(occupancies),
+            "mu": within("mu", self.mu, 0.0, huge, "zero or positive"),
+            "overstrength": within("overstrength", self.overstrength, 1.0, huge, "a number of at least 1"),
+            "second_slope": second_slope,
+            "third_slope": within("third_slope", self.third_slope, 0.0, second_slope, "between 0 and the second slope"),
+            "damping": within("damping", self.damping, tiny, np.nextafter(1.0, 0.0), "above 0 and below 1"),
+            "scaling_period": within("scaling_period", self.scaling_period, tiny, huge, "a positive number"),
+        }
         if self.combination not in get_args(Combination):
             raise refusal(InvalidOption, "combination", "study", "srss or cqc", brief(self.combination))
+        if not isinstance(self.yield_at_r1, bool):
+            raise refusal(InvalidOption, "yield_at_r1", "study", "True or False", brief(self.yield_at_r1))
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
 
 
 @dataclass(frozen=True, eq=False)
@@ -313,12 +359,15 @@ def run_study(
 
 
 def _display_names(suite: Suite) -> list[str]:
-    """Event and station of a recording where known, else the name of the record; unique."""
+    """Event and station of a recording where known, else the name of the record; unique, repeats numbered from 2."""
     names: list[str] = []
-    for record in suite:
+    for number, record in enumerate(suite, start=1):
         place = [] if record.synthetic else [part for part in (record.event, record.station) if part]
-        name = ", ".join(place) or record.name
-        names.append(name if name not in names else f"{name} ({record.name})")
+        name = ", ".join(place) or record.name or f"motion {number}"
+        if name in names and place and record.name:
+            name = f"{name} ({record.name})"
+        numbered = (f"{name} ({repeat})" for repeat in count(2))
+        names.append(next(unused for unused in chain([name], numbered) if unused not in names))
     return names
 
 
@@ -458,4 +507,7 @@ def _digest(suite: Suite, target: TargetSpectrum, parameters: StudyParameters) -
     for record in suite:
         digest.update(np.float64(record.dt).tobytes())
         digest.update(np.ascontiguousarray(record.acceleration, dtype="<f8").tobytes())
+        if record.vertical is not None:
+            digest.update(b"vertical")
+            digest.update(np.ascontiguousarray(record.vertical, dtype="<f8").tobytes())
     return digest.hexdigest()

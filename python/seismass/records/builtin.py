@@ -21,4 +21,4 @@ def data_directory() -> Path:
 
 def builtin_suite() -> Suite:
     """Return the seven synthetic motions that `seismass.records.synthetic` made; none is a recording."""
-    return read_suite(data_directory() / "synthetic" / "suite.csv")
+    return Suite("built-in suite", read_suite(data_directory() / "synthetic" / "suite.csv").records)

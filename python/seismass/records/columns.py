@@ -14,6 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from seismass._values import as_count
 from seismass.errors import RecordFormatError
 from seismass.records.numbers import NUMBER, is_cut_off, is_number, to_float
 from seismass.records.record import Record
@@ -75,9 +76,10 @@ def parse_columns(
     if skip is None:
         table, step_before = _without_first_numbers(table, dt, remarks)
     else:
-        if not 0 <= skip < len(table.rows):
-            raise RecordFormatError(f"skip of {table.file} must be between 0 and {len(table.rows) - 1}; got {skip}")
-        table = _Table(table.file, table.text, table.rows[skip:], table.line_numbers[skip:])
+        left_out = as_count(skip, "skip", table.file, RecordFormatError)
+        if left_out >= len(table.rows):
+            raise RecordFormatError(f"skip of {table.file} must be between 0 and {len(table.rows) - 1}; got {left_out}")
+        table = _Table(table.file, table.text, table.rows[left_out:], table.line_numbers[left_out:])
         step_before = None
     columns = _column_count(table)
     values = np.array([[to_float(token) for token in row] for row in table.rows], dtype=np.float64)

@@ -82,13 +82,15 @@ def parse_numbers(lines: Iterable[tuple[int, str]], file: str) -> tuple[list[str
 def is_cut_off(tokens: Sequence[str]) -> bool:
     """Whether the last number looks cut off: fewer decimals or exponent digits than any other number of the file.
 
-    The first half of "0.4751E-01" is a clean number and a false peak.
+    The first half of "0.4751E-01" is a clean number and a false peak. Where an exponent is there, so are all decimals
+    before it, however few: "1e-05" is whole.
     """
     if len(tokens) <= FEWEST_TO_JUDGE_BY or to_float(tokens[-1]) == 0.0:
         return False
     (last_decimals, last_exponent) = _shape(tokens[-1])
     shapes = [_shape(token) for token in tokens[:-1]]
-    return last_decimals < min(d for d, _ in shapes) or last_exponent < min(e for _, e in shapes)
+    too_few_decimals = last_exponent == 0 and last_decimals < min(d for d, _ in shapes)
+    return too_few_decimals or last_exponent < min(e for _, e in shapes)
 
 
 def _shape(token: str) -> tuple[int, int]:

@@ -56,17 +56,18 @@ def read_record(
     """
     source = as_path(path, "record", RecordFormatError)
     if dt is not None:
-        step = as_number(dt, "dt", source.name, RecordFormatError)
-        if not (math.isfinite(step) and step > 0.0):
-            raise RecordFormatError(f"dt of {source.name} must be a positive number; got {brief(dt)}")
-    if unit is not None and unit not in ACCELERATION_UNITS:
-        raise RecordFormatError(f"unit of {source.name} must be one of {', '.join(ACCELERATION_UNITS)}; got {unit!r}")
+        dt = as_number(dt, "dt", source.name, RecordFormatError)
+        if not (math.isfinite(dt) and dt > 0.0):
+            raise RecordFormatError(f"dt of {source.name} must be a positive number; got {dt}")
+    units = tuple(ACCELERATION_UNITS)
+    if unit is not None and unit not in units:
+        raise RecordFormatError(f"unit of {source.name} must be one of {', '.join(units)}; got {brief(unit)}")
     if format not in (None, "at2", "columns"):
-        raise RecordFormatError(f"format of {source.name} must be at2 or columns; got {format!r}")
+        raise RecordFormatError(f"format of {source.name} must be at2 or columns; got {brief(format)}")
     text = read_text(source)
     if format == "at2" or (format is None and (source.suffix.lower() == ".at2" or looks_like_at2(text))):
         if skip is not None:
-            raise RecordFormatError(f"skip of {source.name} must be left out for an .AT2 file; got {skip!r}")
+            raise RecordFormatError(f"skip of {source.name} must be left out for an .AT2 file; got {brief(skip)}")
         return parse_at2(text, source, dt=dt, unit=unit)
     return parse_columns(text, source, dt=dt, unit=unit, skip=skip)
 

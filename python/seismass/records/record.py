@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seismass._values import as_array, as_number, brief, refusal
+from seismass._values import Value, as_array, as_number, brief, frozen, refusal
 from seismass.errors import InvalidMotion
 from seismass.units import STANDARD_GRAVITY
 
@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Record:
+class Record(Value):
     """Accelerations at a fixed time step, never changed in place: scaling makes a new record.
+
+    Two records are equal when all that they hold is, labels included.
 
     Parameters
     ----------
@@ -74,6 +76,9 @@ class Record:
                 )
             object.__setattr__(self, "vertical", vertical)
 
+    def _arguments(self) -> dict[str, Any]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
     def __repr__(self) -> str:
         made = ", synthetic" if self.synthetic else ""
         return f"<Record {self.name or '(unnamed)'}: {self.samples} x {self.dt:g} s, PGA {self.pga_g:.4f} g{made}>"
@@ -87,6 +92,11 @@ class Record:
     def duration(self) -> float:
         """Time of the last sample (s); the first is at zero."""
         return (self.samples - 1) * self.dt
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Time of each sample (s), shape (samples,)."""
+        return frozen(np.arange(self.samples) * self.dt)
 
     @property
     def pga(self) -> float:
@@ -108,12 +118,30 @@ class Record:
     def scaled(self, factor: float) -> Record:
         """Return the record with both components multiplied by `factor`, a finite number."""
         number = _number("factor", factor, "scaled record", positive=False)
-        vertical = None if self.vertical is None else self.vertical * number
-        return replace(self, acceleration=self.acceleration * number, vertical=vertical)
+        with np.errstate(over="ignore"):  # the new record refuses what overflows
+            acceleration = self.acceleration * number
+            vertical = None if self.vertical is None else self.vertical * number
+        return self.replace(acceleration=acceleration, vertical=vertical)
 
     def time_scaled(self, factor: float) -> Record:
         """Return the record with its time step multiplied by `factor` > 0, as for a model at reduced scale."""
-        return replace(self, dt=self.dt * _number("factor", factor, "time-scaled record", positive=True))
+        return self.replace(dt=self.dt * _number("factor", factor, "time-scaled record", positive=True))
+
+    def with_duration(self, duration: float) -> Record:
+        """Return the record up to the sample nearest to `duration`.
+
+        Parameters
+        ----------
+        duration : float
+            Time (s). Beyond the last sample the motion goes to zero over one step and stays there.
+
+        Raises
+        ------
+        InvalidMotion
+            The duration is negative or not finite.
+        """
+        changed = self.motion.with_duration(duration)
+        return self.replace(acceleration=changed.acceleration, vertical=changed.vertical)
 
     def with_vertical(self, vertical: Record) -> Record:
         """Return the record with the accelerations of `vertical` beside its own, both cut to the shorter.
@@ -121,8 +149,10 @@ class Record:
         Raises
         ------
         InvalidMotion
-            The two have different time steps.
+            The two have different time steps, or `vertical` is no record.
         """
+        if not isinstance(vertical, Record):
+            raise refusal(InvalidMotion, "vertical", f"record {self.name}".rstrip(), "a Record", brief(vertical))
         if not math.isclose(vertical.dt, self.dt, rel_tol=1e-9):
             raise InvalidMotion(
                 f"dt of vertical record {vertical.name} must be that of the horizontal, {self.dt:g} s; "
@@ -132,8 +162,7 @@ class Record:
         remarks = self.remarks
         if self.samples != vertical.samples:
             remarks += (f"cut to {samples} samples: {self.samples} horizontal, {vertical.samples} vertical",)
-        return replace(
-            self,
+        return self.replace(
             acceleration=self.acceleration[:samples],
             vertical=vertical.acceleration[:samples],
             remarks=remarks,

@@ -7,13 +7,13 @@ import io
 import os
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import polars as pl
 
-from seismass._values import as_path
-from seismass.errors import RecordFormatError
+from seismass._values import as_path, brief, refusal
+from seismass.errors import InvalidMotion, RecordFormatError
 from seismass.records.read import read_record, read_text
 from seismass.records.record import Record
 
@@ -46,11 +46,29 @@ class Suite:
         What was taken, in order.
     excluded : tuple of Excluded
         What was left out.
+
+    Raises
+    ------
+    InvalidMotion
+        The name is no string, or the records or the files left out are something else.
     """
 
     name: str
     records: tuple[Record, ...]
     excluded: tuple[Excluded, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise refusal(InvalidMotion, "name", "suite", "a string", brief(self.name))
+        what = f"suite {self.name}"
+        for parameter, item, kind in (("records", "record", Record), ("excluded", "excluded file", Excluded)):
+            values = getattr(self, parameter)
+            if not isinstance(values, tuple | list):
+                raise refusal(InvalidMotion, parameter, what, f"a tuple of {kind.__name__} objects", brief(values))
+            for number, value in enumerate(values, start=1):
+                if not isinstance(value, kind):
+                    raise refusal(InvalidMotion, f"{item} {number}", what, f"of class {kind.__name__}", brief(value))
+            object.__setattr__(self, parameter, tuple(values))
 
     def __len__(self) -> int:
         return len(self.records)
@@ -108,7 +126,8 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
         A directory: every .AT2 file in it and below (any case of the suffix), sorted by path; vertical components are
         left out by file name (-UP, VER, -V, ...) and by header. Or a CSV with a column `file`, relative to the CSV, one
         row per record in the order to keep; its columns `name`, `event`, `station`, `component` replace what the files
-        say, `dt` and `unit` are passed to `read_record`, `note` is added to the remarks, others are ignored.
+        say, `dt` and `unit` are passed to `read_record`, `note` is added to the remarks, others are ignored. A vertical
+        component in it is an error, by header, by `component`, and by file name unless `component` says otherwise.
 
     Raises
     ------
@@ -166,14 +185,20 @@ def _read_list(source: Path) -> Suite:
                 f"file of {source.name}, row {number}, must be listed once; got {cells['file']}, also in row {first}"
             )
         record = read_record(file, dt=_cell_number(cells, "dt", source, number), unit=cells.get("unit") or None)
-        if _is_vertical_component(record.component):
+        for component in (record.component, cells.get("component", "")):
+            if _is_vertical_component(component):
+                raise RecordFormatError(
+                    f"file of {source.name}, row {number}, must be a horizontal component; "
+                    f"got {cells['file']}, component {component}"
+                )
+        if not cells.get("component") and _has_vertical_name(record):
             raise RecordFormatError(
-                f"file of {source.name}, row {number}, must be a horizontal component; "
-                f"got {cells['file']}, component {record.component}"
+                f"file of {source.name}, row {number}, must be a horizontal component, or have its `component` given; "
+                f"got {cells['file']}, vertical by its name"
             )
         labels = {key: cells[key] for key in ("name", "event", "station", "component") if cells.get(key)}
         remarks = (*record.remarks, cells["note"]) if cells.get("note") else record.remarks
-        records.append(replace(record, remarks=remarks, **labels))  # type: ignore[arg-type]  # the labels are strings
+        records.append(record.replace(remarks=remarks, **labels))
     return Suite(source.stem, tuple(records))
 
 
@@ -191,9 +216,13 @@ def _vertical_reason(record: Record) -> str | None:
     """Return why a record is a vertical component, or None."""
     if _is_vertical_component(record.component):
         return f"vertical component by its header: {record.component}"
-    if _VERTICAL_NAME.search(record.name):
+    if _has_vertical_name(record):
         return f"vertical component by its name: {record.name}"
     return None
+
+
+def _has_vertical_name(record: Record) -> bool:
+    return _VERTICAL_NAME.search(record.name) is not None
 
 
 def _is_vertical_component(component: str) -> bool:

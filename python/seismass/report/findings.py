@@ -9,7 +9,7 @@ from typing import Any
 
 import polars as pl
 
-_STOREY = ["occupancy", "storeys", "storey"]
+_STOREY = ["occupancy", "storeys", "period", "storey"]
 
 
 def findings(summary: pl.DataFrame) -> list[dict[str, Any]]:
@@ -26,17 +26,18 @@ def findings(summary: pl.DataFrame) -> list[dict[str, Any]]:
         occupancy, lambda; `storeys_compared` and `storeys_without_result`; `asce_gives_more`, the number of storeys
         where the ASCE model drifts more, and `asce_gives_more_top`, how many of them are top storeys; `largest` and
         `smallest` underestimation (%), each with its storeys, R, alpha and storey; `growth` with alpha and with R: of
-        all pairs of storeys that differ by one step of it alone, how many there are and in how many the
-        underestimation grows, for all storeys and for first storeys; `first_storey`, the mean over the buildings of the
-        first storey's underestimation (%) for each R and alpha.
+        all pairs of storeys with results that differ by one step of it alone, how many there are and in how many
+        the underestimation grows, for all storeys and for first storeys; `first_storey`, the mean over the buildings of
+        the first storey's underestimation (%) for each R and alpha.
     """
     entries = []
     for (occupancy,), rows in summary.group_by("occupancy", maintain_order=True):
-        known = rows.filter(pl.col("underestimation_percent").is_finite())
+        has_result = pl.col("underestimation_percent").is_finite()
+        known = rows.filter(has_result)
         below = known.filter(pl.col("underestimation_percent") < 0.0)
         ranked = known.sort("underestimation_percent", descending=True)
         place = ["underestimation_percent", "storeys", "R", "alpha", "storey"]
-        first = known.filter(pl.col("storey") == 1)
+        first = rows.filter(pl.col("storey") == 1)
         entries.append(
             {
                 "occupancy": occupancy,
@@ -48,12 +49,13 @@ def findings(summary: pl.DataFrame) -> list[dict[str, Any]]:
                 "largest": ranked.select(place).row(0, named=True) if known.height else None,
                 "smallest": ranked.select(place).row(-1, named=True) if known.height else None,
                 "growth": {
-                    "alpha": _growth(known, "alpha", "R"),
-                    "R": _growth(known, "R", "alpha"),
+                    "alpha": _growth(rows, "alpha", "R"),
+                    "R": _growth(rows, "R", "alpha"),
                     "alpha_first_storey": _growth(first, "alpha", "R"),
                     "R_first_storey": _growth(first, "R", "alpha"),
                 },
-                "first_storey": first.group_by("R", "alpha")
+                "first_storey": first.filter(has_result)
+                .group_by("R", "alpha")
                 .agg(pl.col("underestimation_percent").mean())
                 .sort("R", "alpha")
                 .to_dicts(),
@@ -62,10 +64,11 @@ def findings(summary: pl.DataFrame) -> list[dict[str, Any]]:
     return entries
 
 
-def _growth(known: pl.DataFrame, varied: str, fixed: str) -> dict[str, int]:
-    steps = known.sort(varied).with_columns(
-        pl.col("underestimation_percent").diff().over([*_STOREY, fixed]).alias("step")
-    )
+def _growth(rows: pl.DataFrame, varied: str, fixed: str) -> dict[str, int]:
+    # Rows without a result stay in their places: what lies on both sides of one is no single step.
+    value = pl.col("underestimation_percent")
+    known = pl.when(value.is_finite()).then(value)
+    steps = rows.sort(varied).with_columns(known.diff().over([*_STOREY, fixed]).alias("step"))
     return {"pairs": steps["step"].count(), "grows": int((steps["step"] > 0.0).sum())}
 
 

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Callable
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from seismass.errors import InvalidOption
 from seismass.files import written_whole
 from seismass.report.findings import findings
 from seismass.study import StudyResult
+
+FIGURE_FILE: Final = re.compile(r"(?:spectrum|underestimation|drift_R[\d.]+(?:e\+\d+)?)\.(?:png|svg)")
+"""Names of the files of a study's figures; another file of a folder is not touched."""
 
 
 def study_metadata(result: StudyResult) -> dict[str, Any]:
@@ -46,6 +50,8 @@ def check_out(out: Path) -> None:
 
 def write_study(result: StudyResult, out: Path, *, figures: bool = True) -> list[Path]:
     """Write tables (Parquet and CSV), metadata (JSON) and figures (PNG and SVG) of a study to a folder.
+
+    Figures of an earlier study that are not written again are removed.
 
     Returns
     -------
@@ -80,4 +86,7 @@ def write_study(result: StudyResult, out: Path, *, figures: bool = True) -> list
     with ExitStack() as stack:
         for name, write in writers.items():
             write(stack.enter_context(written_whole(out / name)))
+        for file in list(out.iterdir()):
+            if FIGURE_FILE.fullmatch(file.name) and file.name not in writers and file.is_file():
+                file.unlink()
     return [out / name for name in writers]
