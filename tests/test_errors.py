@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import seismass as sm
+from seismass import _kernel
+from seismass.batch import MAX_THREADS
 
 NAN, INF = float("nan"), float("inf")
 QUIET = sm.Motion([0.0, 1.0, 0.0], 0.01)
@@ -151,6 +153,18 @@ CASES: list[Case] = [
     ),
     ("negative damping", lambda: building(damping=-0.05), sm.InvalidScene, r"damping.* of .* must be .*; got -0.05"),
     ("NaN damping", lambda: building(damping=NAN), sm.InvalidScene, r"damping.* of .* must be .*; got NaN"),
+    (
+        "damping in per cent",
+        lambda: building(damping=5),
+        sm.InvalidScene,
+        r"damping of building must be a ratio of at most 1 \(0.05 for 5 %\); got 5",
+    ),
+    (
+        "Rayleigh damping in per cent",
+        lambda: sm.Rayleigh(5.0),
+        sm.InvalidScene,
+        r"ratio of Rayleigh damping must be a ratio of at most 1 \(0.05 for 5 %\); got 5",
+    ),
     (
         "damping as text",
         lambda: building(damping="five"),
@@ -387,7 +401,31 @@ CASES: list[Case] = [
         "strength over weight, too few",
         lambda: sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.2, 0.1]),
         sm.InvalidScene,
-        r"yield_shear_over_weight of building must be one number or a list of 3, one per storey; got 2 values",
+        r"yield_shear_over_weight of building must be one number or a list of 3 values, one per storey; got 2 values",
+    ),
+    (
+        "strength over weight, a list of one",
+        lambda: sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.2]),
+        sm.InvalidScene,
+        r"yield_shear_over_weight of building must be one number or a list of 3 values, one per storey; got 1 values",
+    ),
+    (
+        "initial drift of nothing",
+        lambda: sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)], initial_drift=0.1),
+        sm.InvalidScene,
+        r"initial_drift of scene must be left out where there is no building; got 0.1",
+    ),
+    (
+        "initial velocity of nothing",
+        lambda: sm.Scene(None, initial_velocity=[0.1]),
+        sm.InvalidScene,
+        r"initial_velocity of scene must be left out where there is no building; got \[0.1\]",
+    ),
+    (
+        "collapse of nothing",
+        lambda: sm.Scene(None, collapse_drift=0.3),
+        sm.InvalidScene,
+        r"collapse_drift of scene must be left out where there is no building; got 0.3",
     ),
     (
         "scene file as number",
@@ -590,10 +628,16 @@ CASES: list[Case] = [
         r"histories of simulate must be asked for, if drift is wanted; got False",
     ),
     (
+        "times not asked for",
+        lambda: sm.simulate(block(), QUIET).time,
+        sm.InvalidOption,
+        r"histories of simulate must be asked for, if time is wanted; got False",
+    ),
+    (
         "events not asked for",
         lambda: sm.simulate(block(), QUIET, events=False).events,
         sm.InvalidOption,
-        r"events of simulate must be asked for, .*; got False",
+        r"events of simulate must be asked for, if events is wanted; got False",
     ),
     (
         "energy not asked for",
@@ -648,6 +692,18 @@ CASES: list[Case] = [
         lambda: sm.simulate_many(block(), QUIET, threads=10**6),
         sm.InvalidOption,
         r"threads of batch must be between 1 and 1024; got 1000000",
+    ),
+    (
+        "threads without end, judged before a frame is asked for",
+        lambda: sm.stream_many(block(), QUIET, threads=MAX_THREADS + 1),
+        sm.InvalidOption,
+        r"threads of batch must be between 1 and 1024; got 1025",
+    ),
+    (
+        "threads without end, by the kernel",
+        lambda: _kernel.simulate_many([], [], np.empty((0, 2), dtype=np.int64), threads=MAX_THREADS + 1),
+        sm.InvalidOption,
+        rf"threads of batch must be between 1 and {MAX_THREADS}; got 1025",
     ),
     (
         "progress of another kind",

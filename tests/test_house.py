@@ -1,6 +1,7 @@
 """The house in order: one version, stored data where a package finds it, a README whose code runs."""
 
 import re
+import shlex
 import tomllib
 from importlib import metadata
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import seismass
+from seismass.cli import COMMANDS, build_parser, main
 from seismass.records.builtin import data_directory
 
 ROOT = Path(__file__).parents[1]
@@ -40,14 +42,48 @@ def test_every_error_is_a_seismass_error_and_the_builtin_one() -> None:
 def test_readme_code_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The Python blocks of the README, in order, as one program in an empty folder."""
     monkeypatch.chdir(tmp_path)
-    blocks = re.findall(r"^```python\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
+    blocks = code_blocks("python")
     assert blocks
     exec(compile("\n".join(blocks), "README.md", "exec"), {"__name__": "readme"})
 
 
-def test_readme_names_make_targets_and_commands_that_exist() -> None:
-    shell = "\n".join(re.findall(r"^```sh\n(.*?)^```", README, re.MULTILINE | re.DOTALL))
+def code_blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
+
+
+def test_readme_names_make_targets_that_exist() -> None:
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
-    assert set(re.findall(r"^make ([a-z-]+)", shell, re.MULTILINE)) <= targets
-    commands = {file.stem.replace("_", "-") for file in (ROOT / "python/seismass/commands").glob("[a-z]*.py")}
-    assert set(re.findall(r"^seismass ([a-z-]+)", shell, re.MULTILINE)) <= commands
+    named = set(re.findall(r"^make ([a-z-]+)", "\n".join(code_blocks("sh")), re.MULTILINE))
+    assert named
+    assert named <= targets
+
+
+EPILOGS = {f"{command.__name__} --help": command._EPILOG for command in COMMANDS}
+
+
+@pytest.mark.parametrize("place", ["README", *EPILOGS])
+def test_commands_are_ones_that_the_parser_takes(place: str) -> None:
+    """Every line of the README's shell blocks, and of the examples that --help prints."""
+    text = EPILOGS.get(place) or "\n".join(code_blocks("sh"))
+    lines = re.findall(r"^ *seismass (.*)$", text, re.MULTILINE)
+    assert lines
+    for line in lines:
+        words = shlex.split(line.partition(">")[0], comments=True)
+        try:
+            build_parser().parse_args(words)
+        except SystemExit:
+            pytest.fail(f"{place} has a command that is refused: seismass {line}")
+
+
+def test_readme_scene_file_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The scene file of the README under the first command beside it: storeys yield, the block slides."""
+    monkeypatch.chdir(tmp_path)
+    (scene,) = code_blocks("toml")
+    Path("scene.toml").write_text(scene)
+    (command,) = re.findall(r"^seismass (run .*)$", "\n".join(code_blocks("sh")), re.MULTILINE)
+    assert main(shlex.split(command)) == 0
+    assert Path("out.parquet").is_file()
+    file = seismass.read_scene("scene.toml")
+    counts = seismass.simulate(file.scene, file.motion).counts
+    assert counts["yield"] > 0
+    assert counts["slip"] > 0

@@ -44,6 +44,31 @@ def test_yield_shear_over_weight_is_of_the_bare_building() -> None:
     assert uniform.yield_shear == pytest.approx([0.24 * 29419.95, 0.2 * 29419.95, math.inf])
 
 
+def test_mass_matters_where_something_is_given_in_other_than_ratios() -> None:
+    """Exactly as the docstring of Building.uniform says."""
+    motion = sm.Motion(4.0 * np.sin(0.2 * np.arange(200)), 0.01)
+
+    def peaks(mass: float, block: sm.Block | None = None, **given: object) -> np.ndarray:
+        one = sm.Building.uniform(2, 0.3, mass=mass, **given)  # type: ignore[arg-type]
+        response = sm.simulate(sm.Scene(one, [block or sm.Block(1, mass_ratio=1.0, mu=0.2)]), motion)
+        return np.append(response.peak_drift, response.peak_slip)
+
+    strong = {"yield_shear_over_weight": [0.2, 0.1]}
+    # Rounding alone, amplified by yielding and sliding.
+    assert peaks(1.0) == pytest.approx(peaks(2000.0), rel=1e-11)
+    assert peaks(1.0, **strong) == pytest.approx(peaks(2000.0, **strong), rel=1e-11)
+    rayleigh = strong | {"damping": sm.Rayleigh(0.03)}
+    assert peaks(1.0, **rayleigh) == pytest.approx(peaks(2000.0, **rayleigh), rel=1e-11)
+    for newtons in (
+        {"yield_shear": 5000.0},
+        strong | {"heights": 3.0, "gravity_load": 1e5},
+        strong | {"geometric_stiffness": 1e5},
+        strong | {"damping": [[500.0, -200.0], [-200.0, 300.0]]},
+        strong | {"block": sm.Block(1, mass=1000.0, mu=0.2)},
+    ):
+        assert peaks(4000.0, **newtons) != pytest.approx(peaks(2000.0, **newtons), rel=1e-3), newtons  # type: ignore[arg-type]
+
+
 def test_damping_forms() -> None:
     bare = building()
     # Rayleigh: zeta = (a / w + b w) / 2 in both modes, so the modal damping of mode 1 is the ratio.

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import math
+import re
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,6 +15,10 @@ import numpy as np
 import pytest
 
 import seismass as sm
+from seismass.scene_file import KEYS
+
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / "docs" / "scene_file.md").read_text(encoding="utf-8")
 
 Write = Callable[..., Path]
 
@@ -165,6 +172,12 @@ def test_ground_blocks_need_no_building(tmp_path: Path) -> None:
     path = tmp_path / "crate.json"
     path.write_text(json.dumps({"blocks": [BLOCK | {"floor": 0}], "motion": MOTION}))
     assert sm.read_scene(path).scene.building is None
+
+
+def test_accelerations_in_every_unit(write: Write) -> None:
+    for unit, size in (("g", 9.80665), ("m/s2", 1.0), ("cm/s2", 0.01)):
+        motion = sm.read_scene(write(motion=MOTION | {"unit": unit})).motion
+        assert motion.acceleration == pytest.approx(np.array(MOTION["acceleration"]) * size)
 
 
 def test_record_files_are_found_beside_the_scene(tmp_path: Path, write: Write) -> None:
@@ -343,14 +356,14 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     ),
     ({"motion": changed(MOTION, ("dt",))}, sm.InvalidSceneFile, r"motion.dt of .* must be given; got nothing"),
     (
-        {"motion": changed(MOTION, unit="cm/s2")},
+        {"motion": changed(MOTION, unit="ft/s2")},
         sm.InvalidSceneFile,
-        r"motion.unit of .* must be one of g, m/s2; got 'cm/s2'",
+        r"motion.unit of .* must be one of g, m/s2, cm/s2; got 'ft/s2'",
     ),
     (
         {"motion": changed(MOTION, unit=["g"])},
         sm.InvalidSceneFile,
-        r"motion.unit of .* must be one of g, m/s2; got \['g'\]",
+        r"motion.unit of .* must be one of g, m/s2, cm/s2; got \['g'\]",
     ),
     (
         {"building": changed(BUILDING, damping={"kind": ["modal"]})},
@@ -401,6 +414,30 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
         sm.InvalidScene,
         r"drift of initial state must be a list of 2 values, one per storey; got 1 values",
     ),
+    (
+        {"building": None, "initial": {"drift": 0.1}},
+        sm.InvalidSceneFile,
+        r"initial.drift of .* must be left out where there is no building; got 0.1",
+    ),
+    (
+        {"building": None, "collapse_drift": 0.3},
+        sm.InvalidScene,
+        r"collapse_drift of scene must be left out where there is no building; got 0.3",
+    ),
+    *(
+        (
+            {"building": building | {"yield_shear_over_weight": strength}},
+            sm.InvalidScene,
+            rf"yield_shear_over_weight of building must be {requirement}; got {got}",
+        )
+        for building in (BUILDING, {"storeys": 2, "period": 0.3})
+        for strength, requirement, got in (
+            (-0.2, "positive", "-0.2"),
+            ([0.2, -0.1], "positive", r"\[0.2, -0.1\]"),
+            ([0.2], "one number or a list of 2 values, one per storey", "1 values"),
+            ([0.2] * 3, "one number or a list of 2 values, one per storey", "3 values"),
+        )
+    ),
     ({"name": 5}, sm.InvalidSceneFile, r"name of .* must be text; got 5"),
     ({"collapse_drift": [0.1, 0.0]}, sm.InvalidScene, r"collapse_drift of storey 2 must be a positive number; got 0"),
 ]
@@ -410,6 +447,38 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
 def test_wrong_keys_are_refused_by_name(write: Write, top: dict[str, Any], kind: type[Exception], message: str) -> None:
     with pytest.raises(kind, match=f"^{message}"):
         sm.read_scene(write(**top))
+
+
+ROW = r"^\| `([a-z_.]+)` \|[^|]*\|[^|]*\|([^|]*)\|[^|]*\|$"
+DOCUMENTED: dict[str, str] = dict(re.findall(ROW, PAGE, re.MULTILINE))
+
+
+def test_the_page_names_every_key_and_no_other() -> None:
+    accepted = [f"{table}.{key}".lstrip(".") for table, keys in KEYS.items() for key in keys]
+    assert sorted(DOCUMENTED) == sorted(accepted)
+
+
+def test_the_page_has_the_defaults() -> None:
+    parameters = inspect.signature(sm.Building.uniform).parameters
+    for key in ("mass", "overstrength", "second_slope", "third_slope", "damping"):
+        assert DOCUMENTED[f"building.{key}"].split()[0] == f"{parameters[key].default:g}", key
+
+
+def test_the_example_of_the_page_is_what_it_says(tmp_path: Path) -> None:
+    (example,) = re.findall(r"^```toml\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+    path = tmp_path / "docs" / "scene.toml"
+    path.parent.mkdir()
+    path.write_text(example)
+    shutil.copytree(ROOT / "data" / "synthetic", tmp_path / "data" / "synthetic")
+    file = sm.read_scene(path)
+    building = sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.2, 0.12], heights=3.5)
+    blocks = [sm.Block(1, mass_ratio=1.0, mu=0.3), sm.Block(2, mass_ratio=0.5, mu_s=0.35, mu_k=0.25)]
+    assert file.scene == sm.Scene(building, blocks, collapse_drift=0.25)
+    assert file.motion == sm.builtin_suite()[0].scaled(1.5).motion
+    response = sm.simulate(file.scene, file.motion)
+    assert response.status == "completed"
+    assert response.counts["yield"] > 0
+    assert response.counts["slip"] > 0
 
 
 @pytest.mark.parametrize(

@@ -118,6 +118,13 @@ def test_responses_pickle_and_compare() -> None:
     assert back.events.equals(response.events)
     assert repr(back) == repr(response)
     assert response != sm.simulate(scene(mu=0.2), shaking(), histories=5, energy=True)
+    # One of them has histories; heights decide drift ratios alone.
+    assert response != sm.simulate(scene(), shaking(), energy=True)
+    low, high, unknown = (sm.simulate(scene(heights=heights), shaking()) for heights in (3.0, 4.0, None))
+    assert np.array_equal(low.peak_drift, high.peak_drift)
+    assert low == sm.simulate(scene(heights=3.0), shaking())
+    assert low != high
+    assert low != unknown
     with pytest.raises(ValueError, match="read-only"):
         back.peak_drift[0] = 1.0
 

@@ -25,6 +25,8 @@ DEFAULT_CHUNK: Final = 8192
 """Runs solved at once: enough to share propagators and to keep threads busy, in some tens of megabytes."""
 MAX_RUNS: Final = 2**32 - 1
 """Most runs of a batch."""
+MAX_THREADS: Final = 1024
+"""Most threads of a batch, as the kernel has it: more than any machine has cores for."""
 
 Progress: TypeAlias = Callable[[int, int], object]
 """Called with (runs done, runs in all)."""
@@ -196,6 +198,8 @@ class _Options(TypedDict):
 
 def _options(peaks_only: Any, threads: Any) -> _Options:
     count = None if threads is None else as_count(threads, "threads", "batch", InvalidOption, least=1)
+    if count is not None and count > MAX_THREADS:
+        raise refusal(InvalidOption, "threads", "batch", f"between 1 and {MAX_THREADS}", str(count))
     return {"peaks_only": bool(peaks_only), "threads": count}
 
 

@@ -18,14 +18,8 @@ INTERRUPTED = 130
 """Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; return the exit code: 0 done, 1 a run failed, 2 bad input, 130 interrupted.
-
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        Without the name of the program; default those of the process.
-    """
+def build_parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line, with all subcommands."""
     parser = argparse.ArgumentParser(
         prog="seismass",
         description="How much of a building's live load acts as mass in an earthquake.",
@@ -35,7 +29,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in COMMANDS:
         command.add_parser(subparsers)
-    args = parser.parse_args(arguments)
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return the exit code: 0 done, 1 a run failed, 2 bad input, 130 interrupted.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Without the name of the program; default those of the process.
+    """
+    args = build_parser().parse_args(arguments)
     try:
         code: int = args.run(args)
         sys.stdout.flush()

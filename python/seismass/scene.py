@@ -32,14 +32,14 @@ class Rayleigh:
     Parameters
     ----------
     ratio : float
-        Ratio of critical damping in both modes.
+        Ratio of critical damping in both modes, from 0 to 1: 0.05 for 5 %.
     modes : tuple of int
         The two modes, counted from 1.
 
     Raises
     ------
     InvalidScene
-        The modes are not two whole numbers from 1, or the ratio is not a number.
+        The modes are not two whole numbers from 1, or the ratio is not a number of at most 1.
     """
 
     ratio: float
@@ -51,7 +51,7 @@ class Rayleigh:
             raise refusal(InvalidScene, "modes", "Rayleigh damping", "two mode numbers", brief(modes))
         checked = tuple(as_count(mode, "modes", "Rayleigh damping", InvalidScene, least=1) for mode in modes)
         object.__setattr__(self, "modes", checked)
-        object.__setattr__(self, "ratio", as_number(self.ratio, "ratio", "Rayleigh damping", InvalidScene))
+        object.__setattr__(self, "ratio", _damping_ratio(self.ratio, "ratio", "Rayleigh damping"))
 
 
 Damping: TypeAlias = float | Rayleigh | ArrayLike
@@ -77,7 +77,8 @@ class Building(Value):
     second_slope, third_slope : array_like, default 0.05 and 0
         Slopes r2 and r3 after the first and second yield over the initial one, 0 <= r3 <= r2 <= 1.
     damping : float, Rayleigh or array_like of shape (storeys, storeys), default 0.05
-        A ratio in every vibration mode of the bare building, Rayleigh damping, or the matrix C (N s/m).
+        A ratio in every vibration mode of the bare building, from 0 to 1 (0.05 for 5 %), Rayleigh damping, or the
+        matrix C (N s/m).
     heights : array_like, optional
         Storey heights (m). Alone they only make drift ratios known.
     gravity_load : array_like, optional
@@ -216,7 +217,7 @@ class Building(Value):
         period : float
             First period T of the bare building (s).
         mass : float, default 1
-            Mass of each floor (kg); drifts and slips do not depend on it.
+            Mass of each floor (kg). Drifts and slips do not depend on it where all else is given as ratios (Notes).
         yield_shear : array_like, optional
             V_y of each storey (N); elastic where neither it nor the next is given.
         yield_shear_over_weight : array_like, optional
@@ -233,6 +234,12 @@ class Building(Value):
         -----
         w_1 = 2 sqrt(k/m) sin(pi / (2 (2 n + 1))) gives the stiffness.
 
+        Stiffness follows the mass, and so does everything given as a ratio. Drifts and slips therefore do not depend on
+        the mass where the building is elastic or has its strengths over the weight, its damping is a ratio, there is no
+        P-Delta, and blocks are given by `mass_ratio`; forces and energies are then proportional to it. What is given
+        in other units needs the real mass: `yield_shear`, `gravity_load`, `geometric_stiffness`, a damping matrix, and
+        the `mass` of blocks.
+
         Examples
         --------
         >>> import seismass as sm
@@ -247,22 +254,8 @@ class Building(Value):
                 raise refusal(
                     InvalidScene, "yield_shear_over_weight", "building", "left out where yield_shear is given", "both"
                 )
-            fraction = as_array(
-                yield_shear_over_weight, "yield_shear_over_weight", "building", InvalidScene, or_number=True
-            )
-            if not np.all(fraction > 0.0):
-                raise refusal(
-                    InvalidScene, "yield_shear_over_weight", "building", "positive", brief(yield_shear_over_weight)
-                )
-            if fraction.size not in (1, count):
-                raise refusal(
-                    InvalidScene,
-                    "yield_shear_over_weight",
-                    "building",
-                    f"one number or a list of {count}, one per storey",
-                    f"{fraction.size} values",
-                )
-            yield_shear = fraction * (STANDARD_GRAVITY * floor_mass * count)
+            weight = STANDARD_GRAVITY * floor_mass * count
+            yield_shear = as_fraction_of_weight(yield_shear_over_weight, count) * weight
         return cls(
             np.full(count, floor_mass),
             stiffness,
@@ -454,7 +447,7 @@ class Scene(Value):
     blocks : iterable of Block
         Any number, in any order; several may share a floor. They are counted from 1 as listed.
     initial_drift : array_like, optional
-        Storey drifts at the start (m), within the elastic range.
+        Storey drifts at the start (m), within the elastic range. It and the next two need a building.
     initial_velocity : array_like, optional
         Floor velocities relative to the ground at the start (m/s).
     collapse_drift : array_like, optional
@@ -470,7 +463,8 @@ class Scene(Value):
     Raises
     ------
     InvalidScene
-        A block is invalid or stands on a missing floor, P/h reaches a stiffness, a list has another length.
+        A block is invalid or stands on a missing floor, P/h reaches a stiffness, a list has another length, or there
+        are storey values without a building.
 
     Examples
     --------
@@ -519,13 +513,14 @@ class Scene(Value):
         for number, block in enumerate(placed, start=1):
             if not isinstance(block, Block):
                 raise refusal(InvalidScene, f"block {number}", "scene", "a Block", brief(block))
-        storeys = 0 if building is None else building.storeys
 
         def per_storey(name: str, value: ArrayLike | None) -> FloatArray | None:
             if value is None:
                 return None
+            if building is None:
+                raise refusal(InvalidScene, name, "scene", "left out where there is no building", brief(value))
             array = as_array(value, name, "scene", InvalidScene, or_number=True)
-            return frozen(np.full(storeys, array)) if array.ndim == 0 else array
+            return frozen(np.full(building.storeys, array)) if array.ndim == 0 else array
 
         self._set(
             building=building,
@@ -597,6 +592,18 @@ class Scene(Value):
         return f"Scene({name}{self.storeys} {noun}, T1 = {self.building.periods[0]:.4g} s, {blocks})"
 
 
+def as_fraction_of_weight(value: Any, storeys: int) -> FloatArray:
+    """Return yield shears over the weight, positive: one number (shape ()) or one per storey."""
+    name = "yield_shear_over_weight"
+    fraction = as_array(value, name, "building", InvalidScene, or_number=True)
+    if not np.all(fraction > 0.0):
+        raise refusal(InvalidScene, name, "building", "positive", brief(value))
+    if fraction.shape not in ((), (storeys,)):
+        requirement = f"one number or a list of {storeys} values, one per storey"
+        raise refusal(InvalidScene, name, "building", requirement, f"{fraction.size} values")
+    return fraction
+
+
 def _per_storey(**given: ArrayLike | None) -> dict[str, FloatArray | None]:
     """One array per argument, all with as many values as the first list among them has."""
     arrays = {
@@ -624,10 +631,18 @@ def _damping(damping: Any) -> float | Rayleigh | FloatArray:
     if isinstance(damping, Rayleigh):
         return damping
     if isinstance(damping, Real) or (isinstance(damping, np.ndarray) and damping.ndim == 0):
-        return as_number(damping, "damping", "building", InvalidScene)
+        return _damping_ratio(damping, "damping", "building")
     if damping is None or isinstance(damping, str | bytes):
         raise refusal(InvalidScene, "damping", "building", "a ratio, Rayleigh damping or a matrix", brief(damping))
     return as_array(damping, "damping", "building", InvalidScene, dimensions=2)
+
+
+def _damping_ratio(value: Any, parameter: str, owner: str) -> float:
+    """Return a ratio of critical damping; what is above 1 was meant in per cent, and the kernel refuses the rest."""
+    ratio = as_number(value, parameter, owner, InvalidScene)
+    if ratio > 1.0:
+        raise refusal(InvalidScene, parameter, owner, "a ratio of at most 1 (0.05 for 5 %)", f"{ratio:g}")
+    return ratio
 
 
 def _damping_arguments(damping: float | Rayleigh | FloatArray) -> dict[str, Any]:

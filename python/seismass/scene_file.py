@@ -9,45 +9,48 @@ import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, Final, NoReturn
 
 import numpy as np
 
 from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
 from seismass.errors import InvalidMotion, InvalidScene, InvalidSceneFile
 from seismass.records import Record, read_record
-from seismass.scene import Block, Building, Rayleigh, Scene
+from seismass.scene import Block, Building, Rayleigh, Scene, as_fraction_of_weight
 from seismass.simulate import Motion
-from seismass.units import STANDARD_GRAVITY
+from seismass.units import ACCELERATION_UNITS
 
-_SCENE_KEYS = (
-    "name",
-    "note",
-    "building",
-    "blocks",
-    "motion",
-    "vertical_motion",
-    "duration",
-    "initial",
-    "collapse_drift",
-    "result",
-)
 _SPRING_KEYS = ("overstrength", "second_slope", "third_slope", "heights", "gravity_load", "geometric_stiffness")
-_BUILDING_KEYS = (
-    "mass",
-    "stiffness",
-    "storeys",
-    "period",
-    "yield_shear",
-    "yield_shear_over_weight",
-    "damping",
-    *_SPRING_KEYS,
-)
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
-_BLOCK_KEYS = ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity")
-_MOTION_KEYS = ("file", "acceleration", "dt", "unit", "scale", "dt_scale")
-_INITIAL_KEYS = ("drift", "velocity")
-_UNITS = {"g": STANDARD_GRAVITY, "m/s2": 1.0}
+KEYS: Final = {
+    "": (
+        "name",
+        "note",
+        "building",
+        "blocks",
+        "motion",
+        "vertical_motion",
+        "duration",
+        "initial",
+        "collapse_drift",
+        "result",
+    ),
+    "building": (
+        "mass",
+        "stiffness",
+        "storeys",
+        "period",
+        "yield_shear",
+        "yield_shear_over_weight",
+        "damping",
+        *_SPRING_KEYS,
+    ),
+    "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
+    "blocks": ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity"),
+    "motion": ("file", "acceleration", "dt", "unit", "scale", "dt_scale"),
+    "initial": ("drift", "velocity"),
+}
+"""Keys of each table of a scene file, the file itself first; `vertical_motion` has those of `motion`."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +88,7 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     Parameters
     ----------
     path : path-like
-        A .toml or .json file. Paths in it are relative to its folder.
+        A .toml or .json file with the keys of docs/scene_file.md. Paths in it are relative to its folder.
 
     Returns
     -------
@@ -122,14 +125,16 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     """
     source = as_path(path, "scene file", InvalidSceneFile)
     top = _Table(_load(source), "", source.name)
-    top.known(_SCENE_KEYS)
+    top.known(KEYS[""])
     if "motion" not in top.values:
         top.refuse("motion", "given", "nothing")
     name, note = (top.text(key) for key in ("name", "note"))
     building = _building(top.table("building")) if "building" in top.values else None
     initial = top.table("initial") if "initial" in top.values else None
     if initial is not None:
-        initial.known(_INITIAL_KEYS)
+        initial.known(KEYS["initial"])
+        if building is None:
+            initial.empty("there is no building")
     scene = Scene(
         building,
         [_block(table) for table in top.tables("blocks")],
@@ -212,6 +217,11 @@ class _Table:
             if key in self.values and other in self.values:
                 self.refuse(key, f"left out where {self.key(other)} is given", "both")
 
+    def empty(self, where: str) -> None:
+        """Refuse every key."""
+        for key, value in self.values.items():
+            self.refuse(key, f"left out where {where}", brief(value))
+
     def needed(self, *keys: str) -> None:
         """Refuse a table in which none of the keys is."""
         if not any(key in self.values for key in keys):
@@ -245,7 +255,7 @@ class _Table:
 
 
 def _building(table: _Table) -> Building:
-    table.known(_BUILDING_KEYS)
+    table.known(KEYS["building"])
     table.excluded("yield_shear_over_weight", "yield_shear")
     table.excluded("geometric_stiffness", "gravity_load")
     if "gravity_load" in table.values:
@@ -280,9 +290,11 @@ def _building(table: _Table) -> Building:
         mass = np.full(count, as_number(mass, "mass", "building", InvalidScene))
     if over_weight is None:
         return Building(mass, stiffness, **springs)
-    fraction = as_array(over_weight, "yield_shear_over_weight", "building", InvalidScene, or_number=True)
-    building = Building(mass, stiffness, yield_shear=np.ones_like(fraction), **springs)
-    return building.replace(yield_shear=fraction * building.weight)
+    listed = any(isinstance(value, list) for value in (mass, stiffness, *springs.values()))
+    if isinstance(over_weight, list) and over_weight and not listed:
+        mass = np.full(len(over_weight), as_number(mass, "mass", "building", InvalidScene))
+    building = Building(mass, stiffness, **springs)
+    return building.replace(yield_shear=as_fraction_of_weight(over_weight, building.storeys) * building.weight)
 
 
 def _yield_shear(value: Any) -> Any:
@@ -307,7 +319,7 @@ def _damping(building: _Table) -> float | Rayleigh | FloatArray:
 
 
 def _block(table: _Table) -> Block:
-    table.known(_BLOCK_KEYS)
+    table.known(KEYS["blocks"])
     table.needed("floor")
     table.needed("mass", "mass_ratio")
     table.needed("mu", "mu_s")
@@ -333,12 +345,12 @@ def _motions(top: _Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:
 
 def _samples(table: _Table, folder: Path) -> tuple[FloatArray, float, Record | None]:
     """Acceleration (m/s2) and time step (s) after scaling, and the record they come from, if any."""
-    table.known(_MOTION_KEYS)
+    table.known(KEYS["motion"])
     table.needed("file", "acceleration")
     table.excluded("file", "acceleration")
     unit = table.values.get("unit")
-    if unit is not None and (not isinstance(unit, str) or unit not in _UNITS):
-        table.refuse("unit", f"one of {', '.join(_UNITS)}", brief(unit))
+    if unit is not None and (not isinstance(unit, str) or unit not in ACCELERATION_UNITS):
+        table.refuse("unit", f"one of {', '.join(ACCELERATION_UNITS)}", brief(unit))
     scale, dt_scale = table.number("scale", 1.0), table.number("dt_scale", 1.0)
     if not np.isfinite(scale):
         table.refuse("scale", "a finite number", f"{scale:g}")
@@ -352,4 +364,4 @@ def _samples(table: _Table, folder: Path) -> tuple[FloatArray, float, Record | N
     table.needed("dt")
     samples = as_array(table.values["acceleration"], "acceleration", "motion", InvalidMotion)
     dt = as_number(table.values["dt"], "dt", "motion", InvalidMotion)
-    return samples * _UNITS[unit or "m/s2"] * scale, dt * dt_scale, None
+    return samples * ACCELERATION_UNITS[unit or "m/s2"] * scale, dt * dt_scale, None

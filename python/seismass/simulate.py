@@ -183,8 +183,9 @@ class Response:
             self._known[name] = getattr(self._run, name)
         return self._known[name]
 
-    def _asked(self, name: str, option: str) -> Any:
-        value = self._get(name)
+    def _asked(self, name: str, option: str, stored: str | None = None) -> Any:
+        """Return what an option keeps; `stored` is its name in the kernel, where that is another."""
+        value = self._get(stored or name)
         if value is None:
             raise refusal(InvalidOption, option, "simulate", f"asked for, if {name} is wanted", "False")
         return value
@@ -280,7 +281,7 @@ class Response:
     def time(self) -> FloatArray:
         """Times of the rows of the histories, shape (rows,)."""
         if "time" not in self._known:
-            every = self._asked("every", "histories")
+            every = self._asked("time", "histories", stored="every")
             self._known["time"] = frozen(np.arange(len(self.drift)) * every * self._dt)
         return self._array("time")
 
@@ -329,7 +330,7 @@ class Response:
         `element` (yield: 1 or 2, first or second yield of the storey; otherwise null).
         """
         if "events" not in self._known:
-            time = self._asked("event_time", "events")
+            time = self._asked("events", "events", stored="event_time")
             kinds = np.array(EVENT_KINDS)[self._get("event_kind")]
             element = pl.Series("element", self._get("event_element"))
             self._known["events"] = pl.DataFrame(
@@ -381,8 +382,10 @@ class Response:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Response):
             return NotImplemented
+        if self._dt != other._dt or not _same(self._heights, other._heights):
+            return False
         mine, theirs = self._everything(), other._everything()
-        return self._dt == other._dt and all(_same(mine[name], theirs[name]) for name in _KERNEL_VALUES)
+        return all(_same(mine[name], theirs[name]) for name in _KERNEL_VALUES)
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -504,6 +507,8 @@ def as_motion(motion: Any, parameter: str, owner: str) -> Motion:
 def _same(one: Any, other: Any) -> bool:
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
         return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+    if one is None or other is None:
+        return one is other
     return bool(one == other)
 
 

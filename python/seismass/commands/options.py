@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -39,7 +39,47 @@ def read_motions(args: argparse.Namespace) -> Suite:
     """Return the suite that the options name."""
     from seismass.records import builtin_suite, read_suite
 
-    return replace(builtin_suite(), name="built-in suite") if args.records is None else read_suite(args.records)
+    return builtin_suite() if args.records is None else read_suite(args.records)
+
+
+def read_records(path: Path, *, dt: float | None = None, unit: str | None = None) -> Suite:
+    """Return the records that a path names: a folder, a CSV with a column `file`, or else one record.
+
+    Raises
+    ------
+    InvalidOption
+        A step or a unit is given for more than one record: a list has columns for them.
+    RecordFormatError
+        As for `read_suite` and `read_record`.
+    """
+    from seismass.errors import InvalidOption
+    from seismass.records import Suite, read_record, read_suite
+
+    if not (path.is_dir() or _is_list(path)):
+        record = read_record(path, dt=dt, unit=unit)
+        return Suite(record.name, (record,))
+    for name, value in (("--dt", dt), ("--unit", unit)):
+        if value is not None:
+            raise InvalidOption(
+                f"{name} of {path.name} must be left out for a folder or a list of records; got {value}"
+            )
+    return read_suite(path)
+
+
+def _is_list(path: Path) -> bool:
+    """Whether a .csv file lists records; one that is a record has no column `file`."""
+    from seismass.records.read import read_text
+
+    if path.suffix.lower() != ".csv":
+        return False
+    header = read_text(path).partition("\n")[0]
+    return "file" in (column.strip().strip('"') for column in header.split(","))
+
+
+def warn_left_out(suite: Suite) -> None:
+    """Print on standard error what the suite left out, where standard output is for machines."""
+    for line in left_out(suite):
+        print(f"seismass: {line}", file=sys.stderr)
 
 
 def left_out(suite: Suite) -> list[str]:

@@ -6,6 +6,7 @@ import argparse
 import json
 import math
 import sys
+import textwrap
 from pathlib import Path
 from typing import Any
 
@@ -14,15 +15,22 @@ import polars as pl
 from seismass.errors import InvalidOption, SimulationError
 from seismass.files import written_whole
 from seismass.scene import Building, Rayleigh, Scene
-from seismass.scene_file import SceneFile, read_scene
+from seismass.scene_file import KEYS, SceneFile, read_scene
 from seismass.simulate import Response, simulate
 from seismass.units import STANDARD_GRAVITY
 
 _HISTORY_SUFFIXES = (".parquet", ".csv")
-_EPILOG = """examples:
+_KEYS = "\n".join(
+    textwrap.fill(f"{table or 'file'}: {', '.join(keys)}", 100, initial_indent="  ", subsequent_indent="    ")
+    for table, keys in KEYS.items()
+)
+_EPILOG = f"""examples:
   seismass run scene.toml
   seismass run scene.json --json > response.json
   seismass run scene.toml --histories response.parquet
+
+keys of a scene file, table by table (docs/scene_file.md explains them, with an example):
+{_KEYS}
 
 exit codes: 0 solved (a collapse is a result), 1 the run failed, 2 bad input"""
 

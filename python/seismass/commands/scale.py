@@ -6,7 +6,7 @@ import argparse
 import json
 from typing import Any
 
-from seismass.commands.options import add_motion_options, left_out, read_motions, read_target
+from seismass.commands.options import add_motion_options, left_out, read_motions, read_target, warn_left_out
 
 _EPILOG = """examples:
   seismass scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6
@@ -37,6 +37,7 @@ def run(args: argparse.Namespace) -> int:
     suite = read_motions(args)
     scaling = scale_asce7_10(suite, target, args.period)
     if args.json:
+        warn_left_out(suite)
         document = {
             "suite": suite.name,
             "target": target.label,

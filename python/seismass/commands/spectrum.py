@@ -7,9 +7,13 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from seismass.commands.options import read_records, warn_left_out
+from seismass.units import ACCELERATION_UNITS
+
 _KINDS = {"psa": "pseudo_acceleration", "psv": "pseudo_velocity", "sd": "displacement"}
 _EPILOG = """examples:
   seismass spectrum record.AT2 --damping 0.02 0.05
+  seismass spectrum column.txt --dt 0.01 --unit cm/s2
   seismass spectrum suite.csv --periods 0.2 1.0 --kind sd
   seismass spectrum records/ > spectra.csv
 
@@ -26,7 +30,14 @@ def add_parser(subparsers: Any) -> None:
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("records", type=Path, metavar="PATH", help="a record, a folder of .AT2 files, or a suite CSV")
+    parser.add_argument(
+        "records",
+        type=Path,
+        metavar="PATH",
+        help="a record (.AT2, or text of one or two columns), a folder of .AT2 files, or a CSV with a column `file`",
+    )
+    parser.add_argument("--dt", type=float, metavar="S", help="time step of a record whose file does not state it, s")
+    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of a record whose file states none")
     parser.add_argument(
         "--periods", type=float, nargs="+", metavar="T", help="periods, s (default: 100 from 0.01 to 10, geometric)"
     )
@@ -40,19 +51,18 @@ def run(args: argparse.Namespace) -> int:
     import numpy as np
     import polars as pl
 
-    from seismass.records import read_record, read_suite
     from seismass.spectra import response_spectrum
     from seismass.units import STANDARD_GRAVITY
 
-    is_suite = args.records.is_dir() or args.records.suffix.lower() == ".csv"
-    records = list(read_suite(args.records)) if is_suite else [read_record(args.records)]
+    suite = read_records(args.records, dt=args.dt, unit=args.unit)
+    warn_left_out(suite)
     periods = np.geomspace(0.01, 10.0, 100) if args.periods is None else np.array(args.periods)
-    spectra = response_spectrum(records, periods, args.damping, _KINDS[args.kind])  # type: ignore[arg-type]
+    spectra = response_spectrum(suite, periods, args.damping, _KINDS[args.kind])  # type: ignore[arg-type]
     name, unit = ("psa_g", STANDARD_GRAVITY) if args.kind == "psa" else (args.kind, 1.0)
     shape = spectra.shape
     table = pl.DataFrame(
         {
-            "record": np.repeat([record.name for record in records], shape[1] * shape[2]),
+            "record": np.repeat([record.name for record in suite], shape[1] * shape[2]),
             "damping": np.tile(np.repeat(args.damping, shape[2]), shape[0]),
             "period": np.tile(periods, shape[0] * shape[1]),
             name: spectra.ravel() / unit,

@@ -10,7 +10,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from seismass.commands.options import add_motion_options, count_option, left_out, read_motions, read_target
+from seismass.commands.options import (
+    add_motion_options,
+    count_option,
+    left_out,
+    read_motions,
+    read_target,
+    warn_left_out,
+)
 
 _EPILOG = """examples:
   seismass study
@@ -73,6 +80,7 @@ def run(args: argparse.Namespace) -> int:
     files = write_study(result, args.out, figures=not args.no_figures)
     metadata = study_metadata(result)
     if args.json:
+        warn_left_out(suite)
         print(json.dumps(metadata, indent=2))
     else:
         counts = metadata["counts"]

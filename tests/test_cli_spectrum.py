@@ -1,0 +1,83 @@
+"""`seismass spectrum`: what it takes for a record and what for a list of them, and what it leaves out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+
+import seismass as sm
+from seismass.cli import main
+
+SAMPLES = np.sin(0.3 * np.arange(400)) * np.hanning(400)
+PERIODS = (0.2, 0.5)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "two.csv").write_text(
+        "time (s),acceleration (m/s2)\n" + "".join(f"{0.01 * i:.2f},{x:.6f}\n" for i, x in enumerate(SAMPLES))
+    )
+    (tmp_path / "one.txt").write_text("".join(f"{100.0 * x:.4f}\n" for x in SAMPLES))
+    (tmp_path / "list.csv").write_text('name, "file", dt, unit\nfirst, one.txt, 0.01, cm/s2\n')
+    return tmp_path
+
+
+def spectrum(*arguments: object) -> int:
+    return main(["spectrum", *map(str, arguments), "--periods", *map(str, PERIODS)])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "name"),
+    [(["two.csv"], "two"), (["one.txt", "--dt", 0.01, "--unit", "cm/s2"], "one"), (["list.csv"], "first")],
+)
+def test_a_csv_is_a_list_where_it_has_a_column_of_files(
+    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[object], name: str
+) -> None:
+    assert spectrum(folder / str(arguments[0]), *arguments[1:]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    table = pl.read_csv(printed.out.encode())
+    assert table["record"].to_list() == [name] * 2
+    expected = sm.response_spectrum(sm.Motion(SAMPLES, 0.01), PERIODS)[0] / 9.80665
+    # The files have six decimals of m/s2.
+    np.testing.assert_allclose(table["psa_g"], expected, rtol=1e-5)
+
+
+def test_what_the_file_does_not_state_is_asked_for(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert spectrum(folder / "one.txt", "--unit", "cm/s2") == 2
+    assert "dt of one.txt must be given" in capsys.readouterr().err
+    assert spectrum(folder / "one.txt", "--dt", 0.01) == 2
+    assert "unit of one.txt must be" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("option", "value"), [("--dt", "0.01"), ("--unit", "g")])
+def test_a_list_states_steps_and_units_itself(
+    folder: Path, capsys: pytest.CaptureFixture[str], option: str, value: str
+) -> None:
+    assert spectrum(folder / "list.csv", option, value) == 2
+    message = f"{option} of list.csv must be left out for a folder or a list of records; got {value}"
+    assert message in capsys.readouterr().err
+
+
+def test_what_is_left_out_is_said_beside_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    motion = next(record.source for record in sm.builtin_suite() if record.source is not None).read_text()
+    for name in ("BRA225.AT2", "BRA315.AT2", "ERZ000.AT2", "BRA-UP.AT2"):
+        (tmp_path / name).write_text(motion)
+    says = "left out BRA-UP.AT2: vertical component by its name: BRA-UP\n"
+    assert spectrum(tmp_path) == 0
+    printed = capsys.readouterr()
+    assert printed.err == f"seismass: {says}"
+    assert pl.read_csv(printed.out.encode())["record"].unique(maintain_order=True).to_list() == [
+        "BRA225",
+        "BRA315",
+        "ERZ000",
+    ]
+    assert main(["scale", "--records", str(tmp_path), "--json"]) == 0
+    assert capsys.readouterr().err == f"seismass: {says}"
+    assert main(["scale", "--records", str(tmp_path)]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    assert says in printed.out
