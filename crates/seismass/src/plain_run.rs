@@ -140,8 +140,6 @@ pub(crate) struct Walk {
     /// Series formed for turns beyond peaks, and turns looked at.
     pub(crate) series: usize,
     pub(crate) isolated: usize,
-    /// With vertical motion: slope of the contact force that the rates of accelerations have followed.
-    contact_slope: f64,
     layers: Vec<Layer>,
     /// Layers in which blocks slide: the first so many.
     used: usize,
@@ -156,7 +154,6 @@ impl Walk {
             beaten: Beaten::new(model),
             series: 0,
             isolated: 0,
-            contact_slope: 0.0,
             layers: Vec::new(),
             used: 0,
             on_floors: Vec::new(),
@@ -257,7 +254,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     for (jerk, inverse_mass) in jerk_per_slope.iter_mut().zip(regime.lanes::<V, K>(Row::InverseMass)) {
         *jerk = jerk.mul(inverse_mass);
     }
-    let mut slope_before = walk.contact_slope;
+    let mut slope_before = state.jerk_slope;
     let mut apart_before = bounds.apart(&sample, third);
     let (mut lowest, others) = match walk.layers[..walk.used].split_first_mut() {
         Some((lowest, others)) if SLIDING => (Some(lowest), others),
@@ -287,7 +284,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             false => (STANDARD_GRAVITY, STANDARD_GRAVITY),
         };
         if VERTICAL {
-            let slope = (contact.1 - contact.0) * per_second;
+            let slope = (vertical[reached + 1] - vertical[reached]) * per_second;
             for k in 0..K {
                 sample.jerk[k] = jerk_per_slope[k].mul_add(V::splat(slope - slope_before), sample.jerk[k]);
                 apart_before[2][k] = third.mul_add(sample.jerk[k].abs(), sample.a[k].abs());
@@ -416,7 +413,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         store(&layer.velocity, &mut lowest.velocity);
         store(&layer.slip, &mut lowest.slip);
     }
-    walk.contact_slope = slope_before;
+    state.jerk_slope = slope_before;
     if walk.beaten.any() {
         bounds.put_into(&mut state.bounds);
     }
@@ -482,7 +479,6 @@ fn run(
         (Linear { start: samples[i], end: samples[i + 1] }, Linear { start: contact(i), end: contact(i + 1) })
     };
     walk.begin(state, first);
-    walk.contact_slope = (contact(first + 1) - contact(first)) * (1.0 / h);
     if let Some(recorder) = &mut observer.histories {
         recorder.take_up(state);
     }

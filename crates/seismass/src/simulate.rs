@@ -403,7 +403,8 @@ impl Run<'_> {
 /// What moves: drifts, drift rates, floor accelerations, their rates, drift accelerations, and blocks.
 struct Moment {
     lanes: [Vec<f64>; 5],
-    /// See [`State::is_formed`].
+    /// See [`State::jerk_slope`] and [`State::is_formed`].
+    jerk_slope: f64,
     is_formed: bool,
     motions: Vec<BlockMotion>,
 }
@@ -438,12 +439,14 @@ impl State<'_> {
     /// What moves, at this moment.
     fn moment(&self) -> Moment {
         let lanes = [&self.x, &self.v, &self.a, &self.jerk, &self.drift_acceleration].map(Clone::clone);
-        Moment { lanes, is_formed: self.is_formed, motions: self.motions.clone() }
+        let (jerk_slope, is_formed) = (self.jerk_slope, self.is_formed);
+        Moment { lanes, jerk_slope, is_formed, motions: self.motions.clone() }
     }
 
     fn set_moment(&mut self, moment: Moment) {
         [self.x, self.v, self.a, self.jerk, self.drift_acceleration] = moment.lanes;
-        (self.is_formed, self.motions) = (moment.is_formed, moment.motions);
+        (self.jerk_slope, self.is_formed) = (moment.jerk_slope, moment.is_formed);
+        self.motions = moment.motions;
     }
 
     /// Integrates the energies of an interval without events from its start, and leaves the state at its end as it is.

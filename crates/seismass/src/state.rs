@@ -8,7 +8,8 @@ use crate::closer_look::{BoundsInLanes, Sample};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand, Transition};
 use crate::lanes::{
-    Aligned, FAR, MAX_LANES, Vector, WIDTH, by_width, differences, filled, for_each_path, load, padded, store,
+    Aligned, FAR, MAX_LANES, Vector, WIDTH, by_width, differences, filled, for_each_path, lanes, lanes_mut, load,
+    padded, store,
 };
 use crate::model::Model;
 use crate::propagator::RegimeCache;
@@ -243,6 +244,8 @@ pub(crate) struct State<'a> {
     pub(crate) jerk: Vec<f64>,
     /// Second derivative of each drift.
     pub(crate) drift_acceleration: Vec<f64>,
+    /// With vertical motion: slope of the contact force that the rates of accelerations follow (m/s3).
+    pub(crate) jerk_slope: f64,
     /// Whether accelerations and their rates were formed from drifts and drift rates, not taken from a series: that may
     /// be done once, for their errors would add up.
     pub(crate) is_formed: bool,
@@ -311,6 +314,7 @@ impl<'a> State<'a> {
             a: zero(),
             jerk: zero(),
             drift_acceleration: zero(),
+            jerk_slope: 0.0,
             is_formed: false,
             springs: vec![StoreySpring::new(); n],
             motions,
@@ -473,6 +477,7 @@ impl<'a> State<'a> {
     /// Forms accelerations and their rates at `tau` from the state.
     pub(crate) fn refresh_accelerations(&mut self, tau: f64) {
         let n = self.storeys();
+        self.jerk_slope = self.interval.contact_slope;
         if n <= MAX_LANES {
             return by_width!(self.model.width, K => refresh::<K>(self, tau));
         }
@@ -660,11 +665,12 @@ impl<'a> State<'a> {
     }
 
     /// Moves on to the interval between samples `i` and `i + 1` of a motion, at whose start the state is: with vertical
-    /// motion, the rates of accelerations turn there.
+    /// motion, the rates of accelerations turn there, as they do within a run of plain steps.
     pub(crate) fn begin_interval(&mut self, motion: &Motion, i: usize) {
         self.set_interval(motion, i);
         if self.vertical {
-            self.refresh_accelerations(0.0);
+            turn(self, self.interval.contact_slope - self.jerk_slope);
+            self.jerk_slope = self.interval.contact_slope;
         }
     }
 }
@@ -685,6 +691,30 @@ fn interval(motion: &Motion, vertical: Option<&[f64]>, i: usize) -> Interval {
         contact: STANDARD_GRAVITY + vertical,
         contact_change,
         contact_slope: contact_change * per_second,
+    }
+}
+
+for_each_path! {
+    /// Has the rates of accelerations follow a change of the contact force's slope.
+    fn turn(state: &mut State, change: f64) = turn_by_path
+}
+
+#[inline(always)]
+fn turn_by_path<V: Vector>(state: &mut State, change: f64) {
+    let inverse_mass = lanes(state.cache.regime(state.regime).row(Row::InverseMass));
+    turned::<V>(&mut state.jerk, lanes(&state.friction), inverse_mass, change);
+}
+
+/// Rates of accelerations once the slope of the contact force has changed.
+#[inline(always)]
+pub(crate) fn turned<V: Vector>(
+    jerk: &mut [f64],
+    friction: &[[f64; WIDTH]],
+    inverse_mass: &[[f64; WIDTH]],
+    change: f64,
+) {
+    for (jerk, (friction, inverse_mass)) in lanes_mut(jerk).iter_mut().zip(friction.iter().zip(inverse_mass)) {
+        V::load(friction).mul(V::load(inverse_mass)).mul_add(V::splat(change), V::load(jerk)).store(jerk);
     }
 }
 

@@ -19,7 +19,7 @@ use crate::observe::Observer;
 use crate::regime::Row;
 use crate::scene::Motion;
 use crate::sliding::{GroundBlock, Linear, SMALL_DIFFERENCE, move_on_ground};
-use crate::state::{State, THIRD, off_cubic, range, ranges};
+use crate::state::{State, THIRD, off_cubic, range, ranges, turned};
 use crate::storey::Sign;
 use crate::symmetric::Symmetric;
 use crate::tall_bounds::{Apart, Bounds};
@@ -795,20 +795,7 @@ fn run_lanes<V: Vector>(
         }
     };
     set_loads(contact_at(first), 0.0, &mut load, &mut load_slope);
-    let mut slope_before = 0.0;
-    if vertical.is_some() {
-        // As the step that ends here leaves them: the state has formed them anew, to rounding.
-        let last = first.saturating_sub(1);
-        slope_before = (contact_at(last + 1) - contact_at(last)) * per_second;
-        set_loads(contact_at(first), slope_before, &mut load, &mut load_slope);
-        if has_floor_damping {
-            prefix_sums::<V>(&before.v, &mut floors);
-        }
-        operator.accelerations::<V>(&before.x, &before.v, &floors, &load, &mut before.a[1..]);
-        before.a[0] = samples[first];
-        let q = &mut before.q[margin..margin + length];
-        operator.derivatives(&before.v, &before.a, V::splat(1.0), &load_slope, q, &mut before.jerk[1..]);
-    }
+    let mut slope_before = state.jerk_slope;
     for k in 0..length / WIDTH {
         bounds.update::<V>(k);
         store_all(bounds.apart::<V>(&before, margin, third, k), &mut apart_before[k]);
@@ -817,12 +804,10 @@ fn run_lanes<V: Vector>(
     for (pair, next) in samples[first..=end].windows(2).zip(first + 1..) {
         let slope = (pair[1] - pair[0]) * per_second;
         let contact = (contact_at(next - 1), contact_at(next));
-        let contact_slope = (contact.1 - contact.0) * per_second;
+        let contact_slope = vertical.map_or(0.0, |vertical| (vertical[next] - vertical[next - 1]) * per_second);
         if vertical.is_some() {
-            let inverse_mass = &operator.inverse_mass;
-            for ((jerk, friction), inverse_mass) in before.jerk[1..].iter_mut().zip(&friction).zip(inverse_mass) {
-                *jerk += friction * (contact_slope - slope_before) * inverse_mass;
-            }
+            let change = contact_slope - slope_before;
+            turned::<V>(&mut before.jerk[1..], lanes(&friction), lanes(&operator.inverse_mass), change);
             slope_before = contact_slope;
             set_loads(contact.1, contact_slope, &mut load, &mut load_slope);
             for (k, apart) in apart_before.iter_mut().enumerate() {
@@ -965,6 +950,7 @@ fn run_lanes<V: Vector>(
     state.effort = series.effort;
     if reached > first {
         before.put(state, margin);
+        state.jerk_slope = slope_before;
         bounds.put_peaks(state, observer);
         for block in &on_floors {
             (state.motions[block.block].velocity, state.motions[block.block].slip) = (block.velocity, block.slip);
