@@ -128,12 +128,7 @@ class Record(Value):
         return self.replace(dt=self.dt * _number("factor", factor, "time-scaled record", positive=True))
 
     def with_duration(self, duration: float) -> Record:
-        """Return the record up to the sample nearest to `duration`.
-
-        Parameters
-        ----------
-        duration : float
-            Time (s). Beyond the last sample the motion goes to zero over one step and stays there.
+        """Return the record up to the sample nearest to `duration` (s), as `Motion.with_duration` does.
 
         Raises
         ------
