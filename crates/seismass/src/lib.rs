@@ -78,8 +78,11 @@ mod state;
 mod storey;
 mod symmetric;
 mod tall_bounds;
+mod tall_look;
 mod tall_norms;
+mod tall_operator;
 mod tall_run;
+mod tall_series;
 mod tall_step;
 mod taylor;
 

@@ -16,7 +16,7 @@ use crate::propagator::RegimeCache;
 use crate::regime::{Operator, Regime, Row};
 use crate::scene::{Motion, Scene};
 use crate::storey::StoreySpring;
-use crate::tall_run::Effort;
+use crate::tall_series::Effort;
 use crate::taylor::{Drive, Series, Start};
 
 /// Storeys whose plastic elements fit into a word.

@@ -8,7 +8,7 @@ use crate::regime::Row;
 use crate::response::Peak;
 use crate::state::State;
 use crate::storey::Sign;
-use crate::tall_run::Sample;
+use crate::tall_operator::Sample;
 
 /// The bounds of [`crate::bounds::Bounds`] in a vector of storeys and their floors.
 pub(crate) struct VectorBounds {
