@@ -10,8 +10,16 @@ use crate::arrays::{Output, Table, Values};
 use crate::errors::from_kernel;
 use crate::interrupt::{run_inline, run_watched};
 
-/// Storeys up to which frequencies are found in no time (milliseconds, and like n^3 beyond) that Ctrl-C would wait for.
-const MOST_UNWATCHED: usize = 64;
+/// Runs work that finds the frequencies of so many storeys, watched for Ctrl-C where it takes longer than milliseconds: it
+/// grows like their cube.
+fn find_frequencies<T: Send + 'static>(
+    py: Python<'_>,
+    storeys: usize,
+    work: impl FnOnce() -> seismass::Result<T> + Send + 'static,
+) -> PyResult<T> {
+    const MOST_UNWATCHED: usize = 64;
+    if storeys <= MOST_UNWATCHED { run_inline(py, work) } else { run_watched(py, |_| Ok(()), |_| work()) }
+}
 
 /// Building held by the kernel.
 #[pyclass(frozen, module = "seismass._kernel")]
@@ -52,24 +60,17 @@ impl Building {
             (None, None, None) => Ok(GravityEffect::None),
             _ => Err(refuse("P-Delta", "geometric_stiffness, or heights and gravity_load", "another combination")),
         };
-        let (count, storeys) = (mass.0.len(), storeys(mass.0.len(), springs));
-        let make = move || seismass::Building::new(mass.0, storeys?, damping?)?.with_gravity(gravity?);
-        let building =
-            if count <= MOST_UNWATCHED { run_inline(py, make) } else { run_watched(py, |_| Ok(()), move |_| make()) };
-        building.map(|building| Self(Arc::new(building)))
+        let count = mass.0.len();
+        let storeys = storeys(count, springs);
+        find_frequencies(py, count, move || seismass::Building::new(mass.0, storeys?, damping?)?.with_gravity(gravity?))
+            .map(|building| Self(Arc::new(building)))
     }
 
     /// Natural periods of the bare building without P-Delta (s), longest first.
     #[getter]
     fn periods(&self, py: Python<'_>) -> PyResult<Output<f64>> {
         let building = Arc::clone(&self.0);
-        let find = move || Ok(building.periods());
-        let periods = if self.0.mass().len() <= MOST_UNWATCHED {
-            run_inline(py, find)
-        } else {
-            run_watched(py, |_| Ok(()), move |_| find())
-        };
-        periods.map(Output::new)
+        find_frequencies(py, self.0.mass().len(), move || Ok(building.periods())).map(Output::new)
     }
 
     /// Damping matrix C in floor coordinates (N s/m).

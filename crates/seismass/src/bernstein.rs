@@ -262,8 +262,8 @@ impl Polynomial {
     }
 }
 
-/// The middle of a bracket. Newton's method hardly ever needs it: that it is not inlined keeps the choice a branch, which
-/// the processor foresees, where it would wait for a selection.
+/// The middle of a bracket. Newton's method hardly ever needs it: that it is cold keeps the choice a branch, which the
+/// processor foresees, where it would wait for a selection.
 #[cold]
 fn middle(left: f64, right: f64) -> f64 {
     0.5 * (left + right)

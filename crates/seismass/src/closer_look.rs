@@ -105,7 +105,7 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
 /// What a closer look at a step finds that the loop did not clear.
 pub(crate) struct Closer {
     /// Whether a guard may fall.
-    fails: bool,
+    pub(crate) fails: bool,
     /// Storeys and floors whose peaks of drift or shear and of acceleration the end of the step may beat.
     beaten: [Set; 2],
     /// Those that may turn beyond their peaks inside the step.
@@ -164,12 +164,6 @@ impl Closer {
         }
         closer
     }
-
-    /// Whether a guard may fall.
-    #[inline(always)]
-    pub(crate) fn fails(&self) -> bool {
-        self.fails
-    }
 }
 
 /// Peaks that a run of plain steps beats, and what is known of them until they are taken.
@@ -213,7 +207,7 @@ impl Beaten {
     }
 
     /// Takes note of what a closer look has found of a step; false where the run has to stop at it, as it has where it
-    /// `fails` for another reason. `bounds` are those of the state.
+    /// `fails`, by the look or for another reason. `bounds` are those of the state.
     #[inline(always)]
     pub(crate) fn note<V: Vector, const K: usize>(
         &mut self,
@@ -226,7 +220,7 @@ impl Beaten {
     ) -> bool {
         let turned = if is_first { self.turned } else { [0; 2] };
         let turns = [closer.turns[0] & !turned[0], closer.turns[1] & !turned[1]];
-        if fails || closer.fails {
+        if fails {
             return false;
         }
         if turns != [0; 2] {

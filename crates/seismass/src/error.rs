@@ -52,7 +52,7 @@ pub enum Error {
          solved: take a shorter time step or softer storeys"
     )]
     TooStiff {
-        /// Time at which the regime is entered (s).
+        /// Start of the sample interval, or of the substep of it (s).
         time: f64,
         /// Circular frequency times sample interval.
         phase: f64,

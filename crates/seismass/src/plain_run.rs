@@ -379,10 +379,10 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             }
             let samples = [&sample, &taken];
             let closer = Closer::look(suspects, &bounds, &state.bounds, samples, (norm, &margins), h, least_contact);
-            let (fails, time) = (is_turning || !has_contact, (reached + 1) as f64 * h);
+            let (fails, time) = (closer.fails || is_turning || !has_contact, (reached + 1) as f64 * h);
             let in_state = (&state.bounds, &mut bounds);
             if !walk.beaten.note(&closer, fails, reached == first, samples, time, in_state) {
-                open = (has_contact && (fails || closer.fails())).then_some((taken, norm, least_contact));
+                open = (fails && has_contact).then_some((taken, norm, least_contact));
                 break;
             }
             apart_after = bounds.apart(&taken, third);

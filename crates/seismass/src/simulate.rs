@@ -264,7 +264,7 @@ impl Run<'_> {
     fn series_interval(&mut self, stop: &AtomicBool) -> Result<Option<(usize, f64)>> {
         self.statistics.intervals += 1;
         let h = self.state.interval.h;
-        let phase_at_start = self.phase_of(h)?;
+        let phase_at_start = self.state.regime().frequency * h;
         let mut events = 0;
         let mut tau = 0.0;
         while tau < h {
