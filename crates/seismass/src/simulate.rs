@@ -32,6 +32,8 @@ const MOST_SUBSTEPS: usize = 1 << 10;
 const MOST_SUBSTEPS_OF_MOTION: usize = 1 << 21;
 /// Most radians of the stiffest vibration in a step: each takes a series of its own where something happens.
 const MOST_PHASE: f64 = 65536.0;
+/// Peaks this close to each other, relatively, may be the same but for rounding.
+const SAME_PEAK: f64 = 1e-9;
 /// Steps between two looks at the caller's wish to stop.
 const STEPS_PER_POLL: usize = 1024;
 
@@ -213,7 +215,8 @@ impl Run<'_> {
             (0..state.storeys()).map(|i| -state.springs[i].base_load(&state.model.laws[i]) / tangent[i]).collect();
         let kinetic: f64 = regime.row(Row::Mass).iter().zip(state.floor_velocities()).map(|(m, v)| m * v * v).sum();
         let elastic: f64 = (0..rest.len()).map(|i| tangent[i] * (state.x[i] - rest[i]).powi(2)).sum();
-        let liveliness = (kinetic + elastic).sqrt();
+        // Wider than rounding: without damping the same peak comes back in each cycle.
+        let liveliness = (kinetic + elastic).sqrt() * (1.0 + SAME_PEAK);
         let contact = state.interval.contact;
         (0..rest.len()).all(|i| {
             let reach = liveliness / tangent[i].sqrt();
