@@ -274,3 +274,35 @@ fn what_a_method_does_not_support_is_refused() {
     refused(&scene, &slow, LEAPFROG(1), "substeps of");
     assert!(integrate(&scene, &slow, &LEAPFROG(5)).is_ok());
 }
+
+/// A block on the ground alone slides and arrives: events are located without a building.
+#[test]
+fn events_of_blocks_on_the_ground_are_located() {
+    let scene = Scene::new(None, vec![Block::new(0, 1.0, 0.2)]).unwrap();
+    let samples: Vec<f64> = (0..100).map(|i| 4.0 * (0.1 * f64::from(i)).sin()).collect();
+    let motion = Motion::new(samples, 0.01, None).unwrap();
+    let reference = exact(&scene, &motion);
+    assert!(reference.statistics.events.total() >= 2);
+    for method in [GAUSS_LOCATED(1), NEWMARK_LOCATED(8)] {
+        let slip = integrate(&scene, &motion, &method).unwrap().peak_slip[0];
+        assert!((slip / reference.peaks.slip[0].value - 1.0).abs() < 1e-2, "{method:?}: {slip}");
+    }
+}
+
+/// Damping lowers the limit of the leapfrog: what passes stays bounded, what would not is refused.
+#[test]
+fn a_damped_leapfrog_needs_shorter_steps() {
+    let motion = motion(0.02, 4.0);
+    for damping in [Damping::Modal { ratio: 0.6 }, Damping::Rayleigh { ratio: 0.6, modes: [1, 2] }] {
+        let building = Building::new(vec![1000.0; 3], vec![storey(100.0, 0.5); 3], damping).unwrap();
+        let highest = std::f64::consts::TAU / building.periods()[2];
+        let scene = Scene::new(Some(Arc::new(building)), vec![]).unwrap();
+        let run = |substeps| integrate(&scene, &motion, &LEAPFROG(substeps));
+        let least = (1..).find(|&substeps| run(substeps).is_ok()).unwrap();
+        assert!(least as f64 > 0.02 * highest / 2.0 * 1.2, "{least}");
+        let found = run(least).unwrap().peak_drift;
+        for (found, exact) in found.iter().zip(&exact(&scene, &motion).peaks.drift) {
+            assert!((found / exact.value - 1.0).abs() < 0.2, "{found} {}", exact.value);
+        }
+    }
+}

@@ -55,11 +55,23 @@ pub(super) fn integrate(scene: &Scene, motion: &Motion, substeps: usize) -> Resu
     Ok(history)
 }
 
-/// The central difference method needs h w < 2 for the highest frequency w; blocks lower it, damping is not counted.
+/// The central difference method needs h w < 2 for the highest frequency w. With damping forces at extrapolated rates,
+/// a motion that changes its sign at every step grows unless h^2 K / 4 + h C < M: with C / M up to c, h must be below
+/// 2 / (c + sqrt(c^2 + w^2)). Blocks lower both.
 fn check_stability(model: &Model, dt: f64, substeps: usize) -> Result<(), Error> {
     let highest = natural_frequencies(&model.mass, &model.stiffness).last().copied().unwrap_or(0.0);
-    let least = 0.5 * dt * highest;
-    let requirement = format!("above {least}, for steps below 2 / {highest} rad/s");
+    let mut damping = model.damping().floor_matrix(&model.mass, &model.stiffness);
+    for (i, j) in (0..model.storeys()).flat_map(|i| (0..model.storeys()).map(move |j| (i, j))) {
+        damping[(i, j)] /= (model.mass[i] * model.mass[j]).sqrt();
+    }
+    let least = |damping: f64| 0.5 * dt * (damping + damping.hypot(highest));
+    // Sums of rows bound the eigenvalues, at no cost.
+    let most = damping.row_iter().map(|row| row.iter().map(|c| c.abs()).sum()).fold(0.0, f64::max);
+    if substeps as f64 > least(most) {
+        return Ok(());
+    }
+    let least = least(damping.symmetric_eigenvalues().iter().copied().fold(0.0, f64::max));
+    let requirement = format!("above {least}, for steps below {} s", dt / least);
     super::require(substeps as f64 > least, "substeps", &requirement, substeps)
 }
 

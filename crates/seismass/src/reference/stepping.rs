@@ -199,7 +199,9 @@ impl<S: Scheme> Run<'_, S> {
         let time = self.state.interval.start + tau;
         let singular = || Error::SingularStep { time };
         let (start, n) = (&self.start, self.start.x.len());
-        if whole {
+        if n == 0 {
+            // Blocks on the ground alone.
+        } else if whole {
             let index = self.state.regime;
             if self.maps.len() <= index {
                 self.maps.resize_with(index + 1, || None);
