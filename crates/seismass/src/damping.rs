@@ -153,7 +153,7 @@ fn orthogonal_columns(mass: &[f64], stiffness: &[f64]) -> DMatrix<f64> {
             for q in p + 1..n {
                 let (cp, cq) = (g.column(p), g.column(q));
                 let (pp, qq, pq) = (cp.norm_squared(), cq.norm_squared(), cp.dot(&cq));
-                if pq.abs() <= ORTHOGONAL * (pp * qq).sqrt() {
+                if pq.abs() <= ORTHOGONAL * pp.sqrt() * qq.sqrt() {
                     continue;
                 }
                 rotated = true;

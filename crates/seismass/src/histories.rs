@@ -67,7 +67,7 @@ fn running_sums<V: Vector, const K: usize>(values: &[V; K]) -> [V; K] {
 /// Whether there is memory for so many numbers. To ask has glibc keep it from run to run: it does so once it has seen as
 /// much in one piece (`mallopt`, `M_TRIM_THRESHOLD`), up to 32 MB, and gives several smaller pieces back to the system each
 /// time. New pages cost more than the run.
-fn is_there_memory(numbers: usize) -> bool {
+pub(crate) fn is_there_memory(numbers: usize) -> bool {
     black_box(Vec::<f64>::new().try_reserve_exact(numbers)).is_ok()
 }
 

@@ -7,7 +7,8 @@ use std::sync::OnceLock;
 
 use rustc_hash::FxBuildHasher;
 
-/// Instructions the hot loops are compiled for. Paths agree to rounding; each gives the same bits everywhere.
+/// Instructions the hot loops are compiled for. Paths agree to rounding; each gives the same bits everywhere, with
+/// the same C library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InstructionSet {
     /// What every machine of the architecture has.

@@ -17,6 +17,7 @@ use rayon::prelude::*;
 
 use crate::batch::{Control, in_pool};
 use crate::error::{Domain, Error, Result};
+use crate::histories::is_there_memory;
 use crate::lanes::InstructionSet;
 use crate::scene::Motion;
 
@@ -32,6 +33,8 @@ type Values = [f64; LANES];
 const BLOCK: usize = 32;
 /// Blocks between two searches for peaks inside steps; what is kept of them fits the second-level cache.
 const BLOCKS_PER_SEARCH: usize = 256;
+/// Largest power of two, and its inverse, that motions are divided by.
+const LARGEST_EXPONENT: f64 = 1000.0;
 /// Shortest and longest period over the time step.
 const PERIOD_RANGE: [f64; 2] = [1e-3, 1e9];
 
@@ -52,10 +55,15 @@ pub fn response_spectra(
 ) -> Result<Vec<f64>> {
     validate(motions, periods, damping)?;
     let per_motion = periods.len() * damping.len();
-    let mut peaks = vec![0.0; motions.len() * per_motion];
-    if peaks.is_empty() {
-        return Ok(peaks);
+    let count = motions.len().saturating_mul(per_motion);
+    if count == 0 {
+        return Ok(Vec::new());
     }
+    if !is_there_memory(count) {
+        let requirement = "of so few oscillators and motions that their peaks fit into memory";
+        return Err(Error::invalid(Domain::Options, "periods", "spectrum", requirement, format!("{count} peaks")));
+    }
+    let mut peaks = vec![0.0; count];
     let solve = |peaks: &mut [f64]| {
         let each = peaks.par_chunks_mut(per_motion).zip(motions);
         each.try_for_each(|(peaks, motion)| solve_one(motion, periods, damping, control, peaks))
@@ -120,11 +128,14 @@ fn validate(motions: &[Motion], periods: &[f64], damping: &[f64]) -> Result<()> 
     Ok(())
 }
 
-/// A motion times dt^2 (m), without its quiet head and tail but for the zeros that follow it, and what bounds it in each
-/// block of steps. Before it nothing moves; the free vibration after it is known in closed form.
+/// A motion times dt^2 (m) and a factor, without its quiet head and tail but for the zeros that follow it, and what bounds
+/// it in each block of steps. Before it nothing moves; the free vibration after it is known in closed form.
 struct Load {
     samples: Vec<f64>,
     blocks: Vec<LoadBounds>,
+    /// The inverse of the factor: a power of two, near the largest acceleration, so that no square leaves the range of
+    /// numbers.
+    unit: f64,
 }
 
 /// Largest sample and largest increment within a block.
@@ -139,7 +150,11 @@ impl Load {
         let acceleration = motion.acceleration();
         let first = acceleration.iter().position(|&a| a != 0.0).unwrap_or(0).saturating_sub(1);
         let last = acceleration.iter().rposition(|&a| a != 0.0).unwrap_or(0);
-        let samples: Vec<f64> = acceleration[first..=last].iter().map(|a| square * a).chain([0.0; 2]).collect();
+        let largest = acceleration.iter().fold(0.0, |most, a| a.abs().max(most));
+        let exponent = if largest > 0.0 { largest.log2().clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT) as i32 } else { 0 };
+        let (unit, per_unit) = (2f64.powi(exponent), 2f64.powi(-exponent));
+        let scaled = acceleration[first..=last].iter().map(|a| square * (a * per_unit));
+        let samples: Vec<f64> = scaled.chain([0.0; 2]).collect();
         let ends = &samples[..samples.len() - 1];
         let blocks = (0..ends.len() - 1)
             .step_by(BLOCK)
@@ -151,7 +166,7 @@ impl Load {
                 }
             })
             .collect();
-        Self { samples, blocks }
+        Self { samples, blocks, unit }
     }
 
     /// Samples at the ends of the steps of a block, and the next.
@@ -371,6 +386,6 @@ fn peaks_of<S: Steps>(load: &Load, oscillators: &[Oscillator; LANES], control: &
     Ok(std::array::from_fn(|lane| {
         let [u, v] = S::to_rate(&oscillators[lane], state.map(|values| values[lane]), &[0.0; 2]);
         let finite = u.is_finite() && v.is_finite();
-        if finite { peak[lane].max(oscillators[lane].free_peak(u, v)) } else { f64::NAN }
+        if finite { load.unit * peak[lane].max(oscillators[lane].free_peak(u, v)) } else { f64::NAN }
     }))
 }

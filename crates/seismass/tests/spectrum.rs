@@ -187,3 +187,26 @@ fn a_set_flag_stops_it_and_an_overflow_is_an_error() {
     let overflow = response_spectra(&[huge], &[1e3], &[0.05], None, &Control::default());
     assert!(matches!(overflow, Err(Error::NotFinite { .. })), "{overflow:?}");
 }
+
+/// A motion times a power of two has the same peaks times that, to the bit, up to the ends of the range of numbers.
+#[test]
+fn peaks_are_proportional_to_the_motion_however_small_or_large() {
+    for exponent in [-900, -500, -3, 0, 1, 400, 900] {
+        let factor = 2f64.powi(exponent);
+        let scaled = jagged().scaled(factor).unwrap();
+        for period in [0.005, 0.03, 0.25, 10.0] {
+            assert_eq!(
+                spectrum(&scaled, period, 0.05),
+                factor * spectrum(&jagged(), period, 0.05),
+                "{exponent} {period}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_does_not_fit_into_memory_is_refused() {
+    let (periods, damping) = (vec![1.0; 1 << 22], vec![0.05; 1 << 22]);
+    let error = response_spectra(&[jagged()], &periods, &damping, None, &Control::default()).unwrap_err();
+    assert!(error.to_string().starts_with("periods of spectrum must be of so few"), "{error}");
+}
