@@ -77,14 +77,14 @@ fn solve(
     prepare: impl FnOnce() -> seismass::Result<(Vec<seismass::Scene>, Vec<Run>)> + Send + 'static,
 ) -> PyResult<Batch> {
     let motions: Vec<seismass::Motion> = motions.iter().map(|motion| motion.0.clone()).collect();
-    let threads = checked_threads(py, threads)?;
+    let threads = checked_threads(py, threads, "batch")?;
     let report = |done: usize| progress.as_ref().map_or(Ok(()), |call| call.call1((done, total)).map(drop));
     run_watched(py, report, move |control| {
         let (scenes, runs) = prepare()?;
         let options = Options { peaks_only, ..Options::default() };
         let rows = seismass::simulate_each(&scenes, &motions, &runs, &options, threads, control, Row::new)?;
-        let mut batch = Batch::default();
-        for (run, row) in rows.iter().enumerate() {
+        let mut batch = Batch::with_room_for(&rows);
+        for (run, row) in rows.into_iter().enumerate() {
             batch.push(run, row);
         }
         Ok(batch)
@@ -163,7 +163,6 @@ impl Columns {
 /// Results of a batch. A list per storey (or block) of run i is the next `storeys[i]` (or `blocks[i]`) values of a
 /// flat array; a run that failed has none.
 #[pyclass(frozen, module = "seismass._kernel")]
-#[derive(Default)]
 pub(crate) struct Batch {
     status: Vec<u8>,
     failures: Vec<(usize, String)>,
@@ -173,8 +172,8 @@ pub(crate) struct Batch {
     blocks: Vec<u32>,
     peak_drift: Vec<Peak>,
     residual_drift: Vec<f64>,
-    peak_floor_acceleration: Vec<Peak>,
-    peak_storey_shear: Vec<Peak>,
+    peak_floor_acceleration: Vec<f64>,
+    peak_storey_shear: Vec<f64>,
     peak_slip: Vec<Peak>,
     residual_slip: Vec<f64>,
     slip_path: Vec<f64>,
@@ -194,9 +193,9 @@ struct Row {
     yields: u32,
     slips: u32,
     end_time: f64,
-    /// Of drift, floor acceleration and storey shear by storey, then of slip by block.
+    /// Of drift by storey, then of slip by block.
     peaks: Box<[Peak]>,
-    /// Residual drift by storey, then residual slip and path slipped by block.
+    /// Peak floor acceleration, peak storey shear and residual drift by storey, then residual slip and path slipped by block.
     values: Box<[f64]>,
 }
 
@@ -204,6 +203,8 @@ impl Row {
     fn new(response: Response) -> Self {
         let Peaks { drift, slip, floor_acceleration, storey_shear } = &response.peaks;
         let events = &response.statistics.events;
+        let values = |peaks: &[Peak]| peaks.iter().map(|peak| peak.value).collect::<Vec<_>>();
+        let (floor_acceleration, storey_shear) = (values(floor_acceleration), values(storey_shear));
         Self {
             status: u8::from(status_name(response.status) == STATUS_NAMES[1]),
             collapsed_storey: collapsed_storey(response.status).map_or(0, count),
@@ -213,8 +214,17 @@ impl Row {
             yields: count(events.of(EventKind::Yield)),
             slips: count(events.of(EventKind::Slip)),
             end_time: response.end_time,
-            peaks: [&drift[..], floor_acceleration, storey_shear, slip].concat().into(),
-            values: [&response.residual_drift[..], &response.residual_slip, &response.slip_path].concat().into(),
+            peaks: [&drift[..], slip].concat().into(),
+            values: [
+                &floor_acceleration,
+                &storey_shear,
+                &response.residual_drift,
+                &response.residual_slip,
+                &response.slip_path,
+            ]
+            .map(|values| &values[..])
+            .concat()
+            .into(),
         }
     }
 }
@@ -229,7 +239,31 @@ const FAILED: u8 = 2;
 const STATUS_NAMES: [&str; 3] = ["completed", "collapsed", "failed"];
 
 impl Batch {
-    fn push(&mut self, run: usize, result: &seismass::Result<Row>) {
+    /// No results yet, with room for those of so many runs.
+    fn with_room_for(rows: &[seismass::Result<Row>]) -> Self {
+        let (runs, solved) = (rows.len(), rows.iter().flatten());
+        let (storeys, blocks) = solved.fold((0, 0), |(n, m), row| (n + row.storeys, m + row.blocks));
+        Self {
+            status: Vec::with_capacity(runs),
+            end_time: Vec::with_capacity(runs),
+            collapsed_storey: Vec::with_capacity(runs),
+            storeys: Vec::with_capacity(runs),
+            blocks: Vec::with_capacity(runs),
+            events: Vec::with_capacity(runs),
+            yields: Vec::with_capacity(runs),
+            slips: Vec::with_capacity(runs),
+            peak_drift: Vec::with_capacity(storeys),
+            peak_floor_acceleration: Vec::with_capacity(storeys),
+            peak_storey_shear: Vec::with_capacity(storeys),
+            residual_drift: Vec::with_capacity(storeys),
+            peak_slip: Vec::with_capacity(blocks),
+            residual_slip: Vec::with_capacity(blocks),
+            slip_path: Vec::with_capacity(blocks),
+            failures: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, run: usize, result: seismass::Result<Row>) {
         let row = match result {
             Ok(row) => row,
             Err(error) => {
@@ -258,16 +292,13 @@ impl Batch {
         self.yields.push(row.yields);
         self.slips.push(row.slips);
         let mut peaks = &row.peaks[..];
-        for (column, length) in [
-            (&mut self.peak_drift, row.storeys),
-            (&mut self.peak_floor_acceleration, row.storeys),
-            (&mut self.peak_storey_shear, row.storeys),
-            (&mut self.peak_slip, row.blocks),
-        ] {
+        for (column, length) in [(&mut self.peak_drift, row.storeys), (&mut self.peak_slip, row.blocks)] {
             column.extend(peaks.split_off(..length).unwrap_or_default());
         }
         let mut values = &row.values[..];
         for (column, length) in [
+            (&mut self.peak_floor_acceleration, row.storeys),
+            (&mut self.peak_storey_shear, row.storeys),
             (&mut self.residual_drift, row.storeys),
             (&mut self.residual_slip, row.blocks),
             (&mut self.slip_path, row.blocks),
@@ -354,13 +385,13 @@ impl Batch {
     /// Peak absolute floor acceleration (m/s2), flat over runs and floors.
     #[getter]
     fn peak_floor_acceleration(&self) -> Output<f64> {
-        values(&self.peak_floor_acceleration)
+        column(&self.peak_floor_acceleration)
     }
 
     /// Peak storey shear (N), flat over runs and storeys.
     #[getter]
     fn peak_storey_shear(&self) -> Output<f64> {
-        values(&self.peak_storey_shear)
+        column(&self.peak_storey_shear)
     }
 
     /// Peak slip (m), flat over runs and blocks.

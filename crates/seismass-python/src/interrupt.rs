@@ -20,12 +20,12 @@ const WATCH_INTERVAL: Duration = Duration::from_millis(50);
 /// More threads than any machine has cores for; starting them would take longer than the work.
 const MAX_THREADS: usize = 1024;
 
-/// The number of threads of a batch, refused beyond [`MAX_THREADS`].
-pub(crate) fn checked_threads(py: Python<'_>, threads: Option<usize>) -> PyResult<Option<usize>> {
+/// The number of threads of a batch or spectrum (`owner`), refused beyond [`MAX_THREADS`].
+pub(crate) fn checked_threads(py: Python<'_>, threads: Option<usize>, owner: &str) -> PyResult<Option<usize>> {
     match threads {
         Some(count) if !(1..=MAX_THREADS).contains(&count) => {
             let requirement = format!("between 1 and {MAX_THREADS}");
-            Err(from_kernel(py, &Error::invalid(Domain::Options, "threads", "batch", requirement, count)))
+            Err(from_kernel(py, &Error::invalid(Domain::Options, "threads", owner, requirement, count)))
         }
         _ => Ok(threads),
     }

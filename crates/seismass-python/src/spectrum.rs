@@ -17,7 +17,7 @@ pub(crate) fn response_spectra(
     threads: Option<usize>,
 ) -> PyResult<Output<f64>> {
     let motions: Vec<seismass::Motion> = motions.iter().map(|motion| motion.0.clone()).collect();
-    let threads = checked_threads(py, threads)?;
+    let threads = checked_threads(py, threads, "spectrum")?;
     let shape = [motions.len(), damping.0.len(), periods.0.len()];
     let peaks = run_watched(
         py,

@@ -102,19 +102,21 @@ pub fn simulate_each<T: Clone + Send + Sync>(
     Ok(of_run.into_iter().map(result_of).collect())
 }
 
-/// Runs `work` of a batch or spectrum (`owner`) in a pool of `threads` threads, or in the global one.
+/// Runs `work` of a batch or spectrum (`owner`) in a pool of `threads` threads, or in the global one. A process that was
+/// forked from one that has used that has none of its threads: it takes a pool of its own.
 pub(crate) fn in_pool<T: Send>(threads: Option<usize>, owner: &str, work: impl FnOnce() -> T + Send) -> Result<T> {
-    match threads {
-        None => Ok(work()),
-        Some(count) => {
-            let refuse = |reason: String| Error::invalid(Domain::Options, "threads", owner, reason, count);
-            if count == 0 {
-                return Err(refuse("at least 1".into()));
-            }
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-            Ok(pool.map_err(|error| refuse(format!("a number the system can start ({error})")))?.install(work))
-        }
+    static PROCESS: OnceLock<u32> = OnceLock::new();
+    let process = std::process::id();
+    if threads.is_none() && *PROCESS.get_or_init(|| process) == process {
+        return Ok(work());
     }
+    let refuse =
+        |reason: String| Error::invalid(Domain::Options, "threads", owner, reason, threads.unwrap_or_default());
+    if threads == Some(0) {
+        return Err(refuse("at least 1".into()));
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build();
+    Ok(pool.map_err(|error| refuse(format!("a number the system can start ({error})")))?.install(work))
 }
 
 /// What the threads of a batch work on.
