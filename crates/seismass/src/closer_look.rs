@@ -6,7 +6,7 @@
 use std::mem::take;
 
 use crate::bounds::{self, Bounds, Set, against, farthest, members, signs};
-use crate::lanes::{Vector, WIDTH, for_each_path, load, store};
+use crate::lanes::{Vector, WIDTH, by_width, for_each_path, load, store};
 use crate::model::Model;
 use crate::observe::Observer;
 use crate::state::{State, THIRD, off_cubic, ranges};
@@ -299,20 +299,21 @@ impl Beaten {
         (take(&mut self.turns), take(&mut self.waits))
     }
 
-    /// Takes the turns inside the present series, of the step at which the run has stopped, and what beats a peak at
-    /// its end once it is taken.
-    pub(crate) fn turn(&mut self, state: &State, observer: &mut Observer, turns: [Set; 2]) {
-        take_turns(state, observer, turns);
+    /// Takes the turns inside the interval of `h` at which the run has stopped, by its series, and what beats a peak at its
+    /// end once it is taken.
+    pub(crate) fn turn(&mut self, state: &mut State, observer: &mut Observer, h: f64, turns: [Set; 2]) {
+        by_width!(state.model.width, K => take_turns::<K>(state, observer, h, turns));
         self.turned = [self.turned[0] | turns[0], self.turned[1] | turns[1]];
     }
 }
 
 for_each_path! {
-    /// See [`Observer::take_turns`].
-    fn take_turns(state: &State, observer: &mut Observer, turns: [Set; 2]) = turns_by_path
+    /// Takes the turns of some storeys and floors inside an interval of `h`, at whose start the state is, into the peaks.
+    fn take_turns[K: usize](state: &mut State, observer: &mut Observer, h: f64, turns: [Set; 2]) = turns_by_path
 }
 
 #[inline(always)]
-fn turns_by_path<V: Vector>(state: &State, observer: &mut Observer, turns: [Set; 2]) {
+fn turns_by_path<V: Vector, const K: usize>(state: &mut State, observer: &mut Observer, h: f64, turns: [Set; 2]) {
+    state.form_series::<V, K>(0.0, h);
     observer.take_turns::<V>(state, turns);
 }

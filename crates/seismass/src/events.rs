@@ -68,20 +68,19 @@ impl First {
 
 impl State<'_> {
     /// `p`, of [`Series::zeros`](crate::taylor::Series::zeros), becomes `factor`, 1 or -1, times the relative velocity of a
-    /// block over the present series, which starts at `tau`; returns a bound of its size.
+    /// block over the present series; returns a bound of its size.
     #[inline(always)]
-    pub(crate) fn relative_velocity<V: Vector>(&self, block: usize, tau: f64, factor: f64, p: &mut Polynomial) -> f64 {
+    pub(crate) fn relative_velocity<V: Vector>(&self, block: usize, factor: f64, p: &mut Polynomial) -> f64 {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
-        let change = self.interval.contact_slope * self.series.h();
-        let of_friction = [friction * self.contact_at(tau), friction * change];
+        let of_friction = [friction * self.drive.contact, friction * (self.drive.contact_slope * self.series.h())];
         self.series.velocity_against::<V>(law.floor, factor * motion.velocity, factor, of_friction, p)
     }
 
-    /// The relative velocity of a block over the present series, which starts at `tau`, for what is not in a hot loop.
-    pub(crate) fn velocity_of_block(&self, block: usize, tau: f64) -> Polynomial {
+    /// The relative velocity of a block over the present series, for what is not in a hot loop.
+    pub(crate) fn velocity_of_block(&self, block: usize) -> Polynomial {
         let mut p = self.series.zeros();
-        self.relative_velocity::<Plain>(block, tau, 1.0, &mut p);
+        self.relative_velocity::<Plain>(block, 1.0, &mut p);
         p
     }
 
@@ -90,19 +89,23 @@ impl State<'_> {
     ///
     /// `isolated` counts the guards that could not be cleared by a bound.
     #[inline(always)]
-    pub(crate) fn first_event<V: Vector>(&self, tau: f64, isolated: &mut usize) -> Option<(f64, Guard)> {
+    pub(crate) fn first_event<V: Vector, const K: usize>(
+        &self,
+        tau: f64,
+        isolated: &mut usize,
+    ) -> Option<(f64, Guard)> {
         let mut first = First { place: f64::INFINITY, guard: None };
         let h = self.series.h();
-        self.storey_guards::<V>(tau, &mut first, isolated);
+        self.storey_guards::<V, K>(&mut first, isolated);
         if !self.motions.is_empty() {
             if self.vertical || self.airborne {
                 first.consider::<V>(Guard::Contact, &self.contact_guard(tau), NO_CONTACT);
             }
             if !self.airborne && (self.ranges.suspects[2] != 0 || self.stuck_mu[0] < f64::INFINITY) {
-                self.breakaway_guards::<V>(tau, &mut first, isolated);
+                self.breakaway_guards::<V, K>(&mut first, isolated);
             }
             if self.is_sliding {
-                self.arrival_guards::<V>(tau, &mut first, isolated);
+                self.arrival_guards::<V>(&mut first, isolated);
             }
         }
         // A block whose floor's acceleration is below rounding lifts off stuck.
@@ -129,28 +132,23 @@ impl State<'_> {
     }
 
     #[inline(always)]
-    fn storey_guards<V: Vector>(&self, tau: f64, first: &mut First, isolated: &mut usize) {
+    fn storey_guards<V: Vector, const K: usize>(&self, first: &mut First, isolated: &mut usize) {
         let [drifts, rates, _] = self.ranges.suspects;
         if drifts | rates == 0 {
             return;
         }
-        for i in self.looked_at(drifts) {
+        for i in self.looked_at::<K>(drifts) {
             let (low, high) = self.ranges.drift(i);
             let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
-            let (storey, collapse) = (i, Guard::Collapse { storey: i });
-            for (sign, reached, limit, guard) in [
-                (Sign::Positive, high, yields.1, Guard::Yield { storey, sign: Sign::Positive }),
-                (Sign::Positive, high, collapses.1, collapse),
-                (Sign::Negative, -low, -yields.0, Guard::Yield { storey, sign: Sign::Negative }),
-                (Sign::Negative, -low, -collapses.0, collapse),
-            ] {
-                if reached >= limit && limit < f64::INFINITY && !self.stays_below(i, limit, sign) {
-                    *isolated += 1;
-                    self.drift_guard::<V>(i, limit, sign, guard, first);
-                }
+            for (sign, reached, of_yield, of_collapse) in
+                [(Sign::Positive, high, yields.1, collapses.1), (Sign::Negative, -low, -yields.0, -collapses.0)]
+            {
+                let yields = Guard::Yield { storey: i, sign };
+                self.drift_guard::<V>(yields, (i, sign), reached, of_yield, first, isolated);
+                self.drift_guard::<V>(Guard::Collapse { storey: i }, (i, sign), reached, of_collapse, first, isolated);
             }
         }
-        for i in self.looked_at(rates) {
+        for i in self.looked_at::<K>(rates) {
             let Some(sign) = self.springs[i].plastic() else { continue };
             let (low, high) = self.ranges.rate(i);
             if if sign == Sign::Positive { low > 0.0 } else { high < 0.0 } {
@@ -159,7 +157,7 @@ impl State<'_> {
             *isolated += 1;
             let mut p = self.series.zeros();
             let size = self.series.drift_rate::<V>(i, sign.factor(), &mut p);
-            let contact = self.contact_at(tau);
+            let contact = self.drive.contact;
             let sizes = self.acceleration_size(i + 1, contact) + self.acceleration_size(i, contact);
             let tolerance = ROUNDING * (size + self.series.h() * sizes);
             first.consider::<V>(Guard::Unload { storey: i }, &p, tolerance);
@@ -175,9 +173,22 @@ impl State<'_> {
         stays_above_zero(of(self.x[i], self.v[i]), of(self.x[i] + dx[i], self.v[i] + dv[i]), third, margin, 0.0)
     }
 
-    /// Considers the guard of a drift coordinate that, times `sign`, must stay below `limit`.
+    /// Considers the guard of a storey's drift coordinate that, times `sign`, must stay below `limit`, if it may have
+    /// reached that.
     #[inline(always)]
-    fn drift_guard<V: Vector>(&self, i: usize, limit: f64, sign: Sign, guard: Guard, first: &mut First) {
+    fn drift_guard<V: Vector>(
+        &self,
+        guard: Guard,
+        (i, sign): (usize, Sign),
+        reached: f64,
+        limit: f64,
+        first: &mut First,
+        isolated: &mut usize,
+    ) {
+        if reached < limit || limit == f64::INFINITY || self.stays_below(i, limit, sign) {
+            return;
+        }
+        *isolated += 1;
         let mut p = self.series.zeros();
         let size = self.series.drift::<V>(i, -sign.factor(), &mut p);
         p.coefficients_mut()[0] = limit - sign.factor() * self.x[i];
@@ -186,11 +197,11 @@ impl State<'_> {
     }
 
     #[inline(always)]
-    fn breakaway_guards<V: Vector>(&self, tau: f64, first: &mut First, isolated: &mut usize) {
-        let contact = self.interval.contact_at(tau);
-        let contact_change = self.interval.contact_slope * self.series.h();
-        let least_contact = contact.min(contact + contact_change).max(0.0);
-        for floor in std::iter::once(0).chain(self.looked_at(self.ranges.suspects[2]).map(|i| i + 1)) {
+    fn breakaway_guards<V: Vector, const K: usize>(&self, first: &mut First, isolated: &mut usize) {
+        let contact = self.drive.contact;
+        let contact_change = self.drive.contact_slope * self.series.h();
+        let least_contact = self.drive.least_contact(self.series.h());
+        for floor in std::iter::once(0).chain(self.looked_at::<K>(self.ranges.suspects[2]).map(|i| i + 1)) {
             let mu = self.stuck_mu[floor];
             if mu == f64::INFINITY {
                 continue;
@@ -201,7 +212,7 @@ impl State<'_> {
                 continue;
             }
             *isolated += 1;
-            let limit = mu * contact.max(0.0);
+            let limit = mu * contact;
             let sizes = (mu * contact_change).abs() + self.acceleration_size(floor, contact);
             for (sign, size) in reached {
                 if size < mu * least_contact {
@@ -220,18 +231,17 @@ impl State<'_> {
     }
 
     #[inline(always)]
-    fn arrival_guards<V: Vector>(&self, tau: f64, first: &mut First, isolated: &mut usize) {
+    fn arrival_guards<V: Vector>(&self, first: &mut First, isolated: &mut usize) {
         for (j, motion) in self.motions.iter().enumerate() {
             let Some(sign) = motion.sliding() else { continue };
-            if self.keeps_sliding(j, tau, sign.factor()) {
+            if self.keeps_sliding(j, sign.factor()) {
                 continue;
             }
             *isolated += 1;
             let mut p = self.series.zeros();
-            let size = self.relative_velocity::<V>(j, tau, sign.factor(), &mut p);
+            let size = self.relative_velocity::<V>(j, sign.factor(), &mut p);
             let law = &self.model.blocks[j];
-            let contact = self.interval.contact_at(tau);
-            let rates = self.acceleration_size(law.floor, contact) + law.mu_k * STANDARD_GRAVITY;
+            let rates = self.acceleration_size(law.floor, self.drive.contact) + law.mu_k * STANDARD_GRAVITY;
             first.consider::<V>(Guard::Arrival { block: j }, &p, ROUNDING * (size + self.series.h() * rates));
         }
     }
@@ -247,15 +257,14 @@ impl State<'_> {
         }
     }
 
-    /// Whether the relative velocity of a sliding block keeps its sign over the present series, which starts at `tau`.
+    /// Whether the relative velocity of a sliding block keeps its sign over the present series.
     #[inline(always)]
-    fn keeps_sliding(&self, block: usize, tau: f64, sign: f64) -> bool {
+    fn keeps_sliding(&self, block: usize, sign: f64) -> bool {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let h = self.series.h();
         let friction = sign * law.mu_k;
         // Linear up to the end, also where contact is lost before: as the change below is.
-        let start = self.contact_at(tau);
-        let contact = (start, start + self.interval.contact_slope * h);
+        let contact = (self.drive.contact, self.drive.contact + self.drive.contact_slope * h);
         let (a, margin) = match law.floor.checked_sub(1) {
             Some(i) => {
                 let margin = self.ranges.remainder * self.regime().row(Row::ThirdOfAcceleration)[i];
@@ -263,7 +272,7 @@ impl State<'_> {
             }
             None => ((self.drive.ground, self.drive.ground + self.drive.ground_slope * h), 0.0),
         };
-        let (velocity, _) = self.block_change(block, tau);
+        let (velocity, _) = self.block_change(block);
         let rates = (-friction * contact.0 - a.0, -friction * contact.1 - a.1);
         let (start, end) = ([motion.velocity, rates.0], [motion.velocity + velocity, rates.1]);
         // A block that breaks away where both coefficients are the same starts without relative acceleration.
@@ -271,10 +280,9 @@ impl State<'_> {
         stays_above_zero(start.map(|value| sign * value), end.map(|value| sign * value), h * THIRD, margin, least)
     }
 
-    /// Changes of relative velocity and slip of a block over the present series, which starts at `tau`, up to its place:
-    /// integrals of its floor's absolute acceleration and its own, added term by term so that small ones keep their digits.
-    #[inline]
-    pub(crate) fn block_change(&self, block: usize, tau: f64) -> (f64, f64) {
+    /// Changes of relative velocity and slip of a block over the present series up to its place: integrals of its floor's absolute acceleration and its own, added term by term so that small ones keep their digits.
+    #[inline(always)]
+    pub(crate) fn block_change(&self, block: usize) -> (f64, f64) {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let (s, h) = (self.series.place(), self.series.h());
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
@@ -282,8 +290,8 @@ impl State<'_> {
             Some(i) => self.series.terms_and_integrals(i),
             None => ([self.drive.ground, self.drive.ground_slope * h], [0.0; 2]),
         };
-        let start = terms[0] + friction * self.contact_at(tau);
-        let change = terms[1] + friction * self.interval.contact_slope * h;
+        let start = terms[0] + friction * self.drive.contact;
+        let change = terms[1] + friction * self.drive.contact_slope * h;
         let velocity = (integrals[0] * s + 0.5 * change) * s + start;
         let slip = (integrals[1] * s + (1.0 / 6.0) * change) * s + 0.5 * start;
         let h = h * s;

@@ -1,9 +1,10 @@
 //! Histories while a run writes them, row by row.
 
 use std::hint::black_box;
+use std::mem::take;
 
 use crate::error::{Domain, Error, Result};
-use crate::lanes::{Vector, WIDTH, load, store};
+use crate::lanes::{MAX_LANES, Vector, WIDTH, by_width, for_each_path, load, store};
 use crate::model::Model;
 use crate::regime::Row;
 use crate::response::Histories;
@@ -102,6 +103,8 @@ pub(crate) struct Recorder {
     velocities: Vec<f64>,
     /// Of the ground and of the floors, padded: velocity in the row that is written.
     floor_velocities: Vec<f64>,
+    /// Whether springs and blocks are taken up as they are now.
+    is_taken_up: bool,
 }
 
 impl Recorder {
@@ -142,6 +145,7 @@ impl Recorder {
             slips: zero(blocks_written),
             velocities: zero(blocks_written),
             floor_velocities: zero(1 + storeys),
+            is_taken_up: false,
         })
     }
 
@@ -165,8 +169,11 @@ impl Recorder {
         last.is_some()
     }
 
-    /// Takes up the springs and blocks of the present state, for rows in vectors.
+    /// Takes up the springs and blocks of the present state, for rows in vectors, unless its own row has just been written.
     pub(crate) fn take_up(&mut self, state: &State) {
+        if take(&mut self.is_taken_up) {
+            return;
+        }
         for (base, spring) in self.base_drift.iter_mut().zip(&state.springs) {
             *base = spring.drift(0.0);
         }
@@ -220,6 +227,22 @@ impl Recorder {
         self.block_velocity.put_row(at, velocities);
     }
 
+    /// Appends the present state, if it has a row.
+    pub(crate) fn append_state(&mut self, state: &State, sample: usize) {
+        self.is_taken_up = false;
+        if self.next_sample() != sample {
+            return;
+        }
+        if state.storeys() <= MAX_LANES {
+            self.take_up(state);
+            by_width!(state.model.width, K => append_state::<K>(self, state));
+            self.is_taken_up = true;
+        } else {
+            let blocks = state.motions.iter().map(|m| (m.velocity, m.slip));
+            self.append_row(state, &state.x, &state.v, &state.a, blocks);
+        }
+    }
+
     /// Appends a row: drift coordinates, drift rates, floor accelerations, and (velocity, slip) of the blocks, in the
     /// regime of `state`.
     pub(crate) fn append_row(
@@ -267,6 +290,17 @@ impl Recorder {
             storey_force: self.storey_force.finish(rows, written),
         }
     }
+}
+
+for_each_path! {
+    /// Appends the present state, of which springs and blocks are taken up.
+    fn append_state[K: usize](recorder: &mut Recorder, state: &State) = append_by_path
+}
+
+#[inline(always)]
+fn append_by_path<V: Vector, const K: usize>(recorder: &mut Recorder, state: &State) {
+    let (x, v, a): ([V; K], [V; K], [V; K]) = (load(&state.x), load(&state.v), load(&state.a));
+    recorder.append(state.model, &RowInLanes { x: &x, v: &v, a: &a });
 }
 
 #[cfg(test)]

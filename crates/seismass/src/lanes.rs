@@ -71,6 +71,8 @@ impl InstructionSet {
 pub(crate) const WIDTH: usize = 4;
 /// Most storeys that the hot loops hold in vectors.
 pub(crate) const MAX_LANES: usize = 48;
+/// As many vectors.
+pub(crate) const WIDEST: usize = MAX_LANES / WIDTH;
 /// Stands for a bound that is never reached in lanes: finite, so that the middle between two of them is.
 pub(crate) const FAR: f64 = 1e300;
 
@@ -461,7 +463,7 @@ macro_rules! by_width {
                 $call
             }
             _ => {
-                const $count: usize = crate::lanes::MAX_LANES / crate::lanes::WIDTH;
+                const $count: usize = crate::lanes::WIDEST;
                 $call
             }
         }

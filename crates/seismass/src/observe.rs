@@ -7,7 +7,7 @@ use crate::bounds::{Set, members, only};
 use crate::error::Result;
 use crate::friction::BlockState;
 use crate::histories::Recorder;
-use crate::lanes::{Plain, Vector};
+use crate::lanes::{Plain, Vector, WIDEST};
 use crate::model::Model;
 use crate::regime::{Row, viscous_power};
 use crate::response::{Energy, Peaks};
@@ -148,10 +148,10 @@ impl Observer {
     pub(crate) fn observe_suspects(&mut self, state: &State, time: f64) {
         let [drifts, _, accelerations] = state.ranges.suspects;
         if drifts | accelerations != 0 {
-            for i in state.looked_at(drifts) {
+            for i in state.looked_at::<WIDEST>(drifts) {
                 self.take_drift(state, i, state.x[i], time);
             }
-            for i in state.looked_at(accelerations) {
+            for i in state.looked_at::<WIDEST>(accelerations) {
                 self.take_acceleration(i, state.a[i], time);
             }
         }
@@ -171,13 +171,19 @@ impl Observer {
     /// Takes the extremes inside the present series, whose ranges are formed, from `tau` to its place `end`, before the
     /// state is advanced.
     #[inline(always)]
-    pub(crate) fn observe_series<V: Vector>(&mut self, state: &State, tau: f64, end: f64, isolated: &mut usize) {
+    pub(crate) fn observe_series<V: Vector, const K: usize>(
+        &mut self,
+        state: &State,
+        tau: f64,
+        end: f64,
+        isolated: &mut usize,
+    ) {
         let start = state.interval.start + tau;
         let [drifts, _, accelerations] = state.ranges.suspects;
         if drifts | accelerations == 0 {
             return;
         }
-        for i in state.looked_at(drifts) {
+        for i in state.looked_at::<K>(drifts) {
             let (low, high) = state.ranges.drift(i);
             let rate = state.ranges.rate(i);
             // A plastic storey's rate is a guard: it does not turn before an event.
@@ -187,7 +193,7 @@ impl Observer {
                 self.take_turns_of_drift::<V>(state, i, start, end);
             }
         }
-        for i in state.looked_at(accelerations) {
+        for i in state.looked_at::<K>(accelerations) {
             let (low, high) = state.ranges.acceleration(i);
             if self.acceleration_may_peak(i, low, high) && !state.is_steady(i) {
                 *isolated += 1;
@@ -238,8 +244,8 @@ impl Observer {
     pub(crate) fn observe_flights(&mut self, state: &mut State, tau: f64, end: f64) {
         let (start, h) = (state.interval.start + tau, state.series.h());
         for j in 0..state.motions.len() {
-            let velocity = state.velocity_of_block(j, tau);
-            let slip = state.slip_change(j, tau);
+            let velocity = state.velocity_of_block(j);
+            let slip = state.slip_change(j);
             let at_start = state.motions[j].slip;
             let (peak, motion) = (&mut self.peaks.slip[j], &mut state.motions[j]);
             let (first, others) = velocity.sign_changes::<Plain>();
@@ -254,9 +260,8 @@ impl Observer {
     /// Appends the present state to the histories, if they have a row at a sample.
     #[inline]
     pub(crate) fn record(&mut self, state: &State, sample: usize) {
-        if let Some(recorder) = self.recorder_at(sample) {
-            let blocks = state.motions.iter().map(|m| (m.velocity, m.slip));
-            recorder.append_row(state, &state.x, &state.v, &state.a, blocks);
+        if let Some(recorder) = &mut self.histories {
+            recorder.append_state(state, sample);
         }
     }
 
@@ -287,7 +292,7 @@ impl Observer {
         let length = state.series.h() * end;
         let (mut rates, mut scratch) = (vec![0.0; n], vec![0.0; n]);
         let velocities: Vec<Option<Polynomial>> = (0..state.motions.len())
-            .map(|j| (!state.motions[j].is_stuck()).then(|| state.velocity_of_block(j, tau)))
+            .map(|j| (!state.motions[j].is_stuck()).then(|| state.velocity_of_block(j)))
             .collect();
         for (node, weight) in GAUSS {
             let s = node * end;

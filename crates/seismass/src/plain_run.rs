@@ -19,7 +19,7 @@ use crate::events::NO_CONTACT;
 use crate::friction::BlockMotion;
 use crate::histories::{Recorder, RowInLanes};
 use crate::lanes::{
-    FAR, MAX_LANES, Vector, WIDTH, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
+    FAR, Vector, WIDEST, WIDTH, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
 };
 use crate::model::Model;
 use crate::observe::Observer;
@@ -439,7 +439,6 @@ fn clear_steps_of_scene(
     first: usize,
     end: usize,
 ) -> usize {
-    const WIDEST: usize = MAX_LANES / WIDTH;
     let steps = match (state.storeys(), walk.used > 0, state.vertical) {
         (1, false, false) => clear_steps::<1, 1, false, false>,
         (2, false, false) => clear_steps::<1, 2, false, false>,
@@ -521,8 +520,7 @@ fn run(
         }
         // The series of the step gives the extremes; then the run goes on.
         state.begin_interval(motion, reached);
-        state.form_series(0.0, h);
-        walk.beaten.turn(state, observer, turns);
+        walk.beaten.turn(state, observer, h, turns);
         state.update_bounds(observer);
         walk.series += 1;
         walk.isolated += (turns[0].count_ones() + turns[1].count_ones()) as usize;

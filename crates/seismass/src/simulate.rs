@@ -93,15 +93,12 @@ pub(crate) fn run(
             break;
         }
         run.phase_of(motion.dt())?;
-        run.state.begin_interval(motion, i);
-        let (reached, is_open) = run.plain_run(motion, i, quiet_from);
-        if reached > i {
-            i = reached;
-            if !is_open {
-                continue;
-            }
-            run.state.begin_interval(motion, i);
+        let is_open;
+        (i, is_open) = run.plain_run(motion, i, quiet_from);
+        if !is_open {
+            continue;
         }
+        run.state.begin_interval(motion, i);
         if let Some((storey, time)) = run.series_interval(stop)? {
             status = Status::Collapsed { storey: storey + 1, time };
             break;
@@ -131,23 +128,50 @@ fn substeps(phase: f64, samples: usize) -> usize {
 }
 
 for_each_path! {
-    /// Forms the ranges over the present series, finds its first event and takes the peaks before it.
-    fn look_into_series[K: usize](state: &mut State, observer: &mut Observer, tau: f64, isolated: &mut usize)
-        -> Option<(f64, Guard)> = look_by_path
+    /// Advances by a series over at most `h` from `tau`, up to the first event, which is returned with its place, and
+    /// whether all is finite there.
+    ///
+    /// Accelerations are advanced with the state where there is no event.
+    fn step_by_series[K: usize](state: &mut State, observer: &mut Observer, tau: f64, h: f64, isolated: &mut usize)
+        -> (Option<(f64, Guard)>, bool) = step_by_path
 }
 
 #[inline(always)]
-fn look_by_path<V: Vector, const K: usize>(
+fn step_by_path<V: Vector, const K: usize>(
     state: &mut State,
     observer: &mut Observer,
     tau: f64,
+    h: f64,
     isolated: &mut usize,
-) -> Option<(f64, Guard)> {
-    state.form_ranges::<V, K>(tau);
-    let event = state.first_event::<V>(tau, isolated);
+) -> (Option<(f64, Guard)>, bool) {
+    state.form_series::<V, K>(tau, h);
+    state.update_bounds(observer);
+    state.form_ranges::<V, K>();
+    let event = state.first_event::<V, K>(tau, isolated);
     let end = event.map_or(1.0, |(place, _)| place);
-    observer.observe_series::<V>(state, tau, end, isolated);
-    event
+    observer.observe_series::<V, K>(state, tau, end, isolated);
+    if state.airborne {
+        observer.observe_flights(state, tau, end);
+    }
+    if event.is_some() {
+        state.series.stop_at::<V, K>(state.model, end);
+    }
+    if observer.keeps_energy() {
+        observer.add_energy(state, tau, end);
+    }
+    (event, state.advance::<V, K>(tau, event.is_none()))
+}
+
+for_each_path! {
+    /// Integrates energies over `h` from `tau`, up to which nothing happens, and advances by it.
+    fn add_energy[K: usize](state: &mut State, observer: &mut Observer, tau: f64, h: f64) = add_energy_by_path
+}
+
+#[inline(always)]
+fn add_energy_by_path<V: Vector, const K: usize>(state: &mut State, observer: &mut Observer, tau: f64, h: f64) {
+    state.form_series::<V, K>(tau, h);
+    observer.add_energy(state, tau, 1.0);
+    state.advance::<V, K>(tau, true);
 }
 
 struct Run<'a> {
@@ -244,6 +268,7 @@ impl Run<'_> {
         let state = &mut self.state;
         let before = self.observer.keeps_energy().then(|| {
             end = i + 1;
+            state.begin_interval(motion, i);
             state.moment()
         });
         let reached = state.plain_run(&mut self.walk, &mut self.observer, motion, i, end);
@@ -306,26 +331,13 @@ impl Run<'_> {
     }
 
     /// Advances by a series over at most `h` from `tau`, up to the first event, which is returned with its place.
-    ///
-    /// Accelerations are advanced with the state where there is no event.
     fn series_step(&mut self, tau: f64, h: f64) -> Result<Option<(f64, Guard)>> {
         self.statistics.series_steps += 1;
         let (state, observer) = (&mut self.state, &mut self.observer);
-        state.form_series(tau, h);
-        state.update_bounds(observer);
         let isolated = &mut self.statistics.guards_isolated;
-        let event = by_width!(state.model.width, K => look_into_series::<K>(state, observer, tau, isolated));
-        let end = event.map_or(1.0, |(place, _)| place);
-        if state.airborne {
-            observer.observe_flights(state, tau, end);
-        }
-        if event.is_some() {
-            state.series.stop_at(state.model, end);
-        }
-        if observer.keeps_energy() {
-            observer.add_energy(state, tau, end);
-        }
-        if state.advance(tau, event.is_none()) { Ok(event) } else { Err(state.not_finite(tau + end * h)) }
+        let (event, is_finite) =
+            by_width!(state.model.width, K => step_by_series::<K>(state, observer, tau, h, isolated));
+        if is_finite { Ok(event) } else { Err(state.not_finite(tau + event.map_or(1.0, |(place, _)| place) * h)) }
     }
 
     fn carry_out(&mut self, guard: Guard, tau: f64) -> Outcome {
@@ -413,9 +425,9 @@ struct Moment {
 }
 
 impl State<'_> {
-    /// Slip of a block since the start of the present series, which begins at `tau`.
-    pub(crate) fn slip_change(&self, block: usize, tau: f64) -> Polynomial {
-        let velocity = self.velocity_of_block(block, tau);
+    /// Slip of a block since the start of the present series.
+    pub(crate) fn slip_change(&self, block: usize) -> Polynomial {
+        let velocity = self.velocity_of_block(block);
         let h = self.series.h();
         let terms = velocity.coefficients().iter().enumerate().map(|(k, c)| h * c / (k + 1) as f64);
         Polynomial::new(std::iter::once(0.0).chain(terms))
@@ -423,12 +435,13 @@ impl State<'_> {
 
     /// Moves drifts, drift rates and blocks to the place of the present series, which begins at `tau`; at its end,
     /// accelerations too. Returns whether all is finite.
-    fn advance(&mut self, tau: f64, to_end: bool) -> bool {
+    #[inline(always)]
+    fn advance<V: Vector, const K: usize>(&mut self, tau: f64, to_end: bool) -> bool {
         let mut blocks = 0.0;
         if self.is_sliding || self.airborne {
             for j in 0..self.motions.len() {
                 if !self.motions[j].is_stuck() {
-                    let change = self.block_change(j, tau);
+                    let change = self.block_change(j);
                     self.motions[j].move_by(change);
                     // No number times zero is zero but a finite one.
                     blocks += 0.0 * (change.0 + change.1);
@@ -436,7 +449,7 @@ impl State<'_> {
             }
         }
         let end = to_end.then(|| tau + self.series.h());
-        self.take_changes(end) && blocks == 0.0
+        self.take_changes::<V, K>(end) && blocks == 0.0
     }
 
     /// What moves, at this moment.
@@ -460,9 +473,7 @@ impl State<'_> {
         let h = self.interval.h / pieces;
         for piece in 0..pieces as usize {
             let tau = piece as f64 * h;
-            self.form_series(tau, h);
-            observer.add_energy(self, tau, 1.0);
-            self.advance(tau, true);
+            by_width!(self.model.width, K => add_energy::<K>(self, observer, tau, h));
         }
         self.set_moment(end);
     }

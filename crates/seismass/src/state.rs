@@ -8,8 +8,8 @@ use crate::closer_look::{BoundsInLanes, Sample};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand, Transition};
 use crate::lanes::{
-    Aligned, FAR, MAX_LANES, Vector, WIDTH, by_width, differences, filled, for_each_path, lanes, lanes_mut, load,
-    padded, store,
+    Aligned, FAR, MAX_LANES, Vector, WIDEST, WIDTH, by_width, differences, filled, for_each_path, lanes, lanes_mut,
+    load, padded, store,
 };
 use crate::model::Model;
 use crate::propagator::RegimeCache;
@@ -460,18 +460,19 @@ impl<'a> State<'a> {
     /// Sets the drive of a series that starts at `tau`.
     pub(crate) fn set_drive(&mut self, tau: f64) {
         self.set_ground_drive(tau);
-        let contact = self.contact_at(tau);
-        let contact_slope = if self.airborne { 0.0 } else { self.interval.contact_slope };
+        let drive = &mut self.drive;
         for i in 0..self.spring_load.len() {
-            self.drive.load[i] = self.spring_load[i] + self.friction[i] * contact;
-            self.drive.load_slope[i] = self.friction[i] * contact_slope;
+            drive.load[i] = self.spring_load[i] + self.friction[i] * drive.contact;
+            drive.load_slope[i] = self.friction[i] * drive.contact_slope;
         }
     }
 
-    /// Sets the part of the drive that tables need.
+    /// Sets the drive of a series that starts at `tau`, but for the loads, which tables do not need.
+    #[inline]
     fn set_ground_drive(&mut self, tau: f64) {
-        self.drive.ground = self.interval.ground_at(tau);
-        self.drive.ground_slope = self.interval.ground_slope;
+        (self.drive.ground, self.drive.ground_slope) = (self.interval.ground_at(tau), self.interval.ground_slope);
+        let slope = if self.airborne { 0.0 } else { self.interval.contact_slope };
+        (self.drive.contact, self.drive.contact_slope) = (self.contact_at(tau), slope);
     }
 
     /// Forms accelerations and their rates at `tau` from the state.
@@ -493,10 +494,11 @@ impl<'a> State<'a> {
     /// Adds the changes of the present series to drifts and drift rates; if the time of its end, `tau`, is given,
     /// accelerations follow: as the series ends, or formed anew where those at its start were taken so. Returns whether all
     /// is finite.
-    pub(crate) fn take_changes(&mut self, tau: Option<f64>) -> bool {
+    #[inline(always)]
+    pub(crate) fn take_changes<V: Vector, const K: usize>(&mut self, tau: Option<f64>) -> bool {
         let n = self.storeys();
         if n <= MAX_LANES {
-            return by_width!(self.model.width, K => take_changes::<K>(self, tau));
+            return changes_in_lanes::<V, K>(self, tau);
         }
         let [drifts, rates] = self.series.changes();
         let mut zeros = 0.0;
@@ -522,7 +524,8 @@ impl<'a> State<'a> {
     }
 
     /// Forms the series over `h` from `tau`, where accelerations and their rates must be those of the state.
-    pub(crate) fn form_series(&mut self, tau: f64, h: f64) {
+    #[inline(always)]
+    pub(crate) fn form_series<V: Vector, const K: usize>(&mut self, tau: f64, h: f64) {
         let by_table = self.cache.prepare_table(self.regime, self.model, self.vertical);
         if by_table {
             self.set_ground_drive(tau);
@@ -532,24 +535,26 @@ impl<'a> State<'a> {
         let start = Start { x: &self.x, v: &self.v, a: &self.a, jerk: &self.jerk };
         let regime = self.cache.regime(self.regime);
         let table = regime.steps.as_deref().and_then(|steps| steps.table.as_ref()).filter(|_| by_table);
-        self.series.form(self.model, (regime, table), start, &self.drive, h);
+        self.series.form::<V, K>(self.model, (regime, table), &start, &self.drive, h);
     }
 
     /// The storeys or floors of a set, or all where there are more than sets hold.
     #[inline(always)]
-    pub(crate) fn looked_at(&self, set: Set) -> LookedAt {
-        LookedAt { set: set & self.ranges.within, others: 0..self.ranges.others }
+    pub(crate) fn looked_at<const K: usize>(&self, set: Set) -> LookedAt {
+        // Fewer vectors than the most: no others.
+        let others = if K < WIDEST { 0 } else { self.ranges.others };
+        LookedAt { set: set & self.ranges.within, others: 0..others }
     }
 
-    /// Forms the ranges over the present series, which starts at `tau` and whose start is the state, unless the plain step
-    /// before it has left them, and tells which come to their bounds.
+    /// Forms the ranges over the present series, whose start is the state, unless the plain step before it has left them,
+    /// and tells which come to their bounds.
     #[inline(always)]
-    pub(crate) fn form_ranges<V: Vector, const K: usize>(&mut self, tau: f64) {
+    pub(crate) fn form_ranges<V: Vector, const K: usize>(&mut self) {
         if self.storeys() > MAX_LANES {
             return self.form_ranges_singly();
         }
         if !take(&mut self.ranges.are_known) {
-            ranges_in_lanes::<V, K>(self, tau);
+            ranges_in_lanes::<V, K>(self);
         }
     }
 
@@ -748,11 +753,7 @@ fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     state.is_formed = true;
 }
 
-for_each_path! {
-    /// See [`State::take_changes`].
-    fn take_changes[K: usize](state: &mut State, tau: Option<f64>) -> bool = changes_in_lanes
-}
-
+/// See [`State::take_changes`].
 #[inline(always)]
 fn changes_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: Option<f64>) -> bool {
     let (mut x, mut v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
@@ -788,7 +789,7 @@ fn changes_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: Option<f6
 
 /// See [`State::form_ranges`].
 #[inline(always)]
-fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
+fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State) {
     let start = Sample::<V, K>::of(state);
     let (mass, tangent) = (state.regime().lanes::<V, K>(Row::RootMass), state.regime().lanes::<V, K>(Row::RootTangent));
     let mut squares = V::splat(0.0);
@@ -807,7 +808,7 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
         end.x[k] = start.x[k].add(dx[k]);
         end.v[k] = start.v[k].add(dv[k]);
     }
-    let contact = V::splat(state.contact_at(tau).min(state.contact_at(tau + h)));
+    let contact = V::splat(state.drive.least_contact(h));
     let bounds = BoundsInLanes::of(state);
     state.ranges.form([&start, &end], (state.cache.regime(state.regime), h), (&bounds, contact));
 }

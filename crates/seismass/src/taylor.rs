@@ -3,7 +3,7 @@
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
 use crate::bernstein::{MAX_DEGREE, Polynomial};
-use crate::lanes::{MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, store};
+use crate::lanes::{MAX_LANES, Plain, Vector, WIDTH, columns_of, differences, load, store};
 use crate::model::Model;
 use crate::propagator::Table;
 use crate::regime::{Operator, Regime};
@@ -11,17 +11,29 @@ use crate::regime::{Operator, Regime};
 /// Longest step of one series, as frequency times time: longer intervals are split.
 pub(crate) const MAX_PHASE: f64 = 1.0;
 
-/// What drives the system in a step: ground acceleration and floor loads, linear in time.
+/// What drives the system in a step, linear in time: ground acceleration, contact force and floor loads.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Drive {
     /// Ground acceleration at the start (m/s2).
     pub(crate) ground: f64,
     /// Its slope (m/s3).
     pub(crate) ground_slope: f64,
+    /// Contact force per unit mass at the start as the blocks feel it (m/s2): zero while airborne.
+    pub(crate) contact: f64,
+    /// Its slope (m/s3).
+    pub(crate) contact_slope: f64,
     /// Force on each floor at the start, beside x, v and their products (N).
     pub(crate) load: Vec<f64>,
     /// Its slope (N/s).
     pub(crate) load_slope: Vec<f64>,
+}
+
+impl Drive {
+    /// The least contact force per unit mass within `h` (m/s2).
+    #[inline]
+    pub(crate) fn least_contact(&self, h: f64) -> f64 {
+        self.contact.min(self.contact + self.contact_slope * h).max(0.0)
+    }
 }
 
 /// The state at the start of a step: drifts, drift rates, floor accelerations and their rates, padded.
@@ -67,43 +79,59 @@ const PHASE_LIMITS: [f64; 19] = [
 
 /// Order of the first term that is below rounding.
 pub(crate) fn terms(phase: f64) -> usize {
-    3 + PHASE_LIMITS.iter().position(|&limit| phase < limit).unwrap_or(PHASE_LIMITS.len() - 1)
+    let reached = PHASE_LIMITS.iter().filter(|&&limit| phase >= limit || phase.is_nan()).count();
+    3 + reached.min(PHASE_LIMITS.len() - 1)
 }
 
 impl Series {
+    /// Makes room for the series of so many storeys, in columns of so many numbers.
+    #[cold]
+    fn resize(&mut self, storeys: usize, stride: usize) {
+        let zero = || vec![0.0; stride];
+        (self.storeys, self.stride) = (storeys, stride);
+        (self.x, self.v, self.a) = (zero(), zero(), vec![0.0; (MAX_DEGREE + 1) * stride]);
+        for pair in [&mut self.end, &mut self.changes, &mut self.integrals, &mut self.load] {
+            *pair = [zero(), zero()];
+        }
+    }
+
     /// Forms the series over a step `h` from its start, whose accelerations must be those of the drive; the drive's loads
     /// are not read where there is a table.
-    pub(crate) fn form(
+    #[inline(always)]
+    pub(crate) fn form<V: Vector, const K: usize>(
         &mut self,
         model: &Model,
         (regime, table): (&Regime, Option<&Table>),
-        start: Start,
+        start: &Start,
         drive: &Drive,
         h: f64,
     ) {
         let n = model.storeys();
         let (order, stride) = (terms(regime.frequency * h), model.width);
         if self.stride != stride || self.storeys != n {
-            let zero = || vec![0.0; stride];
-            (self.x, self.v, self.a) = (zero(), zero(), vec![0.0; (MAX_DEGREE + 1) * stride]);
-            for pair in [&mut self.end, &mut self.changes, &mut self.integrals, &mut self.load] {
-                *pair = [zero(), zero()];
-            }
+            self.resize(n, stride);
         }
-        (self.storeys, self.stride, self.order, self.h, self.place) = (n, stride, order, h, 1.0);
+        (self.order, self.h, self.place) = (order, h, 1.0);
         (self.ground[0], self.ground[1]) = (drive.ground, drive.ground_slope * h);
         // Polynomials take terms in fours.
         self.a[(order + 1) * stride..(order + 1).next_multiple_of(WIDTH) * stride].fill(0.0);
-        if let Some(table) = table {
-            form_by_table(self, model, table, &start, drive);
-        } else if n <= MAX_LANES {
-            self.load[0].copy_from_slice(&drive.load);
-            for (load, slope) in self.load[1].iter_mut().zip(&drive.load_slope) {
-                *load = slope * h;
+        match (table, K, n) {
+            (Some(table), 1, 1) => self.by_table::<V, K, 1, 2>(model, table, start, drive),
+            (Some(table), 1, 2) => self.by_table::<V, K, 2, 4>(model, table, start, drive),
+            (Some(table), 1, 3) => self.by_table::<V, K, 3, 6>(model, table, start, drive),
+            (Some(table), 1, _) => self.by_table::<V, K, 4, 8>(model, table, start, drive),
+            (Some(table), 2, 5) => self.by_table::<V, K, 5, 10>(model, table, start, drive),
+            (Some(table), 2, 6) => self.by_table::<V, K, 6, 12>(model, table, start, drive),
+            (Some(table), 2, 7) => self.by_table::<V, K, 7, 14>(model, table, start, drive),
+            (Some(table), 2, _) => self.by_table::<V, K, 8, 16>(model, table, start, drive),
+            _ if n <= MAX_LANES => {
+                self.load[0].copy_from_slice(&drive.load);
+                for (load, slope) in self.load[1].iter_mut().zip(&drive.load_slope) {
+                    *load = slope * h;
+                }
+                self.by_recursion::<V, K>(model, regime, start);
             }
-            form_by_recursion(self, model, regime, &start);
-        } else {
-            form_any(self, model, regime, &start, drive);
+            _ => self.form_any(model, regime, start, drive),
         }
     }
 
@@ -227,7 +255,7 @@ impl Series {
         self.put_sums(&sums, &rates, &first[0], &first[1], &inside);
     }
 
-    /// By the recursion, for more storeys than vectors hold.
+    /// By the recursion, for more storeys than vectors hold: the compiler makes vectors of the path's width.
     #[inline(always)]
     fn form_any(&mut self, model: &Model, regime: &Regime, start: &Start, drive: &Drive) {
         let (n, stride) = (self.storeys, self.stride);
@@ -258,12 +286,13 @@ impl Series {
     }
 
     /// Takes changes and integrals up to place `s` only.
-    pub(crate) fn stop_at(&mut self, model: &Model, s: f64) {
+    #[inline(always)]
+    pub(crate) fn stop_at<V: Vector, const K: usize>(&mut self, model: &Model, s: f64) {
         self.place = s;
         if self.storeys <= MAX_LANES {
-            by_width!(self.stride, K => stop_in_lanes::<K>(self, model, s));
+            self.stop_in_lanes::<V, K>(model, s);
         } else {
-            integrate_up_to(self, s);
+            self.integrate_up_to::<V>(s);
             self.integrate_differences();
         }
     }
@@ -583,61 +612,6 @@ pub(crate) const INVERSE: Weights = {
     }
     table
 };
-
-for_each_path! {
-    fn form_by_table(series: &mut Series, model: &Model, table: &Table, start: &Start, drive: &Drive) = by_table
-}
-
-#[inline(always)]
-fn by_table<V: Vector>(series: &mut Series, model: &Model, table: &Table, start: &Start, drive: &Drive) {
-    match series.storeys {
-        1 => series.by_table::<V, 1, 1, 2>(model, table, start, drive),
-        2 => series.by_table::<V, 1, 2, 4>(model, table, start, drive),
-        3 => series.by_table::<V, 1, 3, 6>(model, table, start, drive),
-        4 => series.by_table::<V, 1, 4, 8>(model, table, start, drive),
-        5 => series.by_table::<V, 2, 5, 10>(model, table, start, drive),
-        6 => series.by_table::<V, 2, 6, 12>(model, table, start, drive),
-        7 => series.by_table::<V, 2, 7, 14>(model, table, start, drive),
-        _ => series.by_table::<V, 2, 8, 16>(model, table, start, drive),
-    }
-}
-
-for_each_path! {
-    fn stop_in_lanes[K: usize](series: &mut Series, model: &Model, s: f64) = stop_by_path
-}
-
-#[inline(always)]
-fn stop_by_path<V: Vector, const K: usize>(series: &mut Series, model: &Model, s: f64) {
-    series.stop_in_lanes::<V, K>(model, s);
-}
-
-for_each_path! {
-    fn integrate_up_to(series: &mut Series, s: f64) = integrate_up_to_by_path
-}
-
-#[inline(always)]
-fn integrate_up_to_by_path<V: Vector>(series: &mut Series, s: f64) {
-    series.integrate_up_to::<V>(s);
-}
-
-for_each_path! {
-    fn form_any(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) = any_by_path
-}
-
-/// The compiler makes vectors of the path's width.
-#[inline(always)]
-fn any_by_path<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) {
-    series.form_any(model, regime, start, drive);
-}
-
-for_each_path! {
-    fn form_by_recursion(series: &mut Series, model: &Model, regime: &Regime, start: &Start) = by_recursion
-}
-
-#[inline(always)]
-fn by_recursion<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, start: &Start) {
-    by_width!(series.stride, K => series.by_recursion::<V, K>(model, regime, start));
-}
 
 /// 1 / (k (k - 1)).
 const INVERSE_PAIRS: Weights = {
