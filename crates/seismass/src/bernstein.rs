@@ -1,10 +1,13 @@
 //! Roots of polynomials on [0, 1] with proof: Bernstein coefficients bound a polynomial, so no sign change means no
 //! root and one sign change means exactly one (Descartes' rule).
 
-use crate::lanes::{Plain, Vector, WIDTH};
+use crate::lanes::{Plain, Vector, WIDTH, load};
 
 /// Highest degree: Taylor series of a step never need more terms.
 pub(crate) const MAX_DEGREE: usize = 23;
+/// Vectors of coefficients that short polynomials have, and the longest.
+pub(crate) const FEW: usize = 4;
+pub(crate) const MOST: usize = (MAX_DEGREE + 1) / WIDTH;
 /// Halvings after which an interval is a point.
 const MAX_DEPTH: u32 = 60;
 
@@ -29,18 +32,28 @@ impl Polynomial {
         p
     }
 
-    /// Zeros, to be set: this many coefficients, made whole vectors.
+    /// Zeros, to be set: at least this many coefficients.
     #[inline(always)]
     pub(crate) fn zeros(length: usize) -> Self {
-        Self { coefficients: [0.0; MAX_DEGREE + 1], length: length.next_multiple_of(WIDTH) }
+        Self { coefficients: [0.0; MAX_DEGREE + 1], length: Self::room(length) }
     }
 
-    /// The coefficients in whole vectors, to be changed in place.
+    /// Coefficients that so many are made: one of two lengths, so that loops over them are no loops.
     #[inline(always)]
-    pub(crate) fn fours_mut(&mut self) -> &mut [[f64; WIDTH]] {
-        let fours = self.coefficients.as_chunks_mut().0;
-        let length = self.length.div_ceil(WIDTH).min(fours.len());
-        &mut fours[..length]
+    pub(crate) fn room(length: usize) -> usize {
+        if length <= WIDTH * FEW { WIDTH * FEW } else { WIDTH * MOST }
+    }
+
+    /// Whether the coefficients are no more than [`FEW`] vectors.
+    #[inline(always)]
+    pub(crate) fn is_short(&self) -> bool {
+        self.length <= WIDTH * FEW
+    }
+
+    /// The first coefficients in whole vectors, to be changed in place.
+    #[inline(always)]
+    pub(crate) fn fours_mut<const F: usize>(&mut self) -> Option<&mut [[f64; WIDTH]; F]> {
+        self.coefficients.as_chunks_mut().0.first_chunk_mut()
     }
 
     /// The coefficients, lowest first.
@@ -55,11 +68,10 @@ impl Polynomial {
         &mut self.coefficients[..self.length.min(MAX_DEGREE + 1)]
     }
 
-    /// The coefficients, and zeros beyond, in whole vectors.
+    /// The first coefficients, and zeros beyond, in vectors.
     #[inline(always)]
-    fn fours(&self) -> &[[f64; WIDTH]] {
-        let fours = self.coefficients.as_chunks::<WIDTH>().0;
-        &fours[..self.length.div_ceil(WIDTH).min(fours.len())]
+    fn fours<V: Vector, const F: usize>(&self) -> [V; F] {
+        load(&self.coefficients)
     }
 
     /// Value at `s`.
@@ -75,13 +87,18 @@ impl Polynomial {
     /// Value and derivative at `s`: of every fourth power apart, then of all.
     #[inline(always)]
     fn at_with_rate<V: Vector>(&self, s: f64) -> (f64, f64) {
+        if self.is_short() { self.first_at_with_rate::<V, FEW>(s) } else { self.first_at_with_rate::<V, MOST>(s) }
+    }
+
+    #[inline(always)]
+    fn first_at_with_rate<V: Vector, const F: usize>(&self, s: f64) -> (f64, f64) {
         let squared = s * s;
         let (cubed, fourth) = (s * squared, V::splat(squared * squared));
-        let Some((highest, others)) = self.fours().split_last() else { return (0.0, 0.0) };
-        let (mut value, mut rate) = (V::load(highest), V::splat(0.0));
-        for four in others.iter().rev() {
+        let fours = self.fours::<V, F>();
+        let (mut value, mut rate) = (fours[F - 1], V::splat(0.0));
+        for f in (0..F - 1).rev() {
             rate = rate.mul_add(fourth, value);
-            value = value.mul_add(fourth, V::load(four));
+            value = value.mul_add(fourth, fours[f]);
         }
         let powers = V::of([1.0, s, squared, cubed]);
         let rates = V::of([0.0, 1.0, 2.0 * s, 3.0 * squared]);
@@ -98,10 +115,17 @@ impl Polynomial {
     /// What the coefficients say of values and derivatives on [0, 1].
     #[inline(always)]
     fn shape<V: Vector>(&self) -> Shape {
+        if self.is_short() { self.shape_of_first::<V, FEW>() } else { self.shape_of_first::<V, MOST>() }
+    }
+
+    #[inline(always)]
+    fn shape_of_first<V: Vector, const F: usize>(&self) -> Shape {
         let zero = V::splat(0.0);
         let [mut sum, mut fall, mut slow, mut fast, mut low, mut high] = [zero; 6];
-        for (four, [of_sum, of_rate, of_bend]) in self.fours().iter().zip(&SHAPE_WEIGHTS) {
-            let (c, rate, bend) = (V::load(four).mul(V::load(of_sum)), V::load(of_rate), V::load(of_bend));
+        let fours = self.fours::<V, F>();
+        for f in 0..F {
+            let [of_sum, of_rate, of_bend] = &SHAPE_WEIGHTS[f];
+            let (c, rate, bend) = (fours[f].mul(V::load(of_sum)), V::load(of_rate), V::load(of_bend));
             let (negative, positive) = (c.min(zero), c.max(zero));
             sum = sum.add(c);
             fall = fall.add(negative);

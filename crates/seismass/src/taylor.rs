@@ -2,7 +2,7 @@
 //!
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
-use crate::bernstein::{MAX_DEGREE, Polynomial};
+use crate::bernstein::{FEW, MAX_DEGREE, MOST, Polynomial};
 use crate::lanes::{MAX_LANES, Plain, Vector, WIDTH, columns_of, differences, load, store};
 use crate::model::Model;
 use crate::propagator::Table;
@@ -113,8 +113,7 @@ impl Series {
         }
         (self.order, self.h, self.place) = (order, h, 1.0);
         (self.ground[0], self.ground[1]) = (drive.ground, drive.ground_slope * h);
-        // Polynomials take terms in fours.
-        self.a[(order + 1) * stride..(order + 1).next_multiple_of(WIDTH) * stride].fill(0.0);
+        self.a[(order + 1) * stride..Polynomial::room(order + 1) * stride].fill(0.0);
         match (table, K, n) {
             (Some(table), 1, 1) => self.by_table::<V, K, 1, 2>(model, table, start, drive),
             (Some(table), 1, 2) => self.by_table::<V, K, 2, 4>(model, table, start, drive),
@@ -410,17 +409,30 @@ impl Series {
         factor: f64,
         p: &mut Polynomial,
     ) -> f64 {
-        let mut sizes = first.abs();
-        let mut k = WIDTH - orders;
-        let mut fours = p.fours_mut().iter_mut().zip(weights.as_chunks().0);
-        if let Some((four, _)) = fours.next() {
-            first.store(four);
+        if p.is_short() {
+            Self::integrate_first::<V, FEW>(first, terms, orders, weights, factor, p)
+        } else {
+            Self::integrate_first::<V, MOST>(first, terms, orders, weights, factor, p)
         }
-        for (four, weights) in fours {
-            let coefficients = terms.four::<V>(k).mul(V::splat(factor)).mul(V::load(weights));
-            coefficients.store(four);
+    }
+
+    #[inline(always)]
+    fn integrate_first<V: Vector, const F: usize>(
+        first: V,
+        terms: &impl TermByOrder,
+        orders: usize,
+        weights: &Weights,
+        factor: f64,
+        p: &mut Polynomial,
+    ) -> f64 {
+        let Some(fours) = p.fours_mut::<F>() else { return 0.0 };
+        let mut sizes = first.abs();
+        first.store(&mut fours[0]);
+        for f in 1..F {
+            let weights = V::load(&weights.as_chunks().0[f]);
+            let coefficients = terms.four::<V>(WIDTH * f - orders).mul(V::splat(factor)).mul(weights);
+            coefficients.store(&mut fours[f]);
             sizes = sizes.add(coefficients.abs());
-            k += WIDTH;
         }
         sizes.sum()
     }
@@ -470,15 +482,7 @@ impl Series {
     #[inline(always)]
     pub(crate) fn acceleration<V: Vector>(&self, floor: usize, factor: f64, p: &mut Polynomial) -> f64 {
         let terms = self.terms_of(floor);
-        let mut sizes = V::splat(0.0);
-        let mut k = 0;
-        for four in p.fours_mut() {
-            let coefficients = terms.four::<V>(k).mul(V::splat(factor));
-            coefficients.store(four);
-            sizes = sizes.add(coefficients.abs());
-            k += WIDTH;
-        }
-        sizes.sum()
+        if p.is_short() { terms.times::<V, FEW>(factor, p) } else { terms.times::<V, MOST>(factor, p) }
     }
 
     /// The first two terms of the absolute acceleration of floor `i`, and the first and second integrals of the others up
@@ -525,6 +529,21 @@ trait TermByOrder {
 struct Terms<'a> {
     values: &'a [f64],
     stride: usize,
+}
+
+impl Terms<'_> {
+    /// `p` becomes the terms times a factor; returns the sum of all their sizes.
+    #[inline(always)]
+    fn times<V: Vector, const F: usize>(&self, factor: f64, p: &mut Polynomial) -> f64 {
+        let Some(fours) = p.fours_mut::<F>() else { return 0.0 };
+        let mut sizes = V::splat(0.0);
+        for f in 0..F {
+            let coefficients = self.four::<V>(WIDTH * f).mul(V::splat(factor));
+            coefficients.store(&mut fours[f]);
+            sizes = sizes.add(coefficients.abs());
+        }
+        sizes.sum()
+    }
 }
 
 impl TermByOrder for Terms<'_> {
