@@ -25,7 +25,7 @@ STYLES: Final[tuple[tuple[str, str, str, str], ...]] = (
     ("Newmark, friction spring", "#CC79A7", "x", ""),
     ("OpenSees, friction spring", "#E69F00", "o", "-"),
     ("OpenSees, CoulombDamper", "#E69F00", "s", "--"),
-    ("OpenSees, central difference", "#E69F00", "^", ""),
+    ("OpenSees, central difference", "#E69F00", "^", ":"),
     ("OpenSees, modalDamping", "#E69F00", "x", ""),
     ("SciPy DOP853, events and samples", "#56B4E9", "o", "-"),
     ("SciPy DOP853, events", "#56B4E9", "s", "--"),

@@ -53,12 +53,15 @@ NOTES: Final = """## Who is who
   OpenSees' time is its machinery, and that its error is that of the model. A spring slips a little
   before it slides.
 - **OpenSees**: elastic-perfectly-plastic springs in parallel, dashpots between every pair of floors that reproduce the
-  damping matrix; friction as stiff springs (1e2 to 1e5 times the storey's stiffness k) or as CoulombDamper. *retries*:
-  other algorithms, then shorter steps, where a step does not converge; no unconverged step is accepted. `modalDamping`
-  damps the modes of the building coupled to its blocks, which is another problem: its row shows how different.
+  damping matrix; friction as stiff springs (1e2 to 4e5 times the stiffness k of the first storey) or as CoulombDamper.
+  *retries*: other algorithms, then shorter steps, where a step does not converge; no unconverged step is accepted.
+  *central difference* takes steps below its limit of stability, 2 / w for the highest frequency w, which stiff springs
+  raise; its matrix is factored once. `modalDamping` damps the modes of the building coupled to its blocks, which is
+  another problem: its row shows how different.
 - **SciPy, events**: DOP853 on a state machine, restarted at events, or at events and samples; peaks by cubic
   interpolation between samples, which bounds their error near 1e-7. **SciPy, tanh friction**: friction smoothed over a
-  relative velocity; the error is the smoothing's. These and the finest OpenSees steps run on the first scene only.
+  relative velocity; the error is the smoothing's. These and OpenSees' finest implicit steps run on the first scene
+  only.
 - **heyoka**: Taylor integration with event detection on the same state machine, compiled for the guards that a scene
   has; peaks from its own dense output. Its steps end at the samples, where the ground motion has kinks: such steps are
   so short that the error is far below the tolerance, and a coarser one saves little.

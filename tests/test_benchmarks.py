@@ -114,6 +114,29 @@ def test_guards_at_zero_are_lifted_and_guards_below_are_missed_events(module: An
         watched.lifted(1.01 * x, 0.0)
 
 
+@pytest.mark.parametrize("ratio", [1.0, 1e4])
+def test_steps_of_central_difference_are_below_its_limit_of_stability(module: Any, bench: Any, ratio: float) -> None:
+    """One floor and a block of the same mass m on a spring of r k: m w^2 / k = (1 + 2 r + sqrt(1 + 4 r^2)) / 2."""
+    opensees, scenes = module("contestants.opensees"), module("scenes")
+    building = sm.Building.uniform(1, 0.5, damping=0.05)
+    plain = scenes.system(replace(bench, scene=sm.Scene(building, sm.blocks_on_floors([1.0], mu=0.3))))
+    highest = 2 * np.pi / 0.5 * np.sqrt(0.5 * (1 + 2 * ratio + np.sqrt(1 + 4 * ratio**2)))
+    enough = int(0.5 * plain.dt * highest) + 1
+    opensees.check_stability(plain, opensees.Recipe(ratio, enough))
+    with pytest.raises(module("contestants.base").Failed, match=rf"substeps must be above .*; got {enough - 1}"):
+        opensees.check_stability(plain, opensees.Recipe(ratio, enough - 1))
+
+
+def test_settings_of_central_difference_are_stable_on_all_scenes(module: Any) -> None:
+    opensees, scenes = module("contestants.opensees"), module("scenes")
+    recipes = [setting.work.keywords["recipe"] for setting in opensees.settings()]
+    explicit = [recipe for recipe in recipes if recipe.integrator == opensees.CENTRAL_DIFFERENCE]
+    assert len(explicit) == 3
+    for scene in scenes.scenes():
+        for recipe in explicit:
+            opensees.check_stability(scenes.system(scene), recipe)
+
+
 def test_part_of_the_benchmark_is_run_and_not_written(
     module: Any, bench: Any, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
