@@ -68,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     machine = summary(("numpy", "polars", "eqsig", "pyrotd", "mpmath"), ("rustc", "valgrind"))
     print(machine, flush=True)
     sections = measure(given.sections or SECTIONS, quick=given.quick)
-    print(targets_table(sections))
+    print(targets_table(target for section in sections.values() for target in section.targets))
     if not given.sections:
         write(sections, machine, ROOT / "out" / "bench" if given.quick else ROOT)
     return 0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Final
 
 from targets.base import Section, Target, table
@@ -15,14 +15,19 @@ Written by `benchmarks/performance.py` (`make bench`). {recordings}
 
 Measured on: {machine}.
 
-How to read it: times are medians of wall time after a warm-up. What is compared is measured in one run and takes turns
-where it can, so ratios hold on other machines better than times do; on a machine that others use too they still
-scatter by some per cent, and instruction counts do not. Targets were set before anything was measured, and none is
-moved: what is missed is missed.
+How to read it: times are medians of wall time after a warm-up, unless a section says otherwise. What is compared is
+measured in one run and takes turns where it can, so ratios hold on other machines better than times do; on a machine
+that others use too they still scatter by some per cent, and instruction counts do not. Brackets hold quartiles of what
+took turns; where the bound lies between them, met or missed is within scatter.
 
 ## Targets
 
-{counts}
+Set before anything was measured, and not moved: what is missed is missed. {counts}
+
+{targets}"""
+LATER: Final = """
+Added after these had been measured, with the same bound: the short motions at half their step, which gives them the
+length that the target is meant for. {counts}
 
 {targets}"""
 
@@ -34,32 +39,41 @@ def _bound(target: Target) -> str:
 def _measured(target: Target) -> str:
     if target.value is None:
         return target.note or "-"
-    return f"{target.value:.3g} {target.unit}".rstrip()
+    scatter = f"({target.scatter[0]:.3g} to {target.scatter[1]:.3g}) " if target.scatter else ""
+    return f"{target.value:.3g} {scatter}{target.unit}".rstrip()
 
 
-def targets_table(sections: Mapping[str, Section]) -> str:
-    """Return the targets of all sections, misses included."""
+def targets_table(targets: Iterable[Target]) -> str:
+    """Return targets with what was measured, misses included."""
     rows = [
-        [target.what.replace("_", r"\_"), _bound(target), _measured(target), _emphasis(target)]
-        for section in sections.values()
-        for target in section.targets
+        [target.what.replace("_", r"\_"), _bound(target), _measured(target), _emphasis(target)] for target in targets
     ]
     return table(("what", "target", "measured", ""), rows)
 
 
 def _emphasis(target: Target) -> str:
-    return target.verdict if target.verdict == "met" else f"**{target.verdict}**"
+    told = target.verdict if target.verdict == "met" else f"**{target.verdict}**"
+    return f"{told}, within scatter" if target.within_scatter else told
+
+
+def _counts(targets: Sequence[Target]) -> str:
+    counts = Counter(target.verdict for target in targets)
+    told = ", ".join(f"{counts[verdict]} {verdict}" for verdict in ("met", "missed", "not measured") if counts[verdict])
+    return f"Of {len(targets)} targets: {told}."
 
 
 def page(sections: Mapping[str, Section], machine: str, *, recorded: bool) -> str:
     """Return the page; `recorded`: motions are recordings."""
-    counts = Counter(target.verdict for section in sections.values() for target in section.targets)
-    told = ", ".join(f"{counts[verdict]} {verdict}" for verdict in ("met", "missed", "not measured") if counts[verdict])
+    targets = [target for section in sections.values() for target in section.targets]
+    first = [target for target in targets if not target.later]
+    later = [target for target in targets if target.later]
     where = "Motions are recordings" if recorded else "Motions are the synthetic ones of the package, not recordings"
     head = HEAD.format(
         recordings=f"{where}, unless a section says otherwise.",
         machine=machine,
-        counts=f"Of {counts.total()} targets: {told}.",
-        targets=targets_table(sections),
+        counts=_counts(first),
+        targets=targets_table(first),
     )
+    if later:
+        head += LATER.format(counts=_counts(later), targets=targets_table(later))
     return "\n".join([head, *(f"## {section.title}\n\n{section.text}" for section in sections.values())])

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import polars as pl
 import pytest
 
@@ -23,7 +24,7 @@ TIMINGS = {
     "steps": {"step": 3e-8, "chain": 1e-8, "chain_with_rates": 2e-8, "frequency": 5e9},
     "threads": {"one": 1.0, "two": 1.0},
 }
-"""What the program in Rust could print: it is not built here."""
+"""What the program in Rust could print, in each of its processes: it is not built here."""
 ANNOTATED = """\
 Ir                 file:function
 --------------------------------------------------------------------------------
@@ -56,6 +57,24 @@ def test_targets_say_what_is_missed(module: Any) -> None:
     page = module("performance_page").page({"one": section}, "a machine", recorded=False)
     assert "Of 2 targets: 1 missed, 1 not measured." in page
     assert r"| a\_b | <= 2 s | 2.1 s | **missed** |" in page
+
+
+def test_targets_within_scatter_are_marked_and_those_added_later_counted_apart(module: Any) -> None:
+    base, written = module("targets.base"), module("performance_page")
+    found = base.repeated(np.array([2.0, 2.2, 2.1, 1.9, 2.4]) / np.array([1.0, 1.0, 1.0, 1.0, 2.0]))
+    assert [found.median, *found.quartiles] == pytest.approx([2.0, 1.9, 2.1])
+    targets = [
+        base.Target("near", found.median, 1.95, scatter=found.quartiles),
+        base.Target("clear", found.median, 1.5, scatter=found.quartiles),
+        base.Target("new", found.median, 3.0, scatter=found.quartiles, later=True),
+    ]
+    page = written.page({"one": base.Section("One", targets, "Words.\n")}, "a machine", recorded=False)
+    assert "| near | <= 1.95 | 2 (1.9 to 2.1) | **missed**, within scatter |" in page
+    assert "| clear | <= 1.5 | 2 (1.9 to 2.1) | **missed** |" in page
+    first, later = page.split("Added after these had been measured")
+    assert "Of 2 targets: 2 missed." in first
+    assert "Of 1 targets: 1 met." in later
+    assert "| new |" in later
 
 
 def test_instructions_by_module_and_by_function(module: Any) -> None:
@@ -102,9 +121,12 @@ def test_recorded_counts_have_every_column_of_the_page(module: Any) -> None:
 
 
 def test_quick_mode_writes_the_page(module: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def timings(work: str, *_: Any, **__: Any) -> dict[str, np.ndarray]:
+        return {name: np.full(3, value) for name, value in TIMINGS[work].items()}
+
     performance = module("performance")
     for name in ("leapfrog", "step", "threads"):
-        monkeypatch.setattr(module(f"targets.{name}"), "timings", lambda work, *_: TIMINGS[work])
+        monkeypatch.setattr(module(f"targets.{name}"), "timings", timings)
     monkeypatch.setattr(performance, "ROOT", tmp_path)
     assert performance.main(["--quick"]) == 0
     docs = tmp_path / "out" / "bench" / "docs"
@@ -114,4 +136,4 @@ def test_quick_mode_writes_the_page(module: Any, tmp_path: Path, monkeypatch: py
     assert "{" not in page
     leapfrog = module("targets.leapfrog")
     assert page.count("| exact run / leapfrog pass") == len(leapfrog.scenes()) * len(leapfrog.OUTPUTS) >= 12
-    assert "| plain step / bare chain of the state, 4 storeys | <= 2 | 3 | **missed** |" in page
+    assert "| plain step / bare chain of the state, 4 storeys | <= 2 | 3 (3 to 3) | **missed** |" in page

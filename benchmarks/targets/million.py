@@ -16,7 +16,8 @@ QUICK: Final = (64, 512)
 TEXT: Final = """\
 Runs of a building of two storeys as columns (`sm.Grid`), peaks only, streamed in frames of bounded size that are read
 and dropped; each size in a process of its own, {threads} threads, path {instructions}. Motion: {motion} ({samples}
-samples at {dt:g} s). Memory is the peak of what is resident, Python and its packages included.
+samples at {dt:g} s). A size that takes less than {least:g} s is repeated after a warm-up, and its times are medians; a
+larger one runs once, cold. Memory is the peak of what is resident, Python and its packages included.
 
 {table}
 The large batch over the small one: throughput {throughput:.3f}, processor time per run {processor:.3f}, memory
@@ -51,6 +52,7 @@ def section(*, quick: bool) -> Section:
     small, large = found["batches"]
     text = TEXT.format(
         **{name: found[name] for name in ("threads", "instructions", "motion", "samples", "dt")},
+        least=million.LEAST_TIME,
         table=table(
             ("runs", "events per run", "failed", "wall (s)", "runs/s", "processor us per run", "memory (MiB)"), rows
         ),

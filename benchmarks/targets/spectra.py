@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import importlib
 import importlib.metadata
-import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import pairwise
 from typing import Any, Final
 
@@ -13,7 +13,7 @@ import numpy as np
 
 import seismass as sm
 from scenes import FloatArray, suite
-from targets.base import Section, Target, median_time, table
+from targets.base import Section, Target, median_time, repeated, table, turns
 
 PERIODS: Final = 200
 DAMPING: Final = (0.01, 0.02, 0.05, 0.1, 0.2)
@@ -28,8 +28,8 @@ TEXT: Final = """\
 {periods} periods from 0.05 to 5 s, {damping} damping ratios, {records} records of {samples} samples: {pairs:.0f}
 million steps of an oscillator. Ours are peaks in continuous time, the free vibration after the record included; the
 peers take the largest sample. eqsig runs the same recurrence (Nigam and Jennings) in numpy over all periods at once;
-pyrotd multiplies by transfer functions in the frequency domain, one oscillator at a time. One thread each; differences
-are of the peers from ours, the largest relative one and the median.
+pyrotd multiplies by transfer functions in the frequency domain, one oscillator at a time. One thread each; each of them
+takes turns with ours, {least} times. Differences are of the peers from ours, the largest relative one and the median.
 
 {table}
 Largest relative difference from the same recurrence in {digits} digits, peaks in continuous time searched in every
@@ -148,8 +148,9 @@ def section(*, quick: bool) -> Section:
     """Measure ours and the peers', and compare."""
     motions = _records(2 if quick else RECORDS, 1000 if quick else SAMPLES)
     periods = np.geomspace(0.05, 5.0, 20 if quick else PERIODS)
-    one = median_time(lambda: sm.response_spectrum(motions, periods, DAMPING, threads=1), 0.0, least=1 if quick else 5)
-    two = median_time(lambda: sm.response_spectrum(motions, periods, DAMPING, threads=2), 0.0, least=1 if quick else 5)
+    least = 1 if quick else 3
+    on = [partial(sm.response_spectrum, motions, periods, DAMPING, threads=threads) for threads in (1, 2)]
+    one, two = (median_time(work, 0.0, least=1 if quick else 5) for work in on)
     ours = sm.response_spectrum(motions, periods, DAMPING)
     pairs = len(motions) * motions[0].samples * len(periods) * len(DAMPING)
     rows = [["seismass", f"{one:.3f}", f"{1e9 * one / pairs:.2f}", "1", "", ""]]
@@ -158,18 +159,18 @@ def section(*, quick: bool) -> Section:
     for name, work, bound in PEERS:
         try:
             version = f"{name} {importlib.metadata.version(name)}"
-            work(motions[:1], periods[:2])
-            began = time.perf_counter()
             theirs = work(motions, periods)
-            spent = time.perf_counter() - began
+            own, spent = np.array(turns([on[0], partial(work, motions, periods)], 0.0, least))
         except (_Absent, importlib.metadata.PackageNotFoundError) as absent:
             rows.append([name, "absent", "", "", "", ""])
             targets.append(Target(f"{name} / ours, spectra", None, bound, at_most=False, note=str(absent)))
             continue
         apart = np.abs(theirs - ours) / ours
-        row = [version, f"{spent:.2f}", f"{1e9 * spent / pairs:.1f}", f"{spent / one:.0f}"]
+        ratio, middle = repeated(spent / own), float(np.median(spent))
+        row = [version, f"{middle:.2f}", f"{1e9 * middle / pairs:.1f}", f"{ratio.median:.0f}"]
         rows.append([*row, f"{apart.max():.0e}", f"{np.median(apart):.0e}"])
-        targets.append(Target(f"{name} / ours, spectra", spent / one, bound, at_most=False))
+        what = f"{name} / ours, spectra"
+        targets.append(Target(what, ratio.median, bound, at_most=False, scatter=ratio.quartiles))
     checked = CHECKED[1:3] if quick else CHECKED
     try:
         worst = _worst(_records(1, 300 if quick else SAMPLES)[0], checked)
@@ -185,6 +186,7 @@ def section(*, quick: bool) -> Section:
         records=len(motions),
         samples=motions[0].samples,
         pairs=pairs / 1e6,
+        least=least,
         table=table(header, rows),
         digits=DIGITS,
         checked=2 * len(checked),

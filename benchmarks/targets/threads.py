@@ -8,7 +8,10 @@ import sys
 from functools import partial
 from typing import Any, Final
 
-from targets.base import Section, Target, alternating, four_storeys, strong_motions, table
+import numpy as np
+
+from scenes import FloatArray
+from targets.base import Repeated, Section, Target, four_storeys, repeated, strong_motions, table, turns
 from targets.batches import Batch, random_batch, study_batch
 from targets.program import timings
 
@@ -16,7 +19,7 @@ TEXT: Final = """\
 The same batch on one thread and on two, taking turns; the kernel alone, no table made. A machine that is shared, or
 lowers its clock when both cores work, gives less than two to anybody. What these two cores give is shown twice: by two
 processes that each solve the whole batch on one thread at the same time and share nothing, and by a loop of pure
-arithmetic in registers and its two copies on two threads.
+arithmetic in registers and its two copies on two threads. Speed-ups are medians over the turns, beside their quartiles.
 
 {table}"""
 PROCESSES: Final = 2
@@ -75,12 +78,14 @@ def section(*, quick: bool) -> Section:
     """Measure the study's batch, a random one and the arithmetic."""
     name, motion = strong_motions()[0]
     arithmetic = timings("threads", four_storeys(motion, name), 1.0 if quick else 5.0)
-    limit = 2.0 * arithmetic["one"] / arithmetic["two"]
+    limit = repeated(2.0 * arithmetic["one"] / arithmetic["two"])
     targets, rows = [], []
 
-    def add(what: str, runs: str, one: float, two: float, speed_up: float) -> None:
-        share = f"{100.0 * speed_up / limit:.0f} %"
-        rows.append([what, runs, f"{one:.3f}", f"{two:.3f}", f"{speed_up:.3f}", share])
+    def add(what: str, runs: str, one: FloatArray, two: FloatArray, speed_up: Repeated) -> None:
+        low, high = speed_up.quartiles
+        times = [f"{np.median(time):.3f}" for time in (one, two)]
+        told = [f"{speed_up.median:.3f}", f"{low:.3f} to {high:.3f}", f"{100.0 * speed_up.median / limit.median:.0f} %"]
+        rows.append([what, runs, *times, *told])
 
     for what, kind, size in (
         ("the study's batch", "study", 10 if quick else 1),
@@ -89,10 +94,12 @@ def section(*, quick: bool) -> Section:
         batch = make_batch(kind, size)
         with Processes(kind, size) as processes:
             works = [batch.on(1), batch.on(2), processes.solve]
-            one, two, both = alternating(works, 0.0, least=1 if quick else 7)
-        targets.append(Target(f"1 thread / 2 threads, {what}", one / two, 1.95, at_most=False))
-        add(what, str(len(batch.pairs)), one, two, one / two)
-        add(f"{what}, once in each of two processes", str(2 * len(batch.pairs)), one, both, 2.0 * one / both)
+            one, two, both = np.array(turns(works, 0.0, least=1 if quick else 7))
+        threads, apart = repeated(one / two), repeated(2.0 * one / both)
+        title = f"1 thread / 2 threads, {what}"
+        targets.append(Target(title, threads.median, 1.95, at_most=False, scatter=threads.quartiles))
+        add(what, str(len(batch.pairs)), one, two, threads)
+        add(f"{what}, once in each of two processes", str(2 * len(batch.pairs)), one, both, apart)
     add("arithmetic, twice as much on 2", "", arithmetic["one"], arithmetic["two"], limit)
-    header = ("", "runs", "1 thread (s)", "2 threads (s)", "speed-up", "of what arithmetic gets")
+    header = ("", "runs", "1 thread (s)", "2 threads (s)", "speed-up", "quartiles", "of what arithmetic gets")
     return Section("Threads", targets, TEXT.format(table=table(header, rows)))
