@@ -7,12 +7,15 @@ from typing import Final
 
 import polars as pl
 
+import seismass as sm
 from front import LEVELS, envelope, points, time_at
 from judge import Reference
 from measure import ERRORS
 from scenes import BenchmarkScene
 
 OURS: Final = "seismass, exact"
+PEAKS_ONLY: Final = "seismass, peaks only"
+"""Does less than the others, who fill histories: shown, and compared with nobody."""
 RATIO_LEVEL: Final = 1e-6
 RIVALS: Final = (
     ("the leapfrog", ("leapfrog, Rust", "leapfrog, numba"), 20.0),
@@ -23,15 +26,17 @@ RIVALS: Final = (
     ),
 )
 """Rival, its families, the ratio of times that the exact kernel aims at."""
+SAME_SPRINGS: Final = (("Newmark, friction spring", "100 k, dt / 5"), ("OpenSees, friction spring", "1e2 k, dt / 5"))
+"""Family and setting of the same model and method, compiled and in OpenSees."""
 MEASURES: Final = dict(zip(ERRORS, ("drift history", "peak drift", "slip history", "residual slip"), strict=True))
 
 HEAD: Final = """# Error against run time
 
 Every contestant solves the same scenes, from the scene to arrays of drifts and slips at every sample of the motion, in
-one process and one thread. Times are processor times, medians after a warm-up; what takes longer than two seconds runs
-once. Errors are the largest absolute differences from the second implementation of the model in double-double precision
-(crate `seismass-judge`, which has the kernel's damping matrix and nothing of its solver), over the largest drift, or
-slip, of the scene. {recordings}
+one process and one thread; runs of seismass for peaks only are shown and compared with nobody. Times are processor
+times, medians after a warm-up; what takes longer than two seconds runs once. Errors are the largest absolute
+differences from the second implementation of the model in double-double precision (crate `seismass-judge`, which has
+the kernel's damping matrix and nothing of its solver), over the largest drift, or slip, of the scene. {recordings}
 
 Written by `benchmarks/work_precision.py` (`make bench`); all points are in `benchmarks/results/work_precision.parquet`.
 
@@ -42,16 +47,17 @@ Measured on: {machine}.
 
 NOTES: Final = """## Who is who
 
-- **seismass, exact**: the kernel, histories of drifts and slips; and peaks only, as a study asks for.
+- **seismass, exact**: the kernel, histories of drifts and slips. **seismass, peaks only**: what a study asks for; it
+  does less than the others, who fill histories, and is in no comparison.
 - **leapfrog**: what a good engineer writes by hand (half-explicit, friction impulses clipped, return mapping), in the
   kernel's own `reference` module and in numba. A block that reverses inside a step has its impulse divided there:
   without that the method is of order 1 where blocks slide much.
 - **Gauss-Legendre 4, Newmark**: the state machines of the exact solution, advanced in fixed steps; *located*: events
   are found inside the step. Without it both are of order 1 on stick-slip scenes, whatever their order where nothing
   switches.
-- **Newmark, friction spring**: the same modelling as OpenSees' friction springs, compiled: it shows how much of
-  OpenSees' time is its machinery, and that its error is that of the model. A spring slips a little
+- **Newmark, friction spring**: the same modelling as OpenSees' friction springs, compiled. A spring slips a little
   before it slides.
+{same_springs}
 - **OpenSees**: elastic-perfectly-plastic springs in parallel, dashpots between every pair of floors that reproduce the
   damping matrix; friction as stiff springs (1e2 to 4e5 times the stiffness k of the first storey) or as CoulombDamper.
   *retries*: other algorithms, then shorter steps, where a step does not converge; no unconverged step is accepted.
@@ -68,6 +74,14 @@ NOTES: Final = """## Who is who
 - **diffsol**: a Rust library, through its package pydiffsol: Tsit45 with stop conditions on the same state machine,
   restarted at the samples too; peaks of the cubics over its steps. Its other methods are implicit, of lower order, and
   not run.
+
+How they are compiled: the kernel chooses its widest path at run time, here {path}. The leapfrog in Rust, Gauss-Legendre
+and Newmark come from the same wheel and have no paths: they use what every x86-64 has. numba and heyoka compile for the
+processor at hand, OpenSees and pydiffsol are the wheels of their projects.
+
+Where peaks are looked for: the kernel finds them between samples. The leapfrogs, Gauss-Legendre, Newmark and OpenSees
+take them at the ends of their steps and at located events alone, so that errors of their peaks may be larger than those
+of their histories.
 """
 
 
@@ -81,7 +95,7 @@ def _ms(time: float) -> str:
 
 
 def _families(table: pl.DataFrame) -> list[str]:
-    return table["family"].unique(maintain_order=True).to_list()
+    return table.filter(pl.col("family") != PEAKS_ONLY)["family"].unique(maintain_order=True).to_list()
 
 
 def fastest(table: pl.DataFrame, scene: str, measure: str, level: float) -> list[tuple[float, str]]:
@@ -175,6 +189,24 @@ def _ratios(table: pl.DataFrame, benches: list[BenchmarkScene]) -> str:
     return _table(head, rows) + f"\n{verdict}\n"
 
 
+def same_springs(table: pl.DataFrame) -> str:
+    """Say by how much errors and times of the compiled friction springs and of OpenSees' differ."""
+    compiled, theirs = (
+        table.filter(family=family, setting=setting, status="ok").select("scene", "time", "drift_error")
+        for family, setting in SAME_SPRINGS
+    )
+    both = compiled.join(theirs, on="scene", suffix="_theirs")
+    if both.is_empty():
+        return "  No scene was solved by both with the same springs and steps."
+    errors, times = ((both[f"{name}_theirs"] / both[name]).to_numpy() for name in ("drift_error", "time"))
+    apart = 100.0 * float(abs(errors - 1.0).max())
+    return (
+        f"  With {SAME_SPRINGS[0][1]} the errors of both histories of drift differ by at most {apart:.1g} % "
+        f"on {len(both)} scenes:\n  they are those of the model and the step. OpenSees takes {times.min():.2g} to "
+        f"{times.max():.2g} times as long, which is its\n  machinery."
+    )
+
+
 def _all_points(table: pl.DataFrame, bench: BenchmarkScene) -> str:
     rows = []
     for row in table.filter(pl.col("scene") == bench.name).iter_rows(named=True):
@@ -213,7 +245,7 @@ def page(table: pl.DataFrame, benches: list[BenchmarkScene], references: dict[st
         _ratios(table, benches),
         "By error level of the drift history:\n",
         _levels(table, benches),
-        NOTES,
+        NOTES.format(same_springs=same_springs(table), path=sm.instruction_set()),
         "## Scenes\n",
         _table(("name", "scene", "motion", "samples", "events"), scene_rows),
         "![Time against error on all scenes](figures/work_precision_scenes.png)\n",

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import polars as pl
 import pytest
 
 import seismass as sm
@@ -151,6 +152,40 @@ def test_part_of_the_benchmark_is_run_and_not_written(
     assert set(rows) == {"seismass,"}
     with pytest.raises(SystemExit):
         benchmark.main(["--contestants", "heyoka"])
+
+
+def rows_of(module: Any, *rows: tuple[str, str, float, float | None, float]) -> pl.DataFrame:
+    """A table of points on one scene: family, setting, time, error of the drift history and of the peak drift."""
+    schema = module("work_precision").SCHEMA
+    names = ("family", "setting", "time", "drift_error", "peak_drift_error")
+    return pl.DataFrame(
+        [dict.fromkeys(schema) | {"scene": "one", "status": "ok"} | dict(zip(names, row, strict=True)) for row in rows],
+        schema=schema,
+    )
+
+
+def test_a_run_for_peaks_only_is_compared_with_nobody(module: Any) -> None:
+    page, exact = module("page"), module("contestants.exact")
+    assert [setting.family for setting in exact.settings()] == [page.OURS, page.PEAKS_ONLY]
+    table = rows_of(
+        module,
+        (page.OURS, "histories", 2.0, 1e-15, 1e-15),
+        (page.PEAKS_ONLY, "peaks", 1.0, None, 1e-15),
+        ("leapfrog, Rust", "dt / 1", 1.5, 1e-3, 1e-3),
+    )
+    assert page.fastest(table, "one", "peak_drift_error", 1e-2) == [(1.5, "leapfrog, Rust"), (2.0, page.OURS)]
+    assert page.fastest(table, "one", "peak_drift_error", 1e-6) == [(2.0, page.OURS)]
+
+
+def test_what_the_page_says_of_friction_springs_comes_from_the_points(module: Any) -> None:
+    page = module("page")
+    settings = [*module("contestants.reference").settings(), *module("contestants.opensees").settings()]
+    assert set(page.SAME_SPRINGS) <= {(setting.family, setting.label) for setting in settings}
+    compiled, theirs = page.SAME_SPRINGS
+    told = page.same_springs(rows_of(module, (*compiled, 1e-3, 1e-2, 1e-2), (*theirs, 0.05, 1.01e-2, 1e-2)))
+    assert "differ by at most 1 % on 1 scenes" in " ".join(told.split())
+    assert "50 to 50 times as long" in told
+    assert "No scene" in page.same_springs(rows_of(module, (*compiled, 1e-3, 1e-2, 1e-2)))
 
 
 def test_the_profile_is_told_in_words(module: Any) -> None:

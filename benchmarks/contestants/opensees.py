@@ -231,6 +231,7 @@ def settings() -> list[Setting]:
     explicit: dict[str, Any] = {"algorithm": ("Linear", "-factorOnce"), "integrator": CENTRAL_DIFFERENCE}
     return [
         _setting(spring, "1e2 k, dt", Recipe(1e2, 1), quick=True),
+        _setting(spring, "1e2 k, dt / 5", Recipe(1e2, 5)),
         _setting(spring, "1e3 k, dt", Recipe(1e3, 1)),
         _setting(spring, "1e4 k, dt", Recipe(1e4, 1), quick=True),
         _setting(spring, "1e4 k, dt, retries", Recipe(1e4, 1, ladder=True)),
