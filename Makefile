@@ -28,9 +28,10 @@ bench: build $(BENCH_VENV)/made
 bench-kernel:
 	cargo bench --locked -p seismass --bench kernel -- $(BENCH_OPTIONS)
 
-# Instructions beside those recorded in benchmarks/results/instructions.csv; LABEL="what changed" records them there.
+# Instructions beside those last recorded in benchmarks/results/instructions.csv: fails where one grew by more than 1 %.
+# LABEL="what changed" records them there instead; BENCH_OPTIONS goes to benchmarks/instructions.py (--all, --tolerance).
 count-instructions: build
-	$(PYTHON) benchmarks/instructions.py $(if $(LABEL),--label "$(LABEL)")
+	$(PYTHON) benchmarks/instructions.py $(if $(LABEL),--label "$(LABEL)") $(BENCH_OPTIONS)
 
 # A run that was stopped goes on from target/stress/tally.tsv, where failing seeds are kept; remove it to begin again.
 stress:

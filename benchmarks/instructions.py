@@ -1,8 +1,9 @@
 """Instructions that the kernel executes, counted by valgrind: per plain step, per event, per regime, per run.
 
-Usage: python benchmarks/instructions.py [--label LABEL]. Prints the counts beside those recorded in
-benchmarks/results/instructions.csv, and appends them there under a label. Counts do not depend on the machine's load,
-so a change of one per cent is a change of the code. Valgrind knows no AVX-512: it runs the path for AVX2.
+Usage: python benchmarks/instructions.py [--label LABEL] [--tolerance PERCENT] [--all]. Prints the counts beside those
+last recorded in benchmarks/results/instructions.csv, and fails where one has grown by more than the tolerance; under a
+label, appends them there instead. Counts do not depend on the machine's load, so a change of one per cent is a change
+of the code, or of the tools. Valgrind knows no AVX-512: it runs the path for AVX2.
 """
 
 from __future__ import annotations
@@ -23,10 +24,21 @@ from typing import Final
 
 import polars as pl
 
+from environment import program_versions
+
 ROOT: Final = Path(__file__).resolve().parent.parent
 RECORDED: Final = ROOT / "benchmarks" / "results" / "instructions.csv"
-SCHEMA: Final = {"label": pl.String, "scene": pl.String, "quantity": pl.String, "value": pl.Float64}
+SCHEMA: Final = {
+    "label": pl.String,
+    "scene": pl.String,
+    "quantity": pl.String,
+    "value": pl.Float64,
+    "tools": pl.String,
+}
+"""Columns; `tools`, the versions of compiler and valgrind, are not known of the first labels."""
 NOW: Final = "now"
+TOLERANCE: Final = 1.0
+"""Per cent by which a count may grow."""
 
 YIELDING: Final = "yielding, 4 storeys"
 SECTION4: Final = ("section 4, r2 = 0.05", "section 4, r2 = 0.5")
@@ -112,7 +124,7 @@ def _stepped(scene: str) -> Iterable[tuple[str, float]]:
 
 
 def measured() -> pl.DataFrame:
-    """Count everything; columns label (NOW), scene, quantity, value."""
+    """Count everything, under the label NOW."""
     rows: list[tuple[str, str, float]] = []
     for scene in STEPPED:
         rows += [(scene, name, value) for name, value in _stepped(scene)]
@@ -127,12 +139,16 @@ def measured() -> pl.DataFrame:
         else:
             rows.append((f"{scene}, {work}", RUN, count.instructions))
             rows.append((f"{scene}, {work}", SAMPLE, count.instructions / count.done["samples"]))
-    return pl.DataFrame([(NOW, *row) for row in rows], schema=SCHEMA, orient="row")
+    tools = ", ".join(f"{name} {version}" for name, version in program_versions("rustc", "valgrind").items())
+    return pl.DataFrame([(NOW, *row, tools) for row in rows], schema=SCHEMA, orient="row")
 
 
 def recorded() -> pl.DataFrame:
     """Return what was recorded under labels, in order of recording."""
-    return pl.read_csv(RECORDED, schema=SCHEMA) if RECORDED.exists() else pl.DataFrame(schema=SCHEMA)
+    empty = pl.DataFrame(schema=SCHEMA)
+    if not RECORDED.exists():
+        return empty
+    return pl.concat([empty, pl.read_csv(RECORDED, schema_overrides=SCHEMA)], how="diagonal")
 
 
 def record(counts: pl.DataFrame, label: str) -> None:
@@ -147,32 +163,54 @@ def record(counts: pl.DataFrame, label: str) -> None:
     unfinished.rename(RECORDED)
 
 
-def comparison(table: pl.DataFrame) -> str:
-    """Return counts side by side, a column per label, and the last over the first."""
+def growth(table: pl.DataFrame) -> dict[tuple[str, str], float]:
+    """Return the counts of the last label over those of the label before it, by scene and quantity."""
+    *before, last = table["label"].unique(maintain_order=True)
+    if not before:
+        return {}
+    old, new = (
+        {(scene, quantity): value for _, scene, quantity, value, _ in table.filter(label=label).iter_rows()}
+        for label in (before[-1], last)
+    )
+    return {key: value / old[key] for key, value in new.items() if old.get(key)}
+
+
+def comparison(table: pl.DataFrame, *, every: bool = False) -> str:
+    """Return the last two labels, or every one, side by side in columns, and the last over the one before it."""
     labels = table["label"].unique(maintain_order=True).to_list()
-    lines = [f"{letter}: {label}" for letter, label in zip(_letters(labels), labels, strict=True)]
-    head = "".join(f"{letter:>15}" for letter in _letters(labels))
-    lines.append(f"{'':40}{'':26}{head}{'last / first':>14}")
+    table = table if every else table.filter(pl.col("label").is_in(labels[-2:]))
+    told = table.unique("label", maintain_order=True).select("label", "tools").rows()
+    letters = {label: chr(ord("A") + place) for place, (label, _) in enumerate(told)}
+    lines = [f"{letters[label]}: {label}{f' ({tools})' if tools else ''}" for label, tools in told]
+    head = "".join(f"{letter:>15}" for letter in letters.values())
+    lines.append(f"{'':40}{'':26}{head}{'last / before':>14}")
+    grown = growth(table)
     for scene, quantity in table.select("scene", "quantity").unique(maintain_order=True).iter_rows():
-        rows = table.filter((pl.col("scene") == scene) & (pl.col("quantity") == quantity))
-        found = dict(rows.select("label", "value").iter_rows())
-        values = [found.get(label) for label in labels]
-        known = [value for value in values if value is not None]
-        cells = "".join(f"{'-' if value is None else f'{value:,.1f}':>15}" for value in values)
-        ratio = f"{known[-1] / known[0]:14.3f}" if len(known) > 1 and known[0] else ""
+        found = dict(table.filter(scene=scene, quantity=quantity).select("label", "value").iter_rows())
+        cells = "".join(f"{f'{found[label]:,.1f}' if label in found else '-':>15}" for label in letters)
+        ratio = f"{grown[scene, quantity]:14.3f}" if (scene, quantity) in grown else ""
         lines.append(f"{scene:40}{quantity:26}{cells}{ratio}")
     return "\n".join(lines)
 
 
-def _letters(labels: list[str]) -> list[str]:
-    return [chr(ord("A") + place) for place in range(len(labels))]
+def worse(table: pl.DataFrame, tolerance: float) -> list[str]:
+    """Return what the last label has more of than the one before it, by more than so many per cent."""
+    return [
+        f"{scene}, {quantity}: {100.0 * (ratio - 1.0):+.1f} %"
+        for (scene, quantity), ratio in growth(table).items()
+        if quantity.startswith("per ") and ratio > 1.0 + 0.01 * tolerance
+    ]
 
 
 def main() -> int:
-    """Count, print, and record if a label is given."""
+    """Count and print; record if a label is given, otherwise judge."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--label", help="record the counts under this name")
-    label = parser.parse_args().label
+    parser.add_argument(
+        "--tolerance", type=float, default=TOLERANCE, metavar="PERCENT", help="growth that is no failure: %(default)g"
+    )
+    parser.add_argument("--all", action="store_true", help="print what was recorded under every label")
+    given = parser.parse_args()
     try:
         counts = measured()
     except Missing as missing:
@@ -180,11 +218,16 @@ def main() -> int:
         return 1
     print("Instructions, by callgrind on the path for AVX2 (valgrind knows no AVX-512).")
     print(QUANTITIES)
-    print(comparison(pl.concat([recorded(), counts])))
-    if label:
-        record(counts, label)
-        print(f"recorded as {label!r} in {RECORDED.relative_to(ROOT)}")
-    return 0
+    table = pl.concat([recorded(), counts])
+    print(comparison(table, every=given.all))
+    if given.label:
+        record(counts, given.label)
+        print(f"recorded as {given.label!r} in {RECORDED.relative_to(ROOT)}")
+        return 0
+    grown = worse(table, given.tolerance)
+    for line in grown:
+        print(f"grown by more than {given.tolerance:g} %: {line}", file=sys.stderr)
+    return 1 if grown else 0
 
 
 if __name__ == "__main__":

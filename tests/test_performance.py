@@ -93,7 +93,7 @@ def test_instruction_counts_are_appended_under_new_labels(
 ) -> None:
     instructions = module("instructions")
     monkeypatch.setattr(instructions, "RECORDED", tmp_path / "instructions.csv")
-    rows = [("now", "scene, one", "per run", 200.04), ("now", "scene, one", "events", 3.0)]
+    rows = [("now", "scene, one", "per run", 200.04, "rustc 2"), ("now", "scene, one", "events", 3.0, "rustc 2")]
     counts = pl.DataFrame(rows, schema=instructions.SCHEMA, orient="row")
     instructions.record(counts, "before, with a comma")
     instructions.record(counts.with_columns(value=pl.col("value") / 2.0), "after")
@@ -101,8 +101,37 @@ def test_instruction_counts_are_appended_under_new_labels(
     with pytest.raises(ValueError, match="label must be new; got after"):
         instructions.record(counts, "after")
     printed = instructions.comparison(instructions.recorded()).splitlines()
-    assert printed[0] == "A: before, with a comma"
+    assert printed[0] == "A: before, with a comma (rustc 2)"
     assert printed[-2].split() == ["scene,", "one", "per", "run", "200.0", "100.0", "0.500"]
+
+
+def test_instruction_counts_are_judged_beside_the_last_label(
+    module: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An old label was twice as dear, which hides nothing; rows from before `tools` was a column are read."""
+    instructions = module("instructions")
+    monkeypatch.setattr(instructions, "ROOT", tmp_path)
+    monkeypatch.setattr(instructions, "RECORDED", tmp_path / "instructions.csv")
+    old = ["old,a,per run,200.0", "last,a,per run,100.0", "last,a,events,3.0", "last,b,per run,50.0"]
+    (tmp_path / "instructions.csv").write_text("\n".join(["label,scene,quantity,value", *old]) + "\n")
+    now = [("a", "per run", 102.0), ("a", "events", 4.0), ("b", "per run", 50.4), ("c", "per run", 7.0)]
+    counts = pl.DataFrame([("now", *row, "rustc 2") for row in now], schema=instructions.SCHEMA, orient="row")
+    monkeypatch.setattr(instructions, "measured", lambda: counts)
+
+    def run(*options: str) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["instructions.py", *options])
+        return instructions.main(), *capsys.readouterr()
+
+    status, printed, judged = run()
+    assert (status, judged) == (1, "grown by more than 1 %: a, per run: +2.0 %\n")
+    assert "old" not in printed
+    assert ["a", "per", "run", "100.0", "102.0", "1.020"] in [line.split() for line in printed.splitlines()]
+    status, printed, judged = run("--tolerance", "2.5", "--all")
+    assert (status, judged) == (0, "")
+    assert "A: old\nB: last\nC: now (rustc 2)\n" in printed
+    assert run("--label", "dearer")[0] == 0
+    assert instructions.recorded()["tools"].to_list() == [None] * 4 + ["rustc 2"] * 4
+    assert run()[0] == 0
 
 
 def test_without_valgrind_nothing_is_counted_and_that_is_said(

@@ -129,7 +129,7 @@ def history() -> str:
     rows, before = [], dict[tuple[str, str], float]()
     for label in recorded["label"].unique(maintain_order=True):
         state = recorded.filter(recorded["label"] == label)
-        found = {(scene, quantity): value for _, scene, quantity, value in state.iter_rows()}
+        found = {(scene, quantity): value for _, scene, quantity, value, _ in state.iter_rows()}
         cells = []
         for _, scene, quantity in HIGHLIGHTS:
             value, old = found.get((scene, quantity)), before.get((scene, quantity))

@@ -42,7 +42,7 @@ def _counts() -> str:
         counted = instructions.measured()
     except instructions.Missing as missing:
         return f"Instructions: {missing}.\n"
-    found = {(scene, quantity): value for _, scene, quantity, value in counted.iter_rows()}
+    found = {(scene, quantity): value for _, scene, quantity, value, _ in counted.iter_rows()}
     quantities = (instructions.STEP, instructions.EVENT, instructions.REGIME)
     rows = [[scene, *(f"{found[scene, name]:,.0f}" for name in quantities)] for scene in instructions.STEPPED]
     return COUNTS + table(("scene", *quantities), rows)
