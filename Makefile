@@ -19,9 +19,12 @@ study: build
 
 test: lint docs test-wheel test-rust test-python
 
+# Options other than --quick choose contestants or scenes of work_precision.py, which runs alone and writes nothing.
 bench: build $(BENCH_VENV)/made
-	$(BENCH_VENV)/bin/python benchmarks/study.py
-	$(BENCH_VENV)/bin/python benchmarks/performance.py $(filter --quick,$(BENCH_OPTIONS))
+ifeq ($(filter-out --quick,$(BENCH_OPTIONS)),)
+	$(BENCH_VENV)/bin/python benchmarks/study.py $(BENCH_OPTIONS)
+	$(BENCH_VENV)/bin/python benchmarks/performance.py $(BENCH_OPTIONS)
+endif
 	$(BENCH_VENV)/bin/python benchmarks/work_precision.py $(BENCH_OPTIONS)
 
 # Wall times of the kernel alone; BENCH_OPTIONS goes to divan (a filter, --sample-count).

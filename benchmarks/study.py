@@ -1,10 +1,12 @@
 """The benchmark of the study: its phases, kernel time per run, per sample and per event, runs per second by threads.
 
-Usage: python benchmarks/study.py. Motions are recordings where SEISMASS_SHARED names them, otherwise built in.
+Usage: python benchmarks/study.py [--quick]; the quick one repeats nothing and draws no figures. Motions are recordings
+where SEISMASS_SHARED names them, otherwise built in.
 """
 
 from __future__ import annotations
 
+import argparse
 import statistics
 import sys
 import tempfile
@@ -76,10 +78,10 @@ def phases(
     return found if drawn is None else found | {"figures, apart": drawn - tables}
 
 
-def print_phases(motions: sm.records.Suite, runs: list[Run]) -> None:
+def print_phases(motions: sm.records.Suite, runs: list[Run], repeats: int, *, figures: bool) -> None:
     """Print the wall time of the study by phase; figures apart."""
     print("study on 2 threads (s)")
-    for name, spent in phases(motions, runs).items():
+    for name, spent in phases(motions, runs, repeats, figures=figures).items():
         print(f"  {name:36} {spent:8.3f}")
 
 
@@ -97,12 +99,12 @@ def simulate_all(runs: list[Run], threads: int) -> Any:
     return sm.simulate_many(list(scenes), list(motions), pairs=pairs, threads=threads)
 
 
-def throughput(runs: list[Run]) -> None:
+def throughput(runs: list[Run], repeats: int) -> None:
     """Print runs per second by number of threads."""
     print("batch, peaks only")
     samples = sum(motion.samples for _, motion in runs)
     for threads in (1, 2):
-        spent, table = timed(partial(simulate_all, runs, threads))
+        spent, table = timed(partial(simulate_all, runs, threads), repeats)
         events = int(table["events"].sum())
         print(
             f"  {threads} thread{'s' if threads > 1 else ' '}: {spent:7.3f} s, {len(runs) / spent:7.0f} runs/s, "
@@ -142,11 +144,11 @@ def split(rows: list[RunTime], work: Sequence[str]) -> FloatArray:
     return np.asarray(np.linalg.lstsq(columns, np.ones(len(rows)), rcond=None)[0], dtype=np.float64)
 
 
-def kernel_times(runs: list[Run]) -> None:
+def kernel_times(runs: list[Run], repeats: int) -> None:
     """Print the time of single runs by size and model, and its split in samples and events by least squares."""
     print("single runs, peaks only, one thread (medians over the runs; a and b: time = a samples + b events)")
     print("  storeys  model   runs   us per run   events   a: ns per sample   b: us per event")
-    found = run_times(runs)
+    found = run_times(runs, repeats)
     for storeys, model in sorted({(row.storeys, row.model) for row in found}):
         rows = [row for row in found if (row.storeys, row.model) == (storeys, model)]
         a, b = split(rows, ("samples", "events"))
@@ -156,15 +158,19 @@ def kernel_times(runs: list[Run]) -> None:
         )
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Print all tables."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--quick", action="store_true", help="nothing repeated, no figures")
+    quick = parser.parse_args(arguments).quick
+    repeats = 1 if quick else REPEATS
     print(summary())
     motions = suite()
     print(f"suite: {motions.name}, {len(motions)} motions")
     runs = distinct_runs(motions)
-    print_phases(motions, runs)
-    throughput(runs)
-    kernel_times(runs)
+    print_phases(motions, runs, repeats, figures=not quick)
+    throughput(runs, repeats)
+    kernel_times(runs, repeats)
     return 0
 
 
