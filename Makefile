@@ -1,5 +1,6 @@
 # Everything from a fresh clone: each target sets up .venv and builds the kernel into it as far as that is not done.
-# Nothing is installed outside this directory. Needs Python >= 3.11 and a Rust toolchain; says so where they are missing.
+# Nothing is installed outside this directory. Needs Python >= 3.11, a Rust toolchain and a C compiler, which links; says
+# so where they are missing.
 
 VENV := .venv
 BENCH_VENV := .venv-bench
@@ -11,6 +12,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
+export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
 .PHONY: study test bench bench-kernel count-instructions stress docs clean build lint test-rust test-python test-wheel
 
@@ -41,6 +43,8 @@ stress:
 	cargo run --locked --release -p seismass-judge --bin stress -- --scenes 1000000 --judged 10000 --write docs/stress.md
 
 lint: build
+	@cargo fmt --version >/dev/null && cargo clippy --version >/dev/null || \
+		{ echo "make lint and make test need rustfmt and clippy: rustup component add rustfmt clippy" >&2; exit 1; }
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 	$(PYTHON) -m ruff check .
