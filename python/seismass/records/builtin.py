@@ -9,11 +9,12 @@ from seismass.records.suite import Suite, read_suite
 
 
 def data_directory() -> Path:
-    """Return the folder of the stored data: inside an installed package, or at the top of a source tree."""
+    """Return the folder of the stored data: inside an installed package, or at the top of the source tree."""
     package = Path(__file__).parents[1]
     tree = package.parents[1]
-    # In a source tree a development build leaves a copy in the package, which the files themselves outdate.
-    place = (tree if (tree / "pyproject.toml").is_file() else package) / "data"
+    # In the source tree a development build leaves a copy in the package, which the files themselves outdate. The
+    # folder above an installed package may be a project too, and not this one.
+    place = (tree if (tree / "crates" / "seismass").is_dir() else package) / "data"
     if not (place / "synthetic" / "suite.csv").is_file():
         raise RecordFormatError(f"built-in suite must be in {place}, as it was installed; got no suite.csv there")
     return place
