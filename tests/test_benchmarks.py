@@ -70,6 +70,27 @@ def test_reference_integrators_reach_python(
     assert np.abs(found.peak_slip - exact.peak_slip).max() < bound * exact.peak_slip.max()
 
 
+def test_the_leapfrog_that_numba_compiles_agrees_with_the_kernel_and_with_that_in_rust(
+    module: Any, bench: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As plain Python, over 200 strong samples, all blocks sliding; both leapfrogs do the same but for rounding."""
+    contestant = module("contestants.numba_leapfrog")
+    monkeypatch.setattr(contestant, "_compiled", contestant._leapfrog)
+    strongest = int(np.abs(bench.motion.acceleration).argmax())
+    samples = bench.motion.acceleration[strongest - 100 : strongest + 100]
+    scene = module("scenes").section4(0.05, mu=0.05)
+    short = replace(bench, scene=scene, motion=sm.Motion(samples, bench.motion.dt))
+    exact = module("contestants.exact").with_histories(short)
+    rust = module("contestants.reference").run(short, "leapfrog", 20)
+    found = contestant.leapfrog(short, 20)
+    assert exact.peak_slip.min() > 1e-3
+    for name in ("drift", "slip", "peak_drift", "peak_slip", "residual_slip"):
+        mine, theirs, true = (getattr(outcome, name) for outcome in (found, rust, exact))
+        assert mine.shape == true.shape
+        assert np.abs(mine - true).max() < 1e-4 * np.abs(true).max()
+        assert np.abs(mine - theirs).max() < 1e-12 * np.abs(true).max()
+
+
 def test_scipy_with_events_and_samples_agrees_with_the_kernel(module: Any, bench: Any) -> None:
     """A fresh state machine on an integrator that shares nothing with the kernel."""
     exact = module("contestants.exact").with_histories(bench)
