@@ -1,4 +1,4 @@
-"""Pages with numbers from recordings are what the kernel gives: the section-4 page, findings and words of README.md."""
+"""Pages with numbers are what they come from: the section-4 page, findings and words of README.md, its times."""
 
 from __future__ import annotations
 
@@ -49,3 +49,32 @@ def test_readme_says_of_top_middle_and_elastic_storeys_what_the_study_gives(shar
     assert where == ["commercial", 4, 1, 1.5]
     assert f"off by {elastic['missed'].min():+.0f} % to {largest:+.0f} % in single storeys" in readme
     assert (elastic.group_by("occupancy", "place").agg(pl.col("missed").mean().abs())["missed"] < 8.0).all()
+
+
+def page_rows(section: str) -> list[list[str]]:
+    """Cells of the rows of all tables in a section of the page of performance."""
+    page = (ROOT / "docs" / "performance.md").read_text(encoding="utf-8")
+    text = page.split(f"\n## {section}\n")[1].split("\n## ")[0]
+    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if line.startswith("|")]
+
+
+def test_readme_says_of_times_what_the_page_of_performance_does() -> None:
+    """Words of the README, what was measured, and the range of it that they stand for."""
+    steps, growth = page_rows("The plain step and the event"), page_rows("Growth in storeys")
+    step = next(float(row[1]) for row in steps if row[0] == "plain step")
+    event = next(float(steps[place + 2][1]) for place, header in enumerate(steps) if header[1] == "b: event (us)")
+    calm = next(1e3 * float(row[1]) for row in growth if row[0] == "4")
+    runs = [row for row in page_rows("One exact run and one pass of the leapfrog") if row[0].startswith("section 4")]
+    times = [float(time) for row in runs if " at 0." not in row[0] for time in row[3:6]]
+    study = next(float(row[1]) for row in page_rows("The study") if row[0] == "total without figures")
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    for words, value, low, high in (
+        ("one more sample in which nothing happens costs some twelve nanoseconds", step, 10.0, 14.0),
+        ("nothing yields or slides takes some forty per sample", calm, 33.0, 47.0),
+        ("An event costs about a microsecond", event, 0.5, 1.5),
+        ("takes 0.2 to 0.7 ms on one core", min(times), 0.15, 0.25),
+        ("takes 0.2 to 0.7 ms on one core", max(times), 0.5, 0.75),
+        ("less than a third of a second on two", study, 0.0, 1 / 3),
+    ):
+        assert words in readme
+        assert low <= value <= high, f"{words}; got {value:g}"
