@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import runpy
 from pathlib import Path
 
@@ -78,3 +79,16 @@ def test_readme_says_of_times_what_the_page_of_performance_does() -> None:
     ):
         assert words in readme
         assert low <= value <= high, f"{words}; got {value:g}"
+
+
+def test_readme_says_of_the_leapfrog_what_the_page_of_errors_does() -> None:
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    page = (ROOT / "docs" / "work_precision.md").read_text(encoding="utf-8")
+    assert "at an error of 1e-6 of the drift history at least twenty times less than a compiled leapfrog" in readme
+    head = "| scene | seismass (ms) | the leapfrog (ms) | ratio (aim: 20) |"
+    met = re.search(r"The aim is met, the leapfrog: on (\d+) of (\d+) scenes", page)
+    assert head in page.partition("At an error of 1e-06 of the drift history")[2]
+    assert met is not None
+    assert met.group(1) == met.group(2)
+    assert "that can still be more than twice as fast as the exact run" in readme
+    assert max(float(factor) for factor in re.findall(r"by leapfrog, by up to a factor of ([\d.]+):", page)) > 2.0

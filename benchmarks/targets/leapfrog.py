@@ -44,7 +44,7 @@ def at_half_step(bench: BenchmarkScene) -> BenchmarkScene:
 
 
 def scenes() -> list[tuple[BenchmarkScene, bool]]:
-    """Return those of section 4, and with short motions at half their step too; and which of both."""
+    """Return those of section 4, and with short motions at half their step too: True for these."""
     own = section4_scenes()
     halved = [at_half_step(bench) for bench in own if bench.motion.samples < SAMPLES]
     return [(bench, False) for bench in own] + [(bench, True) for bench in halved]

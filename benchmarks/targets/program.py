@@ -19,7 +19,7 @@ FLAGS: Final = "-C target-cpu=native"
 BASELINE: Final = "baseline"
 """The kernel's path for processors that have no more than every x86-64 has."""
 PROCESSES: Final = 5
-"""Processes that share the time: a ratio differs from one to the next by more than from turn to turn."""
+"""Processes that share the time: quartiles are taken over them."""
 
 
 @cache
