@@ -46,6 +46,15 @@ FILES: list[tuple[str, str | bytes, dict[str, object], str]] = [
         r"numbers of a.AT2 must be finite; got '.3000000E\+999'",
     ),
     ("a.AT2", GOOD.replace("ACCELERATION", "VELOCITY"), {}, r"quantity of a.AT2 must be acceleration; got velocity"),
+    (
+        "a.AT2",
+        GOOD.replace("ACCELERATION", "VELOCITY").replace("NPTS", "\nNPTS"),
+        {},
+        r"quantity of a.AT2 must be acceleration; got velocity",
+    ),
+    ("a.AT2", GOOD.replace(".0100 SEC", ".0100 USEC"), {}, r"DT of a.AT2 must be in s or ms; got .0100 USEC"),
+    ("a.AT2", GOOD.replace(".0100 SEC", "1/200 SEC"), {}, r"DT of a.AT2 must be in s or ms; got 1 /200"),
+    ("a.AT2", GOOD.replace(".0100 SEC", ".0010 MS"), {}, r"DT of a.AT2 must be a step between .* s; got .0010 MS"),
     ("a.AT2", GOOD, {"unit": "m/s2"}, r"unit of a.AT2 must be that of its header, g; got m/s2"),
     ("a.AT2", GOOD, {"unit": "ft/s2"}, r"unit of a.AT2 must be one of g, m/s2, cm/s2; got 'ft/s2'"),
     ("a.AT2", GOOD, {"dt": 0.02}, r"dt of a.AT2 must agree with its header, .0100 s; got 0.02 s"),
@@ -53,6 +62,31 @@ FILES: list[tuple[str, str | bytes, dict[str, object], str]] = [
     ("a.AT2", GOOD, {"dt": "fast"}, r"dt of a.AT2 must be a number; got 'fast'"),
     ("a.AT2", GOOD, {"skip": 2}, r"skip of a.AT2 must be left out for an .AT2 file; got 2"),
     ("a.AT2", GOOD, {"format": "v2"}, r"format of a.AT2 must be at2 or columns; got 'v2'"),
+    *(
+        (
+            "a.AT2",
+            GOOD.replace("UNITS OF G", unit),
+            {},
+            rf"unit of a.AT2 must be one of g, m/s2, cm/s2, or be given; got '{unit}'",
+        )
+        for unit in ("ft/s2", "mm/s2")
+    ),
+    ("a.AT2", GOOD.replace("OF G", "OF MG"), {}, r"unit of a.AT2 must be one of .*, or be given; got 'MG' in its"),
+    ("a.txt", "dt = 10 us\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be in s or ms; got 10 us"),
+    ("a.txt", "dt = 1/200 s\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be in s or ms; got 1 /200"),
+    ("a.txt", "dt = 0,01 s\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be .*; got 0"),
+    ("a.txt", "dt (min) = 1\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be in s or ms; got 1 min"),
+    ("a.txt", "dt = 10\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be a step between 1e-05 and 1 s; got 10"),
+    (
+        "a.txt",
+        "SAMPLING_INTERVAL_S: 0.005\n" + COLUMN,
+        {"unit": "g", "dt": 0.01},
+        r"dt of a.txt must agree .* its header, 0.005 s; got 0.01 s",
+    ),
+    ("a.txt", "NDATA: 61\n" + COLUMN, {"unit": "g", "dt": 0.01}, r"points of a.txt must be 61, .*; got 60"),
+    ("a.txt", "Velocity (m/s2)\n" + COLUMN, {"dt": 0.01}, r"quantity of a.txt must be acceleration; got velocity"),
+    ("a.txt", "displacements\n" + COLUMN, {"dt": 0.01, "unit": "g"}, r"quantity of a.txt .*; got displacements"),
+    ("a.txt", "units: g/10\n" + COLUMN, {"dt": 0.01}, r"unit of a.txt must be given .* another; got 'g/10'"),
     ("a.txt", COLUMN, {"unit": "g"}, r"dt of a.txt must be given, .*; got none"),
     ("a.txt", COLUMN, {"dt": 0.01}, r"unit of a.txt must be given .*; got none"),
     (

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from seismass.errors import InvalidMotion
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.records.numbers import is_cut_off, split_touching
-from seismass.units import STANDARD_GRAVITY, stated_unit
+from seismass.units import STANDARD_GRAVITY, stated_unit, unknown_unit
 
 VALUES_G = [0.001, -0.25, 0.125, 1.5e-4, -3.0e-3, 0.0, 0.0625]
 FIELDS = "".join(f"{value:15.7E}" for value in VALUES_G)
@@ -129,10 +129,35 @@ def test_a_number_with_its_exponent_is_whole() -> None:
         ("a in m/s**2", "m/s2"),
         ("ground motion at Big Gorge", None),
         ("(g) or (m/s2)", None),
+        ("IN UNITS OF G. FILTER POINTS: HP=0.1 Hz", "g"),
+        ("cm/s\N{SUPERSCRIPT TWO}", "cm/s2"),
+        ("Velocity in m/s\n2000 points", None),
+        ("m/s 2000 points", None),
+        ("units: g/10", None),
     ],
 )
 def test_unit_stated_in_a_header(text: str, unit: str | None) -> None:
     assert stated_unit(text) == unit
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [
+        ("UNITS OF MG", "MG"),
+        ("UNITS OF 0.1 G", "0.1 G"),
+        ("UNITS OF .01 M/S2", ".01 M/S2 and m/s2"),
+        ("units: g/10", "g/10"),
+        ("ACCELERATION (MG)", "mg"),
+        ("FT/S/S", "ft/s2"),
+        ("IN/SEC/SEC", "in/s2"),
+        ("(mm/s2)", "mm/s2"),
+        ("(g) or (m/s2)", "g and m/s2"),
+        ("UNITS OF G", None),
+        ("UNITS:\nVS30_M/S: 2", None),
+    ],
+)
+def test_unknown_unit_of_a_header(text: str, unit: str | None) -> None:
+    assert unknown_unit(text) == unit
 
 
 TWO_COLUMNS = "0.00 0.1\n0.02 -0.3\n0.04 0.2\n0.06 0.0\n"
@@ -169,6 +194,56 @@ def test_step_from_printed_times_is_the_short_decimal(tmp_path: Path, dt: float)
     file = tmp_path / "motion.csv"
     file.write_text("".join(f"{i * dt:.10f}, {math.sin(i):.6f}\n" for i in range(3000)))
     assert read_record(file, unit="g").dt == pytest.approx(dt, rel=1e-12 if dt < 0.3 else 1e-9)
+
+
+@pytest.mark.parametrize("form", ["{!r}", "{:g}", "{:.4f}", "{:.6e}"])
+@pytest.mark.parametrize("start", [0, 1])
+def test_step_gives_every_time_back_to_its_last_digit(tmp_path: Path, form: str, start: int) -> None:
+    """The last of 5121 times is 40.0 or 40: that it is round says nothing of the others."""
+    file = tmp_path / "motion.csv"
+    file.write_text("".join(f"{form.format(i / 128)},{math.sin(i)!r}\n" for i in range(start, 5121)))
+    record = read_record(file, unit="g")
+    assert record.dt == pytest.approx(1 / 128, rel=1e-6)
+    if start == 0:
+        assert (record.dt, record.duration) == (1 / 128, 40.0)
+    assert read_record(file, unit="g", dt=1 / 128).dt == 1 / 128
+
+
+@pytest.mark.parametrize(
+    ("header", "dt"),
+    [
+        ("dt = 10 ms", 0.01),
+        ("dt (msec): 7", 0.007),
+        ("Delta T = .02 s, 4 points", 0.02),
+        ("time step [s] = 0.02 seconds", 0.02),
+        ("dt=0.02 npts=4", 0.02),
+        ("DT: 2D-2", 0.02),
+        ("SAMPLING_INTERVAL_S: 0.020000\nNDATA: 4", 0.02),
+    ],
+)
+def test_step_stated_in_a_header(tmp_path: Path, header: str, dt: float) -> None:
+    file = tmp_path / "motion.txt"
+    file.write_text(header + "\n0.1\n-0.3\n0.2\n0.0\n")
+    assert read_record(file, unit="m/s2").dt == dt
+
+
+def test_step_of_an_at2_header_has_its_unit(tmp_path: Path) -> None:
+    file = tmp_path / "a.AT2"
+    for written, dt in ((".5 MSEC", 0.0005), ("10 ms", 0.01), (".0100 SEC.", 0.01), (".0100 s", 0.01)):
+        file.write_text(at2(f"NPTS=      7, DT=   {written}"))
+        assert read_record(file).dt == dt
+
+
+def test_an_unknown_unit_of_an_at2_header_is_the_callers(tmp_path: Path) -> None:
+    file = tmp_path / "a.AT2"
+    file.write_text(at2().replace("UNITS OF G", "FT/S/S, G"))
+    assert read_record(file, unit="g").pga_g == pytest.approx(0.25, rel=1e-15)
+
+
+def test_a_header_may_speak_of_velocity_beside_acceleration(tmp_path: Path) -> None:
+    file = tmp_path / "motion.txt"
+    file.write_text("Acceleration (m/s2), velocity corrected\n0.1\n0.2\n")
+    assert read_record(file, dt=0.01).pga == 0.2
 
 
 def test_record_is_immutable_and_scaling_makes_new_ones() -> None:
@@ -333,6 +408,9 @@ def test_real_columns(shared: Path) -> None:
     el_centro = read_record(formats / "single_column/el_centro.th", unit="g", dt=0.02)
     assert (el_centro.samples, el_centro.remarks) == (1560, ())
     assert el_centro.pga_g == pytest.approx(0.3188, abs=1e-4)  # El Centro 1940 NS as widely used
+    esm = read_record(formats / "esm/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC")
+    assert (esm.dt, esm.samples, esm.unit) == (0.005, 19128, "cm/s2")
+    assert esm.pga == pytest.approx(0.300022e-2, rel=1e-9)
     chi_chi = read_record(formats / "two_column/ChiChi.txt", unit="g")
     assert (chi_chi.dt, chi_chi.samples) == (0.005, 11800)
     duzce = read_record(formats / "two_column/Duzce_1999_375-090.csv")  # its header says g

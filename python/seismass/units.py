@@ -11,14 +11,36 @@ STANDARD_GRAVITY: Final = 9.80665
 ACCELERATION_UNITS: Final = {"g": STANDARD_GRAVITY, "m/s2": 1.0, "cm/s2": 0.01}
 """Accelerations of files in m/s2, by the name of the unit."""
 
-_SPELLINGS: Final = (
-    ("cm/s2", r"cm\s*/\s*s(?:ec)?\s*(?:\*\*|\^)?\s*2|cm\s*/\s*s(?:ec)?\s*/\s*s(?:ec)?|\bgals?\b"),
-    ("m/s2", r"(?<![a-z])m\s*/\s*s(?:ec)?\s*(?:\*\*|\^)?\s*2|(?<![a-z])m\s*/\s*s(?:ec)?\s*/\s*s(?:ec)?"),
-    ("g", r"[(\[]\s*g(?:'s)?\s*[)\]]|\bunits?(?:\s+of|\s*[:=])\s*\(?g(?:'s)?\b"),
+_PER_SECOND_SQUARED = re.compile(
+    r"([a-z]+)[ \t]*/[ \t]*s(?:ec)?(?:[ \t]*/[ \t]*s(?:ec)?(?![a-z])|[ \t]*(?:\*\*|\^)?[ \t]*(?:2(?![\d.])|²))",
+    re.IGNORECASE,
 )
+_GAL = re.compile(r"\bgals?\b", re.IGNORECASE)
+_BRACKETED_G = re.compile(r"[(\[][ \t]*([%m]?g)(?:'s)?[ \t]*[)\]]", re.IGNORECASE)
+_UNITS_OF = re.compile(r"\bunits?[ \t]*(?:of\b|[:=])[ \t]*([^\s].*)", re.IGNORECASE)
+_G = re.compile(r"[(\[]?[ \t]*g(?:'s|ravity)?(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
 
 
 def stated_unit(text: str) -> str | None:
-    """Return the acceleration unit that a header states, or None where it states none or several."""
-    found = {unit for unit, spelling in _SPELLINGS if re.search(spelling, text, re.IGNORECASE)}
-    return found.pop() if len(found) == 1 else None
+    """Return the acceleration unit that a header states, or None where it states none, several or another."""
+    found = _units(text)
+    return found[0] if len(found) == 1 and found[0] in ACCELERATION_UNITS else None
+
+
+def unknown_unit(text: str) -> str | None:
+    """Return what a header states for a unit where it is none of `ACCELERATION_UNITS`, or several; else None."""
+    return None if stated_unit(text) else " and ".join(_units(text)) or None
+
+
+def _units(text: str) -> list[str]:
+    """Every unit that a header states, by its name if it is a known one."""
+    found = {f"{length.lower()}/s2" for length in _PER_SECOND_SQUARED.findall(text)}
+    found |= {name.lower() for name in _BRACKETED_G.findall(text)}
+    if _GAL.search(text):
+        found.add("cm/s2")
+    for said in _UNITS_OF.findall(text):
+        if _G.match(said):
+            found.add("g")
+        elif said[0] in ".0123456789" or not found:
+            found.add(said.strip()[:30])
+    return sorted(found)

@@ -13,9 +13,10 @@ from typing import Final
 import numpy as np
 
 from seismass.errors import RecordFormatError
+from seismass.records.headers import refuse_other_quantity, step_in_seconds
 from seismass.records.numbers import is_cut_off, is_number, parse_numbers, to_float
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS, stated_unit
+from seismass.units import ACCELERATION_UNITS, stated_unit, unknown_unit
 
 HEADER_LINES: Final = 10
 """The counts stand in line 4; a file may have blank or further lines before them."""
@@ -23,15 +24,16 @@ HEADER_LINES: Final = 10
 HEADER_ROUNDING: Final = 0.500001e-4
 """Half the fourth decimal (s), to which headers round the step however many decimals they write."""
 
-SHORTEST_STEP: Final = 1e-5
-LONGEST_STEP: Final = 1.0
-"""Steps (s) outside these are no sampling of a ground motion but a damaged header."""
-
 _COUNTS = (
-    re.compile(r"NPTS\s*[=:]?\s*(?P<points>\d{1,9})[.,;\s]*DT\s*[=:]?\s*(?P<step>[\d.]+(?:E[+-]?\d+)?)", re.IGNORECASE),
-    re.compile(r"^\s*(?P<points>\d{1,9})[,\s]+(?P<step>[\d.]+(?:E[+-]?\d+)?)[,\s]+NPTS\s*,?\s*DT", re.IGNORECASE),
+    re.compile(
+        r"NPTS\s*[=:]?\s*(?P<points>\d{1,9})[.,;\s]*DT\s*[=:]?\s*(?P<step>[\d.]+(?:E[+-]?\d+)?)"
+        r"\s*(?P<unit>[A-Z/][^\s,;]*)?",
+        re.IGNORECASE,
+    ),
+    re.compile(
+        r"^\s*(?P<points>\d{1,9})[,\s]+(?P<step>[\d.]+(?:E[+-]?\d+)?)[,\s]+(?P<unit>)NPTS\s*,?\s*DT", re.IGNORECASE
+    ),
 )
-_OTHER_QUANTITY = re.compile(r"\b(VELOCITY|DISPLACEMENT)\b", re.IGNORECASE)
 _SYNTHETIC = re.compile(r"\bSYNTHETIC\b", re.IGNORECASE)
 
 
@@ -52,12 +54,14 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
     dt : float, optional
         The exact step (s), where the header has rounded it; must agree with the header to its last digit.
     unit : str, optional
-        Must agree with the header where that states one; g where neither does.
+        Must agree with the header where that states one; g where neither does. Needed where the header states one that
+        is not known.
 
     Raises
     ------
     RecordFormatError
-        No counts in the header, other counts than points, a damaged number, or a contradiction with `dt` or `unit`.
+        No counts in the header, other counts than points, a damaged number, a step or a unit that is not known, or a
+        contradiction with `dt` or `unit`.
     """
     file = source.name
     lines = text.splitlines()
@@ -67,15 +71,15 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
         raise RecordFormatError(
             f"header of {file} must give NPTS and DT in its first {HEADER_LINES} lines, as .AT2 files do; got {got!r}"
         )
-    line_of_counts, points, step = counts
+    line_of_counts, points, step, step_unit = counts
     titles = [line.strip() for line in lines[:line_of_counts]]
-    header = " ".join(titles)
-    quantity = _OTHER_QUANTITY.search(titles[-1] if titles else "")
-    if quantity:
-        raise RecordFormatError(f"quantity of {file} must be acceleration; got {quantity.group().lower()}")
+    header = "\n".join(titles)
+    refuse_other_quantity(next((title for title in reversed(titles) if title), ""), file)
     remarks: list[str] = []
-    exact_dt = _agreed_step(step, dt, file, remarks)
-    unit = _agreed_unit(stated_unit(header), unit, file)
+    seconds = step_in_seconds(step, step_unit, file)
+    written = f"{step} s" if seconds == to_float(step) else f"{step} {step_unit}"
+    exact_dt = _agreed_step(seconds, dt, written, file, remarks)
+    unit = _agreed_unit(header, unit, file)
 
     numbered = enumerate(lines[line_of_counts + 1 :], start=line_of_counts + 2)
     tokens, values = parse_numbers(numbered, file)
@@ -110,37 +114,37 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
     )
 
 
-def _find_counts(lines: list[str]) -> tuple[int, int, str] | None:
-    """Return the index of the line with the counts, the points and the step as written."""
+def _find_counts(lines: list[str]) -> tuple[int, int, str, str] | None:
+    """Return the index of the line with the counts, the points, and the step as written with its unit."""
     for index, line in enumerate(lines[:HEADER_LINES]):
         for pattern in _COUNTS:
             match = pattern.search(line)
             if match and is_number(match["step"]):
-                return index, int(match["points"]), match["step"]
+                return index, int(match["points"]), match["step"], match["unit"] or ""
     return None
 
 
-def _agreed_step(written: str, dt: float | None, file: str, remarks: list[str]) -> float:
-    step = to_float(written)
-    if not SHORTEST_STEP <= step <= LONGEST_STEP:
-        raise RecordFormatError(
-            f"DT of {file} must be a step between {SHORTEST_STEP:g} and {LONGEST_STEP:g} s; got {written}"
-        )
+def _agreed_step(step: float, dt: float | None, written: str, file: str, remarks: list[str]) -> float:
     if dt is None:
         binary = 2 ** round(-math.log2(step))  # digital recorders sampled 128, 200 or 256 times a second
         if 0.0 < abs(1.0 / binary - step) <= HEADER_ROUNDING:
-            remarks.append(f"step {written} s taken as written; it may be 1/{binary} s rounded, which dt= would give")
+            remarks.append(f"step {written} taken as written; it may be 1/{binary} s rounded, which dt= would give")
         return step
     if abs(dt - step) > HEADER_ROUNDING:
-        raise RecordFormatError(f"dt of {file} must agree with its header, {written} s; got {dt:g} s")
+        raise RecordFormatError(f"dt of {file} must agree with its header, {written}; got {dt:g} s")
     if dt != step:
-        remarks.append(f"step {dt!r} s given instead of the header's rounded {written} s")
+        remarks.append(f"step {dt!r} s given instead of the header's rounded {written}")
     return dt
 
 
-def _agreed_unit(stated: str | None, unit: str | None, file: str) -> str:
+def _agreed_unit(header: str, unit: str | None, file: str) -> str:
+    stated, unknown = stated_unit(header), unknown_unit(header)
     if stated and unit and stated != unit:
         raise RecordFormatError(f"unit of {file} must be that of its header, {stated}; got {unit}")
+    if unknown and not unit:
+        raise RecordFormatError(
+            f"unit of {file} must be one of {', '.join(ACCELERATION_UNITS)}, or be given; got {unknown!r} in its header"
+        )
     return unit or stated or "g"
 
 

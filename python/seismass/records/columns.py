@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 
 from seismass._values import as_count
 from seismass.errors import RecordFormatError
-from seismass.records.numbers import NUMBER, is_cut_off, is_number, to_float
+from seismass.records.headers import refuse_other_quantity, stated_points, stated_step
+from seismass.records.numbers import is_cut_off, is_number, last_digit, to_float
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS, stated_unit
+from seismass.units import ACCELERATION_UNITS, stated_unit, unknown_unit
 
 UNIFORMITY: Final = 0.05
 """Largest departure of a time from uniform sampling, in steps: times are printed rounded."""
@@ -32,7 +33,6 @@ OUTSTANDING: Final = 5.0
 
 _COMMENT = ("#", "%", "//", "!")
 _SEPARATORS = re.compile(r"[,;\s]+")
-_STATED_STEP = re.compile(rf"\b(?:dt|delta\s*t|time\s*step)\b\s*(?:\((?:s|sec)\))?\s*[=:]\s*({NUMBER})", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,7 @@ def parse_columns(
         a file that is cut off, or first numbers that look like no samples but could be.
     """
     table = _read_table(text, source.name)
+    refuse_other_quantity(table.text, table.file)
     remarks: list[str] = []
     if skip is None:
         table, step_before = _without_first_numbers(table, dt, remarks)
@@ -91,8 +92,10 @@ def parse_columns(
         raise RecordFormatError(
             f"last number of {table.file} must be written as the others are; got {last[-1]!r}: the file is cut off"
         )
-    stated = _STATED_STEP.search(table.text)
-    steps = {"dt": dt, "header": to_float(stated[1]) if stated else None, "first numbers": step_before}
+    points = stated_points(table.text)
+    if points not in (None, len(values)):
+        raise RecordFormatError(f"points of {table.file} must be {points}, as its header says; got {len(values)}")
+    steps = {"dt": dt, "header": stated_step(table.text, table.file), "first numbers": step_before}
     if columns == 2:
         steps["times"] = _uniform_step(values[:, 0], table)
     return Record(
@@ -194,11 +197,14 @@ def _uniform_step(times: NDArray[np.float64], table: _Table) -> float:
             f"times of {table.file} must be uniform, here {step:.6g} s apart; "
             f"got {times[worst]:g} s in line {table.line_numbers[worst]}, {off[worst]:.3g} s off"
         )
-    # The shortest step that gives the last time back to its printed decimals: 0.01, not 0.010000000000000002.
-    decimals = max(len(row[0].partition(".")[2]) for row in (table.rows[0], table.rows[-1]))
+    # The shortest step that gives every time back to its last printed digit: 0.01, not 0.010000000000000002.
+    half_digit = 0.5 * np.array([last_digit(row[0]) for row in table.rows])
+    half_digit[0] = half_digit.min()  # a first time of "0" is no rounder than the others
+    margin = half_digit + 1e-12 * span
     for digits in range(1, 17):
         short = float(f"{step:.{digits}g}")
-        if abs(short * (len(times) - 1) - span) <= max(10.0**-decimals, 1e-12 * span):
+        start = times - short * np.arange(len(times))
+        if np.max(start - margin) <= np.min(start + margin):
             return short
     return step
 
@@ -224,7 +230,9 @@ def _unit(table: _Table, unit: str | None) -> str:
     if stated and unit and stated != unit:
         raise RecordFormatError(f"unit of {table.file} must be that of its header, {stated}; got {unit}")
     if not (unit or stated):
+        unknown = unknown_unit(table.text)
         raise RecordFormatError(
-            f"unit of {table.file} must be given ({', '.join(ACCELERATION_UNITS)}), the file states none; got none"
+            f"unit of {table.file} must be given ({', '.join(ACCELERATION_UNITS)}), the file states "
+            + (f"another; got {unknown!r}" if unknown else "none; got none")
         )
     return unit or stated or ""

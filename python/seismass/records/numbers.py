@@ -31,6 +31,12 @@ def to_float(token: str) -> float:
     return float(token.replace("D", "E").replace("d", "e"))
 
 
+def last_digit(token: str) -> float:
+    """Return the unit of the last digit of a number: 0.01 for 1.20, 1e-05 for 1.2E-04."""
+    mantissa, _, exponent = token.upper().replace("D", "E").partition("E")
+    return float(10.0 ** min(float(exponent or 0) - len(mantissa.partition(".")[2]), 300.0))
+
+
 def split_touching(token: str) -> list[str] | None:
     """Return the fields of fixed width that touch in `token` ("-.24E-03-.23E-03"), or None if it is not such a run.
 

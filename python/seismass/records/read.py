@@ -33,8 +33,9 @@ def read_record(
         Time step (s). One column needs it unless the file states it. For .AT2 it refines a step that the header
         rounded to four decimals (.0039 for 1/256 s). It must agree with what the file says.
     unit : {"g", "m/s2", "cm/s2"}, optional
-        Unit of the accelerations in the file. .AT2 files are in g. Text has no default, a wrong one being wrong by a
-        factor of ten: it must be given unless the header states it. It must agree with what the file says.
+        Unit of the accelerations in the file. .AT2 files are in g unless their header states another. Text has no
+        default, a wrong one being wrong by a factor of ten: it must be given unless the header states it. It must agree
+        with what the file says, where that is one of the three.
     format : {"at2", "columns"}, optional
         By default .AT2 by suffix or by its header, else columns.
     skip : int, optional
