@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
+from seismass.scene import MAX_STOREYS
 from seismass.scene_file import KEYS
 
 ROOT = Path(__file__).parents[1]
@@ -145,6 +146,10 @@ def test_defaults(write: Write) -> None:
         (
             {"mass": 1e3, "stiffness": 5e5, "yield_shear_over_weight": [0.1, 0.2]},
             {"mass": 1e3, "stiffness": 5e5, "yield_shear": [1961.33, 3922.66]},
+        ),
+        (
+            {"mass": 1e3, "stiffness": 5e5, "storeys": 3, "yield_shear_over_weight": [0.24, 0.20, 0.12]},
+            {"mass": 1e3, "stiffness": 5e5, "yield_shear": [3e3 * 9.80665 * part for part in (0.24, 0.20, 0.12)]},
         ),
         ({**BUILDING, "yield_shear_over_weight": 0.1}, {**BUILDING, "yield_shear": 0.1 * 3e3 * 9.80665}),
         ({**BUILDING, "yield_shear": None}, BUILDING),
@@ -283,6 +288,19 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
         sm.InvalidSceneFile,
         r"building.mass of .* must be one number where building.period is given; got \[1.0, 1.0\]",
     ),
+    *(
+        (
+            {"building": {"mass": 1.0, "stiffness": 1.0, "storeys": storeys}},
+            sm.InvalidScene,
+            f"storeys of building must be at most 1000; got {storeys}",
+        )
+        for storeys in (MAX_STOREYS + 1, 300_000_000_000)
+    ),
+    (
+        {"building": {"mass": 1.0, "stiffness": 1.0, "storeys": 3, "yield_shear_over_weight": [0.2, 0.1]}},
+        sm.InvalidScene,
+        r"yield_shear_over_weight of building must be .* a list of 3 values, one per storey; got 2 values",
+    ),
     ({"building": {"period": 0.5}}, sm.InvalidSceneFile, r"building.storeys of .* must be given; got nothing"),
     (
         {"building": {"mass": [1.0]}},
@@ -337,6 +355,31 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
         {"blocks": [changed(BLOCK, floor=7)]},
         sm.InvalidScene,
         r"floor of block 1 must be a floor of the building, 1 to 2, .*; got 7",
+    ),
+    (
+        {"blocks": [BLOCK, changed(BLOCK, floor="two")]},
+        sm.InvalidScene,
+        r"floor of block 2 must be a whole number of at least 0; got 'two'",
+    ),
+    (
+        {"blocks": [BLOCK, changed(BLOCK, mass="heavy")]},
+        sm.InvalidScene,
+        r"mass of block 2 must be a number; got 'heavy'",
+    ),
+    (
+        {"blocks": [BLOCK, changed(BLOCK, mu=-0.3)]},
+        sm.InvalidScene,
+        r"mu of block 2 must be finite and not negative; got -0.3",
+    ),
+    (
+        {"initial": {"drift": "a"}, "building": BUILDING},
+        sm.InvalidScene,
+        r"initial.drift of .* must be a number or a list of numbers; got 'a'",
+    ),
+    (
+        {"motion": changed(MOTION, scale=1e308)},
+        sm.InvalidMotion,
+        r"acceleration of motion must be finite at every sample; got -inf at sample 2",
     ),
     (
         {"blocks": [changed(BLOCK, ("mass",), floor=0, mass_ratio=1.0)]},

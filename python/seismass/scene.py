@@ -15,6 +15,8 @@ from seismass._values import FloatArray, Value, as_array, as_count, as_number, b
 from seismass.errors import InvalidScene
 from seismass.units import STANDARD_GRAVITY
 
+MAX_STOREYS: Final = 1000
+"""Most storeys of a building, as the kernel has it."""
 DEFAULT_DAMPING: Final = 0.05
 """Ratio of critical damping in every vibration mode."""
 DEFAULT_OVERSTRENGTH: Final = 2.0

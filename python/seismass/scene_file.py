@@ -16,7 +16,7 @@ import numpy as np
 from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
 from seismass.errors import InvalidMotion, InvalidScene, InvalidSceneFile
 from seismass.records import Record, read_record
-from seismass.scene import Block, Building, Rayleigh, Scene, as_fraction_of_weight
+from seismass.scene import MAX_STOREYS, Block, Building, Rayleigh, Scene, as_fraction_of_weight
 from seismass.simulate import Motion
 from seismass.units import ACCELERATION_UNITS
 
@@ -137,9 +137,9 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
             initial.empty("there is no building")
     scene = Scene(
         building,
-        [_block(table) for table in top.tables("blocks")],
-        initial_drift=None if initial is None else initial.values.get("drift"),
-        initial_velocity=None if initial is None else initial.values.get("velocity"),
+        [_block(table, number) for number, table in enumerate(top.tables("blocks"), start=1)],
+        initial_drift=None if initial is None else initial.per_storey("drift"),
+        initial_velocity=None if initial is None else initial.per_storey("velocity"),
         collapse_drift=top.values.get("collapse_drift"),
         name=name,
         note=note,
@@ -250,6 +250,10 @@ class _Table:
             self.refuse(key, "text", brief(value))
         return value
 
+    def per_storey(self, key: str) -> FloatArray | None:
+        value = self.values.get(key)
+        return None if value is None else as_array(value, self.key(key), self._file, InvalidScene, or_number=True)
+
     def number(self, key: str, default: float) -> float:
         return as_number(self.values.get(key, default), self.key(key), self._file, InvalidSceneFile)
 
@@ -283,18 +287,27 @@ def _building(table: _Table) -> Building:
     table.needed("stiffness", "period")
     table.needed("mass")
     mass, stiffness = table.values["mass"], table.values["stiffness"]
-    if "storeys" in table.values:
-        count = as_count(table.values["storeys"], "storeys", "building", InvalidScene, least=1)
-        if isinstance(mass, list) or isinstance(stiffness, list):
-            table.refuse("storeys", "left out where mass or stiffness is a list", str(count))
+    count = _storeys(table, over_weight, springs)
+    if count is not None:
         mass = np.full(count, as_number(mass, "mass", "building", InvalidScene))
     if over_weight is None:
         return Building(mass, stiffness, **springs)
-    listed = any(isinstance(value, list) for value in (mass, stiffness, *springs.values()))
-    if isinstance(over_weight, list) and over_weight and not listed:
-        mass = np.full(len(over_weight), as_number(mass, "mass", "building", InvalidScene))
     building = Building(mass, stiffness, **springs)
     return building.replace(yield_shear=as_fraction_of_weight(over_weight, building.storeys) * building.weight)
+
+
+def _storeys(table: _Table, over_weight: Any, springs: dict[str, Any]) -> int | None:
+    """Number of storeys as stated, or that of the strengths over the weight where nothing else is a list."""
+    listed = any(isinstance(table.values[key], list) for key in ("mass", "stiffness"))
+    if "storeys" in table.values:
+        count = as_count(table.values["storeys"], "storeys", "building", InvalidScene, least=1)
+        if listed:
+            table.refuse("storeys", "left out where mass or stiffness is a list", str(count))
+        if count > MAX_STOREYS:
+            raise refusal(InvalidScene, "storeys", "building", f"at most {MAX_STOREYS}", str(count))
+        return count
+    listed = listed or any(isinstance(value, list) for value in springs.values())
+    return len(over_weight) if isinstance(over_weight, list) and over_weight and not listed else None
 
 
 def _yield_shear(value: Any) -> Any:
@@ -318,15 +331,19 @@ def _damping(building: _Table) -> float | Rayleigh | FloatArray:
     return Rayleigh(ratio, table.values["modes"]) if kind == "rayleigh" else ratio
 
 
-def _block(table: _Table) -> Block:
+def _block(table: _Table, number: int) -> Block:
     table.known(KEYS["blocks"])
     table.needed("floor")
     table.needed("mass", "mass_ratio")
     table.needed("mu", "mu_s")
     table.excluded("mass_ratio", "mass")
     table.excluded("mu", "mu_s", "mu_k")
-    values = dict(table.values)
-    return Block(values.pop("floor"), **values)
+    owner = f"block {number}"
+    floor = as_count(table.values["floor"], "floor", owner, InvalidScene)
+    values = {key: as_number(value, key, owner, InvalidScene) for key, value in table.values.items() if key != "floor"}
+    if "mu" in values and not 0.0 <= values["mu"] < np.inf:  # the kernel would call it mu_s
+        raise refusal(InvalidScene, "mu", owner, "finite and not negative", f"{values['mu']:g}")
+    return Block(floor, **values)
 
 
 def _motions(top: _Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:
@@ -356,12 +373,16 @@ def _samples(table: _Table, folder: Path) -> tuple[FloatArray, float, Record | N
         table.refuse("scale", "a finite number", f"{scale:g}")
     if not (np.isfinite(dt_scale) and dt_scale > 0.0):
         table.refuse("dt_scale", "a positive number", f"{dt_scale:g}")
+    record, in_si = None, 1.0
     if "file" in table.values:
         file = table.text("file")
         dt = table.number("dt", 0.0) if "dt" in table.values else None
         record = read_record(folder / file, dt=dt, unit=unit)
-        return record.acceleration * scale, record.dt * dt_scale, record
-    table.needed("dt")
-    samples = as_array(table.values["acceleration"], "acceleration", "motion", InvalidMotion)
-    dt = as_number(table.values["dt"], "dt", "motion", InvalidMotion)
-    return samples * ACCELERATION_UNITS[unit or "m/s2"] * scale, dt * dt_scale, None
+        samples, dt = record.acceleration, record.dt
+    else:
+        table.needed("dt")
+        samples = as_array(table.values["acceleration"], "acceleration", "motion", InvalidMotion)
+        in_si = ACCELERATION_UNITS[unit or "m/s2"]
+        dt = as_number(table.values["dt"], "dt", "motion", InvalidMotion)
+    with np.errstate(over="ignore"):  # the motion refuses what is not finite
+        return samples * in_si * scale, dt * dt_scale, record
