@@ -413,10 +413,8 @@ def test_command_prints_json_and_takes_options(tmp_path: Path, capsys: pytest.Ca
             "path of target spectrum must be a file of text that can be read; got nowhere.csv",
         ),
         (["--target", "x.csv", "--sds", "1"], "sds of target spectrum must be left out where --target is given; got 1"),
-        (["--sds", "-1"], "sds_g of target spectrum must be a positive number; got -1"),
         (["--mu", "nan"], "mu of study must be zero or positive; got nan"),
         (["--third-slope", "0.2"], "third_slope of study must be between 0 and the second slope; got 0.2"),
-        (["--period", "0"], "scaling_period of study must be a positive number; got 0"),
         (["--out", __file__], "out of study must be a folder that can be written to"),
     ],
 )
@@ -437,11 +435,27 @@ def test_bad_input_is_one_line_and_exit_code_2(
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("arguments", [["study", "--jobs", "0"], ["study", "--mu", "x"], ["nothing"], []])
-def test_command_line_that_cannot_be_read_exits_with_2(arguments: list[str]) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["study", "--jobs", "0"], "argument --jobs: must be a whole number from 1 to 1024; got '0'"),
+        (["study", "--jobs", "5000"], "argument --jobs: must be a whole number from 1 to 1024; got '5000'"),
+        (["study", "--period", "-1"], "argument --period: must be a positive number; got '-1'"),
+        (["scale", "--period", "inf"], "argument --period: must be a positive number; got 'inf'"),
+        (["scale", "--sds", "0"], "argument --sds: must be a positive number; got '0'"),
+        (["scale", "--tl", "long"], "argument --tl: must be a positive number; got 'long'"),
+        (["study", "--mu", "x"], "argument --mu: invalid float value: 'x'"),
+        (["nothing"], "invalid choice: 'nothing'"),
+        ([], "the following arguments are required: COMMAND"),
+    ],
+)
+def test_command_line_that_cannot_be_read_exits_with_2(
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     with pytest.raises(SystemExit) as exit_:
         command(*arguments)
     assert exit_.value.code == 2
+    assert message in capsys.readouterr().err
 
 
 def test_failed_runs_give_exit_code_1(small: StudyResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

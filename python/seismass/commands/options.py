@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,16 +23,16 @@ def add_motion_options(parser: argparse.ArgumentParser) -> None:
         help="folder of .AT2 files, or a CSV with a column `file` (default: the built-in synthetic suite)",
     )
     motions.add_argument("--target", type=Path, metavar="CSV", help="target spectrum: period (s), Sa (g)")
-    motions.add_argument("--sds", type=float, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
-    motions.add_argument("--sd1", type=float, metavar="G", help="S_D1, g (0.61)")
+    motions.add_argument("--sds", type=positive_option, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
+    motions.add_argument("--sd1", type=positive_option, metavar="G", help="S_D1, g (0.61)")
     motions.add_argument(
         "--tl",
-        type=float,
+        type=positive_option,
         metavar="S",
         help="T_L, s (8); the three defaults stand in for the Port of Long Beach and are not its published spectrum",
     )
     motions.add_argument(
-        "--period", type=float, default=1.0, metavar="T", help="motions are scaled from 0.2 T to 1.5 T (1 s)"
+        "--period", type=positive_option, default=1.0, metavar="T", help="motions are scaled from 0.2 T to 1.5 T (1 s)"
     )
 
 
@@ -93,7 +94,7 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
     Raises
     ------
     InvalidOption
-        A CSV is given together with a number of the ASCE 7 shape, or a number is out of its range.
+        A CSV is given together with a number of the ASCE 7 shape, or T_L is below T_S.
     """
     from seismass.errors import InvalidOption
     from seismass.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
@@ -111,12 +112,22 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
     return TargetSpectrum.asce7(sds, sd1, tl)
 
 
-def count_option(text: str) -> int:
-    """Return a whole number of at least one."""
+def positive_option(text: str) -> float:
+    """Return a positive number."""
     try:
-        number = int(text)
+        number = float(text)
     except ValueError:
-        number = 0
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"must be a whole number of at least 1; got {text!r}")
+        number = 0.0
+    if not 0.0 < number < math.inf:
+        raise argparse.ArgumentTypeError(f"must be a positive number; got {text!r}")
+    return number
+
+
+def threads_option(text: str) -> int:
+    """Return a number of threads."""
+    from seismass.batch import MAX_THREADS
+
+    number = int(text) if text.isdecimal() else 0
+    if not 1 <= number <= MAX_THREADS:
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to {MAX_THREADS}; got {text!r}")
     return number

@@ -12,10 +12,10 @@ from typing import Any
 
 from seismass.commands.options import (
     add_motion_options,
-    count_option,
     left_out,
     read_motions,
     read_target,
+    threads_option,
     warn_left_out,
 )
 
@@ -51,7 +51,7 @@ def add_parser(subparsers: Any) -> None:
         "--combination", choices=("srss", "cqc"), default="srss", help="modal combination of the design (srss)"
     )
     output = parser.add_argument_group("running and output")
-    output.add_argument("--jobs", type=count_option, metavar="N", help="threads (all cores); changes no digit")
+    output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
     output.add_argument("--json", action="store_true", help="print the metadata and findings as JSON")
     output.add_argument("--no-figures", action="store_true", help="write tables only")
     parser.set_defaults(run=run)
