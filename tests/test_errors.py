@@ -682,6 +682,12 @@ CASES: list[Case] = [
         r"pairs of batch must be rows of .*; got",
     ),
     (
+        "too many runs",
+        lambda: sm.stream_many([block()] * 70_000, [QUIET] * 70_000),
+        sm.InvalidOption,
+        r"runs of batch must be at most 4294967295; got 4900000000",
+    ),
+    (
         "no threads",
         lambda: sm.simulate_many(block(), QUIET, threads=0),
         sm.InvalidOption,

@@ -106,7 +106,7 @@ def stream_many(
 ) -> Iterator[pl.DataFrame]:
     """Solve many scenes under many motions and give the rows of `simulate_many` in frames of bounded size, in order.
 
-    No more than one chunk of scenes and results is held, however many runs there are. The values do not depend on the
+    Beside the arguments no more than one chunk of runs is held, however many there are. The values do not depend on the
     size of chunks. Arguments are judged at once; runs are solved when their frame is asked for.
 
     Parameters
@@ -241,7 +241,7 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
     else:
         listed = _listed_scenes(scenes)
         chosen = _motions(given)
-        batch = _SceneBatch(listed, chosen, _pairs(pairs, len(listed), len(chosen)))
+        batch = _SceneBatch(listed, chosen, None if pairs is None else _pairs(pairs, len(listed), len(chosen)))
     if batch.total > MAX_RUNS:
         raise refusal(InvalidOption, "runs", "batch", f"at most {MAX_RUNS}", str(batch.total))
     return batch
@@ -249,18 +249,24 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
 
 @dataclass(frozen=True, slots=True)
 class _SceneBatch:
-    """Runs of scenes that exist as objects."""
+    """Runs of scenes that exist as objects: those of `pairs`, or every scene under every motion."""
 
     scenes: list[Scene]
     motions: list[Motion]
-    rows: IndexArray
+    pairs: IndexArray | None
 
     @property
     def total(self) -> int:
-        return len(self.rows)
+        return len(self.scenes) * len(self.motions) if self.pairs is None else len(self.pairs)
+
+    def _rows(self, runs: range) -> IndexArray:
+        """Scene and motion of each run."""
+        if self.pairs is not None:
+            return self.pairs[runs.start : runs.stop]
+        return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.motions), 1)), axis=1)
 
     def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame:
-        rows = self.rows[runs.start : runs.stop]
+        rows = self._rows(runs)
         used, scene = np.unique(rows[:, 0], return_inverse=True)
         chosen = [self.scenes[number] for number in used]
         batch = _kernel.simulate_many(
@@ -320,11 +326,8 @@ def _listed_scenes(scenes: Any) -> list[Scene]:
     return listed
 
 
-def _pairs(pairs: ArrayLike | None, scenes: int, motions: int) -> NDArray[np.int64]:
+def _pairs(pairs: ArrayLike, scenes: int, motions: int) -> IndexArray:
     """Runs as rows of (scene, motion)."""
-    if pairs is None:
-        product = np.indices((scenes, motions), dtype=np.int64).reshape(2, -1)
-        return np.ascontiguousarray(product.T)
     requirement = "rows of (index of scene, index of motion)"
     try:
         rows = np.asarray(pairs)
