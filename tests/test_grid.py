@@ -178,6 +178,23 @@ def test_parquet_holds_the_same_rows_and_names_the_instructions(tmp_path: Path) 
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.parametrize("path", ["", ".", "/", "folder"])
+def test_a_folder_is_no_file_to_write_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("folder").mkdir()
+    started: list[int] = []
+    with pytest.raises(IsADirectoryError):
+        sm.write_many(path, aligned(), MOTIONS, progress=lambda done, _: started.append(done))
+    assert not started
+    assert [file.name for file in tmp_path.iterdir()] == ["folder"]
+
+
+def test_a_file_may_have_a_name_as_long_as_the_system_allows(tmp_path: Path) -> None:
+    path = tmp_path / f"{'x' * 242}.parquet"
+    sm.write_many(path, aligned(), MOTIONS)
+    assert list(tmp_path.iterdir()) == [path]
+
+
 def test_a_file_that_is_not_finished_does_not_appear(tmp_path: Path) -> None:
     def fail(done: int, total: int) -> None:
         if done > 20:

@@ -366,6 +366,16 @@ def test_nothing_is_left_when_writing_stops(
     assert list((tmp_path / "out").iterdir()) == []
 
 
+def test_no_file_is_changed_where_one_cannot_be(small: StudyResult, tmp_path: Path) -> None:
+    (tmp_path / "summary.csv").write_text("earlier")
+    (tmp_path / "drift_R2.svg").write_text("earlier")
+    (tmp_path / "drift_R4.svg").mkdir()
+    with pytest.raises(IsADirectoryError, match=r"drift_R4\.svg"):
+        write.write_study(small, tmp_path)
+    assert {file.name for file in tmp_path.iterdir()} == {"summary.csv", "drift_R2.svg", "drift_R4.svg"}
+    assert (tmp_path / "summary.csv").read_text() == "earlier"
+
+
 def command(*arguments: object) -> int:
     return cli.main([str(argument) for argument in arguments])
 

@@ -178,7 +178,7 @@ def write_many(
     frames = stream_many(
         scenes, motions, pairs=pairs, chunk=chunk, peaks_only=peaks_only, threads=threads, progress=progress
     )
-    with written_whole(target) as temporary, TemporaryDirectory(dir=target.parent, prefix=f".{target.name}.") as folder:
+    with written_whole(target) as temporary, TemporaryDirectory(dir=target.parent, prefix=".seismass-") as folder:
         parts = []
         for number, frame in enumerate(frames):
             parts.append(Path(folder, f"{number}.parquet"))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from uuid import uuid4
 
 
 @contextmanager
@@ -16,6 +18,11 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     ----------
     path : path-like
         The file to write; its folder must exist.
+
+    Raises
+    ------
+    OSError
+        The path is a folder, or its folder is missing or cannot be written to; before anything is written.
 
     Examples
     --------
@@ -28,7 +35,10 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     'whole'
     """
     target = Path(path)
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.part")
+    if not target.name or target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(target))
+    # A name of its own, as one made of the target's could be too long.
+    temporary = target.with_name(f".seismass-{uuid4().hex}.part")
     # Fails here, with the system's reason, where the folder is missing or cannot be written.
     temporary.open("xb").close()
     try:

@@ -86,7 +86,7 @@ def write_study(result: StudyResult, out: Path, *, figures: bool = True) -> list
     with ExitStack() as stack:
         for name, write in writers.items():
             write(stack.enter_context(written_whole(out / name)))
-        for file in list(out.iterdir()):
-            if FIGURE_FILE.fullmatch(file.name) and file.name not in writers and file.is_file():
-                file.unlink()
+    for file in list(out.iterdir()):
+        if FIGURE_FILE.fullmatch(file.name) and file.name not in writers and file.is_file():
+            file.unlink()
     return [out / name for name in writers]
