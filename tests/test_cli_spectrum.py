@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -81,3 +82,27 @@ def test_what_is_left_out_is_said_beside_the_table(tmp_path: Path, capsys: pytes
     printed = capsys.readouterr()
     assert printed.err == ""
     assert says in printed.out
+
+
+def test_motions_of_one_name_are_told_apart(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    motions = [record.source for record in sm.builtin_suite() if record.source is not None][:2]
+    for folder, motion in zip(("a", "b"), motions, strict=True):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "1.AT2").write_text(motion.read_text())
+    assert spectrum(tmp_path) == 0
+    table = pl.read_csv(capsys.readouterr().out.encode())
+    assert table.select("motion", "record").rows() == [(1, 1), (1, 1), (2, 1), (2, 1)]
+
+
+def test_remarks_of_a_record_are_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "one.txt").write_text(f"{len(SAMPLES)}\n0.01\n" + "".join(f"{x:.6f}\n" for x in SAMPLES))
+    remark = "first numbers 400 and 0.01 taken as number of points and step, not as samples"
+    assert spectrum(tmp_path / "one.txt", "--unit", "g") == 0
+    assert capsys.readouterr().err == f"seismass: motion 1, one: {remark}\n"
+    (tmp_path / "scene.toml").write_text(
+        "[[blocks]]\nfloor = 0\nmass = 1.0\nmu = 0.1\n[motion]\nfile = 'one.txt'\nunit = 'g'\n"
+    )
+    assert main(["run", str(tmp_path / "scene.toml")]) == 0
+    assert f"one: {remark}\n" in capsys.readouterr().out
+    assert main(["run", str(tmp_path / "scene.toml"), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["remarks"] == [remark]

@@ -12,6 +12,7 @@ import pytest
 import seismass as sm
 from seismass import cli
 from seismass.report import write
+from seismass.report.figures import study_figures, suite_caption
 from seismass.report.findings import findings, findings_text
 from seismass.spectra import mean_spectrum
 from seismass.study import StudyParameters, StudyResult, _display_names, run_study
@@ -208,6 +209,15 @@ def test_findings_are_counted_from_the_summary() -> None:
     assert "+30 % (storey 1 of 2, R = 2, alpha = 1)" in findings_text([entry])
 
 
+def test_rounding_is_no_finding() -> None:
+    """mu = 0: real and commercial ASCE model are one building, and its drifts agree to rounding."""
+    chosen = StudyParameters(buildings=((2, 0.38),), occupancies=(("commercial", 0.0),), mu=0.0)
+    summary = run_study(sm.builtin_suite(), TARGET, chosen).summary
+    assert (summary["underestimation_percent"] != 0.0).any()
+    (entry,) = findings(summary)
+    assert (entry["asce_gives_more"], entry["growth"]["alpha"]["grows"], entry["growth"]["R"]["grows"]) == (0, 0, 0)
+
+
 def one_storey(values: dict[tuple[float, float], float | None]) -> pl.DataFrame:
     """Summary of one-storey buildings: underestimation (%) by period and alpha."""
     rows = [("all", 1.0, 1, period, 2.0, alpha, 1, value) for (period, alpha), value in values.items()]
@@ -294,7 +304,8 @@ def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -
     assert document["schema_version"] == 1
     assert document["package_version"] == sm.__version__
     assert document["parameters"]["second_slope"] == 0.05
-    assert document["suite"]["synthetic"] is True
+    assert document["instructions"] == sm.instruction_set()
+    assert document["suite"]["synthetic"] == 7
     for name in ("spectrum", "underestimation", "drift_R1", "drift_R4"):
         assert (out / f"{name}.png").read_bytes().startswith(b"\x89PNG")
         assert (out / f"{name}.svg").read_text().startswith("<?xml")
@@ -344,6 +355,54 @@ def test_names_of_motions_differ(labels: list[tuple[str, str, str]], names: list
     shown = _display_names(suite)
     assert shown[: len(names)] == names
     assert len(set(shown)) == len(suite)
+
+
+def test_recorded_and_synthetic_motions_are_counted_apart(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    records = list(sm.builtin_suite())[:3]
+    mixed = sm.Suite("mixed", (*records[:2], records[2].replace(synthetic=False, remarks=("found in a drawer",))))
+    result = run_study(mixed, TARGET, SMALL)
+    assert result.metadata["suite"]["synthetic"] == 2
+    assert result.metadata["suite"]["motions"][2]["remarks"] == ["found in a drawer"]
+    says = "3 motions, 2 synthetic and 1 recorded"
+    assert suite_caption(result).startswith(f"{says} (mixed), scaled")
+    (legend,) = study_figures(result)["spectrum"].legends
+    assert legend.get_texts()[0].get_text() == f"mean of {says}, scaled"
+    monkeypatch.setattr("seismass.study.run_study", lambda *_, **__: result)
+    assert command("study", "--out", tmp_path / "out", "--no-figures") == 0
+    printed = capsys.readouterr().out
+    assert f": {says}\n" in printed
+    assert "   found in a drawer\n" in printed
+
+
+def test_spectra_are_tabulated_over_the_periods_of_the_scaling(tmp_path: Path) -> None:
+    """A target from 3.5 s on, of a suite scaled for a period of 20 s: none of the usual periods."""
+    file = tmp_path / "long.csv"
+    file.write_text("period,sa\n3.5,0.1\n60,0.001\n")
+    chosen = StudyParameters(
+        buildings=((2, 4.0),), response_modification=(4.0,), mass_ratios=(1e-3,), scaling_period=20.0
+    )
+    spectrum = run_study(sm.builtin_suite(), sm.TargetSpectrum.from_csv(file), chosen).spectrum
+    assert (spectrum["period"][0], spectrum["period"][-1]) == (3.5, 30.0)
+
+
+def test_figures_tell_every_alpha_and_r_apart() -> None:
+    chosen = StudyParameters(
+        buildings=((2, 0.38),),
+        occupancies=(("all of $x$", 0.25),),
+        response_modification=(2.0, 2.0000001),
+        mass_ratios=(0.25, 0.5, 0.75, 1.0, 1.25),
+    )
+    result = run_study(sm.Suite("x$_$y", sm.builtin_suite().records), TARGET, chosen)
+    figures = study_figures(result)
+    assert list(figures) == ["spectrum", "underestimation", "drift_R2", "drift_R2.0000001"]
+    assert all(write.FIGURE_FILE.fullmatch(f"{name}.png") for name in figures)
+    (axes,) = figures["underestimation"].axes
+    points = [line for line in axes.lines if line.get_marker() not in ("_", "None", "")]
+    assert len({(line.get_color(), line.get_marker()) for line in points}) == len(points) == 5
+    places = np.sort(np.concatenate([line.get_xdata() for line in points]))
+    np.testing.assert_allclose(np.diff(places), [*[0.16] * 4, 0.36, *[0.16] * 4])
 
 
 def test_schema_of_the_tables_is_documented(small: StudyResult) -> None:
@@ -497,7 +556,7 @@ def test_version_spectrum_and_scale_commands(capsys: pytest.CaptureFixture[str],
     record.write_text("time (s), acceleration (m/s2)\n" + "".join(f"{0.01 * i:.2f}, 2.0\n" for i in range(300)))
     assert command("spectrum", record, "--periods", 0.5, 1.0, "--damping", 0.0, "--kind", "sd") == 0
     table = pl.read_csv(capsys.readouterr().out.encode())
-    assert table.columns == ["record", "damping", "period", "sd"]
+    assert table.columns == ["motion", "record", "damping", "period", "sd"]
     w = 2.0 * np.pi / np.array([0.5, 1.0])
     np.testing.assert_allclose(table["sd"], 4.0 / w**2, rtol=1e-12)
 
@@ -505,5 +564,9 @@ def test_version_spectrum_and_scale_commands(capsys: pytest.CaptureFixture[str],
     document = json.loads(capsys.readouterr().out)
     expected = sm.scale_asce7_10(sm.builtin_suite(), TARGET)
     assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
+    assert document["motions"][0]["remarks"] == list(sm.builtin_suite()[0].remarks)
     assert command("scale") == 0
-    assert "synthetic-1" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert "synthetic-1" in printed
+    assert "100 periods from 0.2 to 1.5 s" in printed
+    assert sm.builtin_suite()[0].remarks[0] in printed

@@ -24,7 +24,7 @@ class ScalingResult:
     individual : ndarray, shape (motions,)
         SF1: brings each motion as close to the target as one factor can, in the logarithm.
     common : float
-        SF2: lifts the mean spectrum until it is nowhere below the target.
+        SF2: lifts the mean spectrum until it is not below the target at any of the periods.
     factors : ndarray, shape (motions,)
         SF1 SF2, by which accelerations are multiplied.
     periods : ndarray, shape (periods,)
@@ -76,7 +76,7 @@ def scale_asce7_10(
     count: int = 100,
     threads: int | None = None,
 ) -> ScalingResult:
-    """Return the unique factors by which the mean spectrum of a suite is not below the target.
+    """Return the unique factors by which the mean spectrum of a suite is not below the target at `count` periods.
 
     Parameters
     ----------
@@ -91,7 +91,8 @@ def scale_asce7_10(
     period_range : tuple of float
         Range of the comparison as multiples of T.
     count : int
-        Periods in the range, in geometric spacing, ends included; the factors depend on it a little.
+        Periods in the range, in geometric spacing, ends included, at which the mean is compared. The factors depend on
+        it a little: between two of them the mean may be below the target by some tenths of a per cent.
     threads : int, optional
         Number of threads; default all cores.
 

@@ -32,6 +32,7 @@ from seismass.scene import (
     Scene,
     blocks_on_floors,
 )
+from seismass.simulate import instruction_set
 from seismass.spectra import TargetSpectrum, mean_spectrum, response_spectrum
 from seismass.units import STANDARD_GRAVITY
 
@@ -41,8 +42,9 @@ SCHEMA_VERSION: Final = 1
 Model: TypeAlias = Literal["real", "asce"]
 MODELS: Final = get_args(Model)
 
-SPECTRUM_PERIODS: Final = np.geomspace(0.05, 3.0, 200)
-"""Periods (s) at which the spectra are tabulated for the figure; nothing is interpolated from them."""
+SPECTRUM_RANGE: Final = (0.05, 3.0)
+SPECTRUM_POINTS: Final = 200
+"""Periods (s) at which the spectra are tabulated for the figure, and those of the scaling; nothing is interpolated."""
 
 _LISTED: Final = "a tuple of at least one value, none twice"
 
@@ -301,6 +303,7 @@ def run_study(
     def design_spectrum(periods: FloatArray) -> FloatArray:
         return mean_spectrum(suite, scaling.factors, periods, chosen.damping, threads=threads)
 
+    spectrum = _spectrum(suite, target, scaling, chosen.damping, threads)
     buildings = list(study_buildings(chosen, design_spectrum))
     motions = [record.scaled(factor).motion for record, factor in zip(suite, scaling.factors, strict=True)]
     runs = [(building.scenes[model], motion) for building in buildings for model in MODELS for motion in motions]
@@ -319,17 +322,18 @@ def run_study(
         responses=responses,
         summary=_summary(responses),
         designs=_designs(buildings),
-        spectrum=_spectrum(suite, target, scaling, chosen.damping, threads),
+        spectrum=spectrum,
         scaling=scaling,
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
+            "instructions": instruction_set(),
             "inputs_sha256": _digest(suite, target, chosen),
             "parameters": asdict(chosen),
             "target": {"label": target.label, **target.parameters},
             "suite": {
                 "name": suite.name,
-                "synthetic": any(record.synthetic for record in suite),
+                "synthetic": sum(record.synthetic for record in suite),
                 "motions": [
                     {
                         "motion": number,
@@ -340,6 +344,7 @@ def run_study(
                         "dt": record.dt,
                         "pga_g": record.pga_g,
                         "factor": float(factor),
+                        "remarks": list(record.remarks),
                     }
                     for number, (record, name, factor) in enumerate(
                         zip(suite, names, scaling.factors, strict=True), start=1
@@ -356,6 +361,15 @@ def run_study(
             },
         },
     )
+
+
+def motions_text(suite: dict[str, Any]) -> str:
+    """Return how many motions a study has, and of which kind, from the `suite` of its metadata."""
+    motions, synthetic = len(suite["motions"]), suite["synthetic"]
+    if synthetic == motions:
+        return f"{motions} synthetic motions"
+    kinds = f", {synthetic} synthetic and {motions - synthetic} recorded" if synthetic else ""
+    return f"{motions} motions{kinds}"
 
 
 def _display_names(suite: Suite) -> list[str]:
@@ -492,9 +506,12 @@ def _designs(buildings: list[StudyBuilding]) -> pl.DataFrame:
 def _spectrum(
     suite: Suite, target: TargetSpectrum, scaling: ScalingResult, damping: float, threads: int | None
 ) -> pl.DataFrame:
-    inside = (target.shortest <= SPECTRUM_PERIODS) & (target.longest >= SPECTRUM_PERIODS)
-    shortest = 1e-3 * max(record.dt for record in suite)
-    periods = SPECTRUM_PERIODS[inside & (shortest <= SPECTRUM_PERIODS)]
+    """Spectra over the usual periods and those of the scaling, as far as target and motions have them."""
+    shortest = max(
+        min(SPECTRUM_RANGE[0], scaling.periods[0]), target.shortest, 1e-3 * max(record.dt for record in suite)
+    )
+    longest = min(max(SPECTRUM_RANGE[1], scaling.periods[-1]), target.longest)
+    periods = np.geomspace(shortest, longest, SPECTRUM_POINTS)
     scaled = scaling.factors[:, None] * response_spectrum(suite, periods, damping, threads=threads)
     motions = {f"motion_{number}": row for number, row in enumerate(scaled, start=1)}
     return pl.DataFrame({"period": periods, "target": target(periods), "mean": scaled.mean(axis=0), **motions})

@@ -83,6 +83,13 @@ def warn_left_out(suite: Suite) -> None:
         print(f"seismass: {line}", file=sys.stderr)
 
 
+def warn_remarks(suite: Suite) -> None:
+    """Print on standard error what the records say of themselves, where standard output has no place for it."""
+    for number, record in enumerate(suite, start=1):
+        for remark in record.remarks:
+            print(f"seismass: motion {number}, {record.name}: {remark}", file=sys.stderr)
+
+
 def left_out(suite: Suite) -> list[str]:
     """Return a line for each file of the folder that the suite left out, with the reason."""
     return [f"left out {item.file.name}: {item.reason}" for item in suite.excluded]

@@ -109,6 +109,7 @@ def as_json(file: SceneFile, response: Response) -> dict[str, Any]:
         "collapsed_storey": response.collapsed_storey,
         "end_time": response.end_time,
         "dt": file.motion.dt,
+        "remarks": [remark for record in file.records for remark in record.remarks],
         **{name: getattr(response, name).tolist() for name in lists},
         "peak_base_shear": response.peak_base_shear,
     }
@@ -149,6 +150,7 @@ def summary(file: SceneFile, response: Response) -> str:
         f"  motion    {source}{motion.samples} samples at {motion.dt:g} s ({motion.duration:g} s), "
         f"PGA {motion.pga_g:.3f} g{vertical}"
     )
+    lines += [f"            {record.name}: {remark}" for record in file.records for remark in record.remarks]
     if scene.building is not None:
         lines += ["", *_aligned(_storey_table(response))]
     if scene.blocks:

@@ -20,7 +20,8 @@ def add_parser(subparsers: Any) -> None:
     parser = subparsers.add_parser(
         "scale",
         help="scale a suite to a target spectrum (ASCE 7-10)",
-        description="Factors by which the mean spectrum of a suite is not below the target from 0.2 T to 1.5 T.",
+        description="Factors by which the mean spectrum of a suite is not below the target at 100 periods from 0.2 T "
+        "to 1.5 T.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -38,12 +39,13 @@ def run(args: argparse.Namespace) -> int:
     scaling = scale_asce7_10(suite, target, args.period)
     if args.json:
         warn_left_out(suite)
+        rows = zip(scaling.table().to_dicts(), suite, strict=True)
         document = {
             "suite": suite.name,
             "target": target.label,
             "common_factor": scaling.common,
             "governing_period": scaling.governing_period,
-            "motions": scaling.table().to_dicts(),
+            "motions": [{**row, "remarks": list(record.remarks)} for row, record in rows],
             "spectrum": scaling.spectrum_table().to_dict(as_series=False),
         }
         print(json.dumps(document, indent=2))
@@ -53,10 +55,12 @@ def run(args: argparse.Namespace) -> int:
         print(f"        {line}")
     print(f"target  {target.label}")
     print(
-        f"range   {scaling.periods[0]:g} to {scaling.periods[-1]:g} s; the mean touches the target at "
-        f"{scaling.governing_period:.4g} s; SF2 = {scaling.common:.6f}\n"
+        f"range   {len(scaling.periods)} periods from {scaling.periods[0]:g} to {scaling.periods[-1]:g} s; "
+        f"the mean touches the target at {scaling.governing_period:.4g} s; SF2 = {scaling.common:.6f}\n"
     )
     print("     SF1       SF       record")
-    for row in scaling.table().iter_rows(named=True):
+    for row, record in zip(scaling.table().iter_rows(named=True), suite, strict=True):
         print(f"{row['motion']:>3}  {row['individual_factor']:<8.5f}  {row['factor']:<8.5f} {row['record']}")
+        for remark in record.remarks:
+            print(f"{'':26}{remark}")
     return 0

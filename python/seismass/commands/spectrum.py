@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from seismass.commands.options import read_records, warn_left_out
+from seismass.commands.options import read_records, warn_left_out, warn_remarks
 from seismass.units import ACCELERATION_UNITS
 
 _KINDS = {"psa": "pseudo_acceleration", "psv": "pseudo_velocity", "sd": "displacement"}
@@ -17,7 +17,7 @@ _EPILOG = """examples:
   seismass spectrum suite.csv --periods 0.2 1.0 --kind sd
   seismass spectrum records/ > spectra.csv
 
-Columns: record, damping, period (s) and the ordinate: psa_g (g), psv (m/s) or sd (m).
+Columns: motion (number from 1), record, damping, period (s) and the ordinate: psa_g (g), psv (m/s) or sd (m).
 exit codes: 0 done, 2 bad input"""
 
 
@@ -56,12 +56,14 @@ def run(args: argparse.Namespace) -> int:
 
     suite = read_records(args.records, dt=args.dt, unit=args.unit)
     warn_left_out(suite)
+    warn_remarks(suite)
     periods = np.geomspace(0.01, 10.0, 100) if args.periods is None else np.array(args.periods)
     spectra = response_spectrum(suite, periods, args.damping, _KINDS[args.kind])  # type: ignore[arg-type]
     name, unit = ("psa_g", STANDARD_GRAVITY) if args.kind == "psa" else (args.kind, 1.0)
     shape = spectra.shape
     table = pl.DataFrame(
         {
+            "motion": np.repeat(np.arange(1, len(suite) + 1), shape[1] * shape[2]),
             "record": np.repeat([record.name for record in suite], shape[1] * shape[2]),
             "damping": np.tile(np.repeat(args.damping, shape[2]), shape[0]),
             "period": np.tile(periods, shape[0] * shape[1]),

@@ -61,7 +61,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
     from seismass.report.findings import findings_text
     from seismass.report.write import check_out, study_metadata, write_study
-    from seismass.study import StudyParameters, run_study
+    from seismass.study import StudyParameters, motions_text, run_study
 
     started = time.perf_counter()
     check_out(args.out)
@@ -84,12 +84,14 @@ def run(args: argparse.Namespace) -> int:
         print(json.dumps(metadata, indent=2))
     else:
         counts = metadata["counts"]
-        made = "synthetic motions, none recorded" if metadata["suite"]["synthetic"] else "motions"
-        print(f"suite    {metadata['suite']['name']}: {len(suite)} {made}")
+        none_recorded = ", none recorded" * (metadata["suite"]["synthetic"] == len(suite))
+        print(f"suite    {metadata['suite']['name']}: {motions_text(metadata['suite'])}{none_recorded}")
         for line in left_out(suite):
             print(f"         {line}")
         for motion in metadata["suite"]["motions"]:
             print(f"         {motion['motion']:>2}  x {motion['factor']:<7.4f} {motion['record']}")
+            for remark in motion["remarks"]:
+                print(f"{'':25}{remark}")
         print(f"target   {target.label}")
         print(
             f"runs     {counts['buildings']} buildings, {counts['analyses']} analyses, {counts['distinct']} distinct: "

@@ -6,6 +6,7 @@ Figures are made without pyplot, so that nothing global changes; colours are tho
 from __future__ import annotations
 
 import textwrap
+from itertools import cycle
 from pathlib import Path
 from typing import Any, Final, Literal
 
@@ -13,10 +14,11 @@ import matplotlib as mpl
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap, to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.study import StudyResult
+from seismass.study import StudyResult, motions_text
 from seismass.units import STANDARD_GRAVITY
 
 BLUE: Final = "#0072B2"
@@ -24,7 +26,10 @@ VERMILION: Final = "#D55E00"
 GREY: Final = "#8C8C8C"
 INK: Final = "#222222"
 ALPHA_COLOURS: Final = ("#56B4E9", "#0072B2", "#002B4D")
-ALPHA_MARKERS: Final = ("o", "s", "D")
+ALPHA_MARKERS: Final = ("o", "s", "D", "^", "v", "P", "X")
+ALPHA_SPACING: Final = 0.24
+"""Largest distance between the ranges of two alphas, as a fraction of that between two R."""
+PERIOD_TICKS: Final = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 
 STYLE: Final[Any] = {
     "font.family": "DejaVu Sans",
@@ -48,8 +53,8 @@ def study_figures(result: StudyResult) -> dict[str, Figure]:
     """Return the figures of a study by name: spectrum, underestimation, and drift_R... for each R."""
     with mpl.rc_context(STYLE):
         figures = {"spectrum": spectrum_figure(result), "underestimation": underestimation_figure(result)}
-        for factor in result.summary["R"].unique().sort():
-            figures[f"drift_R{factor:g}"] = drift_figure(result, factor)
+        for factor, label in _labels(result.summary["R"]).items():
+            figures[f"drift_R{label}"] = drift_figure(result, factor)
         for figure in figures.values():
             # Lay out once, not again for every file.
             figure.draw_without_rendering()
@@ -67,12 +72,23 @@ def save_figure(figure: Figure, kind: Literal["png", "svg"], path: Path) -> None
 def suite_caption(result: StudyResult) -> str:
     """Return one line on the motions and on the parameters that decide the result."""
     suite, chosen = result.metadata["suite"], result.metadata["parameters"]
-    made = "synthetic motions" if suite["synthetic"] else "motions"
     return (
-        f"{len(suite['motions'])} {made} ({suite['name']}), scaled for T = {chosen['scaling_period']:g} s;  "
+        f"{motions_text(suite)} ({_plain(suite['name'])}), scaled for T = {chosen['scaling_period']:g} s;  "
         rf"$\mu$ = {chosen['mu']:g}, $\Omega$ = {chosen['overstrength']:g}, $r_2$ = {chosen['second_slope']:g}, "
         rf"$r_3$ = {chosen['third_slope']:g}, damping {100.0 * chosen['damping']:g} %"
     )
+
+
+def _plain(text: str) -> str:
+    """Return a text of the user's in which matplotlib finds no formula."""
+    return text.replace("$", r"\$")
+
+
+def _labels(values: pl.Series) -> dict[float, str]:
+    """Return what each value is called, in order: as short as they differ."""
+    ordered = values.unique().sort().to_list()
+    labels = ([f"{value:.{digits}g}" for value in ordered] for digits in range(6, 18))
+    return dict(zip(ordered, next(names for names in labels if len(set(names)) == len(names)), strict=True))
 
 
 def spectrum_figure(result: StudyResult) -> Figure:
@@ -91,29 +107,30 @@ def spectrum_figure(result: StudyResult) -> Figure:
     axes.set_xscale("log")
     axes.set_xlim(periods[0], periods[-1])
     axes.set_ylim(0.0, None)
-    ticks = [tick for tick in (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0) if periods[0] <= tick <= periods[-1] * 1.0001]
+    ticks = [tick for tick in PERIOD_TICKS if periods[0] <= tick <= periods[-1] * 1.0001]
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.minorticks_off()
     axes.set_xlabel("period (s)")
     damping = 100.0 * result.metadata["parameters"]["damping"]
     axes.set_ylabel(f"pseudo-acceleration, {damping:g} % damping (g)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-    made = "synthetic motion" if result.metadata["suite"]["synthetic"] else "motion"
     handles = [
-        Line2D([], [], color=BLUE, linewidth=2.0, label=f"mean of {len(motions)} scaled {made}s"),
+        Line2D([], [], color=BLUE, linewidth=2.0, label=f"mean of {motions_text(result.metadata['suite'])}, scaled"),
         Line2D([], [], color=VERMILION, linewidth=1.8, linestyle=(0, (5, 2)), label="target"),
-        Line2D([], [], color=GREY, linewidth=0.7, label=f"each scaled {made}"),
+        Line2D([], [], color=GREY, linewidth=0.7, label="each motion, scaled"),
         Line2D([], [], color=BLUE, alpha=0.12, linewidth=8.0, label=f"range of scaling, {shortest:g} to {longest:g} s"),
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
-    label = textwrap.fill(f"Target: {result.metadata['target']['label']}", 90)
+    label = textwrap.fill(f"Target: {_plain(result.metadata['target']['label'])}", 90)
     figure.supxlabel(label, fontsize=7.5)
     return figure
 
 
 def drift_figure(result: StudyResult, factor: float) -> Figure:
     """Mean peak drift of each storey for one R: occupancies and alpha in columns, buildings in rows (Figs. 6-9)."""
+    label = _labels(result.summary["R"])[factor]
     summary = result.summary.filter(pl.col("R") == factor)
+    alphas = _labels(summary["alpha"])
     columns = summary.select("occupancy", "lambda", "alpha").unique(maintain_order=True).rows()
     rows = summary.select("storeys", "period").unique(maintain_order=True).rows()
     figure = Figure(figsize=(1.0 + 1.75 * len(columns), 1.35 + 1.75 * len(rows)), layout="constrained")
@@ -129,7 +146,7 @@ def drift_figure(result: StudyResult, factor: float) -> Figure:
         axes_row[0].set_yticks(range(1, storeys + 1))
         axes_row[0].set_ylabel(f"{storeys} storeys, {period:g} s\n\nstorey")
     for axes, (occupancy, fraction, alpha) in zip(grid[0], columns, strict=True):
-        axes.set_title(rf"{occupancy}, $\lambda$ = {fraction:g}" + "\n" + rf"$\alpha$ = {alpha:g}")
+        axes.set_title(rf"{_plain(occupancy)}, $\lambda$ = {fraction:g}" + "\n" + rf"$\alpha$ = {alphas[alpha]}")
     for axes in grid[-1]:
         axes.set_xlabel("mean peak drift (mm)")
     behaviour = " (elastic)" if factor == 1.0 and not result.metadata["parameters"]["yield_at_r1"] else ""
@@ -149,7 +166,7 @@ def drift_figure(result: StudyResult, factor: float) -> Figure:
         Line2D([], [], linestyle="", label="numbers: underestimation (real \N{EN DASH} ASCE) / ASCE, %"),
     ]
     legend = figure.legend(
-        handles=handles, loc="outside upper center", ncols=3, frameon=False, title=f"R = {factor:g}{behaviour}"
+        handles=handles, loc="outside upper center", ncols=3, frameon=False, title=f"R = {label}{behaviour}"
     )
     legend.get_title().set_fontsize(11.0)
     figure.supxlabel(suite_caption(result), fontsize=7.5)
@@ -182,21 +199,21 @@ def underestimation_figure(result: StudyResult) -> Figure:
     summary = result.summary
     occupancies = summary.select("occupancy", "lambda").unique(maintain_order=True).rows()
     buildings = summary.select("storeys", "period").unique(maintain_order=True).rows()
-    factors = summary["R"].unique().sort().to_list()
-    alphas = summary["alpha"].unique().sort().to_list()
+    factors, alphas = _labels(summary["R"]), _labels(summary["alpha"])
+    looks = _looks(len(alphas))
     figure = Figure(figsize=(1.2 + 3.1 * len(buildings), 1.5 + 2.6 * len(occupancies)), layout="constrained")
     grid = figure.subplots(len(occupancies), len(buildings), squeeze=False, sharex=True, sharey=True)
-    offsets = 0.24 * (np.arange(len(alphas)) - 0.5 * (len(alphas) - 1))
+    offsets = min(ALPHA_SPACING, 0.8 / len(alphas)) * (np.arange(len(alphas)) - 0.5 * (len(alphas) - 1))
     for axes_row, (occupancy, fraction) in zip(grid, occupancies, strict=True):
         for axes, (storeys, period) in zip(axes_row, buildings, strict=True):
             same = (pl.col("occupancy") == occupancy) & (pl.col("storeys") == storeys) & (pl.col("period") == period)
-            for index, (alpha, offset) in enumerate(zip(alphas, offsets, strict=True)):
+            for alpha, offset, look in zip(alphas, offsets, looks, strict=True):
                 here = summary.filter(same & (pl.col("alpha") == alpha))
-                _ranges(axes, here, factors, offset, index)
+                _ranges(axes, here, list(factors), offset, look)
             axes.axhline(0.0, color=INK, linewidth=0.9)
             axes.grid(axis="y", color=GREY, alpha=0.25, linewidth=0.5)
-            axes.set_xticks(range(len(factors)), [f"{factor:g}" for factor in factors])
-        axes_row[0].set_ylabel(rf"{occupancy}, $\lambda$ = {fraction:g}" + "\nunderestimation of drift (%)")
+            axes.set_xticks(range(len(factors)), list(factors.values()))
+        axes_row[0].set_ylabel(rf"{_plain(occupancy)}, $\lambda$ = {fraction:g}" + "\nunderestimation of drift (%)")
     bottom = grid[0][0].get_ylim()[0]
     for axes in grid.flat:
         axes.axhspan(bottom, 0.0, color=GREY, alpha=0.12, linewidth=0.0)
@@ -209,12 +226,12 @@ def underestimation_figure(result: StudyResult) -> Figure:
     elastic = 1.0 in factors and not result.metadata["parameters"]["yield_at_r1"]
     for axes in grid[-1]:
         axes.set_xlabel("R (1: elastic)" if elastic else "R")
-    handles = [_alpha_handle(index, alpha) for index, alpha in enumerate(alphas)]
+    handles = [_alpha_handle(look, label) for look, label in zip(looks, alphas.values(), strict=True)]
     handles.append(Line2D([], [], color=GREY, marker="_", markersize=6.0, linewidth=1.2, label="other storeys, range"))
     figure.legend(
         handles=handles,
         loc="outside upper center",
-        ncols=len(handles),
+        ncols=min(len(handles), 6),
         frameon=False,
         title="(real \N{EN DASH} ASCE) / ASCE of mean peak drift; marker: storey with the largest",
     )
@@ -222,17 +239,22 @@ def underestimation_figure(result: StudyResult) -> Figure:
     return figure
 
 
-def _alpha_handle(index: int, alpha: float) -> Line2D:
-    colour, marker = _look(index)
-    return Line2D([], [], color=colour, marker=marker, markersize=5.0, linewidth=1.0, label=rf"$\alpha$ = {alpha:g}")
+def _alpha_handle(look: tuple[str, str], label: str) -> Line2D:
+    colour, marker = look
+    return Line2D([], [], color=colour, marker=marker, markersize=5.0, linewidth=1.0, label=rf"$\alpha$ = {label}")
 
 
-def _look(index: int) -> tuple[str, str]:
-    return ALPHA_COLOURS[index % len(ALPHA_COLOURS)], ALPHA_MARKERS[index % len(ALPHA_MARKERS)]
+def _looks(count: int) -> list[tuple[str, str]]:
+    """Return colour and marker of each alpha, no two the same: those of three, or shades from the first to the last."""
+    shades = LinearSegmentedColormap.from_list("alpha", ALPHA_COLOURS)
+    colours = (
+        ALPHA_COLOURS if count <= len(ALPHA_COLOURS) else [to_hex(shades(x)) for x in np.linspace(0.0, 1.0, count)]
+    )
+    return list(zip(colours, cycle(ALPHA_MARKERS), strict=False))[:count]
 
 
-def _ranges(axes: Axes, rows: pl.DataFrame, factors: list[float], offset: float, index: int) -> None:
-    colour, marker = _look(index)
+def _ranges(axes: Axes, rows: pl.DataFrame, factors: list[float], offset: float, look: tuple[str, str]) -> None:
+    colour, marker = look
     places, worst = [], []
     for position, factor in enumerate(factors):
         values = rows.filter(pl.col("R") == factor)["underestimation_percent"].drop_nulls().to_numpy()
