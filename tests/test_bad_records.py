@@ -215,6 +215,11 @@ CALLS: list[tuple[Callable[[Path], object], type[SeismassError], str]] = [
         RecordFormatError,
         r"row 2, must be a horizontal component, or have its `component` given; got x-UP.AT2, vertical by its name",
     ),
+    (
+        a_list("file,note\na.AT2," + "x" * 200_000 + "\n"),
+        RecordFormatError,
+        r"content of list.csv must be a table in CSV; got field larger than field limit",
+    ),
     (a_list("file\nb.AT2\n"), RecordFormatError, r"record file must be a file that can be read; got .*b.AT2"),
     (a_list("file,dt\na.AT2,soon\n"), RecordFormatError, r"dt of list.csv, row 1, must be a number; got 'soon'"),
     (lambda _: Record([], 0.01), InvalidMotion, r"acceleration of record must be a list of at least one sample; got"),

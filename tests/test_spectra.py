@@ -138,6 +138,7 @@ def test_csv_target_is_interpolated_in_logarithms(tmp_path: Path, text: str) -> 
         ("0.1,0.4\n1.0,-0.2\n", "Sa of uhs.csv, point 2, must be a positive number; got '-0.2'"),
         ("1.0,0.4\n1.0,0.2\n", "period of uhs.csv, point 2, must be longer than the one before; got 1 after 1"),
         ("period,value\n0.1,0.4\n1,0.2\n", "columns of uhs.csv must be one period or T and one Sa; got period, value"),
+        ("0.1,0.4\n" + "1" * 200_000 + ",0.2\n", "content of uhs.csv must be a table in CSV; got field larger than"),
         ("period,Sa (m/s2)\n0.1,0.4\n1,0.2\n", "unit of Sa of uhs.csv must be g; got m/s2"),
     ],
 )

@@ -88,6 +88,11 @@ def brief(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
+def printable(name: str) -> str:
+    """Return a part of a path as text: bytes of it that are no UTF-8 become escapes."""
+    return name.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
 def refusal(kind: type[SeismassError], parameter: str, owner: str, requirement: str, got: str) -> SeismassError:
     """Return the error of the one form: *parameter* of *owner* must be *requirement*; got *value*."""
     return kind(f"{parameter} of {owner} must be {requirement}; got {got}")

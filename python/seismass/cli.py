@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -32,6 +33,16 @@ def build_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _make_output_safe() -> None:
+    """Print escapes for what an encoding lacks, and nothing to a stream that the caller has closed."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, io.StringIO())
+        elif isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit code: 0 done, 1 a run failed, 2 bad input, 130 interrupted.
 
@@ -40,6 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Without the name of the program; default those of the process.
     """
+    _make_output_safe()
     args = build_parser().parse_args(arguments)
     try:
         code: int = args.run(args)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, frozen, refusal
+from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, frozen, printable, refusal
 from seismass.errors import InvalidMotion, InvalidOption, RecordFormatError
 from seismass.units import STANDARD_GRAVITY
 
@@ -228,11 +228,11 @@ class TargetSpectrum:
         periods, ordinates = _parse_csv(text, source.name)
         parameters = {
             "shape": "csv",
-            "file": source.name,
+            "file": printable(source.name),
             "period": periods.tolist(),
             "sa_g": ordinates.tolist(),
         }
-        return cls(source.stem, parameters, float(periods[0]), float(periods[-1]))
+        return cls(printable(source.stem), parameters, float(periods[0]), float(periods[-1]))
 
     def __call__(self, periods: ArrayLike) -> FloatArray:
         """Return Sa (m/s2) at periods (s), of the same shape.
@@ -261,11 +261,14 @@ class TargetSpectrum:
 
 
 def _parse_csv(text: str, file: str) -> tuple[FloatArray, FloatArray]:
-    rows = [
-        [cell.strip() for cell in row]
-        for row in csv.reader(io.StringIO(text))
-        if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
-    ]
+    try:
+        rows = [
+            [cell.strip() for cell in row]
+            for row in csv.reader(io.StringIO(text))
+            if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
+        ]
+    except csv.Error as error:
+        raise refusal(RecordFormatError, "content", file, "a table in CSV", str(error)) from error
     columns = (0, 1)
     if rows and not _is_number(rows[0][0]):
         columns = _named_columns(rows.pop(0), file)

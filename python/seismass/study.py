@@ -17,7 +17,7 @@ import numpy as np
 import polars as pl
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_count, as_number, brief, refusal
+from seismass._values import FloatArray, as_count, as_number, brief, printable, refusal
 from seismass.batch import simulate_many
 from seismass.design import Combination, SpectrumAnalysis, response_spectrum_analysis
 from seismass.errors import InvalidMotion, InvalidOption
@@ -338,7 +338,7 @@ def run_study(
                     {
                         "motion": number,
                         "record": name,
-                        "file": None if record.source is None else record.source.name,
+                        "file": None if record.source is None else printable(record.source.name),
                         "synthetic": record.synthetic,
                         "samples": record.samples,
                         "dt": record.dt,

@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from seismass._values import printable
 from seismass.errors import RecordFormatError
 from seismass.records.headers import refuse_other_quantity, step_in_seconds
 from seismass.records.numbers import is_cut_off, is_number, parse_numbers, to_float
@@ -103,7 +104,7 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
     return Record(
         acceleration=values * ACCELERATION_UNITS[unit],
         dt=exact_dt,
-        name=source.stem,
+        name=printable(source.stem),
         event=event,
         station=station,
         component=component,

@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._values import as_count
+from seismass._values import as_count, printable
 from seismass.errors import RecordFormatError
 from seismass.records.headers import refuse_other_quantity, stated_points, stated_step
 from seismass.records.numbers import is_cut_off, is_number, last_digit, to_float
@@ -101,7 +101,7 @@ def parse_columns(
     return Record(
         acceleration=values[:, -1] * ACCELERATION_UNITS[_unit(table, unit)],
         dt=_step(table, steps, len(values)),
-        name=source.stem,
+        name=printable(source.stem),
         source=source,
         unit=_unit(table, unit),
         remarks=tuple(remarks),

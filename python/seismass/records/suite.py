@@ -12,7 +12,7 @@ from pathlib import Path
 
 import polars as pl
 
-from seismass._values import as_path, brief, refusal
+from seismass._values import as_path, brief, printable, refusal
 from seismass.errors import InvalidMotion, RecordFormatError
 from seismass.records.read import read_record, read_text
 from seismass.records.record import Record
@@ -105,13 +105,18 @@ class Suite:
                 "samples": record.samples,
                 "dt": record.dt,
                 "pga_g": record.pga_g,
-                "file": None if record.source is None else str(record.source),
+                "file": None if record.source is None else printable(str(record.source)),
                 "remarks": "; ".join(record.remarks),
             }
             for record in self.records
         ]
         left_out = [
-            {"taken": False, "name": item.file.stem, "file": str(item.file), "remarks": item.reason}
+            {
+                "taken": False,
+                "name": printable(item.file.stem),
+                "file": printable(str(item.file)),
+                "remarks": item.reason,
+            }
             for item in self.excluded
         ]
         return pl.DataFrame([*taken, *left_out], schema=schema)
@@ -162,11 +167,15 @@ def _read_directory(directory: Path) -> Suite:
             f"records of directory {directory} must be at least one horizontal .AT2 file; "
             f"got {len(files)} .AT2 files, {len(excluded)} of them vertical"
         )
-    return Suite(directory.resolve().name, tuple(records), tuple(excluded))
+    return Suite(printable(directory.resolve().name), tuple(records), tuple(excluded))
 
 
 def _read_list(source: Path) -> Suite:
-    rows = list(csv.DictReader(io.StringIO(read_text(source)), skipinitialspace=True, restkey="", restval=""))
+    reader = csv.DictReader(io.StringIO(read_text(source)), skipinitialspace=True, restkey="", restval="")
+    try:
+        rows = list(reader)
+    except csv.Error as error:
+        raise refusal(RecordFormatError, "content", source.name, "a table in CSV", str(error)) from error
     columns = list(rows[0]) if rows else []
     if "file" not in columns:
         raise RecordFormatError(
@@ -199,7 +208,7 @@ def _read_list(source: Path) -> Suite:
         labels = {key: cells[key] for key in ("name", "event", "station", "component") if cells.get(key)}
         remarks = (*record.remarks, cells["note"]) if cells.get("note") else record.remarks
         records.append(record.replace(remarks=remarks, **labels))
-    return Suite(source.stem, tuple(records))
+    return Suite(printable(source.stem), tuple(records))
 
 
 def _cell_number(cells: dict[str, str], column: str, source: Path, row: int) -> float | None:
