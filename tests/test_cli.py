@@ -42,6 +42,20 @@ def test_names_that_are_not_utf_8_are_shown_with_escapes(tmp_path: Path, capsys:
     assert r"target  c\udce9" in capsys.readouterr().out
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems take no file names that are not UTF-8")
+def test_folders_that_are_not_utf_8_are_written_to(tmp_path: Path) -> None:
+    folder = with_name(tmp_path, b"\xe9/a.AT2").parent
+    (folder / "scene.toml").write_text("[[blocks]]\nfloor = 0\nmass = 1\nmu = 0.1\n[motion]\nfile = 'a.AT2'\n")
+    for name in ("h.csv", "h.parquet"):
+        assert cli.main(["run", str(folder / "scene.toml"), "--histories", str(folder / name)]) == 0
+        assert (folder / name).stat().st_size > 0
+    assert cli.main(["study", "--out", str(folder / "study"), "--no-figures"]) == 0
+    assert (folder / "study" / "summary.parquet").is_file()
+    file = sm.read_scene(folder / "scene.toml")
+    with pytest.raises(sm.InvalidOption, match=r"path of batch must be in UTF-8, .*udce9"):
+        sm.write_many(folder / "rows.parquet", file.scene, file.motion)
+
+
 def test_letters_that_the_terminal_lacks_are_escaped(tmp_path: Path) -> None:
     path = with_name(tmp_path, "Düzce.AT2".encode())
     done = subprocess.run(

@@ -14,7 +14,7 @@ import polars as pl
 from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_count, as_path, brief, refusal
+from seismass._values import FloatArray, as_count, as_path, brief, printable, refusal
 from seismass.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.files import written_whole
 from seismass.grid import Grid, IndexArray
@@ -175,6 +175,10 @@ def write_many(
         The file cannot be written.
     """
     target = as_path(path, "batch", InvalidOption)
+    if printable(str(target.absolute())) != str(target.absolute()):
+        raise refusal(
+            InvalidOption, "path", "batch", "in UTF-8, as Polars writes no other", brief(str(target.absolute()))
+        )
     frames = stream_many(
         scenes, motions, pairs=pairs, chunk=chunk, peaks_only=peaks_only, threads=threads, progress=progress
     )

@@ -7,7 +7,10 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Literal
 from uuid import uuid4
+
+import polars as pl
 
 
 @contextmanager
@@ -47,3 +50,12 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def write_table(frame: pl.DataFrame, kind: Literal["parquet", "csv"], path: Path) -> None:
+    """Write a frame to a file of any name; Polars itself opens none that is not UTF-8."""
+    with path.open("wb") as file:
+        if kind == "csv":
+            frame.write_csv(file)
+        else:
+            frame.write_parquet(file)

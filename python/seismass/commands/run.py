@@ -13,7 +13,7 @@ from typing import Any
 import polars as pl
 
 from seismass.errors import InvalidOption, SimulationError
-from seismass.files import written_whole
+from seismass.files import write_table, written_whole
 from seismass.scene import Building, Rayleigh, Scene
 from seismass.scene_file import KEYS, SceneFile, read_scene
 from seismass.simulate import Response, simulate
@@ -82,10 +82,7 @@ def _write_histories(response: Response, path: Path) -> None:
         columns |= {f"{name}_{number}": history[:, number - 1] for number in range(1, history.shape[1] + 1)}
     frame = pl.DataFrame(columns)
     with written_whole(path) as temporary:
-        if path.suffix.lower() == ".csv":
-            frame.write_csv(temporary)
-        else:
-            frame.write_parquet(temporary)
+        write_table(frame, "csv" if path.suffix.lower() == ".csv" else "parquet", temporary)
 
 
 def as_json(file: SceneFile, response: Response) -> dict[str, Any]:

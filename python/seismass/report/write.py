@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from seismass.errors import InvalidOption
-from seismass.files import written_whole
+from seismass.files import write_table, written_whole
 from seismass.report.findings import findings
 from seismass.study import StudyResult
 
@@ -72,8 +72,8 @@ def write_study(result: StudyResult, out: Path, *, figures: bool = True) -> list
         "scaling": result.scaling.table(),
     }
     for name, table in tables.items():
-        writers[f"{name}.parquet"] = table.write_parquet
-        writers[f"{name}.csv"] = table.write_csv
+        writers[f"{name}.parquet"] = partial(write_table, table, "parquet")
+        writers[f"{name}.csv"] = partial(write_table, table, "csv")
     text = json.dumps(study_metadata(result), indent=2) + "\n"
     writers["study.json"] = partial(Path.write_text, data=text, encoding="utf-8")
     if figures:
