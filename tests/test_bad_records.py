@@ -237,6 +237,12 @@ CALLS: list[tuple[Callable[[Path], object], type[SeismassError], str]] = [
     (lambda _: Record([0.0], 0.0, name="x"), InvalidMotion, r"dt of record x must be a positive number; got 0.0"),
     (lambda _: Record([0.0], float("inf")), InvalidMotion, r"dt of record must be a positive number; got inf"),
     (lambda _: Record([0.0], 0.01, vertical=[0.0, 1.0]), InvalidMotion, r"vertical of record must be as long as"),
+    (
+        lambda _: Record([0.0], 0.01, name="x", remarks="abc"),
+        InvalidMotion,
+        r"remarks of record x must be a tuple of strings; got 'abc'",
+    ),
+    (lambda _: Record([0.0], 0.01, remarks=(1,)), InvalidMotion, r"remarks of record must be a tuple of strings; got"),
     (lambda _: Record([0.0], 0.01).scaled(float("nan")), InvalidMotion, r"factor of scaled record must be a finite"),
     (lambda _: Record([0.0], 0.01).time_scaled(-1), InvalidMotion, r"factor of time-scaled record must be a positive"),
     (

@@ -279,6 +279,7 @@ def test_records_and_suites_are_equal_by_content() -> None:
     changes = ({"name": "y"}, {"dt": 0.02}, {"acceleration": [0.0, 2.0]}, {"vertical": None}, {"synthetic": True})
     assert all(record != record.replace(**change) for change in changes)
     assert record != record.motion
+    assert record.replace(remarks=["cut"]) == record.replace(remarks=("cut",))
     again = pickle.loads(pickle.dumps(record))
     assert again == record and not again.acceleration.flags.writeable
     assert builtin_suite() == builtin_suite() and hash(builtin_suite()) == hash(builtin_suite())

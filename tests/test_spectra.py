@@ -2,7 +2,9 @@
 
 import itertools
 import re
+from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -54,6 +56,14 @@ def test_peaks_are_those_of_a_fine_sampling_from_above(period: float, damping: f
     missed = (motion.pga + w**2 * exact + 2.0 * damping * w**2 * exact) * (motion.dt / parts) ** 2 / 8.0
     assert sampled <= exact * (1.0 + 1e-12)
     assert exact - sampled <= missed
+
+
+@pytest.mark.parametrize("kind", [list, lambda values: np.array(values, dtype=np.float32), np.int64])
+def test_samples_of_any_kind_are_taken(kind: Callable[[list[int]], object]) -> None:
+    samples = [1, -2, 3, 0]
+    given = SimpleNamespace(acceleration=kind(samples), dt=np.float32(0.5))
+    expected = sm.response_spectrum(sm.Motion(samples, 0.5), [1.0, 2.0])
+    np.testing.assert_array_equal(sm.response_spectrum(given, [1.0, 2.0]), expected)
 
 
 def test_undamped_step_gives_twice_the_static_displacement_in_every_kind() -> None:
@@ -182,6 +192,17 @@ def test_csv_target_is_refused_outside_its_range(tmp_path: Path) -> None:
         ({"periods": [1e-6]}, sm.InvalidOption, "for the time step of motion 1"),
         ({"damping": 1.0}, sm.InvalidOption, "damping of spectrum 1 must be at least 0 and below 1; got 1"),
         ({"damping": [0.05, -0.01]}, sm.InvalidOption, "damping of spectrum 2 must be at least 0 and below 1"),
+        ({"damping": []}, sm.InvalidOption, "damping of spectrum must be a number or a list of at least one ratio"),
+        (
+            {"motions": SimpleNamespace(acceleration="loud", dt=0.01)},
+            sm.InvalidMotion,
+            "acceleration of motion 1 of spectrum must be a list of numbers; got 'loud'",
+        ),
+        (
+            {"motions": [noise(), SimpleNamespace(acceleration=[1.0], dt="short")]},
+            sm.InvalidMotion,
+            "dt of motion 2 of spectrum must be a number; got 'short'",
+        ),
         ({"damping": "five"}, sm.InvalidOption, "damping of spectrum must be a number or a list of numbers"),
         ({"kind": "absolute"}, sm.InvalidOption, "kind of spectrum must be one of pseudo_acceleration"),
         ({"threads": 0}, sm.InvalidOption, "threads of spectrum must be a whole number of at least 1; got 0"),

@@ -101,8 +101,10 @@ def response_spectrum(
     if len(at) == 0:
         raise refusal(InvalidOption, "periods", "spectrum", "a list of at least one period", "none")
     ratios = as_array(damping, "damping", "spectrum", InvalidOption, or_number=True)
+    if ratios.size == 0:
+        raise refusal(InvalidOption, "damping", "spectrum", "a number or a list of at least one ratio", "none")
     workers = None if threads is None else as_count(threads, "threads", "spectrum", InvalidOption, least=1)
-    held = [_kernel.Motion(motion.acceleration, motion.dt) for motion in as_motions(motions, "spectrum")]
+    held = [_held(motion, number) for number, motion in enumerate(as_motions(motions, "spectrum"), start=1)]
     peaks = np.asarray(_kernel.response_spectra(held, at, np.atleast_1d(ratios), workers))
     ordinates = peaks * (2.0 * np.pi / at) ** _POWER_OF_FREQUENCY[kind]
     return ordinates[:, 0, :] if ratios.ndim == 0 else ordinates
@@ -129,6 +131,13 @@ def mean_spectrum(
             f"{len(scale)}",
         )
     return cast(FloatArray, np.mean(scale[:, None] * spectra, axis=0))
+
+
+def _held(motion: GroundMotion, number: int) -> _kernel.Motion:
+    """A motion as the kernel takes it, from samples of any kind."""
+    owner = f"motion {number} of spectrum"
+    samples = as_array(motion.acceleration, "acceleration", owner, InvalidMotion)
+    return _kernel.Motion(samples, as_number(motion.dt, "dt", owner, InvalidMotion))
 
 
 def as_motions(motions: Any, owner: str) -> list[GroundMotion]:

@@ -48,7 +48,8 @@ class Record(Value):
     Raises
     ------
     InvalidMotion
-        No sample, a value that is not finite, a step that is not positive, components of different length.
+        No sample, a value that is not finite, a step that is not positive, components of different length, remarks that
+        are no tuple of strings.
     """
 
     acceleration: NDArray[np.float64]
@@ -75,6 +76,10 @@ class Record(Value):
                     f"got {len(vertical)} samples"
                 )
             object.__setattr__(self, "vertical", vertical)
+        remarks: Any = self.remarks
+        if not isinstance(remarks, tuple | list) or not all(isinstance(remark, str) for remark in remarks):
+            raise refusal(InvalidMotion, "remarks", what, "a tuple of strings", brief(remarks))
+        object.__setattr__(self, "remarks", tuple(remarks))
 
     def _arguments(self) -> dict[str, Any]:
         return {field.name: getattr(self, field.name) for field in fields(self)}
