@@ -217,6 +217,8 @@ def test_step_gives_every_time_back_to_its_last_digit(tmp_path: Path, form: str,
         ("Delta T = .02 s, 4 points", 0.02),
         ("time step [s] = 0.02 seconds", 0.02),
         ("dt=0.02 npts=4", 0.02),
+        ("dt = 0.02 (sec).", 0.02),
+        ("dt = 20 ms: four points", 0.02),
         ("DT: 2D-2", 0.02),
         ("SAMPLING_INTERVAL_S: 0.020000\nNDATA: 4", 0.02),
     ],
@@ -242,8 +244,9 @@ def test_an_unknown_unit_of_an_at2_header_is_the_callers(tmp_path: Path) -> None
 
 def test_a_header_may_speak_of_velocity_beside_acceleration(tmp_path: Path) -> None:
     file = tmp_path / "motion.txt"
-    file.write_text("Acceleration (m/s2), velocity corrected\n0.1\n0.2\n")
-    assert read_record(file, dt=0.01).pga == 0.2
+    for header in ("Acceleration (m/s2), velocity corrected", "(m/s2), shear wave velocity of the site: 300 m/s"):
+        file.write_text(header + "\n0.1\n0.2\n")
+        assert read_record(file, dt=0.01).pga == 0.2
 
 
 def test_record_is_immutable_and_scaling_makes_new_ones() -> None:

@@ -20,12 +20,13 @@ _STEP = re.compile(
     r"(?:\b(?:dt|delta[ \t]*t|time[ \t]*step)\b[ \t]*(?:[(\[](?P<before>[^)\]\n]*)[)\]])?|\bSAMPLING_INTERVAL_S)"
     rf"[ \t]*[=:][ \t]*(?P<step>{NUMBER})"
     # What ends a step: the line, a separator, another key, or else its unit.
-    r"[ \t]*(?:(?=$|[,;)\]](?!\d)|\w+[ \t]*[=:])|(?P<after>[^\s,;)\]]*))",
+    r"[ \t]*(?:(?=$|[,;)\]](?!\d)|(?!ms|milli)\w+[ \t]*[=:])|(?P<after>[^\s,;)\]]*))",
     re.IGNORECASE | re.MULTILINE,
 )
 _POINTS = re.compile(r"\bNDATA[ \t]*[=:][ \t]*(\d{1,9})\b", re.IGNORECASE)
 _ACCELERATION = re.compile(r"(?<![a-z])acc(?:el(?:erations?)?)?(?![a-z])", re.IGNORECASE)
-_OTHER_QUANTITY = re.compile(r"(?<![a-z])(?:velocity|velocities|displacements?)(?![a-z])", re.IGNORECASE)
+# The velocity of shear waves is one of the site.
+_OTHER_QUANTITY = re.compile(r"(?<![a-z])(?<!wave[ -])(?:velocity|velocities|displacements?)(?![a-z])", re.IGNORECASE)
 
 
 def stated_step(text: str, file: str) -> float | None:
@@ -44,8 +45,8 @@ def stated_step(text: str, file: str) -> float | None:
 
 def step_in_seconds(number: str, unit: str, file: str) -> float:
     """Return a step as a header has it in s; without a unit it is in s already."""
-    written = f"{number} {unit}".strip()
-    per_second = _PER_SECOND.get(unit.lower().strip(" \t."))
+    written = f"{number} {unit}".strip().replace(" /", "/")
+    per_second = _PER_SECOND.get(unit.lower().strip(" \t.:([])"))
     if per_second is None:
         raise RecordFormatError(f"DT of {file} must be in s or ms; got {written}")
     step = to_float(number) / per_second
