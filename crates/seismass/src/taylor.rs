@@ -3,7 +3,7 @@
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
 use crate::bernstein::{FEW, MAX_DEGREE, MOST, Polynomial};
-use crate::lanes::{MAX_LANES, Plain, Vector, WIDTH, columns_of, differences, load, store};
+use crate::lanes::{MAX_LANES, Plain, Vector, WIDTH, columns_of, differences, for_each_path, load, store};
 use crate::model::Model;
 use crate::propagator::Table;
 use crate::regime::{Operator, Regime};
@@ -130,7 +130,7 @@ impl Series {
                 }
                 self.by_recursion::<V, K>(model, regime, start);
             }
-            _ => self.form_any(model, regime, start, drive),
+            _ => form_any(self, model, regime, start, drive),
         }
     }
 
@@ -254,7 +254,7 @@ impl Series {
         self.put_sums(&sums, &rates, &first[0], &first[1], &inside);
     }
 
-    /// By the recursion, for more storeys than vectors hold: the compiler makes vectors of the path's width.
+    /// By the recursion, for more storeys than vectors hold.
     #[inline(always)]
     fn form_any(&mut self, model: &Model, regime: &Regime, start: &Start, drive: &Drive) {
         let (n, stride) = (self.storeys, self.stride);
@@ -631,6 +631,16 @@ pub(crate) const INVERSE: Weights = {
     }
     table
 };
+
+for_each_path! {
+    fn form_any(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) = any_by_path
+}
+
+/// The compiler makes vectors of the path's width.
+#[inline(always)]
+fn any_by_path<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) {
+    series.form_any(model, regime, start, drive);
+}
 
 /// 1 / (k (k - 1)).
 const INVERSE_PAIRS: Weights = {
