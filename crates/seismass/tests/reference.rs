@@ -3,10 +3,12 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+mod maximum;
 
 use std::num::NonZeroUsize;
 
 use common::{floats, read, shared};
+use maximum::larger;
 use seismass::{Event, Options, simulate};
 use serde_json::Value;
 
@@ -23,14 +25,14 @@ const ENERGY: f64 = 1e-13;
 
 /// Largest deviation of columns from a reference, relative to max(column peak, largest peak / 1000).
 fn worst(found: &[f64], expected: &[Vec<f64>], peaks: &[f64]) -> f64 {
-    let largest = peaks.iter().copied().fold(0.0, f64::max);
+    let largest = peaks.iter().copied().fold(0.0, larger);
     let width = peaks.len();
-    let mut worst = 0.0f64;
+    let mut worst = 0.0;
     for (row, values) in expected.iter().enumerate() {
         for (column, &value) in values.iter().enumerate() {
             let scale = peaks[column].max(1e-3 * largest);
             let error = (found[row * width + column] - value).abs();
-            worst = worst.max(if error == 0.0 { 0.0 } else { error / scale });
+            worst = larger(worst, if error == 0.0 { 0.0 } else { error / scale });
         }
     }
     worst
@@ -63,12 +65,12 @@ fn compare_events(found: &[Event], expected: &[Value]) -> Result<f64, String> {
             start = end;
         }
     }
-    let mut worst = 0.0f64;
+    let mut worst = 0.0;
     for (i, (f, e)) in found.iter().zip(&expected).enumerate() {
         if f.1 != e.1 {
             return Err(format!("event {i}: found {f:?}, expected {e:?}"));
         }
-        worst = worst.max((f.0 - e.0).abs());
+        worst = larger(worst, (f.0 - e.0).abs());
     }
     if found.len() != expected.len() {
         return Err(format!("{} events, expected {}", found.len(), expected.len()));
@@ -107,10 +109,13 @@ fn reference_scenes() {
         let drift = worst(&h.drift, &rows(&result["drift"]), &peak_drift);
         let slip = worst(&h.slip, &rows(&result["slip"]), &peak_slip);
         let of = |peaks: &[seismass::Peak]| peaks.iter().map(|p| p.value).collect::<Vec<_>>();
-        let peaks = worst(&of(&response.peaks.drift), std::slice::from_ref(&peak_drift), &peak_drift)
-            .max(worst(&of(&response.peaks.slip), std::slice::from_ref(&peak_slip), &peak_slip))
-            .max(worst(&response.residual_drift, &[floats(&result["residual_drift"])], &peak_drift))
-            .max(worst(&response.residual_slip, &[floats(&result["residual_slip"])], &peak_slip));
+        let peaks = [
+            worst(&of(&response.peaks.drift), std::slice::from_ref(&peak_drift), &peak_drift),
+            worst(&of(&response.peaks.slip), std::slice::from_ref(&peak_slip), &peak_slip),
+            worst(&response.residual_drift, &[floats(&result["residual_drift"])], &peak_drift),
+            worst(&response.residual_slip, &[floats(&result["residual_slip"])], &peak_slip),
+        ];
+        let peaks = peaks.into_iter().fold(0.0, larger);
         let events = compare_events(response.events.as_ref().unwrap(), result["events"].as_array().unwrap());
         let time = events.clone().unwrap_or(f64::NAN);
         let total = response.statistics.events.total();
