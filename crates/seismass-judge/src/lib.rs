@@ -30,7 +30,7 @@ mod solve;
 mod state;
 pub mod stress;
 
-pub use compare::{Comparison, compare, compare_events};
+pub use compare::{Comparison, compare, compare_events, larger};
 pub use real::{DoubleDouble, Real};
 pub use record::Solution;
 pub use solve::{JudgeError, solve};

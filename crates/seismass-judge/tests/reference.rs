@@ -5,7 +5,7 @@
 mod common;
 
 use common::{numbers, read_events, read_reference, reference_files, shared, table};
-use seismass_judge::{DoubleDouble, Real, Solution, compare_events, solve};
+use seismass_judge::{DoubleDouble, Real, Solution, compare_events, larger, solve};
 use serde_json::Value;
 
 /// Demanded of any implementation in doubles: histories and peaks, relative to the larger of the peak and a
@@ -19,10 +19,10 @@ const EVENT_TIME: f64 = 1e-10;
 
 fn worst(found: &[f64], expected: &[f64], peaks: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
-    let largest = peaks.iter().copied().fold(0.0, f64::max);
+    let largest = peaks.iter().copied().fold(0.0, larger);
     let scales = peaks.iter().map(|p| p.max(1e-3 * largest)).cycle();
     let errors = found.iter().zip(expected).zip(scales);
-    errors.map(|((f, e), scale)| if f == e { 0.0 } else { (f - e).abs() / scale }).fold(0.0, f64::max)
+    errors.map(|((f, e), scale)| if f == e { 0.0 } else { (f - e).abs() / scale }).fold(0.0, larger)
 }
 
 /// Errors of drift, slip, peaks and residuals, and event times.
@@ -41,7 +41,7 @@ fn errors(solution: &Solution, result: &Value) -> [f64; 4] {
         println!("    {difference}");
         f64::INFINITY
     });
-    [drift, slip, peaks.into_iter().fold(0.0, f64::max), time]
+    [drift, slip, peaks.into_iter().fold(0.0, larger), time]
 }
 
 fn check<R: Real>(limits: [f64; 4], residual: f64) {

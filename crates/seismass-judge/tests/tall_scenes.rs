@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use seismass::{Block, Building, Damping, Motion, Options, Response, STANDARD_GRAVITY, Scene, Storey, simulate};
-use seismass_judge::{Comparison, DoubleDouble, Real, compare, solve};
+use seismass_judge::{Comparison, DoubleDouble, Real, compare, larger, solve};
 
 /// Both are right to some 1e-14 (printed); a guard or a peak that is missed is far beyond this.
 const AGREEMENT: f64 = 1e-12;
@@ -126,8 +126,8 @@ fn floors_that_nothing_has_reached_move_by_rounding_alone() {
         let response = simulate(&scene, &motion, &Options::default()).unwrap();
         let exact = solve::<DoubleDouble>(&scene, &motion, 3).unwrap();
         let floors = response.peaks.floor_acceleration.iter().zip(&exact.peaks.floor_acceleration);
-        let largest = exact.peaks.floor_acceleration.iter().fold(0.0, |largest: f64, peak| largest.max(peak.value));
-        let error = floors.map(|(found, exact)| (found.value - exact.value).abs()).fold(0.0, f64::max) / largest;
+        let largest = exact.peaks.floor_acceleration.iter().fold(0.0, |largest, peak| larger(largest, peak.value));
+        let error = floors.map(|(found, exact)| (found.value - exact.value).abs()).fold(0.0, larger) / largest;
         let highest = [&response.peaks, &exact.peaks].map(|peaks| peaks.floor_acceleration[n - 1].value / largest);
         println!("{n} storeys: highest floor {:.1e}, exactly {:.1e}; worst {error:.1e}", highest[0], highest[1]);
         assert!(error < 1e-14 && (highest[0] - highest[1]).abs() < 1e-16, "{n} storeys: {highest:?}");

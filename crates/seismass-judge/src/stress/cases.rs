@@ -15,7 +15,7 @@ use seismass::{Block, Building, Damping, EventKind, Motion, Response, Scene, Sto
 
 use super::random::{LARGEST_RESIDUAL, solve_checked};
 use crate::random_scene::{Draw, samples_of};
-use crate::{Real, compare, solve};
+use crate::{Comparison, Real, compare, larger, solve};
 
 /// What came out, or what is wrong.
 pub type Outcome = Result<String, String>;
@@ -65,16 +65,22 @@ fn residual(response: &Response) -> f64 {
     response.energy.map_or(f64::NAN, |e| e.relative_residual.abs())
 }
 
-/// Largest relative difference to the judge, which must have the same events.
+/// Largest relative difference to the judge, of numbers and of times; the judge must have the same events.
 fn judged<R: Real>(scene: &Scene, motion: &Motion, response: &Response, tolerance: f64) -> Result<f64, String> {
-    let exact = solve::<R>(scene, motion, 1).map_err(|e| e.to_string())?;
-    let comparison = compare(response, &exact);
-    if let Some(mismatch) = comparison.mismatch {
-        return Err(format!("parts from the judge: {mismatch}"));
-    }
-    let worst = comparison.worst();
+    let comparison = compared::<R>(scene, motion, response)?;
+    let worst = larger(comparison.worst(), comparison.worst_time());
     require(worst <= tolerance, || format!("differs from the judge by {worst:.1e}"))?;
     Ok(worst)
+}
+
+/// How far from the judge, which must have the same events.
+fn compared<R: Real>(scene: &Scene, motion: &Motion, response: &Response) -> Result<Comparison, String> {
+    let exact = text(solve::<R>(scene, motion, 1))?;
+    let comparison = compare(response, &exact);
+    match comparison.mismatch {
+        Some(mismatch) => Err(format!("parts from the judge: {mismatch}")),
+        None => Ok(comparison),
+    }
 }
 
 fn require(holds: bool, fault: impl FnOnce() -> String) -> Result<(), String> {
@@ -133,11 +139,11 @@ fn oscillator(period: f64, damping: f64, blocks: Vec<Block>) -> Result<Scene, St
 }
 
 fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |m, v| m.max(v.abs()))
+    values.iter().fold(0.0, |most, value| larger(most, value.abs()))
 }
 
 /// Largest difference of two lists, relative to the largest value of the second.
 fn difference(found: &[f64], expected: &[f64]) -> f64 {
-    let apart = found.iter().zip(expected).fold(0.0f64, |worst, (f, e)| worst.max((f - e).abs()));
+    let apart = found.iter().zip(expected).fold(0.0, |worst, (f, e)| larger(worst, (f - e).abs()));
     if found.len() == expected.len() { apart / largest(expected).max(f64::MIN_POSITIVE) } else { f64::INFINITY }
 }

@@ -4,6 +4,8 @@ use std::num::NonZeroUsize;
 
 use seismass::{Event, EventKind, Histories, Motion, Options, Response, STANDARD_GRAVITY, Scene, Status, simulate};
 
+use crate::larger;
+
 /// Rounding of floor accelerations and relative velocities in the histories, as a fraction of their peaks.
 const ROUNDING: f64 = 1e-9;
 
@@ -165,7 +167,7 @@ fn blocks(scene: &Scene, motion: &Motion, response: &Response, log: &[Event]) ->
     let mut state = at_start(scene, motion);
     let Some(h) = &response.histories else { return Ok(()) };
     let (n, m) = (scene.storeys(), scene.blocks().len());
-    let fastest = h.block_velocity.iter().chain(&h.floor_velocity).fold(0.0f64, |a, v| a.max(v.abs()));
+    let fastest = h.block_velocity.iter().chain(&h.floor_velocity).fold(0.0, |most, v| larger(most, v.abs()));
     let mut events = log.iter().filter(|e| !matches!(e.kind, EventKind::Yield | EventKind::Unload)).peekable();
     let mut last_change = vec![f64::NEG_INFINITY; m];
     for row in 0..h.rows {

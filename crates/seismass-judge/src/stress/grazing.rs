@@ -3,11 +3,12 @@
 
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, GravityEffect, Motion, Response, Scene};
+use seismass::{Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene};
 
 use super::pairs;
+use crate::compare::compare_endings;
 use crate::random_scene::Draw;
-use crate::{Comparison, DoubleDouble, Solution, compare, solve};
+use crate::{Comparison, DoubleDouble, Solution, compare, larger, solve};
 
 /// Relative differences below this are agreement.
 pub const AGREEMENT: f64 = 1e-9;
@@ -15,17 +16,15 @@ pub const AGREEMENT: f64 = 1e-9;
 pub(super) const LAST_DIGITS: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 /// Different changes of each size.
 pub(super) const TRIALS: u64 = 6;
-/// Events this close (s) are at one instant.
-const ONE_INSTANT: f64 = 1e-10;
-/// Without a difference in the events, the kernel may be this many times as far from the judge as the judge is from
-/// itself under a change of its input in the last digits.
+/// With the same events, the kernel may be this many times as far from the judge as the judge is from itself under a
+/// change of its input in the last digits.
 const AMPLIFICATION: f64 = 100.0;
 
 /// What became of a scene on which two implementations were compared.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// Same events, same numbers: the largest relative difference.
-    Agrees(f64),
+    /// Same events at the same times, same numbers: how far apart.
+    Agrees(Comparison),
     /// The judge, with its input changed in the last digits, comes to the kernel's events and numbers.
     Grazing {
         /// The change, in units of the last digit.
@@ -33,7 +32,8 @@ pub enum Verdict {
         /// How the two differed.
         difference: String,
     },
-    /// The judge, with its input changed in the last digits, moves as far as the kernel is from it.
+    /// The judge, with its input changed in the last digits or not, has the kernel's events, and moves as far as the
+    /// kernel is from it with its input changed in the last digits once more.
     Sensitive {
         /// The change, in units of the last digit.
         digits: f64,
@@ -58,7 +58,7 @@ pub fn judge(scene: &Scene, motion: &Motion, response: &Response) -> Verdict {
     if let Ok(plain) = solve::<f64>(scene, motion, 1) {
         let comparison = compare(response, &plain);
         if comparison.agrees(AGREEMENT) {
-            return Verdict::Agrees(comparison.worst());
+            return Verdict::Agrees(comparison);
         }
     }
     judge_precisely(scene, motion, response)
@@ -72,7 +72,7 @@ pub fn judge_precisely(scene: &Scene, motion: &Motion, response: &Response) -> V
     };
     let comparison = compare(response, &exact);
     if comparison.agrees(AGREEMENT) {
-        return Verdict::Agrees(comparison.worst());
+        return Verdict::Agrees(comparison);
     }
     explain(scene, motion, response, &exact, &comparison)
 }
@@ -81,26 +81,67 @@ fn explain(scene: &Scene, motion: &Motion, response: &Response, exact: &Solution
     if let Some(verdict) = pairs::explain(scene, motion, response, exact, parted) {
         return verdict;
     }
-    let difference = parted.mismatch.clone().unwrap_or_else(|| format!("relative difference {:.1e}", parted.worst()));
+    let difference = parted.mismatch.clone().unwrap_or_else(|| {
+        format!("relative difference {:.1e}, of event times {:.1e}", parted.worst(), parted.worst_time())
+    });
     for digits in LAST_DIGITS {
         for trial in 0..TRIALS {
-            let Some((scene, motion)) = changed(scene, motion, digits, trial) else { continue };
-            let Ok(other) = solve::<DoubleDouble>(&scene, &motion, 1) else { continue };
-            if compare(response, &other).agrees(AGREEMENT) {
+            let Some((scene, motion, other)) = changed_judge(scene, motion, digits, trial) else { continue };
+            let left = compare(response, &other);
+            if left.agrees(AGREEMENT) {
                 return Verdict::Grazing { digits, difference };
             }
-            let moved = exact.judge(&other);
-            let as_far = match (&parted.mismatch, &moved.mismatch) {
-                (None, None) => parted.worst() <= AMPLIFICATION * moved.worst(),
-                (Some(_), Some(_)) => same_instant(response, exact, &other),
-                _ => false,
+            // A changed judge that does not come to the kernel's events shows nothing of what follows their first.
+            let shown = match (&parted.mismatch, &left.mismatch) {
+                (None, _) => moves_as_far(exact, &other, parted),
+                (Some(_), None) => is_sensitive(&scene, &motion, &other, &left),
+                (Some(_), Some(_)) => false,
             };
-            if as_far {
+            if shown {
                 return Verdict::Sensitive { digits, difference };
             }
         }
     }
     Verdict::Unexplained(difference)
+}
+
+/// Whether some change of the judge's input in the last digits moves it as far as the kernel is from it.
+fn is_sensitive(scene: &Scene, motion: &Motion, exact: &Solution, parted: &Comparison) -> bool {
+    LAST_DIGITS.into_iter().any(|digits| {
+        let mut others = (0..TRIALS).filter_map(|trial| changed_judge(scene, motion, digits, trial));
+        others.any(|(.., other)| moves_as_far(exact, &other, parted))
+    })
+}
+
+/// Whether every storey and block of the changed judge has the events of the judge's, and numbers and times are as far
+/// from the judge's as the kernel's are.
+fn moves_as_far(exact: &Solution, other: &Solution, parted: &Comparison) -> bool {
+    let as_far = |parted: f64, moved: f64| parted <= AMPLIFICATION * moved;
+    let ending = compare_endings(&other.status, &exact.status);
+    let Some((ending, times)) = ending.ok().zip(apart_by_machine(&other.events, &exact.events)) else { return false };
+    (parted.worst() <= AGREEMENT || as_far(parted.worst(), exact.judge(other).worst()))
+        && (parted.worst_time() <= AGREEMENT || as_far(parted.event_time, larger(ending, times)))
+}
+
+/// The largest difference of times (s) if each storey and block has the same events in both logs: what happens to
+/// different ones may have changed places.
+fn apart_by_machine(found: &[Event], expected: &[Event]) -> Option<f64> {
+    let sorted = |log: &[Event]| {
+        let mut log = log.to_vec();
+        log.sort_by_key(pairs::machine);
+        log
+    };
+    let (found, expected) = (sorted(found), sorted(expected));
+    let same = found.len() == expected.len() && found.iter().zip(&expected).all(|(f, e)| pairs::same_kind(f, e));
+    let times = found.iter().zip(&expected).map(|(f, e)| (f.time - e.time).abs());
+    same.then(|| times.fold(0.0, larger))
+}
+
+/// The judge with its input changed, and that input.
+fn changed_judge(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(Scene, Motion, Solution)> {
+    let (scene, motion) = changed(scene, motion, digits, trial)?;
+    let other = solve::<DoubleDouble>(&scene, &motion, 1).ok()?;
+    Some((scene, motion, other))
 }
 
 /// The energy residual that the last digits of g and a_v explain, relative as the residual is; nothing if the
@@ -117,22 +158,10 @@ pub fn explained_residual(scene: &Scene, motion: &Motion, response: &Response) -
     (compare(response, &exact).agrees(AGREEMENT) && residual <= explained).then_some(explained)
 }
 
-/// Whether the changed judge leaves the judge at the instant at which the kernel does.
-fn same_instant(response: &Response, exact: &Solution, other: &Solution) -> bool {
-    let first = |log: &[seismass::Event]| {
-        let differ =
-            |(a, b): (&seismass::Event, &seismass::Event)| (a.kind, a.number, a.sign) != (b.kind, b.number, b.sign);
-        let place = log.iter().zip(&exact.events).position(differ).unwrap_or(log.len().min(exact.events.len()));
-        let time = |log: &[seismass::Event]| log.get(place).map_or(f64::INFINITY, |e| e.time);
-        time(log).min(time(&exact.events))
-    };
-    let kernel = first(response.events.as_deref().unwrap_or_default());
-    let judge = first(&other.events);
-    kernel == judge || (kernel - judge).abs() <= ONE_INSTANT + 1e-6 * kernel.max(judge)
-}
-
 /// The scene and motion with every number changed by up to `digits` in its last digit. Numbers of one kind change
-/// together (all masses, all friction coefficients), so that what is equal stays equal; trial 0 scales the motion.
+/// together (all masses, all friction coefficients), so that what is equal stays equal; trial 0 scales the motion. No
+/// friction becomes so much that its limit is in the last digits of the ground's acceleration: floors that no wave has
+/// reached yet accelerate by rounding of that size.
 fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(Scene, Motion)> {
     let mut draw = Draw(trial);
     let size = digits * f64::EPSILON;
@@ -140,6 +169,8 @@ fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(S
     let (ground, vertical) = (factor(), factor());
     let (mass, stiffness, friction, strength, start) =
         if trial < 2 { (1.0, 1.0, 1.0, 1.0, 1.0) } else { (factor(), factor(), factor(), factor(), factor()) };
+    let largest = motion.acceleration().iter().fold(0.0, |most, a| larger(most, a.abs()));
+    let least = size * largest / STANDARD_GRAVITY;
     let scaled = |values: &[f64], by: f64| values.iter().map(|v| v * by).collect::<Vec<f64>>();
     let ground = if trial == 0 { 1.0 + size } else { ground };
     let motion = Motion::new(
@@ -150,7 +181,7 @@ fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(S
     .ok()?;
     let block = |b: &Block| Block {
         mass: b.mass * mass,
-        mu_s: b.mu_s * friction,
+        mu_s: if b.mu_s > 0.0 { b.mu_s * friction } else { least },
         mu_k: b.mu_k * friction,
         velocity: b.velocity.map(|v| v * start),
         ..*b

@@ -9,7 +9,8 @@
 //!
 //! The criterion, in full:
 //!
-//! 1. Both runs end alike and agree in all numbers, and without the pairs both logs are the same.
+//! 1. Both runs end alike and agree in all numbers, and without the pairs both logs have the same events at the same
+//!    times.
 //! 2. Each pair leaves its storey or block as it was, within a thousandth of a sample interval.
 //! 3. For each pair there is a changed run of the judge, with the numbers of the unchanged one, that differs from the
 //!    unchanged one by this pair. The pairs need not all come or go in the same changed run, since rounding decides
@@ -44,6 +45,8 @@ struct Pair {
 struct Pairs {
     extra: Vec<Pair>,
     missing: Vec<Pair>,
+    /// How far apart the other events are (s).
+    apart: f64,
 }
 
 /// The verdict if kernel and judge differ by pairs of events at a graze alone.
@@ -54,20 +57,23 @@ pub(super) fn explain(
     exact: &Solution,
     parted: &Comparison,
 ) -> Option<Verdict> {
-    if !(parted.worst() <= AGREEMENT && compare_endings(&response.status, &exact.status).is_ok()) {
+    let rounding = AGREEMENT * exact.end_time;
+    let endings = compare_endings(&response.status, &exact.status).ok()?;
+    let pairs = differing_pairs(response.events.as_deref()?, &exact.events, motion.dt())?;
+    if !(parted.worst() <= AGREEMENT && endings <= rounding && pairs.apart <= rounding) {
         return None;
     }
-    let pairs = differing_pairs(response.events.as_deref()?, &exact.events, motion.dt())?;
     let digits = shown(scene, motion, exact, pairs.clone())?;
     let all = || pairs.extra.iter().chain(&pairs.missing);
     let longest = all().fold(0.0, |most, pair| f64::max(most, pair.closing.time - pair.opening.time));
     let first = all().fold(f64::INFINITY, |first, pair| first.min(pair.opening.time));
     let difference = format!(
         "pairs of events that only the kernel has: {}, only the judge: {}; the first at {first} s, the longest {longest:.1e} s; \
-         all numbers agree to {:.0e}",
+         all numbers agree to {:.0e}, all other times to {:.0e} s",
         pairs.extra.len(),
         pairs.missing.len(),
-        parted.worst()
+        parted.worst(),
+        pairs.apart,
     );
     Some(Verdict::GrazingPairs { digits, difference })
 }
@@ -114,7 +120,8 @@ fn differing_pairs(found: &[Event], expected: &[Event], dt: f64) -> Option<Pairs
     let (extra, found_rest) = split(found, expected, dt)?;
     let (missing, expected_rest) = split(expected, found, dt)?;
     let differ = !extra.is_empty() || !missing.is_empty();
-    (differ && compare_events(&found_rest, &expected_rest).is_ok()).then_some(Pairs { extra, missing })
+    let apart = compare_events(&found_rest, &expected_rest).ok()?;
+    differ.then_some(Pairs { extra, missing, apart })
 }
 
 /// The pairs of events that the other log has not, and the log without them; nothing if it has other events that the
@@ -143,7 +150,7 @@ fn split(log: &[Event], other: &[Event], dt: f64) -> Option<(Vec<Pair>, Vec<Even
 }
 
 /// Storey or block, and its number.
-fn machine(event: &Event) -> (bool, usize) {
+pub(super) fn machine(event: &Event) -> (bool, usize) {
     (matches!(event.kind, EventKind::Yield | EventKind::Unload), event.number)
 }
 
@@ -159,7 +166,7 @@ fn restores(before: Option<&Event>, Pair { opening, closing }: &Pair) -> bool {
     restores && opening.sign == closing.sign
 }
 
-fn same_kind(a: &Event, b: &Event) -> bool {
+pub(super) fn same_kind(a: &Event, b: &Event) -> bool {
     (a.kind, a.number, a.sign, a.element) == (b.kind, b.number, b.sign, b.element)
 }
 

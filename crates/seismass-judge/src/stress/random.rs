@@ -111,6 +111,8 @@ pub struct Tally {
     pub worst_residual: [(f64, u64); Family::ALL.len()],
     /// Largest difference of each family to the judge where the events agree, and its seed.
     pub worst_difference: [(f64, u64); Family::ALL.len()],
+    /// Largest difference of event times, relative to the duration, and its seed.
+    pub worst_time: [(f64, u64); Family::ALL.len()],
     /// How many runs had so many events.
     pub events: BTreeMap<u64, u64>,
     /// Events by kind.
@@ -148,7 +150,10 @@ impl Tally {
             *sum += found.events.of(kind) as u64;
         }
         match found.verdict {
-            Some(Verdict::Agrees(difference)) => raise(&mut self.worst_difference[family], difference),
+            Some(Verdict::Agrees(comparison)) => {
+                raise(&mut self.worst_difference[family], comparison.worst());
+                raise(&mut self.worst_time[family], comparison.worst_time());
+            }
             Some(Verdict::Grazing { digits, difference }) => self.grazing.push((found.seed, digits, difference)),
             Some(Verdict::Sensitive { digits, difference }) => self.sensitive.push((found.seed, digits, difference)),
             Some(Verdict::GrazingPairs { digits, difference }) => self.pairs.push((found.seed, digits, difference)),

@@ -6,6 +6,7 @@ use seismass::EventKind;
 
 use super::cases::Finding;
 use super::family::Family;
+use super::grazing::AGREEMENT;
 use super::random::{LARGEST_RESIDUAL, Tally};
 
 /// The distribution of a random run, as Markdown.
@@ -32,7 +33,9 @@ pub fn distribution(tally: &Tally) -> String {
     };
     row(&format!("worst energy residual (limit {LARGEST_RESIDUAL:.0e})"), worst(tally.worst_residual));
     row("compared with the plain implementation", tally.judged.to_string());
-    row("worst relative difference where the events agree (limit 1e-9)", worst(tally.worst_difference));
+    let limit = format!("where the events agree (limit {AGREEMENT:.0e})");
+    row(&format!("worst relative difference {limit}"), worst(tally.worst_difference));
+    row(&format!("worst difference of event times, of the duration, {limit}"), worst(tally.worst_time));
     row("parted at a grazing, explained", tally.grazing.len().to_string());
     row("parted by sensitivity, explained", tally.sensitive.len().to_string());
     row("logs differ by pairs of events at a graze alone, explained", tally.pairs.len().to_string());
@@ -96,7 +99,7 @@ pub fn page(findings: &[Finding], tally: &Tally) -> String {
          gone on with; how many this page stands for is in its last table. What can still go wrong is in [limitations.md](limitations.md).\n\n\
          ## Named cases\n\n\
          {} cases, {failed} whose expectation does not hold. *Judge*: the second, plain implementation, in double-double \
-         precision unless stated; a difference to it is relative to the peak of the same storey or block. \
+         precision unless stated; a difference to it is relative to the peak of the same storey or block, of event times to the duration of the run. \
          Every run is also checked by itself: finite numbers, energy balance, legal sequences of events, stuck blocks that \
          neither move nor exceed their limit, peaks that no sample beats.\n\n{}\n\
          ## Random scenes\n\n\
@@ -104,8 +107,9 @@ pub fn page(findings: &[Finding], tally: &Tally) -> String {
          buildings have, the tall one has 13 to 64 storeys (`random_scene.rs`, `stress/hard_scene.rs` and \
          `stress/tall_scene.rs` of `crates/seismass-judge`). Every run is checked by itself, a tenth with energies, a \
          random part against the judge, of the tall family a larger one. Where the two part, the judge is asked again with \
-         its input changed in the last digits: a grazing is explained if it then comes to the same events and numbers as \
-         the kernel, and a scene is sensitive if it then moves as far. Where all numbers agree and the logs \
+         its input changed in the last digits: a grazing is explained if it then comes to the same events, times and numbers as \
+         the kernel, and a scene is sensitive if it has the kernel's events and moves as far from itself as the kernel is \
+         from it. Where all numbers agree and the logs \
          differ by pairs of events alone (a yield and its unload, a slip and its stick), the judge's state is changed in the \
          last digits just before each pair: it is explained if every pair thus comes or goes (`stress/pairs.rs`). An energy \
          residual beyond the limit is explained as far as one last digit of g and a_v changes the work of friction.\n\n{}",

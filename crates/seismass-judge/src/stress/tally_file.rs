@@ -5,6 +5,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+use super::family::Family;
 use super::random::Tally;
 
 impl Tally {
@@ -22,9 +23,12 @@ impl Tally {
         line("counts", &counts.map(|c| c.to_string()));
         line("families", &self.families.map(|c| c.to_string()));
         line("kinds", &self.kinds.map(|c| c.to_string()));
-        for (key, worst) in [("residual", self.worst_residual), ("difference", self.worst_difference)] {
-            for (value, seed) in worst {
-                line(key, &[format!("{value:e}"), seed.to_string()]);
+        for (family, name) in Family::ALL.iter().map(|family| family.name()).enumerate() {
+            for (key, worst) in
+                [("residual", self.worst_residual), ("difference", self.worst_difference), ("time", self.worst_time)]
+            {
+                let (value, seed) = worst[family];
+                line(key, &[name.into(), format!("{value:e}"), seed.to_string()]);
             }
         }
         for (events, runs) in &self.events {
@@ -56,10 +60,9 @@ impl Tally {
         }
         let text = fs::read_to_string(path)?;
         let mut tally = Self::default();
-        let (mut residuals, mut differences) = (0, 0);
         for (number, line) in text.lines().enumerate() {
             let fields: Vec<&str> = line.split('\t').collect();
-            tally.read_line(&fields, &mut residuals, &mut differences).ok_or_else(|| {
+            tally.read_line(&fields).ok_or_else(|| {
                 let message = format!("line {} of {} is not of a tally: {line}", number + 1, path.display());
                 io::Error::new(io::ErrorKind::InvalidData, message)
             })?;
@@ -67,10 +70,11 @@ impl Tally {
         Ok(tally)
     }
 
-    fn read_line(&mut self, fields: &[&str], residuals: &mut usize, differences: &mut usize) -> Option<()> {
+    fn read_line(&mut self, fields: &[&str]) -> Option<()> {
         let (key, fields) = fields.split_first()?;
         let whole = |i: usize| fields.get(i)?.parse::<u64>().ok();
         let real = |i: usize| fields.get(i)?.parse::<f64>().ok();
+        let family = |i: usize| Family::ALL.iter().position(|family| Some(&family.name()) == fields.get(i));
         let text = |i: usize| fields.get(i).map(ToString::to_string);
         match *key {
             // Tallies of before had other counts.
@@ -80,14 +84,9 @@ impl Tally {
             }
             "families" => take_numbers(fields, self.families.iter_mut())?,
             "kinds" => take_numbers(fields, self.kinds.iter_mut())?,
-            "residual" => {
-                *self.worst_residual.get_mut(*residuals)? = (real(0)?, whole(1)?);
-                *residuals += 1;
-            }
-            "difference" => {
-                *self.worst_difference.get_mut(*differences)? = (real(0)?, whole(1)?);
-                *differences += 1;
-            }
+            "residual" => self.worst_residual[family(0)?] = (real(1)?, whole(2)?),
+            "difference" => self.worst_difference[family(0)?] = (real(1)?, whole(2)?),
+            "time" => self.worst_time[family(0)?] = (real(1)?, whole(2)?),
             "events" => {
                 self.events.insert(whole(0)?, whole(1)?);
             }
