@@ -229,6 +229,8 @@ fn changed_building(building: &Building, mass: f64, stiffness: f64, strength: f6
 mod tests {
     #![allow(clippy::unwrap_used)]
 
+    use seismass::EventKind;
+
     use super::*;
     use crate::stress::random::{LARGEST_RESIDUAL, solve_checked};
     use crate::stress::scene_of;
@@ -266,5 +268,32 @@ mod tests {
             let planted = with_residual(&response, 2.0 * LARGEST_RESIDUAL);
             assert_eq!(explained_residual(&scene, &motion, &planted), None, "seed {seed}");
         }
+    }
+
+    /// A block on the ground with mu_s > mu_k whose demand reaches its limit at one sample: within the last digits it
+    /// slips or stays, and a kernel that stays is explained; not so one that then moves in a way of its own.
+    #[test]
+    fn a_graze_explains_its_own_branch_alone() {
+        let block = Block { floor: 0, mass: 1.0, mu_s: 0.2, mu_k: 0.1, velocity: None };
+        let scene = Scene::new(None, vec![block]).unwrap();
+        let motion = |excess: f64| {
+            let peak = 0.2 * STANDARD_GRAVITY * (1.0 + excess);
+            Motion::new(
+                (0..=20).map(|i| peak * f64::from(10 - (i - 10i32).abs()) / 10.0).collect::<Vec<_>>(),
+                0.01,
+                None,
+            )
+        };
+        let (above, below) = (motion(4.0 * f64::EPSILON).unwrap(), motion(-4.0 * f64::EPSILON).unwrap());
+        let stays = solve_checked(&scene, &below).unwrap();
+        assert_eq!(stays.statistics.events.total(), 0);
+        assert!(!solve::<DoubleDouble>(&scene, &above, 1).unwrap().events.is_empty());
+        assert!(matches!(judge_precisely(&scene, &above, &stays), Verdict::Grazing { .. }));
+        let mut errs = stays;
+        errs.events = Some(vec![Event { time: 0.15, kind: EventKind::Slip, number: 1, sign: -1, element: 0 }]);
+        assert!(matches!(judge_precisely(&scene, &above, &errs), Verdict::Unexplained(_)));
+        errs.events = Some(Vec::new());
+        errs.residual_slip[0] = 1e-3;
+        assert!(matches!(judge_precisely(&scene, &above, &errs), Verdict::Unexplained(_)));
     }
 }
