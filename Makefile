@@ -38,7 +38,8 @@ bench-kernel:
 count-instructions: build
 	$(PYTHON) benchmarks/instructions.py $(if $(LABEL),--label "$(LABEL)") $(BENCH_OPTIONS)
 
-# A run that was stopped goes on from target/stress/tally.tsv, where failing seeds are kept; remove it to begin again.
+# A run that was stopped goes on from target/stress/tally.tsv, where failing seeds are kept; a changed kernel or judge does
+# not, until the tally is removed.
 stress:
 	cargo run --locked --release -p seismass-judge --bin stress -- --scenes 1000000 --judged 10000 --write docs/stress.md
 

@@ -5,8 +5,8 @@
 
 use std::path::Path;
 
-use seismass_judge::stress::random::{Selection, Tally};
-use seismass_judge::stress::{cases, random, report};
+use seismass_judge::stress::random::Tally;
+use seismass_judge::stress::{cases, program, report};
 
 /// `SEISMASS_STRESS_SCENES` sets another number of random scenes.
 fn scenes() -> u64 {
@@ -23,8 +23,8 @@ fn every_named_case_meets_its_expectation() {
 
 #[test]
 fn random_scenes_are_consistent_and_agree_with_the_judge() {
-    let mut tally = Tally::default();
-    random::run(Selection { first: 1_000_000_000, scenes: scenes(), judged: 0.1 }, &mut tally);
+    let mut tally = Tally::from_seed(1_000_000_000);
+    tally.run(scenes(), 0.1);
     println!("{}", report::distribution(&tally));
     assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
     assert!(tally.judged > 0 && tally.balanced > 0 && tally.families.iter().all(|&n| n > 0));
@@ -36,8 +36,8 @@ fn random_scenes_are_consistent_and_agree_with_the_judge() {
 #[test]
 fn seeds_that_once_failed_hold() {
     for seed in [1209, 14749, 22984, 24647, 29706, 55104, 71144, 130_978, 144_318, 219_850, 297_876, 529_744, 638_979] {
-        let mut tally = Tally::default();
-        random::run(Selection { first: seed, scenes: 1, judged: 1.0 }, &mut tally);
+        let mut tally = Tally::from_seed(seed);
+        tally.run(1, 1.0);
         assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
     }
 }
@@ -47,8 +47,8 @@ fn seeds_that_once_failed_hold() {
 #[test]
 fn grazes_of_undamped_storeys_and_cancelled_gravity_are_no_defects() {
     for seed in [84_999, 887_908, 900_235, 700_482] {
-        let mut tally = Tally::default();
-        random::run(Selection { first: seed, scenes: 1, judged: 1.0 }, &mut tally);
+        let mut tally = Tally::from_seed(seed);
+        tally.run(1, 1.0);
         println!("{}", report::distribution(&tally));
         assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
     }
@@ -58,25 +58,32 @@ fn grazes_of_undamped_storeys_and_cancelled_gravity_are_no_defects() {
 /// from the judge's, but the run goes on.
 #[test]
 fn a_landing_below_all_rounding_runs() {
-    let mut tally = Tally::default();
-    random::run(Selection { first: 354_294, scenes: 1, judged: 0.0 }, &mut tally);
+    let mut tally = Tally::from_seed(354_294);
+    tally.run(1, 0.0);
     assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
 }
 
 #[test]
 fn a_tally_goes_on_where_it_stopped() {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tally.tsv");
-    let mut tally = Tally::default();
-    random::run(Selection { first: 0, scenes: 60, judged: 0.2 }, &mut tally);
+    let mut tally = Tally::from_seed(0);
+    tally.run(60, 0.2);
     tally.grazing.push((1, 1.0, "a graze".into()));
     tally.sensitive.push((2, 4.0, "a sensitive scene".into()));
     tally.pairs.push((3, 16.0, "pairs".into()));
     tally.cancelled.push((4, 9.3e-9, 1.1e-11));
-    tally.defects.push((5, "a defect".into()));
-    tally.save(&path).unwrap();
-    let again = Tally::load(&path).unwrap();
+    tally.failed.push((5, "a failure".into()));
+    tally.defects.push((6, "a defect".into()));
+    let program = program().unwrap();
+    tally.save(&path, &program).unwrap();
+    let again = Tally::load(&path, &program, 0).unwrap();
     assert_eq!(report::distribution(&again), report::distribution(&tally));
     assert_eq!(again.events, tally.events);
+    let refused = |program: &str, first: u64| Tally::load(&path, program, first).unwrap_err().to_string();
+    assert!(refused("another", 0).contains("remove the tally to begin again"));
+    assert!(refused(&program, 60).contains("must be 60; got 0"));
     std::fs::write(&path, "no tally").unwrap();
-    assert!(Tally::load(&path).is_err());
+    assert!(refused(&program, 0).contains("got none"));
+    std::fs::write(&path, format!("program\t{program}\nno tally")).unwrap();
+    assert!(refused(&program, 0).contains("line 2"));
 }

@@ -4,18 +4,19 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use seismass_judge::stress::random::{Selection, Tally};
-use seismass_judge::stress::{cases, random, report};
+use seismass_judge::stress::random::Tally;
+use seismass_judge::stress::{cases, program, report};
 
 const HELP: &str = "\
 Named cases and random scenes against the kernel; exit code 1 if anything is unexplained.
 
   --scenes N     random scenes in all, seeds from 0 (default 1000000)
   --judged N     of them, compared with the plain implementation, about (default 10000)
-  --first N      seed to start from, with a tally of its own
+  --first N      seed to start from (default 0)
   --chunk N      scenes between two printed counts (default 5000)
   --minutes M    stop after the chunk in which so much time has passed
-  --tally PATH   tally to go on from and to keep up to date (default target/stress/tally.tsv); failing seeds are in it
+  --tally PATH   tally to go on from and to keep up to date, of the same kernel and the same first seed (default
+                 target/stress/tally.tsv, with --first N target/stress/tally-from-N.tsv); failing seeds are in it
   --write PATH   write the page of docs there
   --no-cases     random scenes alone
 ";
@@ -23,22 +24,32 @@ Named cases and random scenes against the kernel; exit code 1 if anything is une
 struct Arguments {
     scenes: u64,
     judged: u64,
-    first: Option<u64>,
+    first: u64,
     chunk: u64,
     minutes: f64,
-    tally: PathBuf,
+    tally: Option<PathBuf>,
     write: Option<PathBuf>,
     cases: bool,
+}
+
+impl Arguments {
+    fn tally_path(&self) -> PathBuf {
+        let usual = || match self.first {
+            0 => "target/stress/tally.tsv".into(),
+            first => format!("target/stress/tally-from-{first}.tsv").into(),
+        };
+        self.tally.clone().unwrap_or_else(usual)
+    }
 }
 
 fn arguments() -> Result<Arguments, String> {
     let mut found = Arguments {
         scenes: 1_000_000,
         judged: 10_000,
-        first: None,
+        first: 0,
         chunk: 5000,
         minutes: f64::INFINITY,
-        tally: PathBuf::from("target/stress/tally.tsv"),
+        tally: None,
         write: None,
         cases: true,
     };
@@ -56,13 +67,13 @@ fn arguments() -> Result<Arguments, String> {
         match option.as_str() {
             "--scenes" => found.scenes = whole()?,
             "--judged" => found.judged = whole()?,
-            "--first" => found.first = Some(whole()?),
+            "--first" => found.first = whole()?,
             "--chunk" => found.chunk = whole()?.max(1),
             "--minutes" => {
                 found.minutes =
                     value.parse().map_err(|_| format!("value of --minutes must be a number; got {value}"))?;
             }
-            "--tally" => found.tally = value.into(),
+            "--tally" => found.tally = Some(value.into()),
             "--write" => found.write = Some(value.into()),
             _ => return Err(format!("option must be one of those below; got {option}\n\n{HELP}")),
         }
@@ -71,23 +82,25 @@ fn arguments() -> Result<Arguments, String> {
 }
 
 fn stress(arguments: &Arguments) -> Result<bool, Box<dyn std::error::Error>> {
-    if let Some(folder) = arguments.tally.parent() {
+    let path = arguments.tally_path();
+    if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    let mut tally = if arguments.first.is_some() { Tally::default() } else { Tally::load(&arguments.tally)? };
-    let offset = arguments.first.unwrap_or(0);
+    let program = program()?;
+    let mut tally = Tally::load(&path, &program, arguments.first)?;
     let begin = Instant::now();
     let budget = Duration::try_from_secs_f64(60.0 * arguments.minutes).unwrap_or(Duration::MAX);
     let judged = arguments.judged as f64 / arguments.scenes.max(1) as f64;
     while tally.scenes < arguments.scenes && begin.elapsed() < budget {
         let scenes = arguments.chunk.min(arguments.scenes - tally.scenes);
-        random::run(Selection { first: offset + tally.scenes, scenes, judged }, &mut tally);
-        tally.save(&arguments.tally)?;
+        tally.run(scenes, judged);
+        tally.save(&path, &program)?;
         let explained = tally.grazing.len() + tally.sensitive.len() + tally.pairs.len() + tally.cancelled.len();
         println!(
-            "{} scenes, {} judged, {explained} explained, {} defects, {:.0} s",
+            "{} scenes, {} judged, {explained} explained, {} failed, {} defects, {:.0} s",
             tally.scenes,
             tally.judged,
+            tally.failed.len(),
             tally.defects.len(),
             begin.elapsed().as_secs_f64(),
         );

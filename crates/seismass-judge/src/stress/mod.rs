@@ -14,3 +14,4 @@ mod tally_file;
 pub use family::{Family, scene_of};
 pub use hard_scene::hard_scene;
 pub use tall_scene::tall_scene;
+pub use tally_file::program;

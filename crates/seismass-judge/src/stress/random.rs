@@ -10,6 +10,7 @@ use seismass::{Error, EventCounts, EventKind, Motion, Options, Response, Scene, 
 use super::consistency;
 use super::family::Family;
 use super::grazing::{Verdict, explained_residual, judge};
+use crate::JudgeError;
 use crate::random_scene::Draw;
 
 /// Largest energy residual that rounding explains.
@@ -19,23 +20,14 @@ const AFFORDABLE_PIECES: f64 = 3e5;
 /// One scene in so many has its energies balanced and is solved without them too; a judged one always.
 const ENERGIES: u64 = 10;
 
-/// Which scenes to run.
-#[derive(Debug, Clone, Copy)]
-pub struct Selection {
-    /// First seed.
-    pub first: u64,
-    /// Number of scenes.
-    pub scenes: u64,
-    /// Share of them that is compared with the judge.
-    pub judged: f64,
-}
-
 /// What one scene came to.
 #[derive(Debug, Clone, Default)]
 struct Found {
     seed: u64,
     family: Family,
     collapsed: bool,
+    /// Why there is no response.
+    failed: Option<String>,
     events: EventCounts,
     residual: Option<f64>,
     /// The residual beyond the limit that the contact force explains.
@@ -49,13 +41,18 @@ fn examine(seed: u64, family: Family, judged: bool) -> Found {
     let mut found = Found { seed, family, ..Found::default() };
     let (scene, motion) = match family.scene(seed) {
         Ok(drawn) => drawn,
-        Err(error) => return Found { defect: Some(format!("the scene was refused: {error}")), ..found },
+        Err(error) => return found.without_response(format!("the scene was refused: {error}"), true),
     };
     let energy = judged || draw.one_in(ENERGIES);
     let options = Options { histories: NonZeroUsize::new(1), events: true, energy, ..Options::default() };
     let response = match simulate(&scene, &motion, &options) {
         Ok(response) => response,
-        Err(error) => return Found { defect: unexplained(&scene, &motion, &error), ..found },
+        Err(error) => {
+            let judge = crate::solve::<crate::DoubleDouble>(&scene, &motion, 1);
+            let alike = judge.as_ref().is_err_and(|other| fail_alike(&error, other));
+            let judge = judge.map_or_else(|other| format!("fails: {other}"), |_| "solves it".into());
+            return found.without_response(format!("error: {error}; the judge {judge}"), !alike);
+        }
     };
     found.collapsed = response.status != Status::Completed;
     found.events = response.statistics.events;
@@ -80,12 +77,21 @@ fn examine(seed: u64, family: Family, judged: bool) -> Found {
     found
 }
 
-/// An error is explained if the judge in double-double cannot go on either.
-fn unexplained(scene: &Scene, motion: &Motion, error: &Error) -> Option<String> {
-    match crate::solve::<crate::DoubleDouble>(scene, motion, 1) {
-        Err(_) => None,
-        Ok(_) => Some(format!("error: {error}")),
+impl Found {
+    /// A run that failed; whether that is a defect.
+    fn without_response(self, reason: String, is_defect: bool) -> Self {
+        Self { defect: is_defect.then(|| reason.clone()), failed: Some(reason), ..self }
     }
+}
+
+/// Whether kernel and judge cannot go on for the same reason.
+fn fail_alike(kernel: &Error, judge: &JudgeError) -> bool {
+    matches!(
+        (kernel, judge),
+        (Error::TooManyEvents { .. }, JudgeError::TooManyEvents { .. })
+            | (Error::TooStiff { .. }, JudgeError::TooStiff { .. })
+            | (Error::NotFinite { .. }, JudgeError::NotFinite { .. })
+    )
 }
 
 fn affordable(scene: &Scene, motion: &Motion) -> bool {
@@ -97,12 +103,16 @@ fn affordable(scene: &Scene, motion: &Motion) -> bool {
 /// The distribution of a random run.
 #[derive(Debug, Clone, Default)]
 pub struct Tally {
-    /// Scenes run, with seeds from 0.
+    /// Seed of the first scene.
+    pub first: u64,
+    /// Scenes run, of one seed after the other.
     pub scenes: u64,
     /// Of them, of each family.
     pub families: [u64; Family::ALL.len()],
     /// Of them, ended by collapse.
     pub collapsed: u64,
+    /// Of them, failed: seed, reason. Where the judge does not fail for the same reason it is a defect too.
+    pub failed: Vec<(u64, String)>,
     /// Of them, compared with the judge.
     pub judged: u64,
     /// Of them, with energies.
@@ -132,6 +142,26 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// An empty tally of scenes from this seed on.
+    pub fn from_seed(first: u64) -> Self {
+        Self { first, ..Self::default() }
+    }
+
+    /// Runs more scenes in parallel, of which this share is compared with the judge.
+    pub fn run(&mut self, scenes: u64, judged: f64) {
+        let next = self.first + self.scenes;
+        let found: Vec<Found> = (next..next + scenes)
+            .into_par_iter()
+            .map(|seed| {
+                let family = Family::of(seed);
+                let judged = Draw(seed).between(0.0, 1.0) < judged * family.judged();
+                let panicked = |_| Found { seed, family, ..Found::default() }.without_response("panic".into(), true);
+                catch_unwind(AssertUnwindSafe(|| examine(seed, family, judged))).unwrap_or_else(panicked)
+            })
+            .collect();
+        found.into_iter().for_each(|found| self.add(found));
+    }
+
     fn add(&mut self, found: Found) {
         let family = found.family as usize;
         let raise = |worst: &mut (f64, u64), value: f64| {
@@ -145,7 +175,10 @@ impl Tally {
         self.balanced += u64::from(found.residual.is_some());
         self.judged += u64::from(found.verdict.is_some());
         raise(&mut self.worst_residual[family], found.residual.unwrap_or(0.0));
-        *self.events.entry(found.events.total() as u64).or_default() += 1;
+        match found.failed {
+            Some(reason) => self.failed.push((found.seed, reason)),
+            None => *self.events.entry(found.events.total() as u64).or_default() += 1,
+        }
         for (sum, kind) in self.kinds.iter_mut().zip(EventKind::ALL) {
             *sum += found.events.of(kind) as u64;
         }
@@ -169,33 +202,15 @@ impl Tally {
 
     /// Least, median and greatest number of events of a run.
     pub fn event_quantiles(&self) -> [u64; 3] {
+        let all: u64 = self.events.values().sum();
         let mut below = 0;
         let median = self.events.iter().find(|(_, runs)| {
             below += **runs;
-            2 * below >= self.scenes
+            2 * below >= all
         });
         let number = |entry: Option<(&u64, &u64)>| entry.map_or(0, |(events, _)| *events);
         [number(self.events.first_key_value()), number(median), number(self.events.last_key_value())]
     }
-}
-
-/// Runs scenes in parallel and adds what was found to `tally`.
-pub fn run(selection: Selection, tally: &mut Tally) {
-    let Selection { first, scenes, judged } = selection;
-    let found: Vec<Found> = (first..first + scenes)
-        .into_par_iter()
-        .map(|seed| {
-            let family = Family::of(seed);
-            let judged = Draw(seed).between(0.0, 1.0) < judged * family.judged();
-            catch_unwind(AssertUnwindSafe(|| examine(seed, family, judged))).unwrap_or_else(|_| Found {
-                seed,
-                family,
-                defect: Some("panic".into()),
-                ..Found::default()
-            })
-        })
-        .collect();
-    found.into_iter().for_each(|found| tally.add(found));
 }
 
 /// The kernel's response with everything that can be checked.

@@ -19,14 +19,19 @@ pub fn distribution(tally: &Tally) -> String {
     row("quantity", "value".into());
     row("---", "---".into());
     let of_families = Family::ALL.iter().zip(tally.families);
-    row("scenes run (seeds from 0)", tally.scenes.to_string());
+    row(&format!("scenes run (seeds from {})", tally.first), tally.scenes.to_string());
     row("of them by family", listed(of_families.map(|(family, n)| format!("{} {n}", family.name()))));
-    row("completed / collapsed", format!("{} / {}", tally.scenes - tally.collapsed, tally.collapsed));
+    let failed = tally.failed.len();
+    let completed = tally.scenes - tally.collapsed - failed as u64;
+    row("completed / collapsed / failed", format!("{completed} / {} / {failed}", tally.collapsed));
     let [least, median, most] = tally.event_quantiles();
     row("events of a run: least / median / most", format!("{least} / {median} / {most}"));
     let kinds = EventKind::ALL.iter().zip(tally.kinds);
     row("events by kind", listed(kinds.map(|(kind, n)| format!("{} {n}", kind.name()))));
-    row("energies balanced, and solved without them to the same bits", tally.balanced.to_string());
+    row(
+        "energies balanced, and solved without them to the same bits",
+        tally.balanced.to_string(),
+    );
     let worst = |worst: [(f64, u64); Family::ALL.len()]| {
         let of_family = Family::ALL.iter().zip(worst);
         listed(of_family.map(|(family, (value, seed))| format!("{} {value:.1e} (seed {seed})", family.name())))
@@ -64,11 +69,14 @@ pub fn distribution(tally: &Tally) -> String {
     for (seed, explained, residual) in &tally.cancelled {
         let _ = writeln!(text, "- seed {seed}: residual {residual:.1e}, explained up to {explained:.1e}");
     }
-    if !tally.defects.is_empty() {
-        let _ = writeln!(text, "\nDefects:\n");
-    }
-    for (seed, defect) in &tally.defects {
-        let _ = writeln!(text, "- seed {seed}: `{defect}`");
+    let failed = "Failed runs, no defects where the judge fails for the same reason";
+    for (heading, list) in [(failed, &tally.failed), ("Defects", &tally.defects)] {
+        if !list.is_empty() {
+            let _ = writeln!(text, "\n{heading}:\n");
+        }
+        for (seed, reason) in list {
+            let _ = writeln!(text, "- seed {seed}: `{reason}`");
+        }
     }
     text
 }
@@ -96,7 +104,7 @@ pub fn page(findings: &[Finding], tally: &Tally) -> String {
     let failed = findings.iter().filter(|f| f.outcome.is_err()).count();
     format!(
         "# Stress\n\nWritten by `make stress`, which runs a million random scenes and may be stopped and \
-         gone on with; how many this page stands for is in its last table. What can still go wrong is in [limitations.md](limitations.md).\n\n\
+         gone on with as long as the kernel is the same; how many this page stands for is in its last table. What can still go wrong is in [limitations.md](limitations.md).\n\n\
          ## Named cases\n\n\
          {} cases, {failed} whose expectation does not hold. *Judge*: the second, plain implementation, in double-double \
          precision unless stated; a difference to it is relative to the peak of the same storey or block, of event times to the duration of the run. \

@@ -1,24 +1,38 @@
-//! A tally on disk, so that a long random run can stop and go on: one line per entry, tab-separated.
+//! A tally on disk, so that a long random run can stop and go on: one line per entry, tab-separated. The first names
+//! the program that made it, for the counts of different kernels mean nothing together.
 
 use std::fmt::Write as _;
 use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io;
 use std::path::Path;
 
 use super::family::Family;
 use super::random::Tally;
 
+/// A digest of the running executable, kernel and judge among it.
+///
+/// # Errors
+/// Those of the file system.
+pub fn program() -> io::Result<String> {
+    let mut hasher = DefaultHasher::new();
+    fs::read(std::env::current_exe()?)?.hash(&mut hasher);
+    Ok(format!("{:016x}", hasher.finish()))
+}
+
 impl Tally {
-    /// Writes the tally to a file, whole or not at all.
+    /// Writes the tally, made by this [`program`], to a file, whole or not at all.
     ///
     /// # Errors
     /// Those of the file system.
-    pub fn save(&self, path: &Path) -> io::Result<()> {
+    pub fn save(&self, path: &Path, program: &str) -> io::Result<()> {
         let mut text = String::new();
         let mut line = |key: &str, fields: &[String]| {
             // Writing to a string does not fail.
             let _ = writeln!(text, "{key}\t{}", fields.join("\t"));
         };
+        line("program", &[program.into()]);
+        line("first", &[self.first.to_string()]);
         let counts = [self.scenes, self.collapsed, self.judged, self.balanced];
         line("counts", &counts.map(|c| c.to_string()));
         line("families", &self.families.map(|c| c.to_string()));
@@ -42,30 +56,49 @@ impl Tally {
         for (seed, explained, residual) in &self.cancelled {
             line("cancelled", &[seed.to_string(), format!("{explained:e}"), format!("{residual:e}")]);
         }
-        for (seed, defect) in &self.defects {
-            line("defect", &[seed.to_string(), defect.clone()]);
+        for (key, list) in [("failed", &self.failed), ("defect", &self.defects)] {
+            for (seed, reason) in list {
+                line(key, &[seed.to_string(), reason.clone()]);
+            }
         }
         let new = path.with_extension("new");
         fs::write(&new, text)?;
         fs::rename(&new, path)
     }
 
-    /// Reads a tally; an empty one where there is no file.
+    /// Reads a tally to go on with; an empty one where there is no file.
     ///
     /// # Errors
-    /// Those of the file system, and [`io::ErrorKind::InvalidData`] for a file that is no tally.
-    pub fn load(path: &Path) -> io::Result<Self> {
+    /// Those of the file system, and [`io::ErrorKind::InvalidData`] for a file that is no tally, was made by another
+    /// program, or has another first seed.
+    pub fn load(path: &Path, program: &str, first: u64) -> io::Result<Self> {
         if !path.exists() {
-            return Ok(Self::default());
+            return Ok(Self::from_seed(first));
         }
+        let refused = |message: String| io::Error::new(io::ErrorKind::InvalidData, message);
         let text = fs::read_to_string(path)?;
+        let mut lines = text.lines().enumerate();
+        let made_by = lines.next().and_then(|(_, line)| line.strip_prefix("program\t"));
+        if made_by != Some(program) {
+            return Err(refused(format!(
+                "program of tally {} must be the present one, {program}; got {}: remove the tally to begin again",
+                path.display(),
+                made_by.unwrap_or("none"),
+            )));
+        }
         let mut tally = Self::default();
-        for (number, line) in text.lines().enumerate() {
+        for (number, line) in lines {
             let fields: Vec<&str> = line.split('\t').collect();
             tally.read_line(&fields).ok_or_else(|| {
-                let message = format!("line {} of {} is not of a tally: {line}", number + 1, path.display());
-                io::Error::new(io::ErrorKind::InvalidData, message)
+                refused(format!("line {} of {} is not of a tally: {line}", number + 1, path.display()))
             })?;
+        }
+        if tally.first != first {
+            return Err(refused(format!(
+                "first seed of tally {} must be {first}; got {}",
+                path.display(),
+                tally.first
+            )));
         }
         Ok(tally)
     }
@@ -77,8 +110,8 @@ impl Tally {
         let family = |i: usize| Family::ALL.iter().position(|family| Some(&family.name()) == fields.get(i));
         let text = |i: usize| fields.get(i).map(ToString::to_string);
         match *key {
-            // Tallies of before had other counts.
-            "counts" if fields.len() == 4 => {
+            "first" => self.first = whole(0)?,
+            "counts" => {
                 let counts = [&mut self.scenes, &mut self.collapsed, &mut self.judged, &mut self.balanced];
                 take_numbers(fields, counts.into_iter())?;
             }
@@ -94,6 +127,7 @@ impl Tally {
             "sensitive" => self.sensitive.push((whole(0)?, real(1)?, text(2)?)),
             "pairs" => self.pairs.push((whole(0)?, real(1)?, text(2)?)),
             "cancelled" => self.cancelled.push((whole(0)?, real(1)?, real(2)?)),
+            "failed" => self.failed.push((whole(0)?, text(1)?)),
             "defect" => self.defects.push((whole(0)?, text(1)?)),
             _ => return None,
         }
