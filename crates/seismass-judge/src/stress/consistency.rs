@@ -2,7 +2,9 @@
 
 use std::num::NonZeroUsize;
 
-use seismass::{Event, EventKind, Histories, Motion, Options, Response, STANDARD_GRAVITY, Scene, Status, simulate};
+use seismass::{
+    Error, Event, EventKind, Histories, Motion, Options, Peaks, Response, STANDARD_GRAVITY, Scene, Status, simulate,
+};
 
 use crate::larger;
 
@@ -49,6 +51,31 @@ pub fn check_others(scene: &Scene, motion: &Motion, response: &Response) -> Resu
             && (&other.events, other.status) == (&response.events, response.status);
         if !same || histories && !same_histories(&other, response) {
             return Err(format!("other bits without {without}"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether peaks are the same to the bit where they alone are asked for, under the motion with as long a quiet tail, in
+/// which a run for peaks alone may stop.
+pub fn check_peaks_alone(scene: &Scene, motion: &Motion) -> Result<(), String> {
+    let fault = |error: Error| format!("with a quiet tail: {error}");
+    let duration = 2.0 * motion.acceleration().len() as f64 * motion.dt();
+    let motion = motion.with_duration(duration).map_err(fault)?;
+    let run = |peaks_only| simulate(scene, &motion, &Options { peaks_only, ..Options::default() });
+    let (whole, short) = (run(false).map_err(fault)?, run(true).map_err(fault)?);
+    same_peaks(&short.peaks, &whole.peaks)?;
+    if short.status == whole.status { Ok(()) } else { Err("another ending for peaks alone".into()) }
+}
+
+/// The first peak that is not the same for peaks alone, be it in its value or its time.
+fn same_peaks(found: &Peaks, expected: &Peaks) -> Result<(), String> {
+    let lists =
+        |of: &Peaks| [of.drift.clone(), of.slip.clone(), of.floor_acceleration.clone(), of.storey_shear.clone()];
+    let names = ["drift", "slip", "floor acceleration", "storey shear"];
+    for (name, (found, expected)) in names.iter().zip(lists(found).iter().zip(&lists(expected))) {
+        if let Some(i) = (0..expected.len()).find(|&i| found.get(i) != expected.get(i)) {
+            return Err(format!("for peaks alone {name} {} has {:?} for {:?}", i + 1, found.get(i), expected[i]));
         }
     }
     Ok(())

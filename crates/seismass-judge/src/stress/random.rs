@@ -17,7 +17,8 @@ use crate::random_scene::Draw;
 pub const LARGEST_RESIDUAL: f64 = 1e-11;
 /// The judge is not asked where its series would need more pieces than this.
 const AFFORDABLE_PIECES: f64 = 3e5;
-/// One scene in so many has its energies balanced and is solved without them too; a judged one always.
+/// One scene in so many has its energies balanced and is solved in other ways too: without them, and for peaks alone. A
+/// judged one always is.
 const ENERGIES: u64 = 10;
 
 /// What one scene came to.
@@ -59,7 +60,8 @@ fn examine(seed: u64, family: Family, judged: bool) -> Found {
     found.residual = response.energy.map(|e| e.relative_residual.abs());
     found.defect = consistency::check(&scene, &motion, &response).err();
     if energy && found.defect.is_none() {
-        found.defect = consistency::check_others(&scene, &motion, &response).err();
+        let others = consistency::check_others(&scene, &motion, &response);
+        found.defect = others.and_then(|()| consistency::check_peaks_alone(&scene, &motion)).err();
     }
     if let Some(residual) = found.residual.filter(|r| *r > LARGEST_RESIDUAL || r.is_nan()) {
         found.explained_residual = explained_residual(&scene, &motion, &response);

@@ -29,7 +29,7 @@ pub fn distribution(tally: &Tally) -> String {
     let kinds = EventKind::ALL.iter().zip(tally.kinds);
     row("events by kind", listed(kinds.map(|(kind, n)| format!("{} {n}", kind.name()))));
     row(
-        "energies balanced, and solved without them to the same bits",
+        "energies balanced; without them the same bits, for peaks alone with a quiet tail the same peaks",
         tally.balanced.to_string(),
     );
     let worst = |worst: [(f64, u64); Family::ALL.len()]| {
