@@ -74,8 +74,8 @@ fn same_peaks(found: &Peaks, expected: &Peaks) -> Result<(), String> {
         |of: &Peaks| [of.drift.clone(), of.slip.clone(), of.floor_acceleration.clone(), of.storey_shear.clone()];
     let names = ["drift", "slip", "floor acceleration", "storey shear"];
     for (name, (found, expected)) in names.iter().zip(lists(found).iter().zip(&lists(expected))) {
-        if let Some(i) = (0..expected.len()).find(|&i| found.get(i) != expected.get(i)) {
-            return Err(format!("for peaks alone {name} {} has {:?} for {:?}", i + 1, found.get(i), expected[i]));
+        if let Some(i) = (0..expected.len()).find(|&i| found[i] != expected[i]) {
+            return Err(format!("for peaks alone {name} {} is {:?} for {:?}", i + 1, found[i], expected[i]));
         }
     }
     Ok(())
