@@ -1,6 +1,7 @@
 //! Where kernel and judge part: is it a true grazing? The judge is asked with its input changed in the last digits.
 //! And where the kernel's energies do not balance: does the input carry the digits that are missing?
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use seismass::{Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene};
@@ -8,7 +9,7 @@ use seismass::{Block, Building, Damping, Event, GravityEffect, Motion, Response,
 use super::pairs;
 use crate::compare::compare_endings;
 use crate::random_scene::Draw;
-use crate::{Comparison, DoubleDouble, Solution, compare, larger, solve};
+use crate::{Comparison, DoubleDouble, Solution, compare, compare_events, larger, solve};
 
 /// Relative differences below this are agreement.
 pub const AGREEMENT: f64 = 1e-9;
@@ -126,15 +127,14 @@ fn moves_as_far(exact: &Solution, other: &Solution, parted: &Comparison) -> bool
 /// The largest difference of times (s) if each storey and block has the same events in both logs: what happens to
 /// different ones may have changed places.
 fn apart_by_machine(found: &[Event], expected: &[Event]) -> Option<f64> {
-    let sorted = |log: &[Event]| {
-        let mut log = log.to_vec();
-        log.sort_by_key(pairs::machine);
-        log
-    };
-    let (found, expected) = (sorted(found), sorted(expected));
-    let same = found.len() == expected.len() && found.iter().zip(&expected).all(|(f, e)| pairs::same_kind(f, e));
-    let times = found.iter().zip(&expected).map(|(f, e)| (f.time - e.time).abs());
-    same.then(|| times.fold(0.0, larger))
+    let machines: BTreeSet<_> = found.iter().chain(expected).map(pairs::machine).collect();
+    machines.into_iter().try_fold(0.0, |worst, machine| {
+        let of_machine = |log: &[Event]| -> Vec<Event> {
+            log.iter().filter(|event| pairs::machine(event) == machine).copied().collect()
+        };
+        let apart = compare_events(&of_machine(found), &of_machine(expected)).ok()?;
+        Some(larger(worst, apart))
+    })
 }
 
 /// The judge with its input changed, and that input.

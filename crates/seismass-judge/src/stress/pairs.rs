@@ -166,7 +166,7 @@ fn restores(before: Option<&Event>, Pair { opening, closing }: &Pair) -> bool {
     restores && opening.sign == closing.sign
 }
 
-pub(super) fn same_kind(a: &Event, b: &Event) -> bool {
+fn same_kind(a: &Event, b: &Event) -> bool {
     (a.kind, a.number, a.sign, a.element) == (b.kind, b.number, b.sign, b.element)
 }
 
