@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene};
+use seismass::{Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene, Status};
 
 use super::pairs;
 use crate::compare::compare_endings;
@@ -94,8 +94,8 @@ fn explain(scene: &Scene, motion: &Motion, response: &Response, exact: &Solution
             }
             // A changed judge that does not come to the kernel's events shows nothing of what follows their first.
             let shown = match (&parted.mismatch, &left.mismatch) {
-                (None, _) => moves_as_far(exact, &other, parted),
-                (Some(_), None) => is_sensitive(&scene, &motion, &other, &left),
+                (None, _) => moves_as_far(response, exact, &other),
+                (Some(_), None) => is_sensitive(&scene, &motion, response, &other),
                 (Some(_), Some(_)) => false,
             };
             if shown {
@@ -107,34 +107,40 @@ fn explain(scene: &Scene, motion: &Motion, response: &Response, exact: &Solution
 }
 
 /// Whether some change of the judge's input in the last digits moves it as far as the kernel is from it.
-fn is_sensitive(scene: &Scene, motion: &Motion, exact: &Solution, parted: &Comparison) -> bool {
+fn is_sensitive(scene: &Scene, motion: &Motion, response: &Response, exact: &Solution) -> bool {
     LAST_DIGITS.into_iter().any(|digits| {
         let mut others = (0..TRIALS).filter_map(|trial| changed_judge(scene, motion, digits, trial));
-        others.any(|(.., other)| moves_as_far(exact, &other, parted))
+        others.any(|(.., other)| moves_as_far(response, exact, &other))
     })
 }
 
-/// Whether every storey and block of the changed judge has the events of the judge's, and numbers and times are as far
-/// from the judge's as the kernel's are.
-fn moves_as_far(exact: &Solution, other: &Solution, parted: &Comparison) -> bool {
-    let as_far = |parted: f64, moved: f64| parted <= AMPLIFICATION * moved;
-    let ending = compare_endings(&other.status, &exact.status);
-    let Some((ending, times)) = ending.ok().zip(apart_by_machine(&other.events, &exact.events)) else { return false };
-    (parted.worst() <= AGREEMENT || as_far(parted.worst(), exact.judge(other).worst()))
-        && (parted.worst_time() <= AGREEMENT || as_far(parted.event_time, larger(ending, times)))
+/// Whether every storey and block has the judge's events in the kernel's and in the changed judge's run, and numbers and
+/// the times of each are as far from the judge's in the latter as in the former.
+fn moves_as_far(response: &Response, exact: &Solution, other: &Solution) -> bool {
+    let times = |status: &Status, log: &[Event]| {
+        let ending = compare_endings(status, &exact.status).ok()?;
+        let mut times = apart_by_machine(log, &exact.events)?;
+        times.push(ending);
+        Some(times)
+    };
+    let kernel = times(&response.status, response.events.as_deref().unwrap_or_default());
+    let Some((kernel, changed)) = kernel.zip(times(&other.status, &other.events)) else { return false };
+    let as_far = |rounding: f64, kernel: f64, changed: f64| kernel <= rounding || kernel <= AMPLIFICATION * changed;
+    as_far(AGREEMENT, compare(response, exact).worst(), exact.judge(other).worst())
+        && kernel.iter().zip(changed).all(|(&kernel, changed)| as_far(AGREEMENT * exact.end_time, kernel, changed))
 }
 
-/// The largest difference of times (s) if each storey and block has the same events in both logs: what happens to
-/// different ones may have changed places.
-fn apart_by_machine(found: &[Event], expected: &[Event]) -> Option<f64> {
+/// For each storey and block that has events, how far apart their times are (s); nothing if one has not the same events
+/// in both logs. What happens to different ones may have changed places.
+fn apart_by_machine(found: &[Event], expected: &[Event]) -> Option<Vec<f64>> {
     let machines: BTreeSet<_> = found.iter().chain(expected).map(pairs::machine).collect();
-    machines.into_iter().try_fold(0.0, |worst, machine| {
+    let apart = |machine| {
         let of_machine = |log: &[Event]| -> Vec<Event> {
             log.iter().filter(|event| pairs::machine(event) == machine).copied().collect()
         };
-        let apart = compare_events(&of_machine(found), &of_machine(expected)).ok()?;
-        Some(larger(worst, apart))
-    })
+        compare_events(&of_machine(found), &of_machine(expected)).ok()
+    };
+    machines.into_iter().map(apart).collect()
 }
 
 /// The judge with its input changed, and that input.

@@ -49,9 +49,9 @@ fn examine(seed: u64, family: Family, judged: bool) -> Found {
     let response = match simulate(&scene, &motion, &options) {
         Ok(response) => response,
         Err(error) => {
-            let judge = crate::solve::<crate::DoubleDouble>(&scene, &motion, 1);
-            let alike = judge.as_ref().is_err_and(|other| fail_alike(&error, other));
-            let judge = judge.map_or_else(|other| format!("fails: {other}"), |_| "solves it".into());
+            let solution = crate::solve::<crate::DoubleDouble>(&scene, &motion, 1);
+            let alike = solution.as_ref().is_err_and(|other| fail_alike(&error, other));
+            let judge = solution.map_or_else(|other| format!("fails: {other}"), |_| "solves it".into());
             return found.without_response(format!("error: {error}; the judge {judge}"), !alike);
         }
     };

@@ -67,7 +67,7 @@ pub(super) const CASES: &[Case] = &[
     Case {
         theme: THEME,
         name: "negative tangents by P-Delta",
-        expectation: "collapses in the judge's storey or completes as it does, events and collapse at its times to 1e-9 s, numbers to 1e-8",
+        expectation: "collapses or completes as the judge does, all events at its times to 1e-9 s, numbers to 1e-8",
         run: p_delta,
     },
     Case {
