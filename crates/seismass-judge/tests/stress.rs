@@ -35,9 +35,10 @@ fn random_scenes_are_consistent_and_agree_with_the_judge() {
 /// energies under vertical motion.
 #[test]
 fn seeds_that_once_failed_hold() {
-    for seed in
-        [1209, 14749, 22984, 24647, 29706, 55104, 71144, 130_978, 144_318, 219_850, 297_876, 500_798, 529_744, 638_979]
-    {
+    for seed in [
+        287, 763, 1209, 14749, 22984, 24647, 29706, 55104, 71144, 130_978, 144_318, 219_850, 297_876, 500_798, 529_744,
+        638_979,
+    ] {
         let mut tally = Tally::from_seed(seed);
         tally.run(1, 1.0);
         assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
