@@ -34,6 +34,9 @@ const MOST_SUBSTEPS_OF_MOTION: usize = 1 << 21;
 const MOST_PHASE: f64 = 65536.0;
 /// Peaks this close to each other, relatively, may be the same but for rounding.
 const SAME_PEAK: f64 = 1e-9;
+/// Steps of a quiet tail between two looks at whether a peak can be beaten there: taken so whether or not it is asked,
+/// since rounding may tell where a peak lies among equal values.
+const STEPS_OF_QUIET: usize = 32;
 /// Steps between two looks at the caller's wish to stop.
 const STEPS_PER_POLL: usize = 1024;
 
@@ -80,8 +83,7 @@ pub(crate) fn run(
     };
     run.begin(motion);
     let first = run.skip_quiet_head(motion);
-    let quiet_from =
-        if peaks_only { motion.acceleration().iter().rposition(|&a| a != 0.0).map_or(0, |i| i + 1) } else { samples };
+    let quiet_from = motion.acceleration().iter().rposition(|&a| a != 0.0).map_or(0, |i| i + 1);
     let mut status = Status::Completed;
     let last = samples - 1;
     let mut i = first;
@@ -89,7 +91,7 @@ pub(crate) fn run(
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        if i >= quiet_from && run.no_peak_can_be_beaten() {
+        if peaks_only && i >= quiet_from && run.no_peak_can_be_beaten() {
             break;
         }
         run.phase_of(motion.dt())?;
@@ -260,11 +262,7 @@ impl Run<'_> {
     fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> (usize, bool) {
         let last = motion.acceleration().len() - 1;
         let mut end = last.min(i + STEPS_PER_POLL);
-        if i < quiet_from {
-            end = end.min(quiet_from);
-        } else {
-            end = i + 1;
-        }
+        end = end.min(if i < quiet_from { quiet_from } else { i + STEPS_OF_QUIET });
         let state = &mut self.state;
         let before = self.observer.keeps_energy().then(|| {
             end = i + 1;

@@ -34,9 +34,9 @@ pub enum Verdict {
         difference: String,
     },
     /// The judge, with its input changed in the last digits or not, has the kernel's events, and moves as far as the
-    /// kernel is from it with its input changed in the last digits once more.
+    /// kernel is from it with its input changed in the last digits once more, or by its own rounding in double precision.
     Sensitive {
-        /// The change, in units of the last digit.
+        /// The change, in units of the last digit; 0 where it is the judge's own rounding.
         digits: f64,
         /// How the two differed.
         difference: String,
@@ -85,6 +85,12 @@ fn explain(scene: &Scene, motion: &Motion, response: &Response, exact: &Solution
     let difference = parted.mismatch.clone().unwrap_or_else(|| {
         format!("relative difference {:.1e}, of event times {:.1e}", parted.worst(), parted.worst_time())
     });
+    // What double precision itself leaves open: the judge's own rounding.
+    if parted.mismatch.is_none()
+        && solve::<f64>(scene, motion, 1).is_ok_and(|plain| moves_as_far(response, exact, &plain))
+    {
+        return Verdict::Sensitive { digits: 0.0, difference };
+    }
     for digits in LAST_DIGITS {
         for trial in 0..TRIALS {
             let Some((scene, motion, other)) = changed_judge(scene, motion, digits, trial) else { continue };

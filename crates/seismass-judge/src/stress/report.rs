@@ -50,7 +50,7 @@ pub fn distribution(tally: &Tally) -> String {
     let of_state = "with the change of the state, in last digits, that brings or takes each";
     for (heading, change, list) in [
         ("Grazings", of_input, &tally.grazing),
-        ("Sensitive scenes", of_input, &tally.sensitive),
+        ("Sensitive scenes (0: by the judge's own rounding in double precision)", of_input, &tally.sensitive),
         ("Pairs at a graze", of_state, &tally.pairs),
     ] {
         if !list.is_empty() {
