@@ -175,10 +175,9 @@ def write_many(
         The file cannot be written.
     """
     target = as_path(path, "batch", InvalidOption)
-    if printable(str(target.absolute())) != str(target.absolute()):
-        raise refusal(
-            InvalidOption, "path", "batch", "in UTF-8, as Polars writes no other", brief(str(target.absolute()))
-        )
+    absolute = str(target.absolute())
+    if printable(absolute) != absolute:
+        raise refusal(InvalidOption, "path", "batch", "in UTF-8, as Polars writes no other", brief(absolute))
     frames = stream_many(
         scenes, motions, pairs=pairs, chunk=chunk, peaks_only=peaks_only, threads=threads, progress=progress
     )

@@ -8,6 +8,21 @@ pub(crate) const MAX_DEGREE: usize = 23;
 /// Vectors of coefficients that short polynomials have, and the longest.
 pub(crate) const FEW: usize = 4;
 pub(crate) const MOST: usize = (MAX_DEGREE + 1) / WIDTH;
+
+/// An expression in which `$count` is the number of vectors of a polynomial's coefficients, as a constant.
+macro_rules! by_length {
+    ($polynomial:expr, $count:ident => $call:expr) => {
+        if $polynomial.is_short() {
+            const $count: usize = crate::bernstein::FEW;
+            $call
+        } else {
+            const $count: usize = crate::bernstein::MOST;
+            $call
+        }
+    };
+}
+pub(crate) use by_length;
+
 /// Halvings after which an interval is a point.
 const MAX_DEPTH: u32 = 60;
 
@@ -87,7 +102,7 @@ impl Polynomial {
     /// Value and derivative at `s`: of every fourth power apart, then of all.
     #[inline(always)]
     fn at_with_rate<V: Vector>(&self, s: f64) -> (f64, f64) {
-        if self.is_short() { self.first_at_with_rate::<V, FEW>(s) } else { self.first_at_with_rate::<V, MOST>(s) }
+        by_length!(self, F => self.first_at_with_rate::<V, F>(s))
     }
 
     #[inline(always)]
@@ -115,7 +130,7 @@ impl Polynomial {
     /// What the coefficients say of values and derivatives on [0, 1].
     #[inline(always)]
     fn shape<V: Vector>(&self) -> Shape {
-        if self.is_short() { self.shape_of_first::<V, FEW>() } else { self.shape_of_first::<V, MOST>() }
+        by_length!(self, F => self.shape_of_first::<V, F>())
     }
 
     #[inline(always)]

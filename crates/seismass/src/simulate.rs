@@ -261,8 +261,8 @@ impl Run<'_> {
     /// and whether that one is not plain.
     fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> (usize, bool) {
         let last = motion.acceleration().len() - 1;
-        let mut end = last.min(i + STEPS_PER_POLL);
-        end = end.min(if i < quiet_from { quiet_from } else { i + STEPS_OF_QUIET });
+        let cut = if i < quiet_from { quiet_from.min(i + STEPS_PER_POLL) } else { i + STEPS_OF_QUIET };
+        let mut end = last.min(cut);
         let state = &mut self.state;
         let before = self.observer.keeps_energy().then(|| {
             end = i + 1;

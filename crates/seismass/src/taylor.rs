@@ -2,7 +2,7 @@
 //!
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
-use crate::bernstein::{FEW, MAX_DEGREE, MOST, Polynomial};
+use crate::bernstein::{MAX_DEGREE, Polynomial, by_length};
 use crate::lanes::{MAX_LANES, Plain, Vector, WIDTH, columns_of, differences, for_each_path, load, store};
 use crate::model::Model;
 use crate::propagator::Table;
@@ -401,23 +401,7 @@ impl Series {
     /// Sets the first four coefficients, and the others to terms so many orders lower, times their weights and a factor.
     /// Returns the sum of all their sizes: a bound on [0, 1].
     #[inline(always)]
-    fn integrate<V: Vector>(
-        first: V,
-        terms: &impl TermByOrder,
-        orders: usize,
-        weights: &Weights,
-        factor: f64,
-        p: &mut Polynomial,
-    ) -> f64 {
-        if p.is_short() {
-            Self::integrate_first::<V, FEW>(first, terms, orders, weights, factor, p)
-        } else {
-            Self::integrate_first::<V, MOST>(first, terms, orders, weights, factor, p)
-        }
-    }
-
-    #[inline(always)]
-    fn integrate_first<V: Vector, const F: usize>(
+    fn integrate<V: Vector, const F: usize>(
         first: V,
         terms: &impl TermByOrder,
         orders: usize,
@@ -445,7 +429,7 @@ impl Series {
         let twice = once * self.h;
         let terms = [0, 1].map(|k| twice * INVERSE_PAIRS[k + 2] * difference.term(k));
         let first = V::of([factor * self.x[i], once * self.v[i], terms[0], terms[1]]);
-        Self::integrate(first, &difference, 2, &INVERSE_PAIRS, twice, p)
+        by_length!(p, F => Self::integrate::<V, F>(first, &difference, 2, &INVERSE_PAIRS, twice, p))
     }
 
     /// `p`, of [`Series::zeros`], becomes `factor` times the drift rate of storey `i`; returns a bound of its size.
@@ -455,7 +439,7 @@ impl Series {
         let once = factor * self.h;
         let terms = [0, 1, 2].map(|k| once * INVERSE[k + 1] * difference.term(k));
         let first = V::of([factor * self.v[i], terms[0], terms[1], terms[2]]);
-        Self::integrate(first, &difference, 1, &INVERSE, once, p)
+        by_length!(p, F => Self::integrate::<V, F>(first, &difference, 1, &INVERSE, once, p))
     }
 
     /// `p`, of [`Series::zeros`], becomes the velocity that starts from `velocity`, whose rate is -`factor` times the absolute
@@ -474,7 +458,7 @@ impl Series {
         // Added before they are multiplied, so that small sums keep their digits.
         let [first, second] = [0, 1].map(|k| once * INVERSE[k + 1] * (acceleration.term(k) + more[k]));
         let first = V::of([velocity, first, second, once * INVERSE[3] * acceleration.term(2)]);
-        Self::integrate(first, &acceleration, 1, &INVERSE, once, p)
+        by_length!(p, F => Self::integrate::<V, F>(first, &acceleration, 1, &INVERSE, once, p))
     }
 
     /// `p`, of [`Series::zeros`], becomes `factor` times the absolute acceleration of a floor, or of the ground (0); returns
@@ -482,7 +466,7 @@ impl Series {
     #[inline(always)]
     pub(crate) fn acceleration<V: Vector>(&self, floor: usize, factor: f64, p: &mut Polynomial) -> f64 {
         let terms = self.terms_of(floor);
-        if p.is_short() { terms.times::<V, FEW>(factor, p) } else { terms.times::<V, MOST>(factor, p) }
+        by_length!(p, F => terms.times::<V, F>(factor, p))
     }
 
     /// The first two terms of the absolute acceleration of floor `i`, and the first and second integrals of the others up

@@ -196,12 +196,29 @@ impl<S: Scheme> Run<'_, S> {
     fn advance(&mut self, tau: f64, h: f64, whole: bool) -> Result<(), Error> {
         self.history.steps += 1;
         load(&mut self.state, tau + h, &mut self.end_load);
+        let n = self.start.x.len();
+        // Blocks may be on the ground alone.
+        if n > 0 {
+            self.form_change(tau, h, whole)?;
+        }
+        let (dx, dv) = self.change.split_at(n);
+        for i in 0..n {
+            self.state.x[i] = self.start.x[i] + dx[i];
+            self.state.v[i] = self.start.v[i] + dv[i];
+        }
+        self.advance_blocks(tau, h);
+        let state = &mut self.state;
+        let regime = state.cache.regime(state.regime);
+        regime.accelerations(state.model, &state.x, &state.v, &state.drive.load, &mut state.a[..n]);
+        Ok(())
+    }
+
+    /// Forms the changes of drifts and drift rates over a step of length `h` from the start at `tau`.
+    fn form_change(&mut self, tau: f64, h: f64, whole: bool) -> Result<(), Error> {
         let time = self.state.interval.start + tau;
         let singular = || Error::SingularStep { time };
-        let (start, n) = (&self.start, self.start.x.len());
-        if n == 0 {
-            // Blocks on the ground alone.
-        } else if whole {
+        let start = &self.start;
+        if whole {
             let index = self.state.regime;
             if self.maps.len() <= index {
                 self.maps.resize_with(index + 1, || None);
@@ -216,20 +233,11 @@ impl<S: Scheme> Run<'_, S> {
             }
         } else {
             let column = |values: &[f64]| DMatrix::from_column_slice(values.len(), 1, values);
-            let state = DMatrix::from_iterator(2 * n, 1, start.x.iter().chain(&start.v).copied());
+            let state = DMatrix::from_iterator(2 * start.x.len(), 1, start.x.iter().chain(&start.v).copied());
             let columns = Columns { state, start: column(&start.q), end: column(&self.end_load) };
             let change = self.scheme.change(&System::new(&self.state), h, &columns).ok_or_else(singular)?;
             self.change.copy_from_slice(change.as_slice());
         }
-        let (dx, dv) = self.change.split_at(n);
-        for i in 0..n {
-            self.state.x[i] = start.x[i] + dx[i];
-            self.state.v[i] = start.v[i] + dv[i];
-        }
-        self.advance_blocks(tau, h);
-        let state = &mut self.state;
-        let regime = state.cache.regime(state.regime);
-        regime.accelerations(state.model, &state.x, &state.v, &state.drive.load, &mut state.a[..n]);
         Ok(())
     }
 
