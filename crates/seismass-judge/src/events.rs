@@ -184,10 +184,16 @@ impl<R: Real> Machines<'_, R> {
     }
 
     /// The floor decides which of its blocks without relative velocity stick: all are taken as stuck, those whose
-    /// limit is exceeded are released until there is none.
+    /// limit is exceeded are released until there is none. What has broken away at this instant goes on when another
+    /// block follows it: without contact force and acceleration all limits are reached at once, and only rates tell.
     fn settle(&mut self, floor: usize, tau: R, cause: Cause) {
         let mut still = self.on_floor(floor);
-        still.retain(|&j| self.state.blocks[j].velocity == R::zero());
+        let follows = matches!(cause, Cause::Breakaway(..));
+        still.retain(|&j| {
+            let block = &self.state.blocks[j];
+            let goes_on = follows && !block.moved && matches!(block.contact, Contact::Sliding(_));
+            block.velocity == R::zero() && !goes_on
+        });
         let before: Vec<_> = still.iter().map(|&j| self.state.blocks[j]).collect();
         still.iter().for_each(|&j| self.state.blocks[j].contact = Contact::Stuck);
         let contact = self.drive.contact_at(tau);

@@ -155,6 +155,10 @@ pub(crate) enum Cause {
 ///
 /// A release never lowers the floor acceleration nor turns its sign, so the order does not matter, and the result is
 /// the consistent state with the fewest sliding blocks.
+///
+/// Blocks that have broken away at this very instant go on sliding when another follows them. That happens where contact
+/// force and floor acceleration are both zero: every limit is then reached at once, and their rates, which the guards
+/// see, release one block after the other.
 pub(crate) fn settle(
     demand: Demand,
     laws: &[BlockLaw],
@@ -165,8 +169,9 @@ pub(crate) fn settle(
     log: &mut Vec<Transition>,
 ) {
     let first_logged = log.len();
+    let follows = matches!(cause, Cause::Breakaway(..));
     for &j in blocks {
-        if motions[j].velocity == 0.0 {
+        if motions[j].velocity == 0.0 && (motions[j].is_stuck() || !follows) {
             // The sign field holds the state before until the decision is made.
             let before = match motions[j].state {
                 BlockState::Sliding(sign) => sign.as_i8(),

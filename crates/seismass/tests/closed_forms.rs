@@ -354,6 +354,38 @@ fn contact_under_vertical_motion() {
     close(velocity[15] - velocity[5], -3.0 * 1.0, 1e-13, "free flight");
 }
 
+/// Contact that grows from zero on a floor that moves without acceleration: every block is at its limit at once, and rates
+/// decide, block by block. Two slide and the third sticks; the floor is driven on by friction that grows with time.
+#[test]
+fn contact_that_grows_from_zero_is_decided_by_rates() {
+    let (m, k, v0, slope, dt) = (1000.0, 4e4, 0.45, 40.0, 0.02);
+    let blocks = [(300.0, 0.1), (500.0, 0.17), (700.0, 0.3)];
+    let building = Building::new(vec![m], vec![Storey::elastic(k)], Damping::Modal { ratio: 0.0 }).unwrap();
+    // In every order in which they may be listed.
+    for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+        let listed = order.map(|j| Block::new(1, blocks[j].0, blocks[j].1));
+        let scene = Scene::new(Some(Arc::new(building.clone())), listed.to_vec()).unwrap();
+        let scene = scene.with_initial(vec![0.0], vec![v0]).unwrap();
+        let vertical = vec![-STANDARD_GRAVITY, slope * dt - STANDARD_GRAVITY];
+        let motion = Motion::new(vec![0.0; 2], dt, Some(vertical.into())).unwrap();
+        let response = simulate(&scene, &motion, &every(1)).unwrap();
+        let at = |j: usize| order.iter().position(|&o| o == j).unwrap();
+        let log: Vec<_> = response.events.unwrap().iter().map(|e| (e.time, e.kind, e.number, e.sign)).collect();
+        assert_eq!(log, [0, 1].map(|j| (0.0, EventKind::Slip, at(j) + 1, 1)), "{order:?}");
+
+        let friction: f64 = blocks[..2].iter().map(|(mass, mu)| mu * mass * slope).sum();
+        let frequency = (k / (m + blocks[2].0)).sqrt();
+        let drift = friction / k * dt + (v0 - friction / k) / frequency * (frequency * dt).sin();
+        let histories = response.histories.unwrap();
+        close(histories.drift[1], drift, 1e-16, "drift");
+        let slips = [0, 1].map(|j| v0 * dt - blocks[j].1 * slope * dt.powi(3) / 6.0 - drift);
+        for (j, slip) in [slips[0], slips[1], 0.0].into_iter().enumerate() {
+            assert!(j == 2 || slip > 1e-7);
+            close(histories.slip[3 + at(j)], slip, 1e-17, "slip");
+        }
+    }
+}
+
 /// No block, no yielding: modal superposition with the exact recurrence of each mode (Nigam & Jennings 1969).
 #[test]
 fn elastic_building_equals_modal_recurrence() {
