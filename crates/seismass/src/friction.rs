@@ -92,7 +92,7 @@ impl BlockMotion {
     }
 
     /// Closes a monotonic stretch of the slip path here.
-    fn end_stretch(&mut self) {
+    pub(crate) fn end_stretch(&mut self) {
         self.turn_at(self.slip);
     }
 

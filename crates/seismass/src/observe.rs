@@ -248,6 +248,8 @@ impl Observer {
             let slip = state.slip_change(j);
             let at_start = state.motions[j].slip;
             let (peak, motion) = (&mut self.peaks.slip[j], &mut state.motions[j]);
+            // A turn at the very end of one series is none inside the next.
+            motion.end_stretch();
             let (first, others) = velocity.sign_changes::<Plain>();
             for s in first.into_iter().chain(others).filter(|&s| s < end) {
                 let value = at_start + slip.at::<Plain>(s);

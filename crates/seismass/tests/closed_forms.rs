@@ -354,6 +354,21 @@ fn contact_under_vertical_motion() {
     close(velocity[15] - velocity[5], -3.0 * 1.0, 1e-13, "free flight");
 }
 
+/// A block in flight is overtaken by the ground at the very time of a sample: the turn counts in its path.
+#[test]
+fn slip_path_of_a_turn_at_a_sample() {
+    let (v0, a, dt, samples) = (0.25, 4.0, 2f64.powi(-7), 17);
+    let block = Block { velocity: Some(v0), ..Block::new(0, 1.0, 0.2) };
+    let scene = Scene::new(None, vec![block]).unwrap();
+    let motion = Motion::new(vec![a; samples], dt, Some(vec![-STANDARD_GRAVITY; samples].into())).unwrap();
+    let response = simulate(&scene, &motion, &events()).unwrap();
+    let (turn, peak) = (v0 / a, v0 * v0 / (2.0 * a));
+    assert_eq!(turn / dt, 8.0);
+    assert_eq!((response.peaks.slip[0].value, response.peaks.slip[0].time), (peak, turn));
+    // It is back where it began.
+    assert_eq!((response.residual_slip[0], response.slip_path[0]), (0.0, 2.0 * peak));
+}
+
 /// Contact that grows from zero on a floor that moves without acceleration: every block is at its limit at once, and rates
 /// decide, block by block. Two slide and the third sticks; the floor is driven on by friction that grows with time.
 #[test]
