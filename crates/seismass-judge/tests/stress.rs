@@ -46,10 +46,11 @@ fn seeds_that_once_failed_hold() {
 }
 
 /// Undamped storeys that turn at their yield force cycle after cycle, and a block under g + a_v that nearly vanishes:
-/// rounding decides whether they are to be explained, but they are no defects.
+/// rounding decides whether they are to be explained, but they are no defects. Nor is when a block without friction slips on
+/// a floor that no wave has reached.
 #[test]
-fn grazes_of_undamped_storeys_and_cancelled_gravity_are_no_defects() {
-    for seed in [84_999, 887_908, 900_235, 700_482] {
+fn what_rounding_decides_is_no_defect() {
+    for seed in [84_999, 887_908, 900_235, 700_482, 425_081] {
         let mut tally = Tally::from_seed(seed);
         tally.run(1, 1.0);
         println!("{}", report::distribution(&tally));

@@ -17,6 +17,8 @@ pub const AGREEMENT: f64 = 1e-9;
 pub(super) const LAST_DIGITS: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 /// Different changes of each size.
 pub(super) const TRIALS: u64 = 6;
+/// Powers of ten by which a friction that takes the place of none may be less than the last digits.
+const POWERS: f64 = 40.0;
 /// With the same events, the kernel may be this many times as far from the judge as the judge is from itself under a
 /// change of its input in the last digits.
 const AMPLIFICATION: f64 = 100.0;
@@ -172,8 +174,8 @@ pub fn explained_residual(scene: &Scene, motion: &Motion, response: &Response) -
 
 /// The scene and motion with every number changed by up to `digits` in its last digit. Numbers of one kind change
 /// together (all masses, all friction coefficients), so that what is equal stays equal; trial 0 scales the motion. No
-/// friction becomes so much that its limit is in the last digits of the ground's acceleration: floors that no wave has
-/// reached yet accelerate by rounding of that size.
+/// friction becomes so much at most that its limit is in the last digits of the ground's acceleration: floors that no wave
+/// has reached yet accelerate by rounding of that size, and by any power less the further up they are.
 fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(Scene, Motion)> {
     let mut draw = Draw(trial);
     let size = digits * f64::EPSILON;
@@ -182,7 +184,8 @@ fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(S
     let (mass, stiffness, friction, strength, start) =
         if trial < 2 { (1.0, 1.0, 1.0, 1.0, 1.0) } else { (factor(), factor(), factor(), factor(), factor()) };
     let largest = motion.acceleration().iter().fold(0.0, |most, a| larger(most, a.abs()));
-    let least = size * largest / STANDARD_GRAVITY;
+    let least =
+        size * largest / STANDARD_GRAVITY * if trial < 2 { 1.0 } else { 10f64.powf(-draw.between(0.0, POWERS)) };
     let scaled = |values: &[f64], by: f64| values.iter().map(|v| v * by).collect::<Vec<f64>>();
     let ground = if trial == 0 { 1.0 + size } else { ground };
     let motion = Motion::new(
