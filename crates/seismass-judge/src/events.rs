@@ -170,13 +170,15 @@ impl<R: Real> Machines<'_, R> {
     fn arrive_together(&mut self, block: usize, series: &Series<R>, tau: R) {
         let floor = self.model.blocks[block].floor;
         let size = self.state.acceleration(self.model, floor, &self.drive, tau, Terms::Sizes);
+        let (velocity, mu_k) = (self.state.blocks[block].velocity, self.model.blocks[block].mu_k);
         for j in self.on_floor(floor) {
             let Contact::Sliding(sign) = self.state.blocks[j].contact else { continue };
             let limit = size + self.model.blocks[j].mu_k * self.model.gravity;
             let rounding = R::of(ROUNDING) * R::epsilon() * self.piece * limit;
             let approaching = sign.times(series.velocity[j].derivative().end()) <= R::zero();
+            let moves_alike = self.model.blocks[j].mu_k == mu_k && self.state.blocks[j].velocity == velocity;
             let state = &mut self.state.blocks[j];
-            if j == block || state.moved && approaching && state.velocity.abs() <= rounding {
+            if j == block || state.moved && (moves_alike || approaching && state.velocity.abs() <= rounding) {
                 state.velocity = R::zero();
                 state.moved = true;
             }

@@ -2,7 +2,7 @@
 
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
-use crate::friction::{self, BlockState, Cause, settle};
+use crate::friction::{self, BlockLaw, BlockMotion, BlockState, Cause, settle};
 use crate::lanes::{Plain, Vector};
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
@@ -329,7 +329,6 @@ impl State<'_> {
             }
             Guard::Arrival { block } => {
                 let floor = self.model.blocks[block].floor;
-                self.motions[block].velocity = 0.0;
                 self.arrive_with(block, tau);
                 self.settle_floor(floor, tau, Cause::Other, log);
             }
@@ -343,18 +342,23 @@ impl State<'_> {
         Outcome::Continue
     }
 
-    /// Brings to rest the blocks that arrive at the same instant as `block`, on the same floor.
+    /// Brings a block to rest, and those on its floor that arrive at the same instant: within rounding, or because they
+    /// have moved as it does.
     fn arrive_with(&mut self, block: usize, tau: f64) {
-        let floor = self.model.blocks[block].floor;
+        let arriving = self.motions[block];
+        let BlockLaw { floor, mu_k, .. } = self.model.blocks[block];
         let contact = self.contact_at(tau);
         let a = if floor > 0 { self.a[floor - 1] } else { self.interval.ground_at(tau) };
         for position in 0..self.model.on_floor[floor].len() {
             let j = self.model.on_floor[floor][position];
-            let Some(sign) = self.motions[j].sliding() else { continue };
-            let velocity = self.motions[j].velocity;
-            let slowing = sign.factor() * a + self.model.blocks[j].mu_k * contact;
-            let size = a.abs() + self.model.blocks[j].mu_k * contact.max(STANDARD_GRAVITY);
-            if velocity != 0.0 && slowing >= -ARRIVED * size && velocity.abs() <= ARRIVED * size * self.interval.h {
+            let BlockMotion { state, velocity, .. } = self.motions[j];
+            let BlockState::Sliding(sign) = state else { continue };
+            let friction = self.model.blocks[j].mu_k;
+            let alike = velocity == arriving.velocity && state == arriving.state && friction == mu_k;
+            let slowing = sign.factor() * a + friction * contact;
+            let size = a.abs() + friction * contact.max(STANDARD_GRAVITY);
+            let arrives = slowing >= -ARRIVED * size && velocity.abs() <= ARRIVED * size * self.interval.h;
+            if j == block || alike || velocity != 0.0 && arrives {
                 self.motions[j].velocity = 0.0;
             }
         }

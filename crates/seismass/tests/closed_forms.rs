@@ -354,6 +354,23 @@ fn contact_under_vertical_motion() {
     close(velocity[15] - velocity[5], -3.0 * 1.0, 1e-13, "free flight");
 }
 
+/// Blocks that move alike come to rest together, also without friction and acceleration, where nothing but rounding is left
+/// of their velocities: one by one, each arrival would decide all that came before it once more.
+#[test]
+fn blocks_that_move_alike_arrive_together() {
+    let count = 20;
+    let scene = Scene::new(None, (1..=count).map(|j| Block::new(0, j as f64, 0.0)).collect()).unwrap();
+    let saw = |i: i32| if (i / 8) % 2 == 0 { 0.7 } else { -0.7 } * f64::from(i % 8) / 8.0;
+    let motion = Motion::new((0..240).map(saw).collect::<Vec<_>>(), 2f64.powi(-7), None).unwrap();
+    let log = simulate(&scene, &motion, &events()).unwrap().events.unwrap();
+    let of_block = |j| log.iter().filter(|e| e.number == j).map(|e| (e.time, e.kind, e.sign)).collect::<Vec<_>>();
+    for j in 2..=count {
+        assert_eq!(of_block(j), of_block(1));
+    }
+    let most = log.chunk_by(|a, b| a.time == b.time).map(<[_]>::len).max().unwrap();
+    assert!(most <= 2 * count, "{most} events at one instant");
+}
+
 /// A block in flight is overtaken by the ground at the very time of a sample: the turn counts in its path.
 #[test]
 fn slip_path_of_a_turn_at_a_sample() {
