@@ -174,18 +174,20 @@ pub fn explained_residual(scene: &Scene, motion: &Motion, response: &Response) -
 
 /// The scene and motion with every number changed by up to `digits` in its last digit. Numbers of one kind change
 /// together (all masses, all friction coefficients), so that what is equal stays equal; trial 0 scales the motion. No
-/// friction becomes so much at most that its limit is in the last digits of the ground's acceleration: floors that no wave
-/// has reached yet accelerate by rounding of that size, and by any power less the further up they are.
+/// friction becomes one whose limit is in the last digits of the ground's acceleration, as floors accelerate that no wave
+/// has reached yet, or by many powers of ten less, as they do the further up they are.
 fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(Scene, Motion)> {
     let mut draw = Draw(trial);
     let size = digits * f64::EPSILON;
     let mut factor = || 1.0 + size * draw.one_of(&[-1.0, 1.0]) * if trial < 2 { 1.0 } else { draw.between(0.5, 1.0) };
     let (ground, vertical) = (factor(), factor());
-    let (mass, stiffness, friction, strength, start) =
-        if trial < 2 { (1.0, 1.0, 1.0, 1.0, 1.0) } else { (factor(), factor(), factor(), factor(), factor()) };
+    let (mass, stiffness, friction, strength, start, less) = if trial < 2 {
+        (1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
+    } else {
+        (factor(), factor(), factor(), factor(), factor(), 10f64.powf(-draw.between(0.0, POWERS)))
+    };
     let largest = motion.acceleration().iter().fold(0.0, |most, a| larger(most, a.abs()));
-    let least =
-        size * largest / STANDARD_GRAVITY * if trial < 2 { 1.0 } else { 10f64.powf(-draw.between(0.0, POWERS)) };
+    let least = size * largest / STANDARD_GRAVITY * less;
     let scaled = |values: &[f64], by: f64| values.iter().map(|v| v * by).collect::<Vec<f64>>();
     let ground = if trial == 0 { 1.0 + size } else { ground };
     let motion = Motion::new(
