@@ -1,5 +1,6 @@
 //! Many runs: grouped so that they share propagators, solved in parallel, returned in the order asked for.
 
+use std::num::NonZero;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -102,12 +103,13 @@ pub fn simulate_each<T: Clone + Send + Sync>(
     Ok(of_run.into_iter().map(result_of).collect())
 }
 
-/// Runs `work` of a batch or spectrum (`owner`) in a pool of `threads` threads, or in the global one. A process that was
-/// forked from one that has used that has none of its threads: it takes a pool of its own.
+/// Runs `work` of a batch or spectrum (`owner`) in a pool of `threads` threads: where those are all cores, in the global
+/// one, whose threads stay. A process that was forked from one that has used that has none of its threads: it takes a
+/// pool of its own.
 pub(crate) fn in_pool<T: Send>(threads: Option<usize>, owner: &str, work: impl FnOnce() -> T + Send) -> Result<T> {
     static PROCESS: OnceLock<u32> = OnceLock::new();
     let process = std::process::id();
-    if threads.is_none() && *PROCESS.get_or_init(|| process) == process {
+    if *PROCESS.get_or_init(|| process) == process && threads.is_none_or(are_all_cores) {
         return Ok(work());
     }
     let refuse =
@@ -117,6 +119,13 @@ pub(crate) fn in_pool<T: Send>(threads: Option<usize>, owner: &str, work: impl F
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build();
     Ok(pool.map_err(|error| refuse(format!("a number the system can start ({error})")))?.install(work))
+}
+
+/// Whether the global pool has so many threads. It is started by this where there are as many cores, not otherwise.
+fn are_all_cores(threads: usize) -> bool {
+    static CORES: OnceLock<usize> = OnceLock::new();
+    let cores = *CORES.get_or_init(|| std::thread::available_parallelism().map_or(0, NonZero::get));
+    threads == cores && threads == rayon::current_num_threads()
 }
 
 /// What the threads of a batch work on.
