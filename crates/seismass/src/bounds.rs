@@ -1,7 +1,10 @@
-//! Bounds between which no guard of a storey or floor falls and no peak is beaten, kept up to date storey by storey.
+//! Bounds between which no guard of a storey or floor falls and no peak is beaten.
 
-use crate::lanes::{FAR, Vector, filled};
+use std::mem::take;
+
+use crate::lanes::{FAR, MAX_LANES, Vector, at, by_width, filled, for_each_path, load, store};
 use crate::observe::Observer;
+use crate::regime::Row;
 use crate::state::State;
 use crate::storey::Sign;
 
@@ -46,10 +49,10 @@ pub(crate) struct Bounds {
     /// Smallest mu_s of the blocks stuck to each floor, far where none is; peak of the floor acceleration.
     pub(crate) stuck_mu: Vec<f64>,
     pub(crate) a_peak: Vec<f64>,
-    /// Plastic storeys.
-    pub(crate) plastic: Set,
-    /// Storeys whose springs have changed since the last update.
-    stale: Set,
+    /// Signs of plastic storeys, 0 of others.
+    pub(crate) plastic: Vec<f64>,
+    /// Whether springs have changed since the last update, or bounds themselves.
+    is_stale: bool,
 }
 
 impl Bounds {
@@ -64,15 +67,28 @@ impl Bounds {
             turn: lanes(FAR, FAR),
             stuck_mu: lanes(FAR, FAR),
             a_peak: lanes(0.0, FAR),
-            plastic: 0,
-            stale: Set::MAX,
+            plastic: lanes(0.0, 0.0),
+            is_stale: true,
         }
     }
 
-    /// Notes that the spring of a storey has changed.
-    #[inline]
-    pub(crate) fn spring_changed(&mut self, i: usize) {
-        self.stale |= only(i);
+    /// Follows a change of a storey's spring: drift coordinates between which no guard falls, and the sign of its forces
+    /// if it is plastic.
+    pub(crate) fn follow_spring(&mut self, i: usize, guarded: (f64, f64), plastic: Option<Sign>) {
+        (self.guarded[0][i], self.guarded[1][i]) = guarded;
+        self.plastic[i] = plastic.map_or(0.0, Sign::factor);
+        self.is_stale = true;
+    }
+
+    /// Notes that they are those of a run of plain steps no more.
+    pub(crate) fn spoil(&mut self) {
+        self.is_stale = true;
+    }
+
+    /// Plastic storeys of vector `k`, as bits.
+    #[inline(always)]
+    pub(crate) fn plastic_in<V: Vector>(&self, k: usize) -> u32 {
+        at::<V>(&self.plastic, k).abs().not_below(V::splat(1.0))
     }
 }
 
@@ -107,43 +123,51 @@ pub(crate) fn signs<V: Vector>((low, high): (V, V)) -> (u32, u32) {
     (!zero.not_below(low), !high.not_below(zero))
 }
 
-/// The middle of a range and half its length, made finite.
+for_each_path! {
+    /// See [`State::update_bounds`].
+    fn update[K: usize](state: &mut State, observer: &mut Observer) = update_by_path
+}
+
 #[inline(always)]
-pub(crate) fn middle_and_reach((low, high): (f64, f64)) -> (f64, f64) {
-    let (low, high) = (low.max(-FAR), high.min(FAR));
-    (0.5 * (low + high), 0.5 * (high - low))
+fn update_by_path<V: Vector, const K: usize>(state: &mut State, observer: &mut Observer) {
+    state.update_bounds_in_lanes::<V, K>(observer);
 }
 
 impl State<'_> {
     /// Brings the bounds up to date with springs and peaks.
-    #[inline]
     pub(crate) fn update_bounds(&mut self, observer: &mut Observer) {
-        let (drifts, accelerations) = observer.take_beaten();
-        let springs = self.bounds.stale;
-        if drifts | accelerations | springs == 0 {
-            return;
-        }
-        let within = first(self.storeys());
-        for i in members((springs | drifts) & within) {
-            (self.bounds.middle[i], self.bounds.reach[i]) = self.quiet_middle_and_reach(observer, i);
-        }
-        for i in members(springs & within) {
-            (self.bounds.guarded[0][i], self.bounds.guarded[1][i]) = self.guarded_drift(i);
-            let sign = self.springs[i].plastic().map_or(0.0, Sign::factor);
-            (self.bounds.sign[i], self.bounds.turn[i]) = (sign, if sign == 0.0 { FAR } else { 0.0 });
-            self.bounds.plastic = self.bounds.plastic & !only(i) | if sign == 0.0 { 0 } else { only(i) };
-        }
-        for i in members(accelerations & within) {
-            self.bounds.a_peak[i] = observer.peaks.floor_acceleration[i].value;
-        }
-        self.bounds.stale = 0;
+        by_width!(self.model.width, K => update::<K>(self, observer));
     }
 
-    /// Middle and reach of the drift coordinates of a storey between which no guard falls and no peak is beaten.
-    #[inline]
-    pub(crate) fn quiet_middle_and_reach(&self, observer: &Observer, i: usize) -> (f64, f64) {
-        let (guarded, quiet) = (self.guarded_drift(i), observer.quiet_drift(self, i));
-        middle_and_reach((guarded.0.max(quiet.0), guarded.1.min(quiet.1)))
+    /// [`State::update_bounds`] within the code of a path. More storeys than vectors hold have no such bounds.
+    #[inline(always)]
+    pub(crate) fn update_bounds_in_lanes<V: Vector, const K: usize>(&mut self, observer: &mut Observer) {
+        if !(observer.take_beaten() | take(&mut self.bounds.is_stale)) || self.storeys() > MAX_LANES {
+            return;
+        }
+        let (zero, half, far) = (V::splat(0.0), V::splat(0.5), V::splat(FAR));
+        let flexibility: [V; K] = self.cache.regime(self.regime).lanes(Row::SpringFlexibility);
+        let (base, force): ([V; K], [V; K]) = (load(&self.base_drift), load(&self.base_force));
+        let [drift, shear, acceleration] = observer.peak_sizes::<V, K>();
+        let bounds = &mut self.bounds;
+        let (lowest, highest): ([V; K], [V; K]) = (load(&bounds.guarded[0]), load(&bounds.guarded[1]));
+        let plastic: [V; K] = load(&bounds.plastic);
+        let [mut middle, mut reach, mut turn] = [base; 3];
+        for k in 0..K {
+            let rigid = zero.not_below(flexibility[k]);
+            let least = zero.sub(shear[k]).sub(force[k]).mul(flexibility[k]).with(rigid, zero.sub(far));
+            let most = shear[k].sub(force[k]).mul(flexibility[k]).with(rigid, far);
+            let low = zero.sub(drift[k]).sub(base[k]).max(least).max(lowest[k]).max(zero.sub(far));
+            let high = drift[k].sub(base[k]).min(most).min(highest[k]).min(far);
+            middle[k] = half.mul(low.add(high));
+            reach[k] = half.mul(high.sub(low));
+            turn[k] = far.sub(far.mul(plastic[k].abs()));
+        }
+        store(&middle, &mut bounds.middle);
+        store(&reach, &mut bounds.reach);
+        store(&plastic, &mut bounds.sign);
+        store(&turn, &mut bounds.turn);
+        store(&acceleration, &mut bounds.a_peak);
     }
 
     /// Drift coordinates of a storey between which it does not yield or collapse.

@@ -145,7 +145,7 @@ impl Closer {
             let guarded = drift.1.not_below(highest[k]) | lowest[k].not_below(drift.0);
             let (forward, backward) = signs(rate);
             let steady = forward | backward;
-            let plastic = (in_state.plastic >> lanes) as u32;
+            let plastic = in_state.plastic_in::<V>(k);
             closer.fails |= (beaten | turning) & guarded | turning & plastic != 0;
             closer.beaten[0] |= Set::from(beaten) << lanes;
             closer.turns[0] |= Set::from(turning & !plastic | beaten & !steady) << lanes;
@@ -288,7 +288,7 @@ impl Beaten {
     /// Takes the peaks of drifts that have been followed, where they have come to.
     pub(crate) fn take_followed(&mut self, state: &mut State, observer: &mut Observer, time: f64) {
         for i in members(take(&mut self.followed)) {
-            state.bounds.spring_changed(i);
+            state.bounds.spoil();
             observer.take_drift(state, i, state.x[i], time);
         }
     }

@@ -2,8 +2,9 @@
 
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
+use crate::bounds::{Set, members};
 use crate::friction::{self, BlockLaw, BlockMotion, BlockState, Cause, settle};
-use crate::lanes::{Plain, Vector};
+use crate::lanes::{FAR, Plain, Vector, WIDTH, at};
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
 use crate::state::{State, THIRD, stays_above_zero};
@@ -47,6 +48,12 @@ pub(crate) enum Outcome {
     Continue,
     /// A storey (from 0) has collapsed.
     Collapse(usize),
+}
+
+/// Four bits, each followed by a zero.
+#[inline(always)]
+fn spread(bits: u32) -> Set {
+    Set::from(bits & 1 | (bits & 2) << 1 | (bits & 4) << 2 | (bits & 8) << 3)
 }
 
 /// Keeps the earliest fall.
@@ -105,7 +112,7 @@ impl State<'_> {
                 self.breakaway_guards::<V, K>(&mut first, isolated);
             }
             if self.is_sliding {
-                self.arrival_guards::<V>(&mut first, isolated);
+                self.arrival_guards::<V, K>(&mut first, isolated);
             }
         }
         // A block whose floor's acceleration is below rounding lifts off stuck.
@@ -137,31 +144,56 @@ impl State<'_> {
         if drifts | rates == 0 {
             return;
         }
-        for i in self.looked_at::<K>(drifts) {
-            let (low, high) = self.ranges.drift(i);
-            let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
-            for (sign, reached, of_yield, of_collapse) in
-                [(Sign::Positive, high, yields.1, collapses.1), (Sign::Negative, -low, -yields.0, -collapses.0)]
-            {
-                let yields = Guard::Yield { storey: i, sign };
-                self.drift_guard::<V>(yields, (i, sign), reached, of_yield, first, isolated);
-                self.drift_guard::<V>(Guard::Collapse { storey: i }, (i, sign), reached, of_collapse, first, isolated);
+        for k in 0..self.vectors::<K>() {
+            if self.ranges.suspects_in::<K>(0, k) != 0 {
+                for side in members(self.drifts_at_guards::<V>(k)) {
+                    self.drift_guards::<V>(WIDTH * k + side / 2, side % 2 == 0, first, isolated);
+                }
+            }
+            for lane in members(self.ranges.suspects_in::<K>(1, k)) {
+                self.rate_guard::<V, K>(WIDTH * k + lane, first, isolated);
             }
         }
-        for i in self.looked_at::<K>(rates) {
-            let Some(sign) = self.springs[i].plastic() else { continue };
-            let (low, high) = self.ranges.rate(i);
-            if if sign == Sign::Positive { low > 0.0 } else { high < 0.0 } {
-                continue;
-            }
-            *isolated += 1;
-            let mut p = self.series.zeros();
-            let size = self.series.drift_rate::<V>(i, sign.factor(), &mut p);
-            let contact = self.drive.contact;
-            let sizes = self.acceleration_size(i + 1, contact) + self.acceleration_size(i, contact);
-            let tolerance = ROUNDING * (size + self.series.h() * sizes);
-            first.consider::<V>(Guard::Unload { storey: i }, &p, tolerance);
+    }
+
+    /// Considers the guards of a storey's drift on one side.
+    #[inline(always)]
+    fn drift_guards<V: Vector>(&self, i: usize, is_positive: bool, first: &mut First, isolated: &mut usize) {
+        let (low, high) = self.ranges.drift(i);
+        let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
+        let (sign, reached, of_yield, of_collapse) = match is_positive {
+            true => (Sign::Positive, high, yields.1, collapses.1),
+            false => (Sign::Negative, -low, -yields.0, -collapses.0),
+        };
+        let yields = Guard::Yield { storey: i, sign };
+        self.drift_guard::<V>(yields, (i, sign), reached, of_yield, first, isolated);
+        self.drift_guard::<V>(Guard::Collapse { storey: i }, (i, sign), reached, of_collapse, first, isolated);
+    }
+
+    /// Considers the turn of a storey's rate, if it is plastic.
+    #[inline(always)]
+    fn rate_guard<V: Vector, const K: usize>(&self, i: usize, first: &mut First, isolated: &mut usize) {
+        let Some(sign) = self.springs[i].plastic() else { return };
+        let (low, high) = self.ranges.rate(i);
+        if if sign == Sign::Positive { low > 0.0 } else { high < 0.0 } {
+            return;
         }
+        *isolated += 1;
+        let mut p = self.series.zeros();
+        let size = self.series.drift_rate::<V>(i, sign.factor(), &mut p);
+        let contact = self.drive.contact;
+        let sizes = self.size_in_lanes::<V, K>(i + 1, contact) + self.size_in_lanes::<V, K>(i, contact);
+        let tolerance = ROUNDING * (size + self.series.h() * sizes);
+        first.consider::<V>(Guard::Unload { storey: i }, &p, tolerance);
+    }
+
+    /// Storeys of vector `k` whose drifts may come to a guard over the present series: each storey has two bits, of its
+    /// positive and of its negative side.
+    #[inline(always)]
+    fn drifts_at_guards<V: Vector>(&self, k: usize) -> Set {
+        let [lowest, highest] = &self.bounds.guarded;
+        let (low, high) = self.ranges.drifts::<V>(k);
+        spread(high.not_below(at(highest, k))) | spread(at::<V>(lowest, k).not_below(low)) << 1
     }
 
     /// Whether a drift coordinate, times `sign`, stays below a limit over the present series, but for its start.
@@ -198,40 +230,63 @@ impl State<'_> {
 
     #[inline(always)]
     fn breakaway_guards<V: Vector, const K: usize>(&self, first: &mut First, isolated: &mut usize) {
-        let contact = self.drive.contact;
-        let contact_change = self.drive.contact_slope * self.series.h();
         let least_contact = self.drive.least_contact(self.series.h());
-        for floor in std::iter::once(0).chain(self.looked_at::<K>(self.ranges.suspects[2]).map(|i| i + 1)) {
-            let mu = self.stuck_mu[floor];
-            if mu == f64::INFINITY {
-                continue;
-            }
-            let (low, high) = self.acceleration_range(floor);
-            let reached = [(Sign::Positive, high), (Sign::Negative, -low)];
-            if reached.iter().all(|&(_, size)| size < mu * least_contact) {
-                continue;
-            }
-            *isolated += 1;
-            let limit = mu * contact;
-            let sizes = (mu * contact_change).abs() + self.acceleration_size(floor, contact);
-            for (sign, size) in reached {
-                if size < mu * least_contact {
-                    continue;
-                }
-                let mut p = self.series.zeros();
-                let size = self.series.acceleration::<V>(floor, -sign.factor(), &mut p);
-                // Not below what a decision takes as equal: what has just stuck must not break away for that.
-                let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size + sizes);
-                if let [c0, c1, ..] = p.coefficients_mut() {
-                    (*c0, *c1) = (*c0 + limit, *c1 + mu * contact_change);
-                }
-                first.consider::<V>(Guard::Breakaway { floor, sign }, &p, tolerance);
+        if self.stuck_mu[0] < f64::INFINITY {
+            self.breakaway_guard::<V, K>(0, least_contact, first, isolated);
+        }
+        for k in 0..self.vectors::<K>() {
+            for lane in members(self.accelerations_at_guards::<V>(k, least_contact)) {
+                self.breakaway_guard::<V, K>(WIDTH * k + lane + 1, least_contact, first, isolated);
             }
         }
     }
 
+    /// Considers the limits of the blocks stuck to a floor, or to the ground (0), if its acceleration may come to them.
     #[inline(always)]
-    fn arrival_guards<V: Vector>(&self, first: &mut First, isolated: &mut usize) {
+    fn breakaway_guard<V: Vector, const K: usize>(
+        &self,
+        floor: usize,
+        least_contact: f64,
+        first: &mut First,
+        isolated: &mut usize,
+    ) {
+        let contact_change = self.drive.contact_slope * self.series.h();
+        let (contact, mu) = (self.drive.contact, self.stuck_mu[floor]);
+        let (low, high) = self.acceleration_range(floor);
+        let reached = [(Sign::Positive, high), (Sign::Negative, -low)];
+        if reached.iter().all(|&(_, size)| size < mu * least_contact) {
+            return;
+        }
+        *isolated += 1;
+        let limit = mu * contact;
+        let sizes = (mu * contact_change).abs() + self.size_in_lanes::<V, K>(floor, contact);
+        for (sign, size) in reached {
+            if size < mu * least_contact {
+                continue;
+            }
+            let mut p = self.series.zeros();
+            let size = self.series.acceleration::<V>(floor, -sign.factor(), &mut p);
+            // Not below what a decision takes as equal: what has just stuck must not break away for that.
+            let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size + sizes);
+            if let [c0, c1, ..] = p.coefficients_mut() {
+                (*c0, *c1) = (*c0 + limit, *c1 + mu * contact_change);
+            }
+            first.consider::<V>(Guard::Breakaway { floor, sign }, &p, tolerance);
+        }
+    }
+
+    /// Floors of vector `k`, as bits, whose accelerations may come to the limit of blocks stuck to them over the present
+    /// series.
+    #[inline(always)]
+    fn accelerations_at_guards<V: Vector>(&self, k: usize, least_contact: f64) -> Set {
+        let (low, high) = self.ranges.accelerations::<V>(k);
+        let mu: V = at(&self.bounds.stuck_mu, k);
+        let reached = high.max(V::splat(0.0).sub(low)).not_below(mu.mul(V::splat(least_contact)));
+        Set::from(reached & !mu.not_below(V::splat(FAR)))
+    }
+
+    #[inline(always)]
+    fn arrival_guards<V: Vector, const K: usize>(&self, first: &mut First, isolated: &mut usize) {
         for (j, motion) in self.motions.iter().enumerate() {
             let Some(sign) = motion.sliding() else { continue };
             if self.keeps_sliding(j, sign.factor()) {
@@ -241,7 +296,7 @@ impl State<'_> {
             let mut p = self.series.zeros();
             let size = self.relative_velocity::<V>(j, sign.factor(), &mut p);
             let law = &self.model.blocks[j];
-            let rates = self.acceleration_size(law.floor, self.drive.contact) + law.mu_k * STANDARD_GRAVITY;
+            let rates = self.size_in_lanes::<V, K>(law.floor, self.drive.contact) + law.mu_k * STANDARD_GRAVITY;
             first.consider::<V>(Guard::Arrival { block: j }, &p, ROUNDING * (size + self.series.h() * rates));
         }
     }

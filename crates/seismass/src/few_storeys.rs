@@ -114,8 +114,8 @@ pub(crate) fn remainders<V: Vector, const S: usize>(
     for (pair, out) in pairs.iter_mut().enumerate().take(S) {
         // Two columns at a time: once, twice, value, rate.
         let mut sums = [[zero; 4]; 2];
-        for (terms, &[order, once, twice]) in by_order.chunks_exact(2 * S).zip(&WEIGHTS[2..]) {
-            let (order, once, twice) = (V::splat(order), V::splat(once), V::splat(twice));
+        for (terms, [order, once, twice]) in by_order.chunks_exact(2 * S).zip(&WEIGHTS[2..]) {
+            let (order, once, twice) = (V::load(order), V::load(once), V::load(twice));
             for (sums, term) in sums.iter_mut().zip(&terms[2 * pair..]) {
                 let term = V::load(term);
                 sums[0] = once.mul_add(term, sums[0]);

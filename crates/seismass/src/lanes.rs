@@ -69,6 +69,8 @@ impl InstructionSet {
 
 /// Lanes of a vector.
 pub(crate) const WIDTH: usize = 4;
+/// All lanes of a vector, as bits.
+pub(crate) const LANES: u32 = (1 << WIDTH) - 1;
 /// Most storeys that the hot loops hold in vectors.
 pub(crate) const MAX_LANES: usize = 48;
 /// As many vectors.
@@ -596,10 +598,10 @@ mod x86 {
         }
         #[inline(always)]
         fn with(self, bits: u32, other: Self) -> Self {
-            let lane = |l: u32| -i64::from(bits >> l & 1);
-            let [first, second, third, fourth] = [lane(0), lane(1), lane(2), lane(3)];
             Self(unsafe {
-                let mask = _mm256_set_epi64x(fourth, third, second, first);
+                let of_lanes = _mm256_set_epi64x(8, 4, 2, 1);
+                let set = _mm256_and_si256(_mm256_set1_epi64x(i64::from(bits)), of_lanes);
+                let mask = _mm256_cmpeq_epi64(set, of_lanes);
                 _mm256_blendv_pd(self.0, other.0, _mm256_castsi256_pd(mask))
             })
         }

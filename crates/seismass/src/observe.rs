@@ -3,14 +3,14 @@
 use std::num::NonZeroUsize;
 
 use crate::bernstein::Polynomial;
-use crate::bounds::{Set, members, only};
+use crate::bounds::{Set, members, signs};
 use crate::error::Result;
 use crate::friction::BlockState;
 use crate::histories::Recorder;
-use crate::lanes::{Plain, Vector, WIDEST};
+use crate::lanes::{FAR, LANES, Plain, Vector, WIDTH, at, by_width, filled, for_each_path, lanes_mut, load};
 use crate::model::Model;
 use crate::regime::{Row, viscous_power};
-use crate::response::{Energy, Peaks};
+use crate::response::{Energy, Peak, Peaks};
 use crate::scene::Options;
 use crate::state::State;
 
@@ -30,13 +30,65 @@ const GAUSS: [(f64, f64); 12] = [
     (0.9907803171233597, 0.023587668193255914),
 ];
 
+/// Peaks of storeys or floors, padded: beyond the last they are far, and nothing beats them.
+pub(crate) struct PeakLanes {
+    size: Vec<f64>,
+    time: Vec<f64>,
+}
+
+impl PeakLanes {
+    fn new(storeys: usize) -> Self {
+        let zeros = || std::iter::repeat_n(0.0, storeys);
+        Self { size: filled(zeros(), storeys, FAR), time: filled(zeros(), storeys, 0.0) }
+    }
+
+    /// Sizes, padded.
+    pub(crate) fn sizes(&self) -> &[f64] {
+        &self.size
+    }
+
+    /// Takes one value if it beats its peak; tells whether it did.
+    #[inline]
+    fn take(&mut self, i: usize, value: f64, time: f64) -> bool {
+        let beats = value.abs() > self.size[i];
+        if beats {
+            (self.size[i], self.time[i]) = (value.abs(), time);
+        }
+        beats
+    }
+
+    /// Lanes of vector `k`, as bits, whose peaks sizes beat.
+    #[inline(always)]
+    fn beaten_by<V: Vector>(&self, k: usize, sizes: V) -> u32 {
+        !at::<V>(&self.size, k).not_below(sizes) & LANES
+    }
+
+    /// Takes the values of vector `k` that beat their peaks; tells, as bits, which did.
+    #[inline(always)]
+    fn take_vector<V: Vector>(&mut self, k: usize, values: V, time: f64) -> u32 {
+        let beaten = self.beaten_by(k, values.abs());
+        let (sizes, times) = (&mut lanes_mut(&mut self.size)[k], &mut lanes_mut(&mut self.time)[k]);
+        // What is no number beats nothing.
+        values.abs().max(V::load(sizes)).store(sizes);
+        V::load(times).with(beaten, V::splat(time)).store(times);
+        beaten
+    }
+
+    fn peaks(&self, storeys: usize) -> Vec<Peak> {
+        self.size.iter().zip(&self.time).take(storeys).map(|(&value, &time)| Peak { value, time }).collect()
+    }
+}
+
 /// Keeps peaks, histories and energies.
 pub(crate) struct Observer {
-    pub(crate) peaks: Peaks,
+    pub(crate) drift: PeakLanes,
+    pub(crate) shear: PeakLanes,
+    pub(crate) acceleration: PeakLanes,
+    slip: Vec<Peak>,
     pub(crate) histories: Option<Recorder>,
     energy: Option<EnergyBalance>,
-    /// Storeys whose peaks of drift or shear, and floors whose peaks of acceleration, were beaten since last asked.
-    beaten: (Set, Set),
+    /// Whether peaks of drift, shear or acceleration were beaten since last asked.
+    beaten: bool,
 }
 
 /// Running energy integrals.
@@ -44,6 +96,26 @@ pub(crate) struct Observer {
 struct EnergyBalance {
     energy: Energy,
     largest_input: f64,
+}
+
+for_each_path! {
+    /// See [`Observer::observe_building`].
+    fn take_building[K: usize](observer: &mut Observer, state: &State, time: f64) = building_by_path
+}
+
+#[inline(always)]
+fn building_by_path<V: Vector, const K: usize>(observer: &mut Observer, state: &State, time: f64) {
+    observer.take_building_in_lanes::<V, K>(state, time);
+}
+
+for_each_path! {
+    /// See [`Observer::observe_accelerations`].
+    fn take_accelerations[K: usize](observer: &mut Observer, state: &State, time: f64) = accelerations_by_path
+}
+
+#[inline(always)]
+fn accelerations_by_path<V: Vector, const K: usize>(observer: &mut Observer, state: &State, time: f64) {
+    observer.take_accelerations_in_lanes::<V, K>(state, time);
 }
 
 impl Observer {
@@ -55,14 +127,28 @@ impl Observer {
         let (n, blocks) = (model.storeys(), model.blocks.len());
         let recorder = |every: NonZeroUsize| Recorder::new(model, options, samples, every.get(), substeps);
         let histories = options.histories.map(recorder).transpose()?;
-        let peaks = Peaks {
-            drift: vec![Default::default(); n],
+        Ok(Self {
+            drift: PeakLanes::new(n),
+            shear: PeakLanes::new(n),
+            acceleration: PeakLanes::new(n),
             slip: vec![Default::default(); blocks],
-            floor_acceleration: vec![Default::default(); n],
-            storey_shear: vec![Default::default(); n],
-        };
-        let energy = options.energy.then(EnergyBalance::default);
-        Ok(Self { peaks, histories, energy, beaten: (Set::MAX, Set::MAX) })
+            histories,
+            energy: options.energy.then(EnergyBalance::default),
+            beaten: true,
+        })
+    }
+
+    /// The peaks so far, of so many storeys.
+    pub(crate) fn peaks(&self, storeys: usize) -> Peaks {
+        let [drift, floor_acceleration, storey_shear] =
+            [&self.drift, &self.acceleration, &self.shear].map(|peaks| peaks.peaks(storeys));
+        Peaks { drift, slip: self.slip.clone(), floor_acceleration, storey_shear }
+    }
+
+    /// Sizes of the peaks of drift, shear and floor acceleration.
+    #[inline(always)]
+    pub(crate) fn peak_sizes<V: Vector, const K: usize>(&self) -> [[V; K]; 3] {
+        [load(&self.drift.size), load(&self.shear.size), load(&self.acceleration.size)]
     }
 
     /// Whether energies are kept: then every step needs its series too.
@@ -75,97 +161,86 @@ impl Observer {
     pub(crate) fn drift_may_peak(&self, state: &State, i: usize, low: f64, high: f64) -> bool {
         let spring = &state.springs[i];
         let drift = spring.drift(low).abs().max(spring.drift(high).abs());
-        if drift > self.peaks.drift[i].value {
+        if drift > self.drift.size[i] {
             return true;
         }
         let tangent = state.regime().row(Row::SpringTangent)[i];
         let base = state.base_force[i];
-        (base + tangent * low).abs().max((base + tangent * high).abs()) > self.peaks.storey_shear[i].value
+        (base + tangent * low).abs().max((base + tangent * high).abs()) > self.shear.size[i]
     }
 
     /// Whether an acceleration between `low` and `high` could beat the peak of floor `i`.
     #[inline]
     pub(crate) fn acceleration_may_peak(&self, i: usize, low: f64, high: f64) -> bool {
-        low.abs().max(high.abs()) > self.peaks.floor_acceleration[i].value
-    }
-
-    /// Drift coordinates of storey `i` between which neither its drift nor its shear beats a peak.
-    #[inline]
-    pub(crate) fn quiet_drift(&self, state: &State, i: usize) -> (f64, f64) {
-        let (peak, base) = (self.peaks.drift[i].value, state.springs[i].drift(0.0));
-        let (low, high) = (-peak - base, peak - base);
-        let flexibility = state.regime().row(Row::SpringFlexibility)[i];
-        if flexibility > 0.0 {
-            let (shear, force) = (self.peaks.storey_shear[i].value, state.base_force[i]);
-            (low.max((-shear - force) * flexibility), high.min((shear - force) * flexibility))
-        } else {
-            (low, high)
-        }
+        low.abs().max(high.abs()) > self.acceleration.size[i]
     }
 
     /// Takes drift and shear at a drift coordinate of storey `i` into their peaks.
     #[inline]
     pub(crate) fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
-        let drift = self.peaks.drift[i].take(state.springs[i].drift(x), time);
+        let drift = self.drift.take(i, state.springs[i].drift(x), time);
         let shear = state.base_force[i] + state.regime().row(Row::SpringTangent)[i] * x;
-        if self.peaks.storey_shear[i].take(shear, time) || drift {
-            self.beaten.0 |= only(i);
-        }
+        self.beaten |= self.shear.take(i, shear, time) | drift;
     }
 
     /// Takes the acceleration of floor `i` into its peak.
     #[inline]
     pub(crate) fn take_acceleration(&mut self, i: usize, a: f64, time: f64) {
-        if self.peaks.floor_acceleration[i].take(a, time) {
-            self.beaten.1 |= only(i);
-        }
+        self.beaten |= self.acceleration.take(i, a, time);
     }
 
-    /// Storeys whose peaks of drift or shear, and floors whose peaks of acceleration, were beaten since last asked.
+    /// Whether peaks of drift, shear or acceleration were beaten since last asked.
     #[inline]
-    pub(crate) fn take_beaten(&mut self) -> (Set, Set) {
+    pub(crate) fn take_beaten(&mut self) -> bool {
         std::mem::take(&mut self.beaten)
     }
 
     /// Takes the present values into the peaks.
     pub(crate) fn observe_values(&mut self, state: &State, time: f64) {
-        for i in 0..state.storeys() {
-            self.take_drift(state, i, state.x[i], time);
-        }
-        self.observe_accelerations(state, time);
+        self.observe_building(state, time);
         self.observe_slips(state, time);
     }
 
     /// Takes the present floor accelerations into their peaks.
     pub(crate) fn observe_accelerations(&mut self, state: &State, time: f64) {
-        for (i, &a) in state.a[..state.storeys()].iter().enumerate() {
-            self.take_acceleration(i, a, time);
-        }
+        by_width!(state.model.width, K => take_accelerations::<K>(self, state, time));
     }
 
-    /// Takes the values at the end of the present series, or at its event, into the peaks, where they may beat them.
-    #[inline]
-    pub(crate) fn observe_suspects(&mut self, state: &State, time: f64) {
-        let [drifts, _, accelerations] = state.ranges.suspects;
-        if drifts | accelerations != 0 {
-            for i in state.looked_at::<WIDEST>(drifts) {
-                self.take_drift(state, i, state.x[i], time);
-            }
-            for i in state.looked_at::<WIDEST>(accelerations) {
-                self.take_acceleration(i, state.a[i], time);
-            }
-        }
-        if state.is_sliding || state.airborne {
-            self.observe_slips(state, time);
-        }
+    /// Takes the present drifts and floor accelerations into the peaks.
+    pub(crate) fn observe_building(&mut self, state: &State, time: f64) {
+        by_width!(state.model.width, K => take_building::<K>(self, state, time));
     }
 
     /// Takes the present slips into their peaks.
     #[inline]
     pub(crate) fn observe_slips(&mut self, state: &State, time: f64) {
-        for (peak, motion) in self.peaks.slip.iter_mut().zip(&state.motions) {
+        for (peak, motion) in self.slip.iter_mut().zip(&state.motions) {
             peak.take(motion.slip, time);
         }
+    }
+
+    #[inline(always)]
+    fn take_accelerations_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, time: f64) {
+        let mut beaten = 0;
+        for k in 0..state.vectors::<K>() {
+            beaten |= self.acceleration.take_vector::<V>(k, at(&state.a, k), time);
+        }
+        self.beaten |= beaten != 0;
+    }
+
+    /// [`Observer::observe_building`] within the code of a path.
+    #[inline(always)]
+    pub(crate) fn take_building_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, time: f64) {
+        let tangents = state.regime().row(Row::SpringTangent);
+        let mut beaten = 0;
+        for k in 0..state.vectors::<K>() {
+            let (x, tangent): (V, V) = (at(&state.x, k), at(tangents, k));
+            beaten |= self.drift.take_vector::<V>(k, at::<V>(&state.base_drift, k).add(x), time);
+            let shear = at::<V>(&state.base_force, k).add(tangent.mul(x));
+            beaten |= self.shear.take_vector::<V>(k, shear, time);
+        }
+        self.beaten |= beaten != 0;
+        self.take_accelerations_in_lanes::<V, K>(state, time);
     }
 
     /// Takes the extremes inside the present series, whose ranges are formed, from `tau` to its place `end`, before the
@@ -183,21 +258,31 @@ impl Observer {
         if drifts | accelerations == 0 {
             return;
         }
-        for i in state.looked_at::<K>(drifts) {
-            let (low, high) = state.ranges.drift(i);
-            let rate = state.ranges.rate(i);
-            // A plastic storey's rate is a guard: it does not turn before an event.
-            let turns = !(rate.0 > 0.0 || rate.1 < 0.0) && state.springs[i].plastic().is_none();
-            if turns && self.drift_may_peak(state, i, low, high) {
-                *isolated += 1;
-                self.take_turns_of_drift::<V>(state, i, start, end);
+        for k in 0..state.vectors::<K>() {
+            let suspects = state.ranges.suspects_in::<K>(0, k);
+            if suspects != 0 {
+                // A plastic storey's rate is a guard: it does not turn before an event.
+                let (forward, backward) = signs(state.ranges.rates::<V>(k));
+                let steady = forward | backward | state.bounds.plastic_in::<V>(k);
+                for lane in members(suspects & !Set::from(steady)) {
+                    let i = WIDTH * k + lane;
+                    let (low, high) = state.ranges.drift(i);
+                    if self.drift_may_peak(state, i, low, high) {
+                        *isolated += 1;
+                        self.take_turns_of_drift::<V>(state, i, start, end);
+                    }
+                }
             }
-        }
-        for i in state.looked_at::<K>(accelerations) {
-            let (low, high) = state.ranges.acceleration(i);
-            if self.acceleration_may_peak(i, low, high) && !state.is_steady(i) {
-                *isolated += 1;
-                self.take_turns_of_acceleration::<V>(state, i, start, end);
+            let suspects = state.ranges.suspects_in::<K>(2, k);
+            if suspects != 0 {
+                for lane in members(suspects & !Set::from(state.steady::<V>(k))) {
+                    let i = WIDTH * k + lane;
+                    let (low, high) = state.ranges.acceleration(i);
+                    if self.acceleration_may_peak(i, low, high) {
+                        *isolated += 1;
+                        self.take_turns_of_acceleration::<V>(state, i, start, end);
+                    }
+                }
             }
         }
     }
@@ -247,7 +332,7 @@ impl Observer {
             let velocity = state.velocity_of_block(j);
             let slip = state.slip_change(j);
             let at_start = state.motions[j].slip;
-            let (peak, motion) = (&mut self.peaks.slip[j], &mut state.motions[j]);
+            let (peak, motion) = (&mut self.slip[j], &mut state.motions[j]);
             // A turn at the very end of one series is none inside the next.
             motion.end_stretch();
             let (first, others) = velocity.sign_changes::<Plain>();

@@ -15,8 +15,8 @@ use rustc_hash::FxBuildHasher;
 
 use crate::few_storeys;
 use crate::lanes::{
-    Aligned, MAX_LANES, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, padded, store,
-    unit,
+    Aligned, MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, padded,
+    store, unit,
 };
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
@@ -55,6 +55,8 @@ pub(crate) enum Whole {
 /// of unit rates of these: by order, by column, by floor padded to whole vectors.
 pub(crate) struct Table {
     pub(crate) h: f64,
+    /// Order of the last terms.
+    pub(crate) order: usize,
     pub(crate) terms: Aligned,
 }
 
@@ -306,7 +308,7 @@ impl Steps {
         let halvings = (regime.frequency * dt / MAX_PHASE).log2().ceil().max(0.0);
         let h = dt * (-halvings).exp2();
         // Parts of a halved interval may be longer than its table's step.
-        let order = terms(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
+        let order = terms::<Plain>(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
         sums.resize(2 * n * 4 * width, 0.0);
         let mut table = Aligned::unset(if n <= MAX_TABLE { (order - 1) * 2 * n * width } else { 0 });
         form_remainders(model, regime, h, order, sums, &mut table);
@@ -334,7 +336,7 @@ impl Steps {
         let (others, ramps) = columns.split_at_mut(column_count(n, false) * 4 * width);
         let ground_ramp = &mut others[(2 * n + 1) * 4 * width..][..4 * width];
         ground_ramp.iter_mut().chain(ramps).for_each(|entry| *entry /= dt);
-        let table = (n <= MAX_TABLE).then_some(Table { h, terms: table });
+        let table = (n <= MAX_TABLE).then_some(Table { h, order, terms: table });
         Self { table, whole: Whole::Dense(Propagator { storeys: n, rows: 4 * width, columns }) }
     }
 

@@ -154,6 +154,40 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
         Self { tangent, inverse_mass, model: &model.lanes }
     }
 
+    /// Sums of the sizes of the terms of the floor accelerations, from those of drifts, drift rates and other forces on
+    /// floors, and from constant parts of the storey forces.
+    #[inline(always)]
+    pub(crate) fn sizes(&self, x: &[V; K], v: &[V; K], constant: &[V; K], mut force: [V; K]) -> [V; K] {
+        let zero = V::splat(0.0);
+        let mut shear = [zero; K];
+        for k in 0..K {
+            shear[k] = self.tangent[k].abs().mul_add(x[k], constant[k].abs());
+        }
+        if !self.model.damping.is_empty() {
+            let rates = numbers(v);
+            let columns = columns_of::<K>(&self.model.damping);
+            for (column, &rate) in columns.iter().zip(rates.as_flattened()) {
+                for k in 0..K {
+                    shear[k] = V::load(&column[k]).abs().mul_add(V::splat(rate), shear[k]);
+                }
+            }
+        }
+        if !self.model.storey_damping.is_empty() {
+            let (storeys, floors): ([V; K], [V; K]) =
+                (load(&self.model.storey_damping), load(&self.model.floor_damping));
+            let velocity = prefix_sums(v);
+            for k in 0..K {
+                shear[k] = storeys[k].mul_add(v[k], shear[k]);
+                force[k] = floors[k].mul_add(velocity[k], force[k]);
+            }
+        }
+        for k in 0..K {
+            let above = if k + 1 < K { shear[k + 1] } else { zero };
+            force[k] = shear[k].shifted_down(above).add(shear[k]).add(force[k]).mul(self.inverse_mass[k]);
+        }
+        force
+    }
+
     /// Floor accelerations from drifts, drift rates and floor loads.
     #[inline(always)]
     pub(crate) fn accelerations(&self, x: &[V; K], v: &[V; K], mut force: [V; K]) -> [V; K] {

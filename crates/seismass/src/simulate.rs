@@ -147,7 +147,7 @@ fn step_by_path<V: Vector, const K: usize>(
     isolated: &mut usize,
 ) -> (Option<(f64, Guard)>, bool) {
     state.form_series::<V, K>(tau, h);
-    state.update_bounds(observer);
+    state.update_bounds_in_lanes::<V, K>(observer);
     state.form_ranges::<V, K>();
     let event = state.first_event::<V, K>(tau, isolated);
     let end = event.map_or(1.0, |(place, _)| place);
@@ -161,7 +161,11 @@ fn step_by_path<V: Vector, const K: usize>(
     if observer.keeps_energy() {
         observer.add_energy(state, tau, end);
     }
-    (event, state.advance::<V, K>(tau, event.is_none()))
+    let is_finite = state.advance::<V, K>(tau, event.is_none());
+    if event.is_none() && state.ranges.suspects != [0; 3] {
+        observer.take_building_in_lanes::<V, K>(state, state.interval.start + tau + state.series.h());
+    }
+    (event, is_finite)
 }
 
 for_each_path! {
@@ -317,7 +321,10 @@ impl Run<'_> {
                     continue;
                 }
             }
-            self.observer.observe_suspects(&self.state, self.state.interval.start + tau);
+            let time = self.state.interval.start + tau;
+            if self.state.is_sliding || self.state.airborne {
+                self.observer.observe_slips(&self.state, time);
+            }
         }
         Ok(None)
     }
@@ -347,9 +354,8 @@ impl Run<'_> {
         let logged = self.log.len();
         let outcome = self.state.carry_out(guard, tau, &mut self.log);
         self.count_events(logged);
-        self.observer.observe_suspects(&self.state, time);
-        if !guard.is_smooth() {
-            self.observer.observe_accelerations(&self.state, time);
+        self.observer.observe_building(&self.state, time);
+        if !guard.is_smooth() || self.state.is_sliding || self.state.airborne {
             self.observer.observe_slips(&self.state, time);
         }
         if time == self.state.interval.start {
@@ -406,7 +412,7 @@ impl Run<'_> {
             slip_path: state.motions.iter().map(BlockMotion::path).collect(),
             energy: self.observer.finish_energy(state),
             events: self.keep_log.then_some(self.log),
-            peaks: self.observer.peaks,
+            peaks: self.observer.peaks(n),
             histories: self.observer.histories.map(Recorder::finish),
             statistics: self.statistics,
         }

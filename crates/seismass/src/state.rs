@@ -8,8 +8,8 @@ use crate::closer_look::{BoundsInLanes, Sample};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand, Transition};
 use crate::lanes::{
-    Aligned, FAR, MAX_LANES, Vector, WIDEST, WIDTH, by_width, differences, filled, for_each_path, lanes, lanes_mut,
-    load, padded, store,
+    Aligned, FAR, LANES, MAX_LANES, Vector, WIDEST, WIDTH, at, by_width, differences, filled, for_each_path, lanes,
+    lanes_mut, load, numbers, padded, store,
 };
 use crate::model::Model;
 use crate::propagator::RegimeCache;
@@ -78,10 +78,8 @@ pub(crate) struct Ranges {
     bounds: [[Vec<f64>; 2]; 3],
     /// Storeys and floors whose drifts, drift rates and accelerations come to their bounds (see [`Bounds`]).
     pub(crate) suspects: [Set; 3],
-    /// Storeys that sets hold: all, or none where there are more than they can.
-    within: Set,
-    /// Storeys always looked at one after the other: none, or all.
-    others: usize,
+    /// Number of storeys.
+    storeys: usize,
     /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
     pub(crate) remainder: f64,
     /// h^2 / 8 times the liveliness, for bounds of second derivatives.
@@ -94,9 +92,8 @@ impl Ranges {
     fn new(storeys: usize) -> Self {
         let zero = || vec![0.0; padded(storeys)];
         let pair = || [zero(), zero()];
-        let (within, others) = if storeys <= MAX_LANES { (first(storeys), 0) } else { (0, storeys) };
         let bounds = [pair(), pair(), pair()];
-        Self { bounds, suspects: [Set::MAX; 3], within, others, remainder: 0.0, chord: 0.0, are_known: false }
+        Self { bounds, suspects: [Set::MAX; 3], storeys, remainder: 0.0, chord: 0.0, are_known: false }
     }
 
     /// Keeps what the bounds of higher derivatives are multiplied with over `h`, where they are as lively as that.
@@ -129,7 +126,7 @@ impl Ranges {
             let [low, high] = &mut self.bounds[which];
             store(&lows, low);
             store(&highs, high);
-            self.suspects[which] = suspects & self.within;
+            self.suspects[which] = suspects & first(self.storeys);
         }
     }
 
@@ -137,6 +134,41 @@ impl Ranges {
     fn of(&self, which: usize, i: usize) -> (f64, f64) {
         let [low, high] = &self.bounds[which];
         (low[i], high[i])
+    }
+
+    #[inline(always)]
+    fn vector<V: Vector>(&self, which: usize, k: usize) -> (V, V) {
+        let [low, high] = &self.bounds[which];
+        (at(low, k), at(high, k))
+    }
+
+    /// The suspects of vector `k`, as bits: drifts (0), drift rates (1) or accelerations (2). All are suspect where there
+    /// are more than vectors hold.
+    #[inline(always)]
+    pub(crate) fn suspects_in<const K: usize>(&self, which: usize, k: usize) -> Set {
+        if K < WIDEST || self.storeys <= MAX_LANES {
+            self.suspects[which] >> (WIDTH * k) & Set::from(LANES)
+        } else {
+            first(self.storeys.saturating_sub(WIDTH * k).min(WIDTH))
+        }
+    }
+
+    /// Ranges of the drift coordinates of storeys in vector `k`.
+    #[inline(always)]
+    pub(crate) fn drifts<V: Vector>(&self, k: usize) -> (V, V) {
+        self.vector(0, k)
+    }
+
+    /// Ranges of the drift rates of storeys in vector `k`.
+    #[inline(always)]
+    pub(crate) fn rates<V: Vector>(&self, k: usize) -> (V, V) {
+        self.vector(1, k)
+    }
+
+    /// Ranges of the absolute accelerations of floors in vector `k`.
+    #[inline(always)]
+    pub(crate) fn accelerations<V: Vector>(&self, k: usize) -> (V, V) {
+        self.vector(2, k)
     }
 
     /// Range of the drift coordinate of storey `i`.
@@ -155,26 +187,6 @@ impl Ranges {
     #[inline]
     pub(crate) fn acceleration(&self, i: usize) -> (f64, f64) {
         self.of(2, i)
-    }
-}
-
-/// See [`State::looked_at`].
-pub(crate) struct LookedAt {
-    set: Set,
-    others: std::ops::Range<usize>,
-}
-
-impl Iterator for LookedAt {
-    type Item = usize;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<usize> {
-        if self.set == 0 {
-            return self.others.next();
-        }
-        let lowest = self.set.trailing_zeros() as usize;
-        self.set &= self.set - 1;
-        Some(lowest)
     }
 }
 
@@ -228,7 +240,7 @@ pub(crate) fn ranges<V: Vector>(start: [V; 2], end: [V; 2], third: V, margin: V)
 }
 
 /// The state of a run and its working space. Vectors of storeys and floors are padded to whole lanes with zeros, from
-/// `x` to `drift_acceleration`, and those of `drive`, `spring_load` and `friction`.
+/// `x` to `drift_acceleration`, and those of `drive`, `spring_load`, `friction` and the springs' bases.
 pub(crate) struct State<'a> {
     pub(crate) model: &'a Model,
     pub(crate) cache: &'a mut RegimeCache,
@@ -267,6 +279,8 @@ pub(crate) struct State<'a> {
     pub(crate) yield_bounds: Vec<(f64, f64)>,
     /// Drift coordinates at which each storey collapses.
     pub(crate) collapse_bounds: Vec<(f64, f64)>,
+    /// Drift of each storey at its spring's base.
+    pub(crate) base_drift: Vec<f64>,
     /// Spring force of each storey at its base (N).
     pub(crate) base_force: Vec<f64>,
     /// The same less P-Delta (N).
@@ -326,8 +340,9 @@ impl<'a> State<'a> {
             stuck_mu: vec![f64::INFINITY; n + 1],
             yield_bounds: vec![(f64::NEG_INFINITY, f64::INFINITY); n],
             collapse_bounds: vec![(f64::NEG_INFINITY, f64::INFINITY); n],
-            base_force: vec![0.0; n],
-            base_load: vec![0.0; n],
+            base_drift: zero(),
+            base_force: zero(),
+            base_load: zero(),
             effects: LoadEffects {
                 valid: false,
                 constant: Aligned::zeros(4 * model.width),
@@ -392,9 +407,11 @@ impl<'a> State<'a> {
         self.yield_bounds[i] = spring.yield_bounds(law);
         let (limit, base) = (law.collapse_drift, spring.drift(0.0));
         self.collapse_bounds[i] = (-limit - base, limit - base);
+        self.base_drift[i] = base;
         self.base_force[i] = spring.base_force(law);
         self.base_load[i] = spring.base_load(law);
-        self.bounds.spring_changed(i);
+        let plastic = spring.plastic();
+        self.bounds.follow_spring(i, self.guarded_drift(i), plastic);
         let (word, shift) = (i / STOREYS_PER_WORD, 2 * (i % STOREYS_PER_WORD));
         self.key[word] = self.key[word] & !(0b11 << shift) | u64::from(spring.yielded()) << shift;
     }
@@ -538,12 +555,10 @@ impl<'a> State<'a> {
         self.series.form::<V, K>(self.model, (regime, table), &start, &self.drive, h);
     }
 
-    /// The storeys or floors of a set, or all where there are more than sets hold.
+    /// Vectors of storeys: `K`, or as many as there are where the most do not hold them.
     #[inline(always)]
-    pub(crate) fn looked_at<const K: usize>(&self, set: Set) -> LookedAt {
-        // Fewer vectors than the most: no others.
-        let others = if K < WIDEST { 0 } else { self.ranges.others };
-        LookedAt { set: set & self.ranges.within, others: 0..others }
+    pub(crate) fn vectors<const K: usize>(&self) -> usize {
+        if K < WIDEST { K } else { self.model.width / WIDTH }
     }
 
     /// Forms the ranges over the present series, whose start is the state, unless the plain step before it has left them,
@@ -600,12 +615,29 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Whether a floor's jerk keeps its sign over the present series: between its ends it differs from its chord by at
-    /// most h^2 / 8 times its largest second derivative.
-    pub(crate) fn is_steady(&self, i: usize) -> bool {
-        let turn = self.ranges.chord * self.regime().row(Row::ThirdOfAcceleration)[i];
-        let (start, end) = (self.jerk[i], self.series.accelerations_at_end()[1][i]);
-        start * end > 0.0 && start.abs().min(end.abs()) > turn
+    /// Floors of vector `k`, as bits, whose jerks keep their signs over the present series: between its ends a jerk differs
+    /// from its chord by at most h^2 / 8 times its largest second derivative.
+    #[inline(always)]
+    pub(crate) fn steady<V: Vector>(&self, k: usize) -> u32 {
+        let turn = V::splat(self.ranges.chord).mul(at(self.regime().row(Row::ThirdOfAcceleration), k));
+        let (start, end): (V, V) = (at(&self.jerk, k), at(self.series.accelerations_at_end()[1], k));
+        !V::splat(0.0).not_below(start.mul(end)) & !turn.not_below(start.abs().min(end.abs()))
+    }
+
+    /// [`State::acceleration_size`] within the code of a path.
+    #[inline(always)]
+    pub(crate) fn size_in_lanes<V: Vector, const K: usize>(&self, floor: usize, contact: f64) -> f64 {
+        if K == WIDEST || floor == 0 {
+            return self.acceleration_size(floor, contact);
+        }
+        let operator = Operator::<V, K>::new(self.model, self.regime());
+        let (mut x, mut v): ([V; K], [V; K]) = (load(&self.x), load(&self.v));
+        let (loads, mut forces): ([V; K], [V; K]) = (load(&self.base_load), load(&self.friction));
+        for k in 0..K {
+            (x[k], v[k]) = (x[k].abs(), v[k].abs());
+            forces[k] = forces[k].abs().mul(V::splat(contact));
+        }
+        numbers(&operator.sizes(&x, &v, &loads, forces)).as_flattened()[floor - 1]
     }
 
     /// Sum of the sizes of the terms of a floor's acceleration: times rounding, its error.

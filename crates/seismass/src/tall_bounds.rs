@@ -3,9 +3,8 @@
 
 use crate::bounds::{self, Set, members};
 use crate::lanes::{FAR, Vector, WIDTH, at, filled_to, lanes};
-use crate::observe::Observer;
+use crate::observe::{Observer, PeakLanes};
 use crate::regime::Row;
-use crate::response::Peak;
 use crate::state::State;
 use crate::storey::Sign;
 use crate::tall_operator::Sample;
@@ -28,10 +27,9 @@ struct VectorPeaks {
 }
 
 impl VectorPeaks {
-    fn new(peaks: &[Peak]) -> Self {
-        let peak = |lane: usize| peaks.get(lane).copied().unwrap_or(Peak { value: FAR, time: 0.0 });
-        let lanes = [0, 1, 2, 3].map(peak);
-        Self { size: lanes.map(|peak| peak.value), of: [0.0; WIDTH], time: lanes.map(|peak| peak.time) }
+    fn new(peaks: &PeakLanes, k: usize) -> Self {
+        let size = lanes(peaks.sizes()).get(k).copied().unwrap_or([FAR; WIDTH]);
+        Self { size, of: [0.0; WIDTH], time: [0.0; WIDTH] }
     }
 
     /// Takes the sizes of something of values at one time, where they beat the peaks.
@@ -77,7 +75,6 @@ impl Course {
         let by_storey = |padding: f64, value: &dyn Fn(usize) -> f64| {
             [0, 1, 2, 3].map(|lane| if from + lane < n { value(from + lane) } else { padding })
         };
-        let peaks = |all: &[Peak]| VectorPeaks::new(&all[from.min(n)..n.min(from + WIDTH)]);
         Self {
             base: by_storey(0.0, &|i| state.springs[i].drift(0.0)),
             force: by_storey(0.0, &|i| state.base_force[i]),
@@ -86,9 +83,9 @@ impl Course {
             inflexible: by_storey(FAR, &|i| if flexibilities[i] > 0.0 { 0.0 } else { FAR }),
             low: by_storey(-FAR, &|i| state.guarded_drift(i).0.max(-FAR)),
             high: by_storey(FAR, &|i| state.guarded_drift(i).1.min(FAR)),
-            drift: peaks(&observer.peaks.drift),
-            shear: peaks(&observer.peaks.storey_shear),
-            acceleration: peaks(&observer.peaks.floor_acceleration),
+            drift: VectorPeaks::new(&observer.drift, k),
+            shear: VectorPeaks::new(&observer.shear, k),
+            acceleration: VectorPeaks::new(&observer.acceleration, k),
         }
     }
 
@@ -129,11 +126,11 @@ impl Bounds {
             turn: sign.map(|sign| if sign == 0.0 { FAR } else { 0.0 }),
             stuck_mu,
         });
-        let largest = |peaks: &[Peak]| [peaks.iter().fold(0.0, |most: f64, peak| most.max(peak.value)); WIDTH];
+        let largest = |peaks: &PeakLanes| [peaks.sizes()[..state.storeys()].iter().copied().fold(0.0, f64::max); WIDTH];
         Self {
             vectors: vectors.collect(),
             courses: (0..length / WIDTH).map(|k| Course::new(state, observer, k)).collect(),
-            largest: [largest(&observer.peaks.drift), largest(&observer.peaks.floor_acceleration)],
+            largest: [largest(&observer.drift), largest(&observer.acceleration)],
         }
     }
 
@@ -212,12 +209,11 @@ impl Bounds {
     pub(crate) fn put_peaks(&self, state: &State, observer: &mut Observer) {
         for i in 0..state.storeys() {
             let (course, lane) = (&self.courses[i / WIDTH], i % WIDTH);
-            let beaten = |peaks: &VectorPeaks, kept: &Peak| {
-                (peaks.size[lane] > kept.value).then_some((peaks.of[lane], peaks.time[lane]))
+            let beaten = |peaks: &VectorPeaks, kept: &PeakLanes| {
+                (peaks.size[lane] > kept.sizes()[i]).then_some((peaks.of[lane], peaks.time[lane]))
             };
-            let kept = &observer.peaks;
-            let acceleration = beaten(&course.acceleration, &kept.floor_acceleration[i]);
-            let mut places = [beaten(&course.drift, &kept.drift[i]), beaten(&course.shear, &kept.storey_shear[i])];
+            let acceleration = beaten(&course.acceleration, &observer.acceleration);
+            let mut places = [beaten(&course.drift, &observer.drift), beaten(&course.shear, &observer.shear)];
             // In order of time: the value of one may be just that of the other's peak, which was there before.
             if let [Some((_, first)), Some((_, second))] = places
                 && second < first

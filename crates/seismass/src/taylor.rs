@@ -52,6 +52,8 @@ pub(crate) struct Series {
     storeys: usize,
     stride: usize,
     order: usize,
+    /// Order beyond which all terms in store are zero.
+    highest: usize,
     h: f64,
     /// Drifts and drift rates at the start.
     x: Vec<f64>,
@@ -72,15 +74,25 @@ pub(crate) struct Series {
 }
 
 /// Largest phase at which the term of order 3, 4, ... is below 2^-60: phase^k / k! rounded down.
-const PHASE_LIMITS: [f64; 19] = [
-    0.0000, 0.0000, 0.0006, 0.0029, 0.0088, 0.0207, 0.0408, 0.0707, 0.1119, 0.1652, 0.2312, 0.3099, 0.4014, 0.5054,
-    0.6215, 0.7493, 0.8883, 1.0380, 1.1978,
+static PHASE_LIMITS: [[f64; WIDTH]; 5] = [
+    [0.0000, 0.0000, 0.0006, 0.0029],
+    [0.0088, 0.0207, 0.0408, 0.0707],
+    [0.1119, 0.1652, 0.2312, 0.3099],
+    [0.4014, 0.5054, 0.6215, 0.7493],
+    [0.8883, 1.0380, f64::INFINITY, f64::INFINITY],
 ];
 
+/// What longer phases have too.
+const MOST_TERMS: usize = 21;
+
 /// Order of the first term that is below rounding.
-pub(crate) fn terms(phase: f64) -> usize {
-    let reached = PHASE_LIMITS.iter().filter(|&&limit| phase >= limit || phase.is_nan()).count();
-    3 + reached.min(PHASE_LIMITS.len() - 1)
+#[inline(always)]
+pub(crate) fn terms<V: Vector>(phase: f64) -> usize {
+    let mut reached = 0;
+    for limits in &PHASE_LIMITS {
+        reached = reached << WIDTH | V::splat(phase).not_below(V::load(limits));
+    }
+    (3 + reached.count_ones() as usize).min(MOST_TERMS)
 }
 
 impl Series {
@@ -88,7 +100,7 @@ impl Series {
     #[cold]
     fn resize(&mut self, storeys: usize, stride: usize) {
         let zero = || vec![0.0; stride];
-        (self.storeys, self.stride) = (storeys, stride);
+        (self.storeys, self.stride, self.highest) = (storeys, stride, 0);
         (self.x, self.v, self.a) = (zero(), zero(), vec![0.0; (MAX_DEGREE + 1) * stride]);
         for pair in [&mut self.end, &mut self.changes, &mut self.integrals, &mut self.load] {
             *pair = [zero(), zero()];
@@ -106,14 +118,21 @@ impl Series {
         drive: &Drive,
         h: f64,
     ) {
-        let n = model.storeys();
-        let (order, stride) = (terms(regime.frequency * h), model.width);
+        let (n, stride) = (model.storeys(), model.width);
+        let order = match table {
+            // Shorter steps need fewer, but the processor foresees loops that always are of one length.
+            Some(table) => table.order,
+            None => terms::<V>(regime.frequency * h),
+        };
         if self.stride != stride || self.storeys != n {
             self.resize(n, stride);
         }
         (self.order, self.h, self.place) = (order, h, 1.0);
         (self.ground[0], self.ground[1]) = (drive.ground, drive.ground_slope * h);
-        self.a[(order + 1) * stride..Polynomial::room(order + 1) * stride].fill(0.0);
+        if order < self.highest {
+            self.a[(order + 1) * stride..(self.highest + 1) * stride].fill(0.0);
+        }
+        self.highest = order;
         match (table, K, n) {
             (Some(table), 1, 1) => self.by_table::<V, K, 1, 2>(model, table, start, drive),
             (Some(table), 1, 2) => self.by_table::<V, K, 2, 4>(model, table, start, drive),
@@ -163,7 +182,8 @@ impl Series {
         put(&a, &mut starts[0]);
         put(&linear, &mut starts[1]);
         // Powers of the step over that of the table.
-        let (ratio, mut power) = (h / table.h, h / table.h);
+        let ratio = V::splat(h / table.h);
+        let mut power = ratio;
         let terms = &columns_of::<K>(&table.terms)[..(order - 1) * COLUMNS];
         let (mut firsts, mut rates) = ([zero; S], [zero; S]);
         for c in 0..S {
@@ -171,17 +191,16 @@ impl Series {
             rates[c] = rate[c / WIDTH].broadcast(c % WIDTH);
         }
         for ((columns, out), weights) in terms.as_chunks::<COLUMNS>().0.iter().zip(of_floors).zip(&WEIGHTS[2..]) {
-            let (mut even, mut odd) = ([zero; K], [zero; K]);
-            for c in 0..S {
-                for k in 0..K {
-                    even[k] = V::load(&columns[c][k]).mul_add(firsts[c], even[k]);
-                    odd[k] = V::load(&columns[S + c][k]).mul_add(rates[c], odd[k]);
-                }
-            }
-            power *= ratio;
-            let mut term = even;
+            power = power.mul(ratio);
+            let mut term = [zero; K];
             for k in 0..K {
-                term[k] = even[k].add(odd[k]).mul(V::splat(power));
+                let mut of_first = V::load(&columns[0][k]).mul(firsts[0]);
+                let mut of_rate = V::load(&columns[S][k]).mul(rates[0]);
+                for c in 1..S {
+                    of_first = V::load(&columns[c][k]).mul_add(firsts[c], of_first);
+                    of_rate = V::load(&columns[S + c][k]).mul_add(rates[c], of_rate);
+                }
+                term[k] = of_first.add(of_rate).mul(power);
             }
             put(&term, out);
             sums.add(&term, weights);
@@ -264,7 +283,7 @@ impl Series {
         let zero = vec![0.0; n];
         let slope: Vec<f64> = drive.load_slope.iter().map(|slope| slope * self.h).collect();
         self.end.iter_mut().chain(&mut self.integrals).for_each(|sums| sums.fill(0.0));
-        for (k, &[order, once, twice]) in WEIGHTS.iter().enumerate().take(self.order + 1) {
+        for (k, &[[order, ..], [once, ..], [twice, ..]]) in WEIGHTS.iter().enumerate().take(self.order + 1) {
             let load = [&drive.load, &slope, &zero][k.min(2)];
             let a = &mut self.a[k * stride..k * stride + n];
             regime.accelerations(model, &x, &v, load, a);
@@ -303,11 +322,11 @@ impl Series {
         let zero = [V::splat(0.0); K];
         let [mut once, mut twice] = [zero; 2];
         let Some([a, linear, terms @ ..]) = columns_of::<K>(&self.a).get(..=self.order) else { return };
-        for (term, &[_, first, second]) in terms.iter().zip(&WEIGHTS[2..]).rev() {
+        for (term, [_, first, second]) in terms.iter().zip(&WEIGHTS[2..]).rev() {
             for k in 0..K {
                 let term = V::load(&term[k]);
-                once[k] = once[k].mul_add(place, term.mul(V::splat(first)));
-                twice[k] = twice[k].mul_add(place, term.mul(V::splat(second)));
+                once[k] = once[k].mul_add(place, term.mul(V::load(first)));
+                twice[k] = twice[k].mul_add(place, term.mul(V::load(second)));
             }
         }
         store(&once, &mut self.integrals[0]);
@@ -341,8 +360,8 @@ impl Series {
             let mut sums = [V::splat(0.0); 2];
             for (column, weights) in terms.chunks_exact(stride).zip(&WEIGHTS).skip(2).rev() {
                 let term = V::load(&column[lane]);
-                sums[0] = sums[0].mul_add(place, term.mul(V::splat(weights[1])));
-                sums[1] = sums[1].mul_add(place, term.mul(V::splat(weights[2])));
+                sums[0] = sums[0].mul_add(place, term.mul(V::load(&weights[1])));
+                sums[1] = sums[1].mul_add(place, term.mul(V::load(&weights[2])));
             }
             sums[0].store(once);
             sums[1].store(twice);
@@ -569,24 +588,23 @@ struct Sums<V, const K: usize> {
 
 impl<V: Vector, const K: usize> Sums<V, K> {
     #[inline(always)]
-    fn add(&mut self, term: &[V; K], &[order, once, twice]: &[f64; 3]) {
-        let (order, once, twice) = (V::splat(order), V::splat(once), V::splat(twice));
+    fn add(&mut self, term: &[V; K], [order, once, twice]: &[[f64; WIDTH]; 3]) {
         for k in 0..K {
             self.value[k] = self.value[k].add(term[k]);
-            self.rate[k] = order.mul_add(term[k], self.rate[k]);
-            self.integrals[0][k] = once.mul_add(term[k], self.integrals[0][k]);
-            self.integrals[1][k] = twice.mul_add(term[k], self.integrals[1][k]);
+            self.rate[k] = V::load(order).mul_add(term[k], self.rate[k]);
+            self.integrals[0][k] = V::load(once).mul_add(term[k], self.integrals[0][k]);
+            self.integrals[1][k] = V::load(twice).mul_add(term[k], self.integrals[1][k]);
         }
     }
 }
 
-/// Orders k, and from the second on the first and second integrals of s^k over [0, 1].
-pub(crate) const WEIGHTS: [[f64; 3]; MAX_DEGREE + 1] = {
-    let mut table = [[0.0; 3]; MAX_DEGREE + 1];
+/// Orders k, and from the second on the first and second integrals of s^k over [0, 1], each in all lanes.
+pub(crate) static WEIGHTS: [[[f64; WIDTH]; 3]; MAX_DEGREE + 1] = {
+    let mut table = [[[0.0; WIDTH]; 3]; MAX_DEGREE + 1];
     let mut k = 1;
     while k <= MAX_DEGREE {
         let once = if k > 1 { 1.0 / (k + 1) as f64 } else { 0.0 };
-        table[k] = [k as f64, once, once / (k + 2) as f64];
+        table[k] = [[k as f64; WIDTH], [once; WIDTH], [once / (k + 2) as f64; WIDTH]];
         k += 1;
     }
     table
@@ -645,10 +663,10 @@ mod tests {
     #[test]
     fn series_are_long_enough() {
         for phase in [1e-9, 1e-3, 0.1, 0.3, 0.7, MAX_PHASE] {
-            let order = terms(phase);
+            let order = terms::<Plain>(phase);
             let term = (1..=order).fold(1.0, |term, k| term * phase / k as f64);
             assert!(term <= (-60f64).exp2(), "phase {phase}: {term:e}");
         }
-        assert!(2 + terms(f64::INFINITY) <= MAX_DEGREE);
+        assert!(2 + terms::<Plain>(f64::INFINITY) <= MAX_DEGREE);
     }
 }
