@@ -51,7 +51,7 @@ def _counts() -> str:
 def section(*, quick: bool) -> Section:
     """Measure both; instructions too where valgrind is installed, unless quick."""
     name, motion = strong_motions()[0]
-    found = timings("steps", four_storeys(motion, name), 0.3 if quick else 5.0)
+    found = timings("steps", four_storeys(motion, name), 0.3 if quick else 5.0, native=True)
     over_chain = repeated(found["step"] / found["chain"])
     at_clock = repeated(1e9 * found["step"] * found["frequency"] / CLOCK)
     runs = [

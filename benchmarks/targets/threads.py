@@ -77,7 +77,7 @@ class Processes:
 def section(*, quick: bool) -> Section:
     """Measure the study's batch, a random one and the arithmetic."""
     name, motion = strong_motions()[0]
-    arithmetic = timings("threads", four_storeys(motion, name), 1.0 if quick else 5.0)
+    arithmetic = timings("threads", four_storeys(motion, name), 1.0 if quick else 5.0, native=True)
     limit = repeated(2.0 * arithmetic["one"] / arithmetic["two"])
     targets, rows = [], []
 

@@ -16,12 +16,19 @@ use super::clipping::{Breakpoint, Contact, clip_several};
 use super::history::{History, check_finite};
 use crate::STANDARD_GRAVITY;
 use crate::damping::{StoreyDamping, natural_frequencies};
+use crate::lanes::{Vector, for_each_path};
 use crate::model::Model;
 use crate::response::Status;
 use crate::scene::{Motion, Scene};
 
-/// Integrates a scene.
-pub(super) fn integrate(scene: &Scene, motion: &Motion, substeps: usize) -> Result<History, Error> {
+for_each_path! {
+    /// Integrates a scene. Paths give the same bits: they have the same operations, on wider vectors.
+    pub(super) fn integrate(scene: &Scene, motion: &Motion, substeps: usize) -> Result<History, Error>
+        = integrate_by_path
+}
+
+#[inline(always)]
+fn integrate_by_path<V: Vector>(scene: &Scene, motion: &Motion, substeps: usize) -> Result<History, Error> {
     let model = Model::new(scene);
     let h = motion.dt() / substeps as f64;
     check_stability(&model, motion.dt(), substeps)?;
@@ -183,7 +190,7 @@ impl Leapfrog {
     }
 
     /// Storey forces at the end of a step.
-    #[inline]
+    #[inline(always)]
     fn form_forces(&mut self) {
         for s in &mut self.storeys {
             s.force = s.element_force[0] + s.element_force[1] + s.linear * s.drift + s.damping * s.end_rate;
@@ -199,7 +206,7 @@ impl Leapfrog {
     }
 
     /// Velocities take the forces at the end of the last step over the length `h`, friction included.
-    #[inline]
+    #[inline(always)]
     fn kick(&mut self, h: f64, ground: f64, contact: f64) {
         let push = h * ground;
         let contact = h * contact.max(0.0);
@@ -235,7 +242,7 @@ impl Leapfrog {
     }
 
     /// Positions and forces at the end of a step of length `h`; returns the storey that collapsed.
-    #[inline]
+    #[inline(always)]
     fn drift(&mut self, h: f64) -> Option<usize> {
         let mut below = 0.0;
         let mut collapsed = None;
@@ -263,6 +270,7 @@ impl Leapfrog {
         collapsed
     }
 
+    #[inline(always)]
     fn record(&self, row: usize, time: f64, history: &mut History) -> Result<(), Error> {
         let drifts = || self.storeys.iter().map(|s| s.drift);
         let slips = || self.places.iter().map(|&place| self.contacts[place].slip);
