@@ -73,8 +73,8 @@ def test_readme_says_of_times_what_the_page_of_performance_does() -> None:
         ("one more sample in which nothing happens costs some twelve nanoseconds", step, 10.0, 14.0),
         ("nothing yields or slides takes some forty per sample", calm, 33.0, 47.0),
         ("An event costs about a microsecond", event, 0.5, 1.5),
-        ("takes 0.2 to 0.7 ms on one core", min(times), 0.15, 0.25),
-        ("takes 0.2 to 0.7 ms on one core", max(times), 0.5, 0.75),
+        ("takes 0.2 to 0.5 ms on one core", min(times), 0.15, 0.25),
+        ("takes 0.2 to 0.5 ms on one core", max(times), 0.4, 0.6),
         ("less than a third of a second on two", study, 0.0, 1 / 3),
     ):
         assert words in readme
