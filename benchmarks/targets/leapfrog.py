@@ -74,7 +74,7 @@ def section(*, quick: bool) -> Section:
                 *(f"{1e3 * np.median(found[name]):.3f}" for name in (*OUTPUTS, "leapfrog")),
                 *(f"{ratio.median:.2f}" for ratio in ratios.values()),
                 f"{1e3 * np.median(native['leapfrog']):.3f}",
-                *(f"{np.median(found['peaks'] / found['leapfrog']):.2f}" for found in (native, portable)),
+                *(f"{np.median(other['peaks'] / other['leapfrog']):.2f}" for other in (native, portable)),
             ]
         )
     times = ("peaks", "drift, slip", "six", "leapfrog")

@@ -11,16 +11,10 @@ use crate::storey::Sign;
 /// Storeys or floors as bits.
 pub(crate) type Set = u64;
 
-/// The set of one storey, or of none beyond the bits: so many storeys are always looked at all.
-#[inline]
-pub(crate) fn only(i: usize) -> Set {
-    if i < Set::BITS as usize { 1 << i } else { 0 }
-}
-
 /// The set of the first so many storeys, or of all that a set holds.
 #[inline]
 pub(crate) fn first(storeys: usize) -> Set {
-    if storeys < Set::BITS as usize { only(storeys) - 1 } else { Set::MAX }
+    if storeys < Set::BITS as usize { (1 << storeys) - 1 } else { Set::MAX }
 }
 
 /// The members of a set, in order.

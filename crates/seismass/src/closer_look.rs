@@ -6,7 +6,7 @@
 use std::mem::take;
 
 use crate::bounds::{self, Bounds, Set, against, farthest, members, signs};
-use crate::lanes::{Vector, WIDTH, by_width, for_each_path, load, store};
+use crate::lanes::{LANES, Vector, WIDTH, by_width, for_each_path, load, store};
 use crate::model::Model;
 use crate::observe::Observer;
 use crate::state::{State, THIRD, off_cubic, ranges};
@@ -133,7 +133,7 @@ impl Closer {
         for k in 0..K {
             let lanes = WIDTH * k;
             let of = [suspects[0] >> lanes, suspects[1] >> lanes, suspects[2] >> lanes];
-            let of = [of[0] as u32 & 0xf, of[1] as u32 & 0xf, of[2] as u32 & 0xf];
+            let of = [of[0] as u32 & LANES, of[1] as u32 & LANES, of[2] as u32 & LANES];
             // Rates keep the signs that they must keep: those of plastic storeys, and where a peak is followed.
             let (start, end) = ([before.v[k], before.q[k]], [after.v[k], after.q[k]]);
             let rate = ranges(start, end, third, norm.mul(margins[1][k]));
@@ -244,7 +244,7 @@ impl Beaten {
         for k in 0..K {
             let lanes = WIDTH * k;
             let (x, a, size) = (after.x[k], after.a[k], after.a[k].abs());
-            let drifts = (followed >> lanes) as u32 & 0xf;
+            let drifts = (followed >> lanes) as u32 & LANES;
             let negative = !after.v[k].not_below(V::splat(0.0));
             let sign = V::splat(1.0).with(negative, V::splat(-1.0));
             // From here to the guard on the side that the drift goes to.
@@ -253,7 +253,7 @@ impl Beaten {
             in_lanes.reach[k] = in_lanes.reach[k].with(drifts, to_guard);
             in_lanes.sign[k] = in_lanes.sign[k].with(drifts, sign);
             in_lanes.turn[k] = in_lanes.turn[k].with(drifts, V::splat(0.0));
-            let floors = (closer.beaten[1] >> lanes) as u32 & 0xf & !in_lanes.a_peak[k].not_below(size);
+            let floors = (closer.beaten[1] >> lanes) as u32 & LANES & !in_lanes.a_peak[k].not_below(size);
             self.floors |= Set::from(floors) << lanes;
             in_lanes.a_peak[k] = in_lanes.a_peak[k].with(floors, size);
             accelerations[k] = accelerations[k].with(floors, a);

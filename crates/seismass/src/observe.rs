@@ -57,19 +57,14 @@ impl PeakLanes {
         beats
     }
 
-    /// Lanes of vector `k`, as bits, whose peaks sizes beat.
-    #[inline(always)]
-    fn beaten_by<V: Vector>(&self, k: usize, sizes: V) -> u32 {
-        !at::<V>(&self.size, k).not_below(sizes) & LANES
-    }
-
     /// Takes the values of vector `k` that beat their peaks; tells, as bits, which did.
     #[inline(always)]
     fn take_vector<V: Vector>(&mut self, k: usize, values: V, time: f64) -> u32 {
-        let beaten = self.beaten_by(k, values.abs());
         let (sizes, times) = (&mut lanes_mut(&mut self.size)[k], &mut lanes_mut(&mut self.time)[k]);
+        let kept = V::load(sizes);
+        let beaten = !kept.not_below(values.abs()) & LANES;
         // What is no number beats nothing.
-        values.abs().max(V::load(sizes)).store(sizes);
+        values.abs().max(kept).store(sizes);
         V::load(times).with(beaten, V::splat(time)).store(times);
         beaten
     }

@@ -154,6 +154,19 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
         Self { tangent, inverse_mass, model: &model.lanes }
     }
 
+    /// With Rayleigh damping, adds that of the storeys to their forces; returns that of the floors, and their velocities.
+    #[inline(always)]
+    fn add_storey_damping(&self, v: &[V; K], shear: &mut [V; K]) -> Option<[[V; K]; 2]> {
+        if self.model.storey_damping.is_empty() {
+            return None;
+        }
+        let storeys: [V; K] = load(&self.model.storey_damping);
+        for k in 0..K {
+            shear[k] = storeys[k].mul_add(v[k], shear[k]);
+        }
+        Some([load(&self.model.floor_damping), prefix_sums(v)])
+    }
+
     /// Sums of the sizes of the terms of the floor accelerations, from those of drifts, drift rates and other forces on
     /// floors, and from constant parts of the storey forces.
     #[inline(always)]
@@ -172,12 +185,8 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
                 }
             }
         }
-        if !self.model.storey_damping.is_empty() {
-            let (storeys, floors): ([V; K], [V; K]) =
-                (load(&self.model.storey_damping), load(&self.model.floor_damping));
-            let velocity = prefix_sums(v);
+        if let Some([floors, velocity]) = self.add_storey_damping(v, &mut shear) {
             for k in 0..K {
-                shear[k] = storeys[k].mul_add(v[k], shear[k]);
                 force[k] = floors[k].mul_add(velocity[k], force[k]);
             }
         }
@@ -217,12 +226,8 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
                 shear[k] = shear[k].add(others[k]);
             }
         }
-        if !self.model.storey_damping.is_empty() {
-            let (storeys, floors): ([V; K], [V; K]) =
-                (load(&self.model.storey_damping), load(&self.model.floor_damping));
-            let velocity = prefix_sums(v);
+        if let Some([floors, velocity]) = self.add_storey_damping(v, &mut shear) {
             for k in 0..K {
-                shear[k] = storeys[k].mul_add(v[k], shear[k]);
                 force[k] = force[k].sub(floors[k].mul(velocity[k]));
             }
         }

@@ -2,7 +2,7 @@
 //! those of [`crate::bounds`] and [`crate::observe`], of any number of storeys, four at a time.
 
 use crate::bounds::{self, Set, members};
-use crate::lanes::{FAR, Vector, WIDTH, at, filled_to, lanes};
+use crate::lanes::{FAR, LANES, Vector, WIDTH, at, filled_to, lanes};
 use crate::observe::{Observer, PeakLanes};
 use crate::regime::Row;
 use crate::state::State;
@@ -36,7 +36,7 @@ impl VectorPeaks {
     #[inline(always)]
     fn take<V: Vector>(&mut self, sizes: V, of: &[f64; WIDTH], time: f64) {
         let kept = V::load(&self.size);
-        let beaten = !kept.not_below(sizes) & 0xf;
+        let beaten = !kept.not_below(sizes) & LANES;
         kept.max(sizes).store(&mut self.size);
         for lane in members(Set::from(beaten)) {
             (self.of[lane], self.time[lane]) = (of[lane], time);
