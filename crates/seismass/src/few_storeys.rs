@@ -72,8 +72,75 @@ impl<'a, const S: usize> Operator<'a, S> {
     }
 }
 
+/// What is linear in drift accelerations and their rates, as a column each: of unit drift accelerations, of unit rates.
+type Linear<V, const S: usize> = [[V; S]; 2];
+
+/// The homogeneous system over a step: rows of its length times the second derivatives of drift accelerations, of unit
+/// drift accelerations and of unit rates of these.
+struct Homogeneous<V, const S: usize> {
+    length: V,
+    rows: [[[f64; WIDTH]; S]; 2],
+}
+
+impl<V: Vector, const S: usize> Homogeneous<V, S> {
+    /// The system over `h`, and the second derivatives of the floor accelerations.
+    #[inline(always)]
+    fn new(operator: &Operator<S>, h: f64) -> (Self, Linear<V, S>) {
+        let (zero, units) = ([V::splat(0.0); S], units::<V, S>());
+        let forces = [operator.forces(operator.springs(&units), &zero), operator.forces(zero, &units)];
+        let length = V::splat(h);
+        let (mut rows, mut columns) = ([[[0.0; WIDTH]; S]; 2], [zero; 2]);
+        for set in 0..2 {
+            let (mut a, mut q, mut below) = ([V::splat(0.0); WIDTH], zero, V::splat(0.0));
+            for i in 0..S {
+                a[i] = operator.acceleration(i, forces[set][i]);
+                q[i] = length.mul(a[i].sub(below));
+                below = a[i];
+            }
+            rows[set] = numbers(&q);
+            columns[set].copy_from_slice(&V::transposed(a)[..S]);
+        }
+        (Self { length, rows }, columns)
+    }
+
+    /// The step's length times the time derivative of what is linear in the state: its product with the system's matrix.
+    #[inline(always)]
+    fn derivative(&self, [of_q, of_rate]: &Linear<V, S>) -> Linear<V, S> {
+        let mut out = [*of_q, *of_q];
+        for c in 0..S {
+            // Spring forces reach the storeys next to theirs.
+            let (from, to) = (c.saturating_sub(1), (c + 2).min(S));
+            out[0][c] = V::splat(self.rows[0][from][c]).mul(of_rate[from]);
+            for i in from + 1..to {
+                out[0][c] = V::splat(self.rows[0][i][c]).mul_add(of_rate[i], out[0][c]);
+            }
+            out[1][c] = self.length.mul(of_q[c]);
+            for i in 0..S {
+                out[1][c] = V::splat(self.rows[1][i][c]).mul_add(of_rate[i], out[1][c]);
+            }
+        }
+        out
+    }
+
+    /// The derivative of one and another times a factor.
+    #[inline(always)]
+    fn with_derivative(&self, factor: f64, other: &Linear<V, S>, of: &Linear<V, S>) -> Linear<V, S> {
+        let mut out = self.derivative(of);
+        for set in 0..2 {
+            for c in 0..S {
+                out[set][c] = V::splat(factor).mul_add(other[set][c], out[set][c]);
+            }
+        }
+        out
+    }
+}
+
 /// The series of unit drift accelerations and of unit rates of these over a step of length `h`, as terms of a table, and
 /// their sums: see [`crate::propagator`].
+///
+/// What is linear in the state is differentiated by a product with the system's matrix from the right: each term
+/// follows from the one before by few products of columns, and of sums the second integrals alone are summed up, for a
+/// series less its first term is `h` times the derivative of its integral.
 #[inline(always)]
 pub(crate) fn remainders<V: Vector, const S: usize>(
     model: &Model,
@@ -83,60 +150,45 @@ pub(crate) fn remainders<V: Vector, const S: usize>(
     sums: &mut [f64],
     terms: &mut [f64],
 ) {
-    let zero = V::splat(0.0);
-    let operator = Operator::<S>::new(model, regime);
+    let (system, mut term) = Homogeneous::<V, S>::new(&Operator::new(model, regime), h);
+    for column in term.as_flattened_mut() {
+        *column = V::splat(0.5 * h * h).mul(*column);
+    }
+    let (first, mut twice) = (term, [[V::splat(0.0); S]; 2]);
     let by_order = &mut terms.as_chunks_mut::<WIDTH>().0[..2 * S * (order - 1)];
-    let (mut x, mut v) = ([[zero; S]; 2], [[zero; S]; 2]);
-    (x[0], v[1]) = (units(), units());
     for (k, out) in by_order.chunks_exact_mut(2 * S).enumerate() {
-        let (once, twice) = (V::splat(h * INVERSE[k + 1]), V::splat(h * h * (INVERSE[k + 1] * INVERSE[k + 2])));
+        let weight = V::load(&WEIGHTS[k + 2][2]);
         for set in 0..2 {
-            let forces = operator.forces(operator.springs(&x[set]), &v[set]);
-            let mut term = [zero; WIDTH];
-            let mut below = zero;
-            for i in 0..S {
-                let a = operator.acceleration(i, forces[i]);
-                term[i] = twice.mul(a);
-                x[set][i] = once.mul(v[set][i]);
-                v[set][i] = once.mul(a.sub(below));
-                below = a;
-            }
-            let columns = V::transposed(term);
             for c in 0..S {
-                columns[c].store(&mut out[set * S + c]);
+                term[set][c].store(&mut out[set * S + c]);
+                twice[set][c] = weight.mul_add(term[set][c], twice[set][c]);
             }
+        }
+        term = system.derivative(&term);
+        for column in term.as_flattened_mut() {
+            *column = V::splat(INVERSE[k + 3]).mul(*column);
         }
     }
     // Terms of order k + 2 of the accelerations: drifts and drift rates are integrals of their differences.
+    let once = system.with_derivative(1.0 / 3.0, &first, &twice);
+    let value = system.with_derivative(1.0, &first, &once);
+    let rate = system.with_derivative(2.0, &first, &value);
     let [inside]: [V; 1] = load(&model.lanes.inside);
-    let (length, per_second) = (V::splat(h), V::splat(1.0 / h));
-    let pairs = sums.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<4>().0.as_chunks_mut::<2>().0;
-    for (pair, out) in pairs.iter_mut().enumerate().take(S) {
-        // Two columns at a time: once, twice, value, rate.
-        let mut sums = [[zero; 4]; 2];
-        for (terms, [order, once, twice]) in by_order.chunks_exact(2 * S).zip(&WEIGHTS[2..]) {
-            let (order, once, twice) = (V::load(order), V::load(once), V::load(twice));
-            for (sums, term) in sums.iter_mut().zip(&terms[2 * pair..]) {
-                let term = V::load(term);
-                sums[0] = once.mul_add(term, sums[0]);
-                sums[1] = twice.mul_add(term, sums[1]);
-                sums[2] = sums[2].add(term);
-                sums[3] = order.mul_add(term, sums[3]);
-            }
-        }
-        for ([once, twice, value, rate], (which, out)) in sums.into_iter().zip(out.iter_mut().enumerate()) {
-            let column = 2 * pair + which;
-            let [unit] = unit(column % S);
-            // Of a unit of q its integrals, of a unit of its rate the next.
-            let (first, second) = if column < S { (h, 0.5 * h * h) } else { (0.5 * h * h, h * h * h / 6.0) };
-            let [of_rate] = differences(&[once], zero);
-            let [of_drift] = differences(&[twice], zero);
+    let (zero, length, per_second) = (V::splat(0.0), V::splat(h), V::splat(1.0 / h));
+    // Of a unit of q its integrals, of a unit of its rate the next.
+    let of_unit = [[0.5 * h * h, h], [h * h * h / 6.0, 0.5 * h * h]];
+    let columns = sums.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<4>().0;
+    for (set, columns) in columns.chunks_exact_mut(S).take(2).enumerate() {
+        for (c, out) in columns.iter_mut().enumerate() {
+            let [unit] = unit(c);
+            let [of_rate] = differences(&[once[set][c]], zero);
+            let [of_drift] = differences(&[twice[set][c]], zero);
             let of_rate = length.mul(of_rate).mul(inside);
             let of_drift = length.mul(length).mul(of_drift).mul(inside);
-            V::splat(second).mul_add(unit, of_drift).store(&mut out[0]);
-            V::splat(first).mul_add(unit, of_rate).store(&mut out[1]);
-            value.store(&mut out[2]);
-            per_second.mul(rate).store(&mut out[3]);
+            V::splat(of_unit[set][0]).mul_add(unit, of_drift).store(&mut out[0]);
+            V::splat(of_unit[set][1]).mul_add(unit, of_rate).store(&mut out[1]);
+            value[set][c].store(&mut out[2]);
+            per_second.mul(rate[set][c]).store(&mut out[3]);
         }
     }
 }
@@ -151,16 +203,10 @@ fn units<V: Vector, const S: usize>() -> [V; S] {
     units
 }
 
-/// What columns of a step are the effects of, a lane each: drift rates, forces on floors and their slopes, the ground
-/// acceleration and its slope.
-struct Causes<V, const S: usize> {
-    v: [V; S],
-    force: [V; S],
-    slope: [V; S],
-    ground: [V; 2],
-}
-
 /// The columns of a step of length `h` in their order, with the ramps of floor loads if there is room, from its remainders.
+///
+/// A row is linear in drift accelerations and their rates, in drift rates and drift accelerations, and in drifts and drift
+/// rates: each by the derivative of the one before, and what the first orders add to it.
 #[inline(always)]
 pub(crate) fn columns<V: Vector, const S: usize>(
     model: &Model,
@@ -169,56 +215,41 @@ pub(crate) fn columns<V: Vector, const S: usize>(
     sums: &[f64],
     out: &mut [f64],
 ) {
-    let operator = Operator::<S>::new(model, regime);
-    let Some((of_q, of_rate)) = columns_of::<4>(sums).split_at_checked(S) else { return };
-    let (zero, still, units) = ([V::splat(0.0); S], [V::splat(0.0); 2], units::<V, S>());
-    let of_springs = operator.forces(operator.springs(&units), &zero);
-    let of_damping = operator.forces(zero, &units);
-    let ([first], [second]) = (unit(0), unit(1));
-    let sets = [
-        (S, Causes { v: zero, force: of_springs, slope: zero, ground: still }),
-        (S, Causes { v: units, force: of_damping, slope: of_springs, ground: still }),
-        (2, Causes { v: zero, force: zero, slope: zero, ground: [first, second] }),
-        (S, Causes { v: zero, force: units, slope: zero, ground: still }),
-        (S, Causes { v: zero, force: zero, slope: units, ground: still }),
-    ];
-    let mut columns = out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<4>().0;
-    for (count, Causes { v, force, slope, ground }) in &sets {
-        let Some((of_set, others)) = std::mem::take(&mut columns).split_at_mut_checked(*count) else { return };
-        columns = others;
-        let (mut a, mut q) = ([V::splat(0.0); WIDTH], zero);
-        let mut below = ground[0];
-        for i in 0..S {
-            a[i] = operator.acceleration(i, force[i]);
-            q[i] = a[i].sub(below);
-            below = a[i];
+    let operator = Operator::new(model, regime);
+    let (system, accelerations) = Homogeneous::<V, S>::new(&operator, 1.0);
+    let (zero, units) = (V::splat(0.0), units::<V, S>());
+    let (of_q, of_rate) = columns_of::<4>(sums)[..2 * S].split_at(S);
+    let columns = out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<4>().0;
+    let (of_state, others) = columns.split_at_mut(2 * S);
+    let (of_motion, others) = others.split_at_mut(2);
+    let (of_loads, of_ramps) = others.split_at_mut(S);
+    // Parts of drift rates, of accelerations and of their rates in rows (dx, dv, a, j).
+    for (r, [of_v, of_a, of_j]) in [[h, 0.0, 0.0], [0.0; 3], [0.0, 1.0, h], [0.0, 0.0, 1.0]].into_iter().enumerate() {
+        let mut second = [[zero; S]; 2];
+        for c in 0..S {
+            (second[0][c], second[1][c]) = (V::load(&of_q[c][r]), V::load(&of_rate[c][r]));
         }
-        let of_damping = operator.forces(zero, &q);
-        let (mut jerk, mut rate) = ([V::splat(0.0); WIDTH], zero);
-        let mut below = ground[1];
-        for i in 0..S {
-            jerk[i] = operator.acceleration(i, of_damping[i].add(slope[i]));
-            rate[i] = jerk[i].sub(below);
-            below = jerk[i];
+        let mut first = system.with_derivative(of_j, &accelerations, &second);
+        for c in 0..S {
+            first[0][c] = V::splat(of_v).mul_add(units[c], first[0][c]);
         }
-        let mut velocity = [V::splat(0.0); WIDTH];
-        velocity[..S].copy_from_slice(v);
-        let (velocity, a, jerk) = (V::transposed(velocity), V::transposed(a), V::transposed(jerk));
-        let (q, rate) = (numbers(&q), numbers(&rate));
-        for (c, out) in of_set.iter_mut().enumerate() {
-            let length = V::splat(h);
-            let mut rows = [length.mul(velocity[c]), V::splat(0.0), length.mul_add(jerk[c], a[c]), jerk[c]];
-            for (sums, weights) in [(of_q, &q), (of_rate, &rate)] {
-                for i in 0..S {
-                    let weight = V::splat(weights[i][c]);
-                    for r in 0..4 {
-                        rows[r] = V::load(&sums[i][r]).mul_add(weight, rows[r]);
-                    }
-                }
-            }
-            for r in 0..4 {
-                rows[r].store(&mut out[r]);
-            }
+        let state = system.with_derivative(of_a, &accelerations, &first);
+        for c in 0..S {
+            state[0][c].store(&mut of_state[c][r]);
+            state[1][c].store(&mut of_state[S + c][r]);
+        }
+        // The ground moves the lowest storey alone, a floor its own and that above.
+        zero.sub(first[1][0]).store(&mut of_motion[0][r]);
+        zero.sub(second[1][0]).store(&mut of_motion[1][r]);
+        let of_floor = |c: usize, of_storeys: &[V; S], part: f64| {
+            let above = if c + 1 < S { of_storeys[c + 1] } else { zero };
+            operator.acceleration(c, V::splat(part).mul_add(units[c], of_storeys[c].sub(above)))
+        };
+        for (c, out) in of_loads.iter_mut().enumerate() {
+            of_floor(c, &first[1], of_a).store(&mut out[r]);
+        }
+        for (c, out) in of_ramps.iter_mut().enumerate() {
+            of_floor(c, &second[1], of_j).store(&mut out[r]);
         }
     }
 }
