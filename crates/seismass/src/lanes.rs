@@ -1,11 +1,8 @@
 //! Storeys as lanes of vectors, and the instructions the hot loops may use for them.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::ops::{Deref, DerefMut};
 use std::sync::OnceLock;
-
-use rustc_hash::FxBuildHasher;
 
 /// Instructions the hot loops are compiled for. Paths agree to rounding; each gives the same bits everywhere, with
 /// the same C library.
@@ -116,10 +113,10 @@ pub(crate) struct Aligned {
 /// Most numbers that a thread keeps memory for; beyond that it lets all of it go.
 const MOST_SPARE: usize = 1 << 20;
 
-/// Memory kept by a thread, by capacity.
+/// Memory kept by a thread, by class of its capacity.
 #[derive(Default)]
 struct Spare {
-    by_capacity: HashMap<usize, Vec<Vec<f64>>, FxBuildHasher>,
+    by_class: Vec<Vec<Vec<f64>>>,
     numbers: usize,
 }
 
@@ -128,27 +125,33 @@ thread_local! {
 }
 
 impl Spare {
-    /// A capacity for at least so many numbers, of which there are four within each power of two.
-    fn capacity(length: usize) -> usize {
+    /// The class of so many numbers, and its capacity: there are four within each power of two.
+    fn class(length: usize) -> (usize, usize) {
         let step = (length.next_power_of_two() / 8).max(1);
-        length.next_multiple_of(step)
+        let steps = length.div_ceil(step);
+        (4 * step.ilog2() as usize + steps, steps * step)
     }
 
-    fn take(&mut self, capacity: usize) -> Option<Vec<f64>> {
-        let values = self.by_capacity.get_mut(&capacity)?.pop()?;
-        self.numbers -= capacity;
+    fn take(&mut self, class: usize) -> Option<Vec<f64>> {
+        let values = self.by_class.get_mut(class)?.pop()?;
+        self.numbers -= values.capacity();
         Some(values)
     }
 
     fn keep(&mut self, values: Vec<f64>) {
-        if values.capacity() > MOST_SPARE {
+        let capacity = values.capacity();
+        if capacity > MOST_SPARE {
             return;
         }
-        if self.numbers + values.capacity() > MOST_SPARE {
+        if self.numbers + capacity > MOST_SPARE {
             *self = Self::default();
         }
-        self.numbers += values.capacity();
-        self.by_capacity.entry(values.capacity()).or_default().push(values);
+        self.numbers += capacity;
+        let (class, _) = Self::class(capacity);
+        if self.by_class.len() <= class {
+            self.by_class.resize_with(class + 1, Vec::new);
+        }
+        self.by_class[class].push(values);
     }
 }
 
@@ -167,8 +170,8 @@ impl Aligned {
         if length == 0 {
             return Self::default();
         }
-        let capacity = Spare::capacity(length + slack);
-        let kept = SPARE.try_with(|spare| spare.borrow_mut().take(capacity)).ok().flatten();
+        let (class, capacity) = Spare::class(length + slack);
+        let kept = SPARE.try_with(|spare| spare.borrow_mut().take(class)).ok().flatten();
         let mut values = kept.unwrap_or_else(|| Vec::with_capacity(capacity));
         let offset = values.as_ptr().align_offset(LINE).min(slack);
         values.resize(offset + length, 0.0);

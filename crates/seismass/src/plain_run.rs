@@ -59,7 +59,7 @@ impl<'a, const K: usize> Course<'a, K> {
     #[inline(always)]
     fn new(state: &'a State, h: f64) -> Option<Self> {
         let regime = state.regime();
-        let Whole::Dense(propagator) = &regime.steps.as_deref()?.whole else { return None };
+        let Whole::Dense(propagator) = &regime.steps.as_ref()?.whole else { return None };
         let (of_drift, others) = four_rows(propagator.state_and_motion_columns()).split_at_checked(state.storeys())?;
         let (of_rate, others) = others.split_at_checked(state.storeys())?;
         let [of_ground, of_change, ..] = others else { return None };
@@ -545,7 +545,7 @@ impl State<'_> {
         if self.airborne || !self.cache.visit(self.regime, self.model, self.vertical) {
             return first;
         }
-        let reached = match self.regime().steps.as_deref().map(|steps| &steps.whole) {
+        let reached = match self.regime().steps.as_ref().map(|steps| &steps.whole) {
             Some(Whole::Tall(step)) => {
                 let step = Arc::clone(step);
                 tall_run::run(self, observer, motion, &step, first, end)
@@ -568,7 +568,7 @@ impl State<'_> {
         if self.effects.valid {
             return;
         }
-        let Some(steps) = self.cache.regime(self.regime).steps.as_deref() else { return };
+        let Some(steps) = self.cache.regime(self.regime).steps.as_ref() else { return };
         let Whole::Dense(propagator) = &steps.whole else { return };
         let effects = &mut self.effects;
         if self.vertical {

@@ -566,7 +566,7 @@ impl RegimeCache {
         let entry = &mut self.entries[index];
         let steps = Steps::new(model, &entry.regime, self.dt, vertical, &mut self.sums);
         self.bytes += steps.bytes(vertical);
-        entry.regime.steps = Some(Box::new(steps));
+        entry.regime.steps = Some(steps);
     }
 
     /// Counts a whole interval in a regime; true once its propagator is to be used, which then exists.
@@ -586,7 +586,7 @@ impl RegimeCache {
             Whole::Dense(propagator) => vertical && !propagator.has_ramps(),
             Whole::Tall(_) => false,
         };
-        if entry.regime.steps.as_deref().is_none_or(lacks) {
+        if entry.regime.steps.as_ref().is_none_or(lacks) {
             self.form_steps(index, model, vertical);
         }
         let entry = &self.entries[index];

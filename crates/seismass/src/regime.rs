@@ -5,7 +5,7 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Vector, WIDTH, columns_of, load, numbers, prefix_sums};
+use crate::lanes::{Aligned, Vector, WIDTH, columns_of, load, numbers, prefix_sums};
 use crate::model::{Model, ModelLanes};
 use crate::propagator::Steps;
 
@@ -14,13 +14,13 @@ pub(crate) struct Regime {
     /// Vectors of a row.
     vectors: usize,
     /// One row of each [`Row`], padded to whole vectors with zeros.
-    rows: Vec<[f64; WIDTH]>,
+    rows: Aligned,
     /// Bound on the growth of Taylor coefficients (rad/s).
     pub(crate) frequency: f64,
     /// Exponent (1/s) with which the energy of the derivatives may grow: positive with a negative tangent.
     growth: f64,
     /// The steps of the cache's time step, once they pay.
-    pub(crate) steps: Option<Box<Steps>>,
+    pub(crate) steps: Option<Steps>,
 }
 
 /// What is known of each storey, or floor, in a regime. Bounds are per unit of [`Regime::liveliness_of`].
@@ -61,7 +61,7 @@ impl Regime {
     /// The regime with `yielded[i]` plastic elements in each storey and `stuck_mass[i]` on each floor.
     pub(crate) fn new(model: &Model, yielded: impl Fn(usize) -> u8, stuck_mass: &[f64]) -> Self {
         let vectors = model.width / WIDTH;
-        let rows = vec![[0.0; WIDTH]; ROWS * vectors];
+        let rows = Aligned::zeros(ROWS * model.width);
         let mut regime = Self { vectors, rows, frequency: 0.0, growth: 0.0, steps: None };
         for i in 0..model.storeys() {
             let mut set = |row: Row, value: f64| regime.set(row, i, value);
@@ -83,21 +83,21 @@ impl Regime {
     }
 
     fn set(&mut self, row: Row, i: usize, value: f64) {
-        self.rows[row as usize * self.vectors + i / WIDTH][i % WIDTH] = value;
+        self.rows[row as usize * self.vectors * WIDTH + i] = value;
     }
 
     /// A row, padded.
     #[inline(always)]
     pub(crate) fn row(&self, row: Row) -> &[f64] {
-        let from = row as usize * self.vectors;
-        self.rows[from..from + self.vectors].as_flattened()
+        let width = self.vectors * WIDTH;
+        &self.rows[row as usize * width..][..width]
     }
 
     /// A row in `K` vectors, of which a scene must have as many.
     #[inline(always)]
     pub(crate) fn lanes<V: Vector, const K: usize>(&self, row: Row) -> [V; K] {
         let mut vectors = [V::splat(0.0); K];
-        if let Some(lanes) = self.rows.as_chunks::<K>().0.get(row as usize) {
+        if let Some(lanes) = columns_of::<K>(&self.rows).get(row as usize) {
             for k in 0..K {
                 vectors[k] = V::load(&lanes[k]);
             }
@@ -365,13 +365,13 @@ impl Regime {
 
     /// Forms the bounds of the derivatives: with energy norm e, |v''| <= e / sqrt(mass) and |v'| <= e / sqrt(tangent).
     fn bound_derivatives(&mut self, model: &Model) {
-        let n = model.storeys();
-        let (known, bounds) = self.rows.split_at_mut(Row::SecondOfAcceleration as usize * self.vectors);
-        let known = |row: Row| &known[row as usize * self.vectors..].as_flattened()[..n];
+        let (n, width) = (model.storeys(), model.width);
+        let (known, bounds) = self.rows.split_at_mut(Row::SecondOfAcceleration as usize * width);
+        let known = |row: Row| &known[row as usize * width..][..n];
         let (tangent, root_tangent) = (known(Row::Tangent), known(Row::RootTangent));
         let (inverse_mass, inverse_root) = (known(Row::InverseMass), known(Row::InverseRootMass));
         // In the order of their rows.
-        let mut rows = bounds.chunks_exact_mut(self.vectors).map(|row| &mut row.as_flattened_mut()[..n]);
+        let mut rows = bounds.chunks_exact_mut(width).map(|row| &mut row[..n]);
         let mut next = || rows.next().unwrap_or_default();
         let [second, third, fourth, of_drift, of_rate] = [next(), next(), next(), next(), next()];
         for i in 0..n {

@@ -551,7 +551,7 @@ impl<'a> State<'a> {
         }
         let start = Start { x: &self.x, v: &self.v, a: &self.a, jerk: &self.jerk };
         let regime = self.cache.regime(self.regime);
-        let table = regime.steps.as_deref().and_then(|steps| steps.table.as_ref()).filter(|_| by_table);
+        let table = regime.steps.as_ref().and_then(|steps| steps.table.as_ref()).filter(|_| by_table);
         self.series.form::<V, K>(self.model, (regime, table), &start, &self.drive, h);
     }
 
