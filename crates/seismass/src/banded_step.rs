@@ -1,13 +1,14 @@
 //! The exact step of a tall regime over one sample interval, as a band: of damping that couples neighbours only.
 //!
 //! With linear loads the drift accelerations q and the rates J of the floor accelerations against the ground obey the
-//! homogeneous system, in which a floor knows only its neighbours. What a step adds to drifts and drift rates beyond the
-//! first order is linear in (q, J) at its start, and falls off faster than exponentially with the distance between
-//! storeys: (w h)^d / d! and smaller. Rows of the four matrices therefore end a few storeys away from the diagonal. In
-//! (q, J) this holds for Rayleigh damping too: its mass-proportional part acts on each floor's own velocity.
+//! homogeneous system, in which a floor knows only its neighbours. What a step adds to drifts beyond the first order is
+//! the second integral of q: linear in (q, J) at its start, and falls off faster than exponentially with the distance
+//! between storeys, (w h)^2d / (2d + 2)! and smaller. Rows of the two matrices therefore end a few storeys away from the
+//! diagonal. In (q, J) this holds for Rayleigh damping too: its mass-proportional part acts on each floor's own velocity.
+//! (q', J') obey the same system: their second integral is what the step adds to drift rates beyond h q.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Vector, WIDTH, for_each_path};
+use crate::lanes::{Aligned, Vector, WIDTH, for_each_path};
 use crate::model::Model;
 use crate::regime::{Regime, Row};
 
@@ -24,25 +25,34 @@ pub(crate) fn whole_blocks(storeys: usize) -> usize {
     storeys.next_multiple_of(BLOCK)
 }
 
-/// The step of a regime: (dx - h v, dv) of (q, J).
+/// The step of a regime: dx - h v of (q, J), which is dv - h q of (q', J').
 pub(crate) struct BandedStep {
+    h: f64,
     /// Diagonals on each side of the main one.
     pub(crate) half_width: usize,
-    /// By block of rows, by diagonal from the lowest column on: rows of dx by q and by J, of dv by q and by J.
-    entries: Vec<f64>,
+    /// By block of rows, by column from the lowest that one of them reaches: rows by q, rows by J.
+    entries: Aligned,
+}
+
+/// What a step acts on, each with [`BandedStep::half_width`] more values before the first storey and after the last block.
+#[derive(Clone, Copy)]
+pub(crate) struct Start<'a> {
+    /// Drift accelerations and their rates.
+    pub(crate) q: [&'a [f64]; 2],
+    /// Rates of the floor accelerations against the ground, and their rates.
+    pub(crate) jerk: [&'a [f64]; 2],
 }
 
 /// A band matrix by diagonals, each with a zero at both ends.
-#[derive(Clone)]
 struct Band {
     storeys: usize,
     reach: usize,
-    diagonals: Vec<f64>,
+    diagonals: Aligned,
 }
 
 impl Band {
     fn zeros(storeys: usize, reach: usize) -> Self {
-        Self { storeys, reach, diagonals: vec![0.0; (2 * reach + 1) * (storeys + 2)] }
+        Self { storeys, reach, diagonals: Aligned::zeros((2 * reach + 1) * (storeys + 2)) }
     }
 
     fn unit(storeys: usize, reach: usize) -> Self {
@@ -215,9 +225,10 @@ struct Effect {
 }
 
 impl Effect {
-    /// By series over `h`, to the first term below rounding at frequency times time `phase`.
+    /// By series over `h`, to the first term below rounding at frequency times time `phase`; unless it is to be prolonged,
+    /// nothing but second integrals.
     #[inline(always)]
-    fn by_series(system: &System, start: Term, h: f64, phase: f64) -> Self {
+    fn by_series(system: &System, start: Term, h: f64, phase: f64, prolonged: bool) -> Self {
         let n = start.drift.storeys;
         let mut order = 0;
         let mut size = 1.0;
@@ -226,14 +237,16 @@ impl Effect {
             size *= phase / order as f64;
         }
         let reach = order.min(n - 1);
-        let zero = || Band::zeros(n, reach);
-        let (mut after, mut integrals) = ([zero(), zero()], [zero(), zero()]);
+        let zero = || Band::zeros(n, if prolonged { reach } else { 0 });
+        let (mut after, mut integrals) = ([zero(), zero()], [zero(), Band::zeros(n, reach)]);
         let mut term = start;
         for k in 0..=order {
             let once = h / (k + 1) as f64;
-            after[0].add(&term.drift, 1.0);
-            after[1].add(&term.velocity, 1.0);
-            integrals[0].add(&term.drift, once);
+            if prolonged {
+                after[0].add(&term.drift, 1.0);
+                after[1].add(&term.velocity, 1.0);
+                integrals[0].add(&term.drift, once);
+            }
             integrals[1].add(&term.drift, once * h / (k + 2) as f64);
             if k < order {
                 term = term.next(system, once);
@@ -291,11 +304,9 @@ fn effects_by_path<V: Vector>(model: &Model, regime: &Regime, dt: f64) -> [Effec
     let halvings = (regime.frequency * dt / SERIES_PHASE).log2().ceil().max(0.0);
     let mut h = dt * (-halvings).exp2();
     let phase = regime.frequency * h;
-    let (unit, zero) = (Band::unit(n, 0), Band::zeros(n, 0));
-    let mut effects = [
-        Effect::by_series(&system, Term { drift: unit.clone(), velocity: zero.clone() }, h, phase),
-        Effect::by_series(&system, Term { drift: zero, velocity: unit }, h, phase),
-    ];
+    let (unit, zero) = (|| Band::unit(n, 0), || Band::zeros(n, 0));
+    let of = |start: Term| Effect::by_series(&system, start, h, phase, halvings > 0.0);
+    let mut effects = [of(Term { drift: unit(), velocity: zero() }), of(Term { drift: zero(), velocity: unit() })];
     for _ in 0..halvings as usize {
         effects = doubled(effects, h);
         h *= 2.0;
@@ -307,21 +318,25 @@ impl BandedStep {
     /// The step of a regime over `dt`.
     pub(crate) fn new(model: &Model, regime: &Regime, dt: f64) -> Self {
         let n = model.storeys();
-        let [of_q, of_j] = effects(model, regime, dt);
-        let bands = [&of_q.integrals[1], &of_j.integrals[1], &of_q.integrals[0], &of_j.integrals[0]];
-        let half_width = bands.iter().map(|band| band.needed_reach()).max().unwrap_or(0);
-        let width = 2 * half_width + 1;
-        let mut entries = vec![0.0; whole_blocks(n) * width * bands.len()];
-        for (which, band) in bands.into_iter().enumerate() {
+        let bands = effects(model, regime, dt).map(|Effect { integrals: [_, twice], .. }| twice);
+        let half_width = bands.iter().map(Band::needed_reach).max().unwrap_or(0);
+        let width = Self::columns(half_width);
+        let mut entries = Aligned::zeros(whole_blocks(n) * width * bands.len());
+        for (which, band) in bands.iter().enumerate() {
             for d in band.offsets().filter(|d| d.unsigned_abs() <= half_width) {
                 for (i, &entry) in band.inside(d).iter().enumerate() {
-                    let diagonal = (d + half_width as isize) as usize;
-                    let row = (i / BLOCK * width + diagonal) * bands.len() + which;
-                    entries[row * BLOCK + i % BLOCK] = entry;
+                    let (block, row) = (i / BLOCK, i % BLOCK);
+                    let column = (row as isize + d + half_width as isize) as usize;
+                    entries[((block * width + column) * bands.len() + which) * BLOCK + row] = entry;
                 }
             }
         }
-        Self { half_width, entries }
+        Self { h: dt, half_width, entries }
+    }
+
+    /// Columns that a block of rows reaches.
+    fn columns(half_width: usize) -> usize {
+        2 * half_width + BLOCK
     }
 
     /// Memory taken (bytes).
@@ -329,32 +344,35 @@ impl BandedStep {
         8 * self.entries.len()
     }
 
-    /// Forms (dx - h v, dv), of whole blocks of rows, of (q, J), which have [`Self::half_width`] more values before the
-    /// first storey and after the last block.
+    /// Forms (dx - h v, dv), of whole blocks of rows.
     #[inline(always)]
-    pub(crate) fn advance<V: Vector>(&self, q: &[f64], rate: &[f64], dx: &mut [f64], dv: &mut [f64]) {
-        let blocks = self.entries.as_chunks::<WIDTH>().0.as_chunks::<8>().0.chunks_exact(2 * self.half_width + 1);
+    pub(crate) fn advance<V: Vector>(&self, start: Start, dx: &mut [f64], dv: &mut [f64]) {
+        let width = Self::columns(self.half_width);
+        let blocks = self.entries.as_chunks::<WIDTH>().0.as_chunks::<4>().0.chunks_exact(width);
         let out = dx.as_chunks_mut::<BLOCK>().0.iter_mut().zip(dv.as_chunks_mut::<BLOCK>().0);
-        for (block, (diagonals, (dx, dv))) in blocks.zip(out).enumerate() {
-            let from = BLOCK * block;
+        for (block, (columns, (dx, dv))) in blocks.zip(out).enumerate() {
+            let within = BLOCK * block..BLOCK * block + width;
+            let (q, q_rates) = (&start.q[0][within.clone()], &start.q[1][within.clone()]);
+            let (jerk, jerk_rates) = (&start.jerk[0][within.clone()], &start.jerk[1][within]);
+            // Of q and its rate, of J and its rate.
             let mut of_q = [V::splat(0.0); 4];
-            let mut of_rate = of_q;
-            for (entries, (q, rate)) in diagonals.iter().zip(q[from..].windows(BLOCK).zip(rate[from..].windows(BLOCK)))
-            {
-                let (&[q, q_above], []) = q.as_chunks::<WIDTH>() else { return };
-                let (&[rate, rate_above], []) = rate.as_chunks::<WIDTH>() else { return };
-                let (q, rate) = ([V::load(&q), V::load(&q_above)], [V::load(&rate), V::load(&rate_above)]);
+            let mut of_jerk = of_q;
+            let weights = q.iter().zip(jerk).zip(q_rates.iter().zip(jerk_rates));
+            for (entries, ((&q, &jerk), (&q_rate, &jerk_rate))) in columns.iter().zip(weights) {
                 for half in 0..2 {
-                    of_q[half] = V::load(&entries[half]).mul_add(q[half], of_q[half]);
-                    of_rate[half] = V::load(&entries[2 + half]).mul_add(rate[half], of_rate[half]);
-                    of_q[2 + half] = V::load(&entries[4 + half]).mul_add(q[half], of_q[2 + half]);
-                    of_rate[2 + half] = V::load(&entries[6 + half]).mul_add(rate[half], of_rate[2 + half]);
+                    let (by_q, by_jerk) = (V::load(&entries[half]), V::load(&entries[2 + half]));
+                    of_q[half] = by_q.mul_add(V::splat(q), of_q[half]);
+                    of_jerk[half] = by_jerk.mul_add(V::splat(jerk), of_jerk[half]);
+                    of_q[2 + half] = by_q.mul_add(V::splat(q_rate), of_q[2 + half]);
+                    of_jerk[2 + half] = by_jerk.mul_add(V::splat(jerk_rate), of_jerk[2 + half]);
                 }
             }
+            let here = q[self.half_width..].as_chunks::<WIDTH>().0;
             let (dx, dv) = (dx.as_chunks_mut::<WIDTH>().0, dv.as_chunks_mut::<WIDTH>().0);
             for half in 0..2 {
-                of_q[half].add(of_rate[half]).store(&mut dx[half]);
-                of_q[2 + half].add(of_rate[2 + half]).store(&mut dv[half]);
+                of_q[half].add(of_jerk[half]).store(&mut dx[half]);
+                let more = of_q[2 + half].add(of_jerk[2 + half]);
+                V::splat(self.h).mul_add(V::load(&here[half]), more).store(&mut dv[half]);
             }
         }
     }

@@ -76,12 +76,14 @@ fn quintic_ranges<V: Vector>(start: [V; 3], end: [V; 3], h: f64, margin: V) -> (
     (low.sub(margin), high.add(margin))
 }
 
-/// Second derivatives of floor and drift accelerations at both ends of a step, and the norm of the derivatives there.
+/// Second derivatives of floor accelerations and first ones of drift accelerations at both ends of a step, and the norm of
+/// the derivatives there.
 pub(crate) struct Curvature {
-    /// Of floor accelerations, after a zero for the ground.
-    pub(crate) a: [Vec<f64>; 2],
-    /// First derivatives of drift accelerations.
-    pub(crate) q_rate: [Vec<f64>; 2],
+    /// Of floor accelerations, and of drift accelerations: with room for the band before the first storey and after the
+    /// last, at least a zero for the ground.
+    a: [Vec<f64>; 2],
+    q_rate: [Vec<f64>; 2],
+    room: usize,
     /// Second derivatives of drift accelerations, third ones of floor accelerations.
     q: Vec<f64>,
     jerk: Vec<f64>,
@@ -90,26 +92,48 @@ pub(crate) struct Curvature {
 }
 
 impl Curvature {
-    pub(crate) fn new(length: usize) -> Self {
+    /// For a band of so many values before and after the storeys.
+    pub(crate) fn new(length: usize, margin: usize) -> Self {
+        let room = margin.max(1);
         let zero = || vec![0.0; length];
-        let floors = || vec![0.0; length + 1];
-        Self {
-            a: [floors(), floors()],
-            q_rate: [zero(), zero()],
-            q: zero(),
-            jerk: zero(),
-            norms: Norms::new(length / WIDTH),
-        }
+        let with_room = || [vec![0.0; length + 2 * room], vec![0.0; length + 2 * room]];
+        let norms = Norms::new(length / WIDTH);
+        Self { a: with_room(), q_rate: with_room(), room, q: zero(), jerk: zero(), norms }
     }
 
+    /// Second derivatives of the floor accelerations at the start (0) or the end (1), after a zero for the ground.
     #[inline(always)]
-    pub(crate) fn form<V: Vector>(&mut self, operator: &Operator, rows: &Rows, samples: [&Sample; 2], margin: usize) {
-        let (one, nothing) = (V::splat(1.0), &operator.nothing);
-        for (which, sample) in samples.into_iter().enumerate() {
-            let (q, jerk) = (&sample.q[margin..], &sample.jerk);
-            operator.derivatives::<V>(q, jerk, one, nothing, &mut self.q_rate[which], &mut self.a[which][1..]);
-        }
-        operator.derivatives(&self.q_rate[0], &self.a[0], one, nothing, &mut self.q, &mut self.jerk);
+    pub(crate) fn a(&self, which: usize) -> &[f64] {
+        &self.a[which][self.room - 1..]
+    }
+
+    /// First derivatives of the drift accelerations.
+    #[inline(always)]
+    pub(crate) fn q_rate(&self, which: usize) -> &[f64] {
+        &self.q_rate[which][self.room..]
+    }
+
+    /// Derivatives at the start of drift accelerations and of the rates of floor accelerations, with so many values before
+    /// the first storey.
+    #[inline(always)]
+    pub(crate) fn with_margin(&self, margin: usize) -> [&[f64]; 2] {
+        let from = self.room - margin;
+        [&self.q_rate[0][from..], &self.a[0][from..]]
+    }
+
+    /// Forms the derivatives at one end.
+    #[inline(always)]
+    pub(crate) fn form_end<V: Vector>(&mut self, operator: &Operator, which: usize, sample: &Sample, margin: usize) {
+        let (q, jerk, nothing) = (&sample.q[margin..], &sample.jerk, &operator.nothing);
+        let (q_rate, a) = (&mut self.q_rate[which][self.room..], &mut self.a[which][self.room..]);
+        operator.derivatives::<V>(q, jerk, V::splat(1.0), nothing, q_rate, a);
+    }
+
+    /// Forms the norms, from the derivatives at the start.
+    #[inline(always)]
+    pub(crate) fn form_norms<V: Vector>(&mut self, operator: &Operator, rows: &Rows) {
+        let (q_rate, a) = (&self.q_rate[0][self.room..], &self.a[0][self.room - 1..]);
+        operator.derivatives(q_rate, a, V::splat(1.0), &operator.nothing, &mut self.q, &mut self.jerk);
         self.norms.form::<V>(rows, &self.jerk, &self.q);
     }
 }
@@ -168,7 +192,8 @@ impl Closer<'_> {
     /// Lanes whose drifts beat a peak, and those of them where they turn.
     #[inline(always)]
     fn look_at_drifts<V: Vector>(&self, k: usize, drifts: u32, rates: u32) -> Option<(u32, u32)> {
-        let (start, end, [q_rate, q_rate_end]) = (self.start, self.end, &self.curvature.q_rate);
+        let (start, end) = (self.start, self.end);
+        let (q_rate, q_rate_end) = (self.curvature.q_rate(0), self.curvature.q_rate(1));
         let (x, x_end) = (at::<V>(&start.x, k), at::<V>(&end.x, k));
         let (v, v_end) = (at::<V>(&start.v, k), at::<V>(&end.v, k));
         let (q, q_end) = (at::<V>(&start.q[self.margin..], k), at::<V>(&end.q[self.margin..], k));
@@ -196,7 +221,8 @@ impl Closer<'_> {
     /// Lanes whose floor accelerations beat a peak, and those of them where they turn.
     #[inline(always)]
     fn look_at_accelerations<V: Vector>(&self, k: usize, suspects: u32) -> Option<(u32, u32)> {
-        let (start, end, [second, second_end]) = (self.start, self.end, &self.curvature.a);
+        let (start, end) = (self.start, self.end);
+        let (second, second_end) = (self.curvature.a(0), self.curvature.a(1));
         let (a, a_end) = (at::<V>(&start.a[1..], k), at::<V>(&end.a[1..], k));
         let (jerk, jerk_end) = (at::<V>(&start.jerk[1..], k), at::<V>(&end.jerk[1..], k));
         let (second, second_end) = (at::<V>(&second[1..], k), at::<V>(&second_end[1..], k));

@@ -9,7 +9,7 @@
 //! the series of that step gives the extreme, and the run goes on.
 
 use crate::STANDARD_GRAVITY;
-use crate::banded_step::{BandedStep, whole_blocks};
+use crate::banded_step::{BandedStep, Start, whole_blocks};
 use crate::events::NO_CONTACT;
 use crate::full_step::{FullStep, Shears};
 use crate::lanes::{Vector, WIDTH, at, filled_to, for_each_path, lanes, lanes_mut};
@@ -99,7 +99,7 @@ fn run_lanes<V: Vector>(
     let friction = filled_to(length, state.friction[..n].iter().copied(), 0.0);
     let (mut apart_before, mut apart_after) =
         (vec![Apart::default(); length / WIDTH], vec![Apart::default(); length / WIDTH]);
-    let (mut curvature, mut series) = (Curvature::new(length), StepSeries::new(length, state.effort));
+    let (mut curvature, mut series) = (Curvature::new(length, margin), StepSeries::new(length, state.effort));
     let (mut suspects, mut beaten): (Vec<Suspects>, Vec<Beaten>) = (Vec::new(), Vec::new());
     let (mut on_floors, mut on_ground) = sliding_blocks(state);
     let watches_ground = !on_ground.is_empty() || state.stuck_mu[0].is_finite();
@@ -138,8 +138,14 @@ fn run_lanes<V: Vector>(
         for (rate, jerk) in lanes_mut(&mut rate[margin..]).iter_mut().zip(lanes(&before.jerk[1..])) {
             V::load(jerk).sub(ground_slope).store(rate);
         }
+        before.jerk[0] = slope;
         match &mut map {
-            Map::Banded(step) => step.advance::<V>(&before.q, &rate, &mut dx, &mut dv),
+            Map::Banded(step) => {
+                curvature.form_end::<V>(&operator, 0, &before, margin);
+                let [q_rate, jerk_rate] = curvature.with_margin(margin);
+                let start = Start { q: [&before.q, q_rate], jerk: [&rate, jerk_rate] };
+                step.advance::<V>(start, &mut dx, &mut dv);
+            }
             Map::Full(step, shears) => {
                 let load_slope = vertical.map(|_| &load_slope[..]);
                 shears.form::<V>(&before.a[1..], &before.v, load_slope);
@@ -199,11 +205,14 @@ fn run_lanes<V: Vector>(
         beaten.clear();
         let mut turns = false;
         if !suspects.is_empty() || may_turn {
-            before.jerk[0] = slope;
             after.jerk[0] = slope;
             let largest = bounds.largest_peaks();
             let least = (FAR_BELOW * largest.0, FAR_BELOW * largest.1);
-            curvature.form::<V>(&operator, &rows, [&before, &after], margin);
+            if matches!(map, Map::Full(..)) {
+                curvature.form_end::<V>(&operator, 0, &before, margin);
+            }
+            curvature.form_end::<V>(&operator, 1, &after, margin);
+            curvature.form_norms::<V>(&operator, &rows);
             let (start, end, curvature) = (&before, &after, &curvature);
             let step = Closer { rows: &rows, bounds: &bounds, start, end, curvature, margin, h, contact, least };
             let mut is_plain = true;

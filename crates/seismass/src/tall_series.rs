@@ -223,7 +223,7 @@ impl StepSeries {
         let least = (least.0.max(f64::MIN_POSITIVE), least.1.max(f64::MIN_POSITIVE));
         let wanted = Wanted { beaten, start: closer.start, bounds: closer.bounds, h, least };
         let [first, second] = &mut self.of_parts;
-        let terms = |which: usize| (&*curvature.a[which], &*curvature.q_rate[which]);
+        let terms = |which: usize| (curvature.a(which), curvature.q_rate(which));
         // Neighbouring steps need about as many terms.
         let lowest = LOWEST_ORDER.max(self.effort.order - 1);
         if !first.form::<V>(operator, rows, terms(0), h, lowest, Some(&wanted)) {
