@@ -35,6 +35,36 @@ pub(crate) enum Guard {
 }
 
 impl Guard {
+    /// All of it in one number, not zero: its kind, its sign and what it belongs to.
+    #[inline(always)]
+    fn packed(self) -> u64 {
+        let (kind, sign, number) = match self {
+            Self::Yield { storey, sign } => (1, sign, storey),
+            Self::Collapse { storey } => (2, Sign::Positive, storey),
+            Self::Unload { storey } => (3, Sign::Positive, storey),
+            Self::Breakaway { floor, sign } => (4, sign, floor),
+            Self::Arrival { block } => (5, Sign::Positive, block),
+            Self::Contact => (6, Sign::Positive, 0),
+        };
+        kind | u64::from(sign == Sign::Negative) << 8 | (number as u64) << 16
+    }
+
+    /// The guard that is packed like this; none for zero.
+    #[inline(always)]
+    fn unpacked(packed: u64) -> Option<Self> {
+        let sign = if packed >> 8 & 1 == 0 { Sign::Positive } else { Sign::Negative };
+        let number = (packed >> 16) as usize;
+        match packed & 0xff {
+            1 => Some(Self::Yield { storey: number, sign }),
+            2 => Some(Self::Collapse { storey: number }),
+            3 => Some(Self::Unload { storey: number }),
+            4 => Some(Self::Breakaway { floor: number, sign }),
+            5 => Some(Self::Arrival { block: number }),
+            6 => Some(Self::Contact),
+            _ => None,
+        }
+    }
+
     /// Whether nothing jumps at its event: forces and accelerations go on from where they are.
     pub(crate) fn is_smooth(self) -> bool {
         matches!(self, Self::Yield { .. } | Self::Unload { .. })
@@ -56,19 +86,43 @@ fn spread(bits: u32) -> Set {
     Set::from(bits & 1 | (bits & 2) << 1 | (bits & 4) << 2 | (bits & 8) << 3)
 }
 
-/// Keeps the earliest fall.
-struct First {
+/// The first fall within a series, or none.
+///
+/// Its guard is packed: a copy of parts that have just been written, each by itself, would wait until they are in memory.
+#[derive(Clone, Copy)]
+pub(crate) struct First {
     place: f64,
-    guard: Option<Guard>,
+    guard: u64,
 }
 
 impl First {
+    #[inline(always)]
+    fn none() -> Self {
+        Self { place: f64::INFINITY, guard: 0 }
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_none(self) -> bool {
+        self.guard == 0
+    }
+
+    /// Where it is in [0, 1]; the end, 1, where there is none.
+    #[inline(always)]
+    pub(crate) fn place(self) -> f64 {
+        if self.is_none() { 1.0 } else { self.place }
+    }
+
+    #[inline(always)]
+    pub(crate) fn guard(self) -> Option<Guard> {
+        Guard::unpacked(self.guard)
+    }
+
     #[inline(always)]
     fn consider<V: Vector>(&mut self, guard: Guard, polynomial: &Polynomial, tolerance: f64) {
         if let Some(place) = polynomial.first_fall::<V>(tolerance)
             && place < self.place
         {
-            *self = Self { place, guard: Some(guard) };
+            *self = Self { place, guard: guard.packed() };
         }
     }
 }
@@ -91,17 +145,12 @@ impl State<'_> {
         p
     }
 
-    /// The first guard that falls within the present series, which starts at `tau` and whose ranges are formed: its place
-    /// in [0, 1], and what it is.
+    /// The first guard that falls within the present series, which starts at `tau` and whose ranges are formed.
     ///
     /// `isolated` counts the guards that could not be cleared by a bound.
     #[inline(always)]
-    pub(crate) fn first_event<V: Vector, const K: usize>(
-        &self,
-        tau: f64,
-        isolated: &mut usize,
-    ) -> Option<(f64, Guard)> {
-        let mut first = First { place: f64::INFINITY, guard: None };
+    pub(crate) fn first_event<V: Vector, const K: usize>(&self, tau: f64, isolated: &mut usize) -> First {
+        let mut first = First::none();
         let h = self.series.h();
         self.storey_guards::<V, K>(&mut first, isolated);
         if !self.motions.is_empty() {
@@ -116,14 +165,14 @@ impl State<'_> {
             }
         }
         // A block whose floor's acceleration is below rounding lifts off stuck.
-        if let Some(Guard::Breakaway { .. }) = first.guard
-            && self.vertical
+        if self.vertical
+            && let Some(Guard::Breakaway { .. }) = first.guard()
             && let Some(lift) = self.contact_guard(tau).first_fall::<V>(NO_CONTACT)
             && self.interval.contact_at(tau + first.place * h) <= NO_CONTACT
         {
-            return Some((lift, Guard::Contact));
+            return First { place: lift, guard: Guard::Contact.packed() };
         }
-        first.guard.map(|guard| (first.place, guard))
+        first
     }
 
     /// The contact force per unit mass while there is contact, its negative while there is none. Contact that is none all

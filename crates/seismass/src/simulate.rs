@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::bernstein::Polynomial;
 use crate::error::{Error, Result};
-use crate::events::{Guard, Outcome};
+use crate::events::{First, Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
 use crate::histories::Recorder;
 use crate::lanes::{Vector, by_width, for_each_path};
@@ -135,7 +135,7 @@ for_each_path! {
     ///
     /// Accelerations are advanced with the state where there is no event.
     fn step_by_series[K: usize](state: &mut State, observer: &mut Observer, tau: f64, h: f64, isolated: &mut usize)
-        -> (Option<(f64, Guard)>, bool) = step_by_path
+        -> (First, bool) = step_by_path
 }
 
 #[inline(always)]
@@ -145,17 +145,17 @@ fn step_by_path<V: Vector, const K: usize>(
     tau: f64,
     h: f64,
     isolated: &mut usize,
-) -> (Option<(f64, Guard)>, bool) {
+) -> (First, bool) {
     state.form_series::<V, K>(tau, h);
     state.update_bounds_in_lanes::<V, K>(observer);
     state.form_ranges::<V, K>();
     let event = state.first_event::<V, K>(tau, isolated);
-    let end = event.map_or(1.0, |(place, _)| place);
+    let end = event.place();
     observer.observe_series::<V, K>(state, tau, end, isolated);
     if state.airborne {
         observer.observe_flights(state, tau, end);
     }
-    if event.is_some() {
+    if !event.is_none() {
         state.series.stop_at::<V, K>(state.model, end);
     }
     if observer.keeps_energy() {
@@ -302,12 +302,12 @@ impl Run<'_> {
             let phase = self.phase_of(remaining)?;
             let pieces = if phase > MAX_PHASE { (phase / MAX_PHASE).ceil() } else { 1.0 };
             let event = self.series_step(tau, remaining / pieces)?;
-            match event {
+            match event.guard() {
                 None if pieces == 1.0 => tau = h,
                 None if stop.load(Ordering::Relaxed) => return Err(Error::Interrupted),
                 None => tau += remaining / pieces,
-                Some((place, guard)) => {
-                    tau = (tau + place * remaining / pieces).min(h);
+                Some(guard) => {
+                    tau = (tau + event.place() * remaining / pieces).min(h);
                     events += 1;
                     if let Outcome::Collapse(storey) = self.carry_out(guard, tau) {
                         return Ok(Some((storey, self.state.interval.start + tau)));
@@ -336,13 +336,13 @@ impl Run<'_> {
     }
 
     /// Advances by a series over at most `h` from `tau`, up to the first event, which is returned with its place.
-    fn series_step(&mut self, tau: f64, h: f64) -> Result<Option<(f64, Guard)>> {
+    fn series_step(&mut self, tau: f64, h: f64) -> Result<First> {
         self.statistics.series_steps += 1;
         let (state, observer) = (&mut self.state, &mut self.observer);
         let isolated = &mut self.statistics.guards_isolated;
         let (event, is_finite) =
             by_width!(state.model.width, K => step_by_series::<K>(state, observer, tau, h, isolated));
-        if is_finite { Ok(event) } else { Err(state.not_finite(tau + event.map_or(1.0, |(place, _)| place) * h)) }
+        if is_finite { Ok(event) } else { Err(state.not_finite(tau + event.place() * h)) }
     }
 
     fn carry_out(&mut self, guard: Guard, tau: f64) -> Outcome {
