@@ -377,3 +377,76 @@ impl BandedStep {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::lanes::Plain;
+    use crate::scene::{Building, Damping, Scene, Storey};
+
+    const STOREYS: usize = 21;
+
+    /// Against the Taylor series of the whole building, for steps with and without halvings.
+    #[test]
+    fn steps_are_those_of_the_series() {
+        let wave = |i: usize, step: f64| 1.0 + 0.6 * (step * i as f64).sin();
+        let mass = (0..STOREYS).map(|i| 1000.0 * wave(i, 0.7)).collect();
+        let storeys = (0..STOREYS).map(|i| Storey::elastic(1e6 * wave(i, 1.3))).collect();
+        let building = Building::new(mass, storeys, Damping::Rayleigh { ratio: 0.05, modes: [1, 5] }).unwrap();
+        let model = Model::new(&Scene::new(Some(Arc::new(building)), Vec::new()).unwrap());
+        let regime = Regime::new(&model, |_| 0, &[0.0; STOREYS]);
+        let rates = |x: &[f64], v: &[f64]| {
+            let mut a = vec![0.0; STOREYS];
+            regime.accelerations(&model, x, v, &[0.0; STOREYS], &mut a);
+            let differences = (0..STOREYS).map(|i| a[i] - if i > 0 { a[i - 1] } else { 0.0 }).collect::<Vec<_>>();
+            (a, differences)
+        };
+        for phase in [0.3, 1.9, 3.7] {
+            let h = phase / regime.frequency;
+            let step = BandedStep::new(&model, &regime, h);
+            // Every storey its own way, and a single one that moves.
+            for only in [None, Some(7)] {
+                let start = |seed: f64, scale: f64| -> Vec<f64> {
+                    let is_still = |i: usize| only.is_some_and(|storey| storey != i);
+                    (0..STOREYS).map(|i| if is_still(i) { 0.0 } else { scale * (seed * i as f64).cos() }).collect()
+                };
+                let (q, q_rate) = (start(2.3, 1.0), start(1.7, regime.frequency));
+                let (mut drifts, mut rates_expected) = ([0.0; STOREYS], [0.0; STOREYS]);
+                let (mut term, mut next, mut once) = (q.clone(), q_rate.clone(), h);
+                for k in 1..40 {
+                    for i in 0..STOREYS {
+                        rates_expected[i] += once * term[i];
+                        drifts[i] += once * h / (k + 1) as f64 * term[i];
+                    }
+                    let (_, after) = rates(&term, &next);
+                    (term, next, once) = (next, after, once * h / (k + 1) as f64);
+                }
+                let mut below = 0.0;
+                let jerk = q_rate.iter().map(|rate| {
+                    below += rate;
+                    below
+                });
+                let jerk: Vec<f64> = jerk.collect();
+                let (jerk_rate, _) = rates(&q, &q_rate);
+                let (length, margin) = (whole_blocks(STOREYS), step.half_width);
+                let with_margin = |values: &[f64]| {
+                    let mut out = vec![0.0; length + 2 * margin];
+                    out[margin..margin + STOREYS].copy_from_slice(values);
+                    out
+                };
+                let [q, q_rate, jerk, jerk_rate] = [&q, &q_rate, &jerk, &jerk_rate].map(|values| with_margin(values));
+                let start = Start { q: [&q, &q_rate], jerk: [&jerk, &jerk_rate] };
+                let (mut dx, mut dv) = (vec![0.0; length], vec![0.0; length]);
+                step.advance::<Plain>(start, &mut dx, &mut dv);
+                for i in 0..STOREYS {
+                    let (of_drift, of_rate) = ((dx[i] - drifts[i]).abs(), (dv[i] - rates_expected[i]).abs());
+                    assert!(of_drift <= 1e-14 * h * h && of_rate <= 2e-14 * h, "{phase}: {of_drift:e}, {of_rate:e}");
+                }
+            }
+        }
+    }
+}

@@ -517,3 +517,24 @@ impl State<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn guards_are_packed_without_loss() {
+        let mut guards = vec![Guard::Contact];
+        for number in [0, 1, 65_536, 1 << 40] {
+            guards.extend([Guard::Collapse { storey: number }, Guard::Unload { storey: number }]);
+            guards.push(Guard::Arrival { block: number });
+            for sign in [Sign::Positive, Sign::Negative] {
+                guards.extend([Guard::Yield { storey: number, sign }, Guard::Breakaway { floor: number, sign }]);
+            }
+        }
+        for guard in guards {
+            assert_eq!(Guard::unpacked(guard.packed()), Some(guard));
+        }
+        assert!(First::none().is_none() && First::none().guard().is_none());
+    }
+}

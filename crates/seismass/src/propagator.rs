@@ -596,3 +596,70 @@ impl RegimeCache {
         true
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::scene::{Block, Building, Damping, GravityEffect, Scene, Storey};
+
+    /// A building of uneven floors and storeys, with P-Delta, and a block on each floor.
+    fn uneven(n: usize, damping: Damping) -> Scene {
+        let wave = |i: usize, step: f64| 1.0 + 0.8 * (step * (i + 1) as f64).sin();
+        let mass: Vec<f64> = (0..n).map(|i| 1000.0 * wave(i, 2.1)).collect();
+        let storeys = (0..n).map(|i| Storey::elastic(1e5 * wave(i, 1.3))).collect();
+        let geometric = (0..n).map(|i| 3e3 * wave(i, 0.9)).collect();
+        let building = Building::new(mass, storeys, damping).unwrap();
+        let building = building.with_gravity(GravityEffect::GeometricStiffness(geometric)).unwrap();
+        Scene::new(Some(Arc::new(building)), (1..=n).map(|floor| Block::new(floor, 700.0, 0.3)).collect()).unwrap()
+    }
+
+    fn are_close(found: &[f64], expected: &[f64], what: &str) {
+        let largest = expected.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() <= 1e-14 * largest, "{what}: {found:e} for {expected:e} of {largest:e}");
+        }
+    }
+
+    /// Products from the right and from the left, and rows by derivatives and cause by cause.
+    #[test]
+    fn few_storeys_take_the_steps_of_many() {
+        let dampings = [Damping::Modal { ratio: 0.05 }, Damping::Rayleigh { ratio: 0.03, modes: [1, 2] }];
+        for (n, damping) in (1..=4).flat_map(|n| dampings.clone().map(|damping| (n, damping))) {
+            if n == 1 && matches!(damping, Damping::Rayleigh { .. }) {
+                continue;
+            }
+            let model = Model::new(&uneven(n, damping.clone()));
+            let stuck: Vec<f64> = (0..n).map(|i| if i % 2 == 0 { 700.0 } else { 0.0 }).collect();
+            let regime = Regime::new(&model, |_| 0, &stuck);
+            let (h, order) = (0.7 / regime.frequency, 14);
+            let formed = |few: bool| {
+                let mut sums = vec![0.0; 2 * n * 4 * WIDTH];
+                let mut terms = vec![0.0; (order - 1) * 2 * n * WIDTH];
+                let mut out = vec![0.0; column_count(n, true) * 4 * WIDTH];
+                if few {
+                    remainders_by_width::<Plain>(&model, &regime, h, order, &mut sums, &mut terms);
+                    columns_by_width::<Plain>(&model, &regime, h, &sums, &mut out);
+                } else {
+                    remainders::<Plain, 1>(&model, &regime, h, order, &mut sums, &mut terms);
+                    columns::<Plain, 1>(&model, &regime, h, &sums, &mut out);
+                }
+                [terms, out]
+            };
+            let ([terms, out], [expected_terms, expected_out]) = (formed(true), formed(false));
+            let of_order =
+                |terms: &'_ [f64]| terms.chunks_exact(2 * n * WIDTH).map(<[f64]>::to_vec).collect::<Vec<_>>();
+            for (found, expected) in of_order(&terms).iter().zip(&of_order(&expected_terms)) {
+                are_close(found, expected, &format!("terms of {n} storeys"));
+            }
+            for (c, (found, expected)) in
+                out.chunks_exact(4 * WIDTH).zip(expected_out.chunks_exact(4 * WIDTH)).enumerate()
+            {
+                for (r, (found, expected)) in found.chunks(WIDTH).zip(expected.chunks(WIDTH)).enumerate() {
+                    are_close(found, expected, &format!("{damping:?}, {n} storeys, column {c}, row {r}"));
+                }
+            }
+        }
+    }
+}
