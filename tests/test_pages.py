@@ -72,7 +72,7 @@ def test_readme_says_of_times_what_the_page_of_performance_does() -> None:
     for words, value, low, high in (
         ("one more sample in which nothing happens costs some twelve nanoseconds", step, 10.0, 14.0),
         ("nothing yields or slides takes some forty per sample", calm, 33.0, 47.0),
-        ("An event costs about a microsecond", event, 0.5, 1.5),
+        ("An event costs about 0.6 microseconds", event, 0.5, 0.7),
         ("takes 0.2 to 0.5 ms on one core", min(times), 0.15, 0.25),
         ("takes 0.2 to 0.5 ms on one core", max(times), 0.4, 0.6),
         ("less than a third of a second on two", study, 0.0, 1 / 3),
@@ -90,5 +90,6 @@ def test_readme_says_of_the_leapfrog_what_the_page_of_errors_does() -> None:
     assert head in page.partition("At an error of 1e-06 of the drift history")[2]
     assert met is not None
     assert met.group(1) == met.group(2)
-    assert "that can still be more than twice as fast as the exact run" in readme
-    assert max(float(factor) for factor in re.findall(r"by leapfrog, by up to a factor of ([\d.]+):", page)) > 2.0
+    assert "that can still be about twice as fast as the exact run" in readme
+    factors = [float(factor) for factor in re.findall(r"by leapfrog, by up to a factor of ([\d.]+):", page)]
+    assert 1.5 < max(factors) < 2.5
