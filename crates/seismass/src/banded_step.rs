@@ -228,7 +228,7 @@ impl Effect {
     /// By series over `h`, to the first term below rounding at frequency times time `phase`; unless it is to be prolonged,
     /// nothing but second integrals.
     #[inline(always)]
-    fn by_series(system: &System, start: Term, h: f64, phase: f64, prolonged: bool) -> Self {
+    fn by_series(system: &System, start: Term, h: f64, phase: f64, is_prolonged: bool) -> Self {
         let n = start.drift.storeys;
         let mut order = 0;
         let mut size = 1.0;
@@ -237,12 +237,12 @@ impl Effect {
             size *= phase / order as f64;
         }
         let reach = order.min(n - 1);
-        let zero = || Band::zeros(n, if prolonged { reach } else { 0 });
+        let zero = || Band::zeros(n, if is_prolonged { reach } else { 0 });
         let (mut after, mut integrals) = ([zero(), zero()], [zero(), Band::zeros(n, reach)]);
         let mut term = start;
         for k in 0..=order {
             let once = h / (k + 1) as f64;
-            if prolonged {
+            if is_prolonged {
                 after[0].add(&term.drift, 1.0);
                 after[1].add(&term.velocity, 1.0);
                 integrals[0].add(&term.drift, once);
@@ -405,7 +405,7 @@ mod tests {
             let differences = (0..STOREYS).map(|i| a[i] - if i > 0 { a[i - 1] } else { 0.0 }).collect::<Vec<_>>();
             (a, differences)
         };
-        for phase in [0.3, 1.9, 3.7] {
+        for phase in [0.3, 1.9, 3.7, 7.9] {
             let h = phase / regime.frequency;
             let step = BandedStep::new(&model, &regime, h);
             // Every storey its own way, and a single one that moves.
@@ -425,12 +425,7 @@ mod tests {
                     let (_, after) = rates(&term, &next);
                     (term, next, once) = (next, after, once * h / (k + 1) as f64);
                 }
-                let mut below = 0.0;
-                let jerk = q_rate.iter().map(|rate| {
-                    below += rate;
-                    below
-                });
-                let jerk: Vec<f64> = jerk.collect();
+                let jerk: Vec<f64> = (1..=STOREYS).map(|storeys| q_rate[..storeys].iter().sum()).collect();
                 let (jerk_rate, _) = rates(&q, &q_rate);
                 let (length, margin) = (whole_blocks(STOREYS), step.half_width);
                 let with_margin = |values: &[f64]| {

@@ -1,5 +1,5 @@
-//! The step of a regime of at most a vector's storeys, formed with one floor per vector: lanes are columns, so that neither
-//! recursion nor operator needs shifts or sums within vectors.
+//! The step of a regime of at most a vector's storeys. The operator has one floor per vector, lanes being columns; its
+//! products from the right have one column per vector: neither needs shifts or sums within vectors.
 
 use crate::lanes::{Vector, WIDTH, columns_of, differences, load, numbers, unit};
 use crate::model::Model;

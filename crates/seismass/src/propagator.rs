@@ -648,9 +648,8 @@ mod tests {
                 [terms, out]
             };
             let ([terms, out], [expected_terms, expected_out]) = (formed(true), formed(false));
-            let of_order =
-                |terms: &'_ [f64]| terms.chunks_exact(2 * n * WIDTH).map(<[f64]>::to_vec).collect::<Vec<_>>();
-            for (found, expected) in of_order(&terms).iter().zip(&of_order(&expected_terms)) {
+            let of_order = 2 * n * WIDTH;
+            for (found, expected) in terms.chunks(of_order).zip(expected_terms.chunks(of_order)) {
                 are_close(found, expected, &format!("terms of {n} storeys"));
             }
             for (c, (found, expected)) in

@@ -5,14 +5,14 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Aligned, Vector, WIDTH, columns_of, load, numbers, prefix_sums};
+use crate::lanes::{Aligned, Vector, columns_of, load, numbers, prefix_sums};
 use crate::model::{Model, ModelLanes};
 use crate::propagator::Steps;
 
 /// The linear operators of one regime.
 pub(crate) struct Regime {
-    /// Vectors of a row.
-    vectors: usize,
+    /// Length of a row.
+    width: usize,
     /// One row of each [`Row`], padded to whole vectors with zeros.
     rows: Aligned,
     /// Bound on the growth of Taylor coefficients (rad/s).
@@ -60,9 +60,8 @@ const ROWS: usize = Row::FourthOfRate as usize + 1;
 impl Regime {
     /// The regime with `yielded[i]` plastic elements in each storey and `stuck_mass[i]` on each floor.
     pub(crate) fn new(model: &Model, yielded: impl Fn(usize) -> u8, stuck_mass: &[f64]) -> Self {
-        let vectors = model.width / WIDTH;
         let rows = Aligned::zeros(ROWS * model.width);
-        let mut regime = Self { vectors, rows, frequency: 0.0, growth: 0.0, steps: None };
+        let mut regime = Self { width: model.width, rows, frequency: 0.0, growth: 0.0, steps: None };
         for i in 0..model.storeys() {
             let mut set = |row: Row, value: f64| regime.set(row, i, value);
             let spring = model.laws[i].tangent(yielded(i));
@@ -83,14 +82,13 @@ impl Regime {
     }
 
     fn set(&mut self, row: Row, i: usize, value: f64) {
-        self.rows[row as usize * self.vectors * WIDTH + i] = value;
+        self.rows[row as usize * self.width + i] = value;
     }
 
     /// A row, padded.
     #[inline(always)]
     pub(crate) fn row(&self, row: Row) -> &[f64] {
-        let width = self.vectors * WIDTH;
-        &self.rows[row as usize * width..][..width]
+        &self.rows[row as usize * self.width..][..self.width]
     }
 
     /// A row in `K` vectors, of which a scene must have as many.
