@@ -86,7 +86,7 @@ impl Polynomial {
     /// The first coefficients, and zeros beyond, in vectors.
     #[inline(always)]
     fn fours<V: Vector, const F: usize>(&self) -> [V; F] {
-        load(&self.coefficients)
+        load(&self.coefficients[..])
     }
 
     /// Value at `s`.

@@ -2,8 +2,9 @@
 
 use std::mem::take;
 
-use crate::lanes::{FAR, MAX_LANES, Vector, at, by_width, filled, for_each_path, load, store};
+use crate::lanes::{FAR, MAX_LANES, Vector, load, store};
 use crate::observe::Observer;
+use crate::padded::Padded;
 use crate::regime::Row;
 use crate::state::State;
 use crate::storey::Sign;
@@ -33,18 +34,18 @@ pub(crate) fn members(mut set: Set) -> impl Iterator<Item = usize> {
 #[derive(Debug)]
 pub(crate) struct Bounds {
     /// Drift coordinates: the middle, and how far they may go from it.
-    pub(crate) middle: Vec<f64>,
-    pub(crate) reach: Vec<f64>,
+    pub(crate) middle: Padded,
+    pub(crate) reach: Padded,
     /// Drift coordinates between which no guard falls.
-    pub(crate) guarded: [Vec<f64>; 2],
+    pub(crate) guarded: [Padded; 2],
     /// Drift rates of plastic storeys: their signs, and what their negative may not reach (0; else far).
-    pub(crate) sign: Vec<f64>,
-    pub(crate) turn: Vec<f64>,
+    pub(crate) sign: Padded,
+    pub(crate) turn: Padded,
     /// Smallest mu_s of the blocks stuck to each floor, far where none is; peak of the floor acceleration.
-    pub(crate) stuck_mu: Vec<f64>,
-    pub(crate) a_peak: Vec<f64>,
+    pub(crate) stuck_mu: Padded,
+    pub(crate) a_peak: Padded,
     /// Signs of plastic storeys, 0 of others.
-    pub(crate) plastic: Vec<f64>,
+    pub(crate) plastic: Padded,
     /// Whether springs have changed since the last update, or bounds themselves.
     is_stale: bool,
 }
@@ -52,7 +53,7 @@ pub(crate) struct Bounds {
 impl Bounds {
     /// Bounds that are to be formed yet.
     pub(crate) fn new(storeys: usize) -> Self {
-        let lanes = |inside: f64, padding: f64| filled(std::iter::repeat_n(inside, storeys), storeys, padding);
+        let lanes = |inside: f64, padding: f64| Padded::filled(std::iter::repeat_n(inside, storeys), storeys, padding);
         Self {
             middle: lanes(0.0, 0.0),
             reach: lanes(0.0, FAR),
@@ -81,8 +82,8 @@ impl Bounds {
 
     /// Plastic storeys of vector `k`, as bits.
     #[inline(always)]
-    pub(crate) fn plastic_in<V: Vector>(&self, k: usize) -> u32 {
-        at::<V>(&self.plastic, k).abs().not_below(V::splat(1.0))
+    pub(crate) fn plastic_in<V: Vector, const K: usize>(&self, k: usize) -> u32 {
+        self.plastic.vector::<V, K>(k).abs().not_below(V::splat(1.0))
     }
 }
 
@@ -117,25 +118,10 @@ pub(crate) fn signs<V: Vector>((low, high): (V, V)) -> (u32, u32) {
     (!zero.not_below(low), !high.not_below(zero))
 }
 
-for_each_path! {
-    /// See [`State::update_bounds`].
-    fn update[K: usize](state: &mut State, observer: &mut Observer) = update_by_path
-}
-
-#[inline(always)]
-fn update_by_path<V: Vector, const K: usize>(state: &mut State, observer: &mut Observer) {
-    state.update_bounds_in_lanes::<V, K>(observer);
-}
-
 impl State<'_> {
-    /// Brings the bounds up to date with springs and peaks.
-    pub(crate) fn update_bounds(&mut self, observer: &mut Observer) {
-        by_width!(self.model.width, K => update::<K>(self, observer));
-    }
-
-    /// [`State::update_bounds`] within the code of a path. More storeys than vectors hold have no such bounds.
+    /// Brings the bounds up to date with springs and peaks. More storeys than vectors hold have no such bounds.
     #[inline(always)]
-    pub(crate) fn update_bounds_in_lanes<V: Vector, const K: usize>(&mut self, observer: &mut Observer) {
+    pub(crate) fn update_bounds<V: Vector, const K: usize>(&mut self, observer: &mut Observer) {
         if !(observer.take_beaten() | take(&mut self.bounds.is_stale)) || self.storeys() > MAX_LANES {
             return;
         }

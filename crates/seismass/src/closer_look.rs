@@ -9,6 +9,7 @@ use crate::bounds::{self, Bounds, Set, against, farthest, members, signs};
 use crate::lanes::{LANES, Vector, WIDTH, by_width, for_each_path, load, store};
 use crate::model::Model;
 use crate::observe::Observer;
+use crate::padded::Padded;
 use crate::state::{State, THIRD, off_cubic, ranges};
 
 /// The state at a sample: drifts, drift rates, floor accelerations, their rates, and drift accelerations.
@@ -34,12 +35,12 @@ impl<V: Vector, const K: usize> Sample<V, K> {
     }
 
     #[inline(always)]
-    pub(crate) fn put_into(&self, x: &mut [f64], v: &mut [f64], a: &mut [f64], jerk: &mut [f64], q: &mut [f64]) {
-        store(&self.x, x);
-        store(&self.v, v);
-        store(&self.a, a);
-        store(&self.jerk, jerk);
-        store(&self.q, q);
+    pub(crate) fn put_into(&self, state: &mut State) {
+        store(&self.x, &mut state.x);
+        store(&self.v, &mut state.v);
+        store(&self.a, &mut state.a);
+        store(&self.jerk, &mut state.jerk);
+        store(&self.q, &mut state.drift_acceleration);
     }
 }
 
@@ -145,7 +146,7 @@ impl Closer {
             let guarded = drift.1.not_below(highest[k]) | lowest[k].not_below(drift.0);
             let (forward, backward) = signs(rate);
             let steady = forward | backward;
-            let plastic = in_state.plastic_in::<V>(k);
+            let plastic = in_state.plastic_in::<V, K>(k);
             closer.fails |= (beaten | turning) & guarded | turning & plastic != 0;
             closer.beaten[0] |= Set::from(beaten) << lanes;
             closer.turns[0] |= Set::from(turning & !plastic | beaten & !steady) << lanes;
@@ -172,8 +173,8 @@ pub(crate) struct Beaten {
     followed: Set,
     /// Floors whose accelerations have beaten their peaks, with these accelerations and their times.
     floors: Set,
-    acceleration: Vec<f64>,
-    time: Vec<f64>,
+    acceleration: Padded,
+    time: Padded,
     /// Storeys and floors that turn beyond their peaks inside the step at which the run has stopped, where that is all.
     turns: [Set; 2],
     /// Whether they may not do so once the peaks up to the start of the step are taken.
@@ -182,12 +183,12 @@ pub(crate) struct Beaten {
     turned: [Set; 2],
     /// Storeys of these whose drifts at its end may beat their peaks, and drifts there.
     ended: Set,
-    end: Vec<f64>,
+    end: Padded,
 }
 
 impl Beaten {
     pub(crate) fn new(model: &Model) -> Self {
-        let zero = || vec![0.0; model.width];
+        let zero = || Padded::new(model.width, 0.0);
         Self {
             followed: 0,
             floors: 0,
@@ -315,5 +316,5 @@ for_each_path! {
 #[inline(always)]
 fn turns_by_path<V: Vector, const K: usize>(state: &mut State, observer: &mut Observer, h: f64, turns: [Set; 2]) {
     state.form_series::<V, K>(0.0, h);
-    observer.take_turns::<V>(state, turns);
+    observer.take_turns::<V, K>(state, turns);
 }

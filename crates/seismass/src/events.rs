@@ -4,7 +4,7 @@ use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
 use crate::bounds::{Set, members};
 use crate::friction::{self, BlockLaw, BlockMotion, BlockState, Cause, settle};
-use crate::lanes::{FAR, Plain, Vector, WIDTH, at};
+use crate::lanes::{FAR, Plain, Vector, WIDTH, by_width};
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
 use crate::state::{State, THIRD, stays_above_zero};
@@ -131,17 +131,22 @@ impl State<'_> {
     /// `p`, of [`Series::zeros`](crate::taylor::Series::zeros), becomes `factor`, 1 or -1, times the relative velocity of a
     /// block over the present series; returns a bound of its size.
     #[inline(always)]
-    pub(crate) fn relative_velocity<V: Vector>(&self, block: usize, factor: f64, p: &mut Polynomial) -> f64 {
+    pub(crate) fn relative_velocity<V: Vector, const K: usize>(
+        &self,
+        block: usize,
+        factor: f64,
+        p: &mut Polynomial,
+    ) -> f64 {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
         let of_friction = [friction * self.drive.contact, friction * (self.drive.contact_slope * self.series.h())];
-        self.series.velocity_against::<V>(law.floor, factor * motion.velocity, factor, of_friction, p)
+        self.series.velocity_against::<V, K>(law.floor, factor * motion.velocity, factor, of_friction, p)
     }
 
     /// The relative velocity of a block over the present series, for what is not in a hot loop.
     pub(crate) fn velocity_of_block(&self, block: usize) -> Polynomial {
         let mut p = self.series.zeros();
-        self.relative_velocity::<Plain>(block, 1.0, &mut p);
+        by_width!(self.model.width, K => self.relative_velocity::<Plain, K>(block, 1.0, &mut p));
         p
     }
 
@@ -195,8 +200,8 @@ impl State<'_> {
         }
         for k in 0..self.vectors::<K>() {
             if self.ranges.suspects_in::<K>(0, k) != 0 {
-                for side in members(self.drifts_at_guards::<V>(k)) {
-                    self.drift_guards::<V>(WIDTH * k + side / 2, side % 2 == 0, first, isolated);
+                for side in members(self.drifts_at_guards::<V, K>(k)) {
+                    self.drift_guards::<V, K>(WIDTH * k + side / 2, side % 2 == 0, first, isolated);
                 }
             }
             for lane in members(self.ranges.suspects_in::<K>(1, k)) {
@@ -207,7 +212,13 @@ impl State<'_> {
 
     /// Considers the guards of a storey's drift on one side.
     #[inline(always)]
-    fn drift_guards<V: Vector>(&self, i: usize, is_positive: bool, first: &mut First, isolated: &mut usize) {
+    fn drift_guards<V: Vector, const K: usize>(
+        &self,
+        i: usize,
+        is_positive: bool,
+        first: &mut First,
+        isolated: &mut usize,
+    ) {
         let (low, high) = self.ranges.drift(i);
         let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
         let (sign, reached, of_yield, of_collapse) = match is_positive {
@@ -215,8 +226,8 @@ impl State<'_> {
             false => (Sign::Negative, -low, -yields.0, -collapses.0),
         };
         let yields = Guard::Yield { storey: i, sign };
-        self.drift_guard::<V>(yields, (i, sign), reached, of_yield, first, isolated);
-        self.drift_guard::<V>(Guard::Collapse { storey: i }, (i, sign), reached, of_collapse, first, isolated);
+        self.drift_guard::<V, K>(yields, (i, sign), reached, of_yield, first, isolated);
+        self.drift_guard::<V, K>(Guard::Collapse { storey: i }, (i, sign), reached, of_collapse, first, isolated);
     }
 
     /// Considers the turn of a storey's rate, if it is plastic.
@@ -229,7 +240,7 @@ impl State<'_> {
         }
         *isolated += 1;
         let mut p = self.series.zeros();
-        let size = self.series.drift_rate::<V>(i, sign.factor(), &mut p);
+        let size = self.series.drift_rate::<V, K>(i, sign.factor(), &mut p);
         let contact = self.drive.contact;
         let sizes = self.size_in_lanes::<V, K>(i + 1, contact) + self.size_in_lanes::<V, K>(i, contact);
         let tolerance = ROUNDING * (size + self.series.h() * sizes);
@@ -239,10 +250,10 @@ impl State<'_> {
     /// Storeys of vector `k` whose drifts may come to a guard over the present series: each storey has two bits, of its
     /// positive and of its negative side.
     #[inline(always)]
-    fn drifts_at_guards<V: Vector>(&self, k: usize) -> Set {
+    fn drifts_at_guards<V: Vector, const K: usize>(&self, k: usize) -> Set {
         let [lowest, highest] = &self.bounds.guarded;
-        let (low, high) = self.ranges.drifts::<V>(k);
-        spread(high.not_below(at(highest, k))) | spread(at::<V>(lowest, k).not_below(low)) << 1
+        let (low, high) = self.ranges.drifts::<V, K>(k);
+        spread(high.not_below(highest.vector::<V, K>(k))) | spread(lowest.vector::<V, K>(k).not_below(low)) << 1
     }
 
     /// Whether a drift coordinate, times `sign`, stays below a limit over the present series, but for its start.
@@ -257,7 +268,7 @@ impl State<'_> {
     /// Considers the guard of a storey's drift coordinate that, times `sign`, must stay below `limit`, if it may have
     /// reached that.
     #[inline(always)]
-    fn drift_guard<V: Vector>(
+    fn drift_guard<V: Vector, const K: usize>(
         &self,
         guard: Guard,
         (i, sign): (usize, Sign),
@@ -271,7 +282,7 @@ impl State<'_> {
         }
         *isolated += 1;
         let mut p = self.series.zeros();
-        let size = self.series.drift::<V>(i, -sign.factor(), &mut p);
+        let size = self.series.drift::<V, K>(i, -sign.factor(), &mut p);
         p.coefficients_mut()[0] = limit - sign.factor() * self.x[i];
         let range = self.model.laws[i].yield_range(self.springs[i].yielded());
         first.consider::<V>(guard, &p, ROUNDING * (limit.abs() + size + range));
@@ -284,7 +295,7 @@ impl State<'_> {
             self.breakaway_guard::<V, K>(0, least_contact, first, isolated);
         }
         for k in 0..self.vectors::<K>() {
-            for lane in members(self.accelerations_at_guards::<V>(k, least_contact)) {
+            for lane in members(self.accelerations_at_guards::<V, K>(k, least_contact)) {
                 self.breakaway_guard::<V, K>(WIDTH * k + lane + 1, least_contact, first, isolated);
             }
         }
@@ -314,7 +325,7 @@ impl State<'_> {
                 continue;
             }
             let mut p = self.series.zeros();
-            let size = self.series.acceleration::<V>(floor, -sign.factor(), &mut p);
+            let size = self.series.acceleration::<V, K>(floor, -sign.factor(), &mut p);
             // Not below what a decision takes as equal: what has just stuck must not break away for that.
             let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size + sizes);
             if let [c0, c1, ..] = p.coefficients_mut() {
@@ -327,9 +338,9 @@ impl State<'_> {
     /// Floors of vector `k`, as bits, whose accelerations may come to the limit of blocks stuck to them over the present
     /// series.
     #[inline(always)]
-    fn accelerations_at_guards<V: Vector>(&self, k: usize, least_contact: f64) -> Set {
-        let (low, high) = self.ranges.accelerations::<V>(k);
-        let mu: V = at(&self.bounds.stuck_mu, k);
+    fn accelerations_at_guards<V: Vector, const K: usize>(&self, k: usize, least_contact: f64) -> Set {
+        let (low, high) = self.ranges.accelerations::<V, K>(k);
+        let mu: V = self.bounds.stuck_mu.vector::<V, K>(k);
         let reached = high.max(V::splat(0.0).sub(low)).not_below(mu.mul(V::splat(least_contact)));
         Set::from(reached & !mu.not_below(V::splat(FAR)))
     }
@@ -338,12 +349,12 @@ impl State<'_> {
     fn arrival_guards<V: Vector, const K: usize>(&self, first: &mut First, isolated: &mut usize) {
         for (j, motion) in self.motions.iter().enumerate() {
             let Some(sign) = motion.sliding() else { continue };
-            if self.keeps_sliding(j, sign.factor()) {
+            if self.keeps_sliding::<K>(j, sign.factor()) {
                 continue;
             }
             *isolated += 1;
             let mut p = self.series.zeros();
-            let size = self.relative_velocity::<V>(j, sign.factor(), &mut p);
+            let size = self.relative_velocity::<V, K>(j, sign.factor(), &mut p);
             let law = &self.model.blocks[j];
             let rates = self.size_in_lanes::<V, K>(law.floor, self.drive.contact) + law.mu_k * STANDARD_GRAVITY;
             first.consider::<V>(Guard::Arrival { block: j }, &p, ROUNDING * (size + self.series.h() * rates));
@@ -363,7 +374,7 @@ impl State<'_> {
 
     /// Whether the relative velocity of a sliding block keeps its sign over the present series.
     #[inline(always)]
-    fn keeps_sliding(&self, block: usize, sign: f64) -> bool {
+    fn keeps_sliding<const K: usize>(&self, block: usize, sign: f64) -> bool {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let h = self.series.h();
         let friction = sign * law.mu_k;
@@ -376,7 +387,7 @@ impl State<'_> {
             }
             None => ((self.drive.ground, self.drive.ground + self.drive.ground_slope * h), 0.0),
         };
-        let (velocity, _) = self.block_change(block);
+        let (velocity, _) = self.block_change::<K>(block);
         let rates = (-friction * contact.0 - a.0, -friction * contact.1 - a.1);
         let (start, end) = ([motion.velocity, rates.0], [motion.velocity + velocity, rates.1]);
         // A block that breaks away where both coefficients are the same starts without relative acceleration.
@@ -386,12 +397,12 @@ impl State<'_> {
 
     /// Changes of relative velocity and slip of a block over the present series up to its place: integrals of its floor's absolute acceleration and its own, added term by term so that small ones keep their digits.
     #[inline(always)]
-    pub(crate) fn block_change(&self, block: usize) -> (f64, f64) {
+    pub(crate) fn block_change<const K: usize>(&self, block: usize) -> (f64, f64) {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let (s, h) = (self.series.place(), self.series.h());
         let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
         let (terms, integrals) = match law.floor.checked_sub(1) {
-            Some(i) => self.series.terms_and_integrals(i),
+            Some(i) => self.series.terms_and_integrals::<K>(i),
             None => ([self.drive.ground, self.drive.ground_slope * h], [0.0; 2]),
         };
         let start = terms[0] + friction * self.drive.contact;
@@ -403,7 +414,7 @@ impl State<'_> {
     }
 
     /// Carries out an event at `tau`, to which the state has been advanced, accelerations included where blocks decide.
-    /// What happened is appended to `log`.
+    /// What happened is appended to `log`; accelerations are those before it.
     pub(crate) fn carry_out(&mut self, guard: Guard, tau: f64, log: &mut Vec<Event>) -> Outcome {
         let time = self.interval.start + tau;
         match guard {
@@ -442,7 +453,6 @@ impl State<'_> {
             Guard::Yield { storey, .. } | Guard::Unload { storey } => self.enter_regime_of_spring(storey),
             _ => self.enter_regime_of_blocks(),
         }
-        self.refresh_accelerations(tau);
         Outcome::Continue
     }
 

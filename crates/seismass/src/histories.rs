@@ -6,6 +6,7 @@ use std::mem::take;
 use crate::error::{Domain, Error, Result};
 use crate::lanes::{MAX_LANES, Vector, WIDTH, by_width, for_each_path, load, store};
 use crate::model::Model;
+use crate::padded::Padded;
 use crate::regime::Row;
 use crate::response::Histories;
 use crate::scene::Options;
@@ -95,9 +96,9 @@ pub(crate) struct Recorder {
     floor_acceleration: Table,
     storey_force: Table,
     /// In the present regime, by storey, padded: drift and force at the springs' bases, and spring tangents.
-    base_drift: Vec<f64>,
-    base_force: Vec<f64>,
-    tangent: Vec<f64>,
+    base_drift: Padded,
+    base_force: Padded,
+    tangent: Padded,
     /// By block, padded: slip and relative velocity as the next row has them.
     slips: Vec<f64>,
     velocities: Vec<f64>,
@@ -139,9 +140,9 @@ impl Recorder {
             block_velocity: of_blocks(all),
             floor_acceleration: of_storeys(all),
             storey_force: of_storeys(all),
-            base_drift: zero(storeys),
-            base_force: zero(storeys),
-            tangent: zero(storeys),
+            base_drift: Padded::new(storeys, 0.0),
+            base_force: Padded::new(storeys, 0.0),
+            tangent: Padded::new(storeys, 0.0),
             slips: zero(blocks_written),
             velocities: zero(blocks_written),
             floor_velocities: zero(1 + storeys),
@@ -174,12 +175,8 @@ impl Recorder {
         if take(&mut self.is_taken_up) {
             return;
         }
-        for (base, spring) in self.base_drift.iter_mut().zip(&state.springs) {
-            *base = spring.drift(0.0);
-        }
-        for (base, &force) in self.base_force.iter_mut().zip(&state.base_force) {
-            *base = force;
-        }
+        self.base_drift.copy_from_slice(&state.base_drift);
+        self.base_force.copy_from_slice(&state.base_force);
         self.tangent.copy_from_slice(state.regime().row(Row::SpringTangent));
         for (block, motion) in state.motions.iter().enumerate() {
             self.move_block(block, motion.velocity, motion.slip);

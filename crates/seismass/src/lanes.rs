@@ -4,6 +4,8 @@ use std::cell::RefCell;
 use std::ops::{Deref, DerefMut};
 use std::sync::OnceLock;
 
+use crate::padded::Lanes;
+
 /// Instructions the hot loops are compiled for. Paths agree to rounding; each gives the same bits everywhere, with
 /// the same C library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -219,6 +221,8 @@ pub(crate) trait Vector: Copy {
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
+    fn div(self, other: Self) -> Self;
+    fn sqrt(self) -> Self;
     /// self * factor + term, fused where the path has it.
     fn mul_add(self, factor: Self, term: Self) -> Self;
     fn abs(self) -> Self;
@@ -283,6 +287,14 @@ impl Vector for Plain {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.zip(other, |a, b| a * b)
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, |a, b| a / b)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
     }
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
@@ -373,9 +385,9 @@ pub(crate) fn at<V: Vector>(values: &[f64], k: usize) -> V {
 
 /// The first `K` vectors of padded values; zeros where there are fewer.
 #[inline(always)]
-pub(crate) fn load<V: Vector, const K: usize>(values: &[f64]) -> [V; K] {
+pub(crate) fn load<V: Vector, const K: usize>(values: &(impl Lanes + ?Sized)) -> [V; K] {
     let mut vectors = [V::splat(0.0); K];
-    if let Some(lanes) = values.as_chunks::<WIDTH>().0.first_chunk::<K>() {
+    if let Some(lanes) = values.vectors::<K>() {
         for k in 0..K {
             vectors[k] = V::load(&lanes[k]);
         }
@@ -397,8 +409,8 @@ pub(crate) fn unit<V: Vector, const K: usize>(i: usize) -> [V; K] {
 
 /// Puts vectors into padded values, if these hold as many.
 #[inline(always)]
-pub(crate) fn store<V: Vector, const K: usize>(vectors: &[V; K], values: &mut [f64]) {
-    if let Some(lanes) = values.as_chunks_mut::<WIDTH>().0.first_chunk_mut::<K>() {
+pub(crate) fn store<V: Vector, const K: usize>(vectors: &[V; K], values: &mut (impl Lanes + ?Sized)) {
+    if let Some(lanes) = values.vectors_mut::<K>() {
         for k in 0..K {
             vectors[k].store(&mut lanes[k]);
         }
@@ -555,6 +567,14 @@ mod x86 {
         #[inline(always)]
         fn mul(self, other: Self) -> Self {
             Self(unsafe { _mm256_mul_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn div(self, other: Self) -> Self {
+            Self(unsafe { _mm256_div_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            Self(unsafe { _mm256_sqrt_pd(self.0) })
         }
         #[inline(always)]
         fn mul_add(self, factor: Self, term: Self) -> Self {

@@ -2,9 +2,12 @@
 
 use std::sync::{Arc, OnceLock};
 
+use nalgebra::DMatrix;
+
 use crate::damping::StoreyDamping;
 use crate::friction::BlockLaw;
 use crate::lanes::{WIDTH, filled, padded};
+use crate::padded::Padded;
 use crate::scene::{Building, Damping, Scene};
 use crate::storey::StoreyLaw;
 use crate::symmetric::Symmetric;
@@ -22,8 +25,6 @@ pub(crate) struct Model {
     pub(crate) on_floor: Vec<Vec<usize>>,
     building: Option<Arc<Building>>,
     pub(crate) lanes: ModelLanes,
-    /// Absolute values of a full damping matrix in floor coordinates, row by row; empty without one.
-    pub(crate) damping_sizes: Vec<f64>,
     /// See [`Model::symmetric_damping`].
     symmetric_damping: OnceLock<Option<Symmetric<1>>>,
     /// The damping matrix is the user's own: it need not dissipate.
@@ -34,9 +35,11 @@ pub(crate) struct Model {
 #[derive(Default)]
 pub(crate) struct ModelLanes {
     /// 1 for a storey, 0 for padding.
-    pub(crate) inside: Vec<f64>,
+    pub(crate) inside: Padded,
     /// Columns of the full damping matrix, one after the other, an even number and at least a vector's; empty without one.
     pub(crate) damping: Vec<f64>,
+    /// Columns of the absolute values of the full damping matrix in floor coordinates, one after the other; empty without one.
+    pub(crate) damping_sizes: Vec<f64>,
     /// Rayleigh damping: storey damping of each storey (N s/m), and mass-proportional damping of each floor (N s/m).
     pub(crate) storey_damping: Vec<f64>,
     pub(crate) floor_damping: Vec<f64>,
@@ -45,7 +48,7 @@ pub(crate) struct ModelLanes {
 impl ModelLanes {
     fn new(mass: &[f64], stiffness: &[f64], damping: &StoreyDamping) -> Self {
         let n = mass.len();
-        let inside = filled(mass.iter().map(|_| 1.0), n, 0.0);
+        let inside = Padded::filled(mass.iter().map(|_| 1.0), n, 0.0);
         match damping {
             StoreyDamping::None => Self { inside, ..Self::default() },
             StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => Self {
@@ -58,19 +61,18 @@ impl ModelLanes {
                 let mut columns: Vec<f64> =
                     d.column_iter().flat_map(|column| filled(column.iter().copied(), n, 0.0)).collect();
                 columns.resize(padded(n) * n.next_multiple_of(2).max(WIDTH), 0.0);
-                Self { inside, damping: columns, ..Self::default() }
+                Self { inside, damping: columns, damping_sizes: damping_sizes(d), ..Self::default() }
             }
         }
     }
 }
 
-/// |C| in floor coordinates from a full matrix between drift rates and storey forces.
-fn damping_sizes(damping: &StoreyDamping) -> Vec<f64> {
-    let StoreyDamping::Dense(d) = damping else { return Vec::new() };
+/// Columns of |C| in floor coordinates, padded, from a full matrix between drift rates and storey forces.
+fn damping_sizes(d: &DMatrix<f64>) -> Vec<f64> {
     let n = d.nrows();
     let at = |r: usize, c: usize| if r < n && c < n { d[(r, c)] } else { 0.0 };
     let size = |i: usize, j: usize| (at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1)).abs();
-    (0..n * n).map(|entry| size(entry / n, entry % n)).collect()
+    (0..n).flat_map(|j| filled((0..n).map(|i| size(i, j)), n, 0.0)).collect()
 }
 
 impl Model {
@@ -91,7 +93,6 @@ impl Model {
         Self {
             width: padded(n),
             lanes: ModelLanes::new(&mass, &stiffness, damping),
-            damping_sizes: damping_sizes(damping),
             symmetric_damping: OnceLock::new(),
             mass,
             stiffness,

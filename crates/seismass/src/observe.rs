@@ -7,8 +7,9 @@ use crate::bounds::{Set, members, signs};
 use crate::error::Result;
 use crate::friction::BlockState;
 use crate::histories::Recorder;
-use crate::lanes::{FAR, LANES, Plain, Vector, WIDTH, at, by_width, filled, for_each_path, lanes_mut, load};
+use crate::lanes::{FAR, LANES, Plain, Vector, WIDTH, at, by_width, for_each_path, load};
 use crate::model::Model;
+use crate::padded::Padded;
 use crate::regime::{Row, viscous_power};
 use crate::response::{Energy, Peak, Peaks};
 use crate::scene::Options;
@@ -32,14 +33,14 @@ const GAUSS: [(f64, f64); 12] = [
 
 /// Peaks of storeys or floors, padded: beyond the last they are far, and nothing beats them.
 pub(crate) struct PeakLanes {
-    size: Vec<f64>,
-    time: Vec<f64>,
+    size: Padded,
+    time: Padded,
 }
 
 impl PeakLanes {
     fn new(storeys: usize) -> Self {
         let zeros = || std::iter::repeat_n(0.0, storeys);
-        Self { size: filled(zeros(), storeys, FAR), time: filled(zeros(), storeys, 0.0) }
+        Self { size: Padded::filled(zeros(), storeys, FAR), time: Padded::filled(zeros(), storeys, 0.0) }
     }
 
     /// Sizes, padded.
@@ -59,13 +60,13 @@ impl PeakLanes {
 
     /// Takes the values of vector `k` that beat their peaks; tells, as bits, which did.
     #[inline(always)]
-    fn take_vector<V: Vector>(&mut self, k: usize, values: V, time: f64) -> u32 {
-        let (sizes, times) = (&mut lanes_mut(&mut self.size)[k], &mut lanes_mut(&mut self.time)[k]);
-        let kept = V::load(sizes);
+    fn take_vector<V: Vector, const K: usize>(&mut self, k: usize, values: V, time: f64) -> u32 {
+        let kept = self.size.vector::<V, K>(k);
         let beaten = !kept.not_below(values.abs()) & LANES;
         // What is no number beats nothing.
-        values.abs().max(kept).store(sizes);
-        V::load(times).with(beaten, V::splat(time)).store(times);
+        self.size.set_vector::<V, K>(k, values.abs().max(kept));
+        let times = self.time.vector::<V, K>(k);
+        self.time.set_vector::<V, K>(k, times.with(beaten, V::splat(time)));
         beaten
     }
 
@@ -101,16 +102,6 @@ for_each_path! {
 #[inline(always)]
 fn building_by_path<V: Vector, const K: usize>(observer: &mut Observer, state: &State, time: f64) {
     observer.take_building_in_lanes::<V, K>(state, time);
-}
-
-for_each_path! {
-    /// See [`Observer::observe_accelerations`].
-    fn take_accelerations[K: usize](observer: &mut Observer, state: &State, time: f64) = accelerations_by_path
-}
-
-#[inline(always)]
-fn accelerations_by_path<V: Vector, const K: usize>(observer: &mut Observer, state: &State, time: f64) {
-    observer.take_accelerations_in_lanes::<V, K>(state, time);
 }
 
 impl Observer {
@@ -196,11 +187,6 @@ impl Observer {
         self.observe_slips(state, time);
     }
 
-    /// Takes the present floor accelerations into their peaks.
-    pub(crate) fn observe_accelerations(&mut self, state: &State, time: f64) {
-        by_width!(state.model.width, K => take_accelerations::<K>(self, state, time));
-    }
-
     /// Takes the present drifts and floor accelerations into the peaks.
     pub(crate) fn observe_building(&mut self, state: &State, time: f64) {
         by_width!(state.model.width, K => take_building::<K>(self, state, time));
@@ -214,11 +200,12 @@ impl Observer {
         }
     }
 
+    /// Takes the present floor accelerations into their peaks.
     #[inline(always)]
-    fn take_accelerations_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, time: f64) {
+    pub(crate) fn take_accelerations_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, time: f64) {
         let mut beaten = 0;
         for k in 0..state.vectors::<K>() {
-            beaten |= self.acceleration.take_vector::<V>(k, at(&state.a, k), time);
+            beaten |= self.acceleration.take_vector::<V, K>(k, state.a.vector::<V, K>(k), time);
         }
         self.beaten |= beaten != 0;
     }
@@ -229,10 +216,10 @@ impl Observer {
         let tangents = state.regime().row(Row::SpringTangent);
         let mut beaten = 0;
         for k in 0..state.vectors::<K>() {
-            let (x, tangent): (V, V) = (at(&state.x, k), at(tangents, k));
-            beaten |= self.drift.take_vector::<V>(k, at::<V>(&state.base_drift, k).add(x), time);
-            let shear = at::<V>(&state.base_force, k).add(tangent.mul(x));
-            beaten |= self.shear.take_vector::<V>(k, shear, time);
+            let (x, tangent): (V, V) = (state.x.vector::<V, K>(k), at(tangents, k));
+            beaten |= self.drift.take_vector::<V, K>(k, state.base_drift.vector::<V, K>(k).add(x), time);
+            let shear = state.base_force.vector::<V, K>(k).add(tangent.mul(x));
+            beaten |= self.shear.take_vector::<V, K>(k, shear, time);
         }
         self.beaten |= beaten != 0;
         self.take_accelerations_in_lanes::<V, K>(state, time);
@@ -257,25 +244,25 @@ impl Observer {
             let suspects = state.ranges.suspects_in::<K>(0, k);
             if suspects != 0 {
                 // A plastic storey's rate is a guard: it does not turn before an event.
-                let (forward, backward) = signs(state.ranges.rates::<V>(k));
-                let steady = forward | backward | state.bounds.plastic_in::<V>(k);
+                let (forward, backward) = signs(state.ranges.rates::<V, K>(k));
+                let steady = forward | backward | state.bounds.plastic_in::<V, K>(k);
                 for lane in members(suspects & !Set::from(steady)) {
                     let i = WIDTH * k + lane;
                     let (low, high) = state.ranges.drift(i);
                     if self.drift_may_peak(state, i, low, high) {
                         *isolated += 1;
-                        self.take_turns_of_drift::<V>(state, i, start, end);
+                        self.take_turns_of_drift::<V, K>(state, i, start, end);
                     }
                 }
             }
             let suspects = state.ranges.suspects_in::<K>(2, k);
             if suspects != 0 {
-                for lane in members(suspects & !Set::from(state.steady::<V>(k))) {
+                for lane in members(suspects & !Set::from(state.steady::<V, K>(k))) {
                     let i = WIDTH * k + lane;
                     let (low, high) = state.ranges.acceleration(i);
                     if self.acceleration_may_peak(i, low, high) {
                         *isolated += 1;
-                        self.take_turns_of_acceleration::<V>(state, i, start, end);
+                        self.take_turns_of_acceleration::<V, K>(state, i, start, end);
                     }
                 }
             }
@@ -285,22 +272,22 @@ impl Observer {
     /// Takes the turns of a storey's drift inside the present series, which starts at the time `start`, up to its place
     /// `end` into its peaks.
     #[inline(always)]
-    fn take_turns_of_drift<V: Vector>(&mut self, state: &State, i: usize, start: f64, end: f64) {
+    fn take_turns_of_drift<V: Vector, const K: usize>(&mut self, state: &State, i: usize, start: f64, end: f64) {
         let mut rate = state.series.zeros();
-        state.series.drift_rate::<V>(i, 1.0, &mut rate);
+        state.series.drift_rate::<V, K>(i, 1.0, &mut rate);
         let (first, others) = rate.sign_changes::<V>();
         for s in first.into_iter().chain(others).filter(|&s| s < end) {
             let mut drift = state.series.zeros();
-            state.series.drift::<V>(i, 1.0, &mut drift);
+            state.series.drift::<V, K>(i, 1.0, &mut drift);
             self.take_drift(state, i, drift.at::<V>(s), start + s * state.series.h());
         }
     }
 
     /// The same of a floor's acceleration.
     #[inline(always)]
-    fn take_turns_of_acceleration<V: Vector>(&mut self, state: &State, i: usize, start: f64, end: f64) {
+    fn take_turns_of_acceleration<V: Vector, const K: usize>(&mut self, state: &State, i: usize, start: f64, end: f64) {
         let mut acceleration = state.series.zeros();
-        state.series.acceleration::<V>(i + 1, 1.0, &mut acceleration);
+        state.series.acceleration::<V, K>(i + 1, 1.0, &mut acceleration);
         let (first, others) = acceleration.derivative().sign_changes::<V>();
         for s in first.into_iter().chain(others).filter(|&s| s < end) {
             self.take_acceleration(i, acceleration.at::<V>(s), start + s * state.series.h());
@@ -310,12 +297,12 @@ impl Observer {
     /// Takes the turns of the drifts of some storeys and of the accelerations of some floors inside the present series, of
     /// a whole interval.
     #[inline(always)]
-    pub(crate) fn take_turns<V: Vector>(&mut self, state: &State, [drifts, accelerations]: [Set; 2]) {
+    pub(crate) fn take_turns<V: Vector, const K: usize>(&mut self, state: &State, [drifts, accelerations]: [Set; 2]) {
         for i in members(drifts) {
-            self.take_turns_of_drift::<V>(state, i, state.interval.start, 1.0);
+            self.take_turns_of_drift::<V, K>(state, i, state.interval.start, 1.0);
         }
         for i in members(accelerations) {
-            self.take_turns_of_acceleration::<V>(state, i, state.interval.start, 1.0);
+            self.take_turns_of_acceleration::<V, K>(state, i, state.interval.start, 1.0);
         }
     }
 

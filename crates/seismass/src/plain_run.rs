@@ -10,6 +10,7 @@
 //! The loop ([`clear_steps`]) is a function of its own whose steps call no other, so that what it needs stays in
 //! registers; what is between two calls of it is kept in a [`Walk`].
 
+use std::mem::take;
 use std::sync::Arc;
 
 use crate::STANDARD_GRAVITY;
@@ -17,12 +18,13 @@ use crate::bounds::{self, Set};
 use crate::closer_look::{Beaten, BoundsInLanes, Closer, Sample};
 use crate::events::NO_CONTACT;
 use crate::friction::BlockMotion;
-use crate::histories::{Recorder, RowInLanes};
+use crate::histories::RowInLanes;
 use crate::lanes::{
     FAR, Vector, WIDEST, WIDTH, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
 };
 use crate::model::Model;
 use crate::observe::Observer;
+use crate::padded::PaddedRows;
 use crate::propagator::Whole;
 use crate::regime::{Regime, Row};
 use crate::scene::Motion;
@@ -63,7 +65,7 @@ impl<'a, const K: usize> Course<'a, K> {
         let (of_drift, others) = four_rows(propagator.state_and_motion_columns()).split_at_checked(state.storeys())?;
         let (of_rate, others) = others.split_at_checked(state.storeys())?;
         let [of_ground, of_change, ..] = others else { return None };
-        let first = |values: &'a [f64]| four_rows(values).first();
+        let effects = &state.effects;
         Some(Self {
             regime,
             h,
@@ -71,9 +73,9 @@ impl<'a, const K: usize> Course<'a, K> {
             of_rate,
             of_ground,
             of_change,
-            constant: first(&state.effects.constant)?,
-            friction: first(&state.effects.friction)?,
-            friction_ramp: first(&state.effects.friction_ramp)?,
+            constant: effects.constant.vectors().first_chunk()?,
+            friction: effects.friction.vectors().first_chunk()?,
+            friction_ramp: effects.friction_ramp.vectors().first_chunk()?,
         })
     }
 }
@@ -128,6 +130,40 @@ fn multiply<V: Vector, const K: usize, const S: usize>(
     }
 }
 
+/// Forms the effects of the floor loads on the step of the present regime, if they have changed.
+#[inline(always)]
+fn prepare_effects<V: Vector, const K: usize, const VERTICAL: bool>(state: &mut State) {
+    if state.effects.valid {
+        return;
+    }
+    let steps = state.cache.regime(state.regime).steps.as_ref();
+    let Some(Whole::Dense(propagator)) = steps.map(|steps| &steps.whole) else { return };
+    let of_loads = four_rows(propagator.load_columns());
+    let (mut loads, friction): ([V; K], [V; K]) = (load(&state.spring_load), load(&state.friction));
+    let effects = &mut state.effects;
+    if VERTICAL {
+        let of_ramps = four_rows(propagator.ramp_columns());
+        put_product::<V, K>(of_loads, &friction, &mut effects.friction);
+        put_product::<V, K>(of_ramps, &friction, &mut effects.friction_ramp);
+    } else {
+        for k in 0..K {
+            loads[k] = friction[k].mul_add(V::splat(STANDARD_GRAVITY), loads[k]);
+        }
+    }
+    put_product::<V, K>(of_loads, &loads, &mut effects.constant);
+    effects.valid = true;
+}
+
+/// rows = columns * weights.
+#[inline(always)]
+fn put_product<V: Vector, const K: usize>(columns: &[Column<K>], weights: &[V; K], rows: &mut PaddedRows<4>) {
+    let mut product = [[V::splat(0.0); K]; 4];
+    multiply::<V, K, 0>(&mut product, columns, weights);
+    for (out, row) in rows.vectors_mut::<K>().iter_mut().zip(&product) {
+        *out = numbers(row);
+    }
+}
+
 /// Lanes, as bits, in which the larger of two values and a norm times the margin per unit of it are not below a bound.
 #[inline(always)]
 fn not_clear<V: Vector>((before, after): (V, V), norm: V, margin: V, bound: V) -> Set {
@@ -140,6 +176,9 @@ pub(crate) struct Walk {
     /// Series formed for turns beyond peaks, and turns looked at.
     pub(crate) series: usize,
     pub(crate) isolated: usize,
+    /// Whether the bounds are to follow springs and peaks before the next step: not where a run goes on with those that it
+    /// has made for peaks not taken yet.
+    renews_bounds: bool,
     layers: Vec<Layer>,
     /// Layers in which blocks slide: the first so many.
     used: usize,
@@ -154,6 +193,7 @@ impl Walk {
             beaten: Beaten::new(model),
             series: 0,
             isolated: 0,
+            renews_bounds: true,
             layers: Vec::new(),
             used: 0,
             on_floors: Vec::new(),
@@ -167,6 +207,7 @@ impl Walk {
             self.layers[layer].leave(lane);
         }
         self.used = 0;
+        self.renews_bounds = true;
         self.beaten.forget_turned();
         self.on_ground.begin(sample, state.stuck_mu[0]);
         if state.is_sliding {
@@ -217,7 +258,7 @@ for_each_path! {
     /// interval reached. The step that was not cleared is left in `walk`. `S` is the number of storeys where it is known,
     /// else 0; `SLIDING`: blocks may slide on floors.
     fn clear_steps[K: usize, S: usize, SLIDING: bool, VERTICAL: bool](
-        state: &mut State, walk: &mut Walk, recorder: Option<&mut Recorder>, motion: &Motion, first: usize, end: usize,
+        state: &mut State, walk: &mut Walk, observer: &mut Observer, motion: &Motion, first: usize, end: usize,
     ) -> usize = clear_steps_in_lanes
 }
 
@@ -225,11 +266,16 @@ for_each_path! {
 fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, const VERTICAL: bool>(
     state: &mut State,
     walk: &mut Walk,
-    mut recorder: Option<&mut Recorder>,
+    observer: &mut Observer,
     motion: &Motion,
     first: usize,
     end: usize,
 ) -> usize {
+    if take(&mut walk.renews_bounds) {
+        state.update_bounds::<V, K>(observer);
+    }
+    let mut recorder = observer.histories.as_mut();
+    prepare_effects::<V, K, VERTICAL>(state);
     let Some(course) = Course::<K>::new(state, motion.dt()) else { return first };
     let h = course.h;
     let (length, third, per_second) = (V::splat(h), V::splat(h * THIRD), 1.0 / h);
@@ -426,7 +472,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         ranges.suspects[1] |= walk.beaten.followed();
         ranges.are_known = true;
     }
-    sample.put_into(&mut state.x, &mut state.v, &mut state.a, &mut state.jerk, &mut state.drift_acceleration);
+    sample.put_into(state);
     reached
 }
 
@@ -434,7 +480,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
 fn clear_steps_of_scene(
     state: &mut State,
     walk: &mut Walk,
-    recorder: Option<&mut Recorder>,
+    observer: &mut Observer,
     motion: &Motion,
     first: usize,
     end: usize,
@@ -458,7 +504,7 @@ fn clear_steps_of_scene(
         (17..=32, _, true) => clear_steps::<8, 0, true, true>,
         (_, _, true) => clear_steps::<WIDEST, 0, true, true>,
     };
-    steps(state, walk, recorder, motion, first, end)
+    steps(state, walk, observer, motion, first, end)
 }
 
 /// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
@@ -497,7 +543,7 @@ fn run(
             }
         }
         let first = reached;
-        reached = clear_steps_of_scene(state, walk, observer.histories.as_mut(), motion, reached, last);
+        reached = clear_steps_of_scene(state, walk, observer, motion, reached, last);
         walk.beaten.take_steps(state, observer, (first + 1) as f64 * h);
         if reached > first {
             walk.beaten.forget_turned();
@@ -512,7 +558,7 @@ fn run(
         walk.beaten.take_followed(state, observer, reached as f64 * h);
         if waits {
             // Whether a step is plain must not depend on where its run began.
-            state.update_bounds(observer);
+            walk.renews_bounds = true;
             continue;
         }
         if state.regime().frequency * h > MAX_PHASE {
@@ -521,7 +567,7 @@ fn run(
         // The series of the step gives the extremes; then the run goes on.
         state.begin_interval(motion, reached);
         walk.beaten.turn(state, observer, h, turns);
-        state.update_bounds(observer);
+        walk.renews_bounds = true;
         walk.series += 1;
         walk.isolated += (turns[0].count_ones() + turns[1].count_ones()) as usize;
     }
@@ -550,38 +596,12 @@ impl State<'_> {
                 let step = Arc::clone(step);
                 tall_run::run(self, observer, motion, &step, first, end)
             }
-            _ => {
-                self.prepare_effects();
-                self.update_bounds(observer);
-                run(self, walk, observer, motion, first, end)
-            }
+            _ => run(self, walk, observer, motion, first, end),
         };
         self.is_formed |= reached > first;
         if self.is_sliding {
             observer.observe_slips(self, reached as f64 * motion.dt());
         }
         reached
-    }
-
-    /// Forms the effect of the floor loads on the step, if they have changed.
-    fn prepare_effects(&mut self) {
-        if self.effects.valid {
-            return;
-        }
-        let Some(steps) = self.cache.regime(self.regime).steps.as_ref() else { return };
-        let Whole::Dense(propagator) = &steps.whole else { return };
-        let effects = &mut self.effects;
-        if self.vertical {
-            propagator.of_load(&self.spring_load, &mut effects.constant);
-            propagator.of_load(&self.friction, &mut effects.friction);
-            propagator.of_ramp(&self.friction, &mut effects.friction_ramp);
-        } else {
-            let loads = &mut self.loads;
-            for ((load, spring), friction) in loads.iter_mut().zip(&self.spring_load).zip(&self.friction) {
-                *load = spring + friction * STANDARD_GRAVITY;
-            }
-            propagator.of_load(loads, &mut effects.constant);
-        }
-        effects.valid = true;
     }
 }

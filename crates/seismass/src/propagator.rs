@@ -305,7 +305,8 @@ impl Steps {
             return Self { table: None, whole: Whole::Tall(Arc::new(TallStep::new(model, regime, dt))) };
         }
         let width = model.width;
-        let halvings = (regime.frequency * dt / MAX_PHASE).log2().ceil().max(0.0);
+        let phase = regime.frequency * dt;
+        let halvings = if phase > MAX_PHASE { (phase / MAX_PHASE).log2().ceil() } else { 0.0 };
         let h = dt * (-halvings).exp2();
         // Parts of a halved interval may be longer than its table's step.
         let order = terms::<Plain>(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
@@ -358,49 +359,18 @@ impl Steps {
     }
 }
 
-for_each_path! {
-    /// out = columns * weights; columns are as long as `out`, in fours of vectors.
-    fn combine(columns: &[f64], weights: &[f64], out: &mut [f64]) = combine_by_path
-}
-
-#[inline(always)]
-fn combine_by_path<V: Vector>(columns: &[f64], weights: &[f64], out: &mut [f64]) {
-    let (columns, out) = (columns_of::<4>(columns), out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<4>().0);
-    let fours = out.len();
-    for (r, out) in out.iter_mut().enumerate() {
-        let mut sums = [V::splat(0.0); 4];
-        let mut at = r;
-        for &weight in weights {
-            let Some(column) = columns.get(at) else { break };
-            for k in 0..4 {
-                sums[k] = V::load(&column[k]).mul_add(V::splat(weight), sums[k]);
-            }
-            at += fours;
-        }
-        *out = numbers(&sums);
-    }
-}
-
 impl Propagator {
-    /// Columns from the given one on.
+    /// Columns of constant floor loads, one after the other.
     #[inline(always)]
-    fn columns_from(&self, column: usize) -> &[f64] {
-        self.columns.get(column * self.rows..).unwrap_or(&[])
+    pub(crate) fn load_columns(&self) -> &[f64] {
+        let first = 2 * self.storeys + 2;
+        self.columns.get(first * self.rows..(first + self.storeys) * self.rows).unwrap_or(&[])
     }
 
-    /// Effect of constant floor loads (N) over the interval.
-    pub(crate) fn of_load(&self, load: &[f64], out: &mut [f64]) {
-        combine(self.columns_from(2 * self.storeys + 2), &load[..self.storeys], out);
-    }
-
-    /// Effect of floor loads that grow from zero to `load` (N) over the interval.
-    pub(crate) fn of_ramp(&self, load: &[f64], out: &mut [f64]) {
-        combine(self.columns_from(column_count(self.storeys, false)), &load[..self.storeys], out);
-    }
-
-    /// Whether it knows the effect of loads that grow.
-    pub(crate) fn has_ramps(&self) -> bool {
-        !self.columns_from(column_count(self.storeys, false)).is_empty()
+    /// Columns of floor loads that grow from zero by one per interval; none where vertical motion has not asked for them.
+    #[inline(always)]
+    pub(crate) fn ramp_columns(&self) -> &[f64] {
+        self.columns.get(column_count(self.storeys, false) * self.rows..).unwrap_or(&[])
     }
 
     /// Columns of the state (x, v), one after the other, and those of the motion after them: of a constant ground
@@ -437,9 +407,35 @@ fn column_of_change(model: &Model, regime: &Regime, cause: Cause, step: &Step, h
 
 /// An entry of the cache: a regime, and how often the present run took a whole interval in it.
 struct Entry {
-    regime: Regime,
+    /// Apart, so that to make room for more entries moves little.
+    regime: Box<Regime>,
     run: u64,
     visits: u32,
+}
+
+/// Places of entries by key. Most keys are one word.
+#[derive(Default)]
+struct Index {
+    of_words: HashMap<u64, usize, FxBuildHasher>,
+    of_longer: HashMap<Vec<u64>, usize, FxBuildHasher>,
+}
+
+impl Index {
+    #[inline]
+    fn get(&self, key: &[u64]) -> Option<usize> {
+        match key {
+            [word] => self.of_words.get(word),
+            _ => self.of_longer.get(key),
+        }
+        .copied()
+    }
+
+    fn insert(&mut self, key: &[u64], index: usize) {
+        match key {
+            &[word] => self.of_words.insert(word, index),
+            _ => self.of_longer.insert(key.to_vec(), index),
+        };
+    }
 }
 
 /// The regimes met so far by scenes of equal structure at one time step.
@@ -451,7 +447,7 @@ pub(crate) struct RegimeCache {
     /// See [`RegimeCache::frequency`]; none before it is asked for.
     frequency: Option<f64>,
     entries: Vec<Entry>,
-    index: HashMap<Vec<u64>, usize, FxBuildHasher>,
+    index: Index,
     run: u64,
     /// Memory taken by all entries.
     bytes: usize,
@@ -471,9 +467,8 @@ impl RegimeCache {
 
     /// A cache of steps of `dt`.
     pub(crate) fn new(dt: f64) -> Self {
-        let index = HashMap::default();
         let (entries, sums) = (Vec::new(), Vec::new());
-        Self { dt, frequency: None, entries, index, run: 0, bytes: 0, run_bytes: 0, sums }
+        Self { dt, frequency: None, entries, index: Index::default(), run: 0, bytes: 0, run_bytes: 0, sums }
     }
 
     /// Makes it one of steps of `dt`: what it holds of others is forgotten.
@@ -517,12 +512,12 @@ impl RegimeCache {
             self.clear();
         }
         let index = match self.index.get(key) {
-            Some(&index) => index,
+            Some(index) => index,
             None => {
-                let regime = form();
+                let regime = Box::new(form());
                 self.bytes += Self::entry_bytes(&regime, key);
                 self.entries.push(Entry { regime, run: 0, visits: 0 });
-                self.index.insert(key.to_vec(), self.entries.len() - 1);
+                self.index.insert(key, self.entries.len() - 1);
                 self.entries.len() - 1
             }
         };
@@ -583,7 +578,7 @@ impl RegimeCache {
             return false;
         }
         let lacks = |steps: &Steps| match &steps.whole {
-            Whole::Dense(propagator) => vertical && !propagator.has_ramps(),
+            Whole::Dense(propagator) => vertical && propagator.ramp_columns().is_empty(),
             Whole::Tall(_) => false,
         };
         if entry.regime.steps.as_ref().is_none_or(lacks) {

@@ -5,16 +5,16 @@
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Aligned, Vector, columns_of, load, numbers, prefix_sums};
+use crate::lanes::{Vector, columns_of, load, numbers, prefix_sums};
 use crate::model::{Model, ModelLanes};
+use crate::padded::PaddedRows;
 use crate::propagator::Steps;
+use crate::regime_bounds;
 
 /// The linear operators of one regime.
 pub(crate) struct Regime {
-    /// Length of a row.
-    width: usize,
-    /// One row of each [`Row`], padded to whole vectors with zeros.
-    rows: Aligned,
+    /// One row of each [`Row`], padded with zeros.
+    rows: PaddedRows<ROWS>,
     /// Bound on the growth of Taylor coefficients (rad/s).
     pub(crate) frequency: f64,
     /// Exponent (1/s) with which the energy of the derivatives may grow: positive with a negative tangent.
@@ -55,47 +55,35 @@ pub(crate) enum Row {
 }
 
 /// Number of rows.
-const ROWS: usize = Row::FourthOfRate as usize + 1;
+pub(crate) const ROWS: usize = Row::FourthOfRate as usize + 1;
 
 impl Regime {
     /// The regime with `yielded[i]` plastic elements in each storey and `stuck_mass[i]` on each floor.
     pub(crate) fn new(model: &Model, yielded: impl Fn(usize) -> u8, stuck_mass: &[f64]) -> Self {
-        let rows = Aligned::zeros(ROWS * model.width);
-        let mut regime = Self { width: model.width, rows, frequency: 0.0, growth: 0.0, steps: None };
+        let width = model.width;
+        let mut rows = PaddedRows::zeros(width);
+        let numbers = rows.numbers_mut();
         for i in 0..model.storeys() {
-            let mut set = |row: Row, value: f64| regime.set(row, i, value);
             let spring = model.laws[i].tangent(yielded(i));
-            let (tangent, mass) = (spring - model.laws[i].geometric, model.mass[i] + stuck_mass[i]);
-            set(Row::Tangent, tangent);
-            set(Row::SpringTangent, spring);
-            set(Row::SpringFlexibility, if spring > 0.0 { 1.0 / spring } else { 0.0 });
-            set(Row::Mass, mass);
-            let (inverse_mass, root_mass) = (1.0 / mass, mass.sqrt());
-            set(Row::InverseMass, inverse_mass);
-            set(Row::RootMass, root_mass);
-            set(Row::InverseRootMass, root_mass * inverse_mass);
-            set(Row::RootTangent, tangent.abs().sqrt());
+            numbers[Row::SpringTangent as usize * width + i] = spring;
+            numbers[Row::Tangent as usize * width + i] = spring - model.laws[i].geometric;
+            numbers[Row::Mass as usize * width + i] = model.mass[i] + stuck_mass[i];
         }
-        (regime.frequency, regime.growth) = regime.frequency_and_growth(model);
-        regime.bound_derivatives(model);
-        regime
-    }
-
-    fn set(&mut self, row: Row, i: usize, value: f64) {
-        self.rows[row as usize * self.width + i] = value;
+        let (frequency, growth) = regime_bounds::form(model, numbers);
+        Self { rows, frequency, growth, steps: None }
     }
 
     /// A row, padded.
     #[inline(always)]
     pub(crate) fn row(&self, row: Row) -> &[f64] {
-        &self.rows[row as usize * self.width..][..self.width]
+        self.rows.row(row as usize)
     }
 
     /// A row in `K` vectors, of which a scene must have as many.
     #[inline(always)]
     pub(crate) fn lanes<V: Vector, const K: usize>(&self, row: Row) -> [V; K] {
         let mut vectors = [V::splat(0.0); K];
-        if let Some(lanes) = columns_of::<K>(&self.rows).get(row as usize) {
+        if let Some(lanes) = self.rows.vectors::<K>().get(row as usize) {
             for k in 0..K {
                 vectors[k] = V::load(&lanes[k]);
             }
@@ -110,12 +98,12 @@ impl Regime {
         let n = out.len();
         storey_forces(self.row(Row::Tangent), model, x, v, out);
         let mut velocity = 0.0;
-        let mass_factor = mass_factor(model);
+        let (mass_factor, inverse_mass) = (mass_factor(model), self.row(Row::InverseMass));
         for i in 0..n {
             let above = if i + 1 < n { out[i + 1] } else { 0.0 };
             velocity += v[i];
             let force = above - out[i] + load[i] - mass_factor * model.mass[i] * velocity;
-            out[i] = force * self.row(Row::InverseMass)[i];
+            out[i] = force * inverse_mass[i];
         }
     }
 
@@ -158,11 +146,11 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
         if self.model.storey_damping.is_empty() {
             return None;
         }
-        let storeys: [V; K] = load(&self.model.storey_damping);
+        let storeys: [V; K] = load(&self.model.storey_damping[..]);
         for k in 0..K {
             shear[k] = storeys[k].mul_add(v[k], shear[k]);
         }
-        Some([load(&self.model.floor_damping), prefix_sums(v)])
+        Some([load(&self.model.floor_damping[..]), prefix_sums(v)])
     }
 
     /// Sums of the sizes of the terms of the floor accelerations, from those of drifts, drift rates and other forces on
@@ -305,112 +293,4 @@ pub(crate) fn viscous_power(model: &Model, v: &[f64], scratch: &mut [f64]) -> f6
         }
     }
     scratch.iter().zip(v).map(|(force, rate)| force * rate).sum()
-}
-
-/// Calls `visit(j, |C_ij|)` for the entries of row i of the damping matrix in floor coordinates.
-fn damping_row(model: &Model, i: usize, mut visit: impl FnMut(usize, f64)) {
-    let n = model.storeys();
-    match model.damping() {
-        StoreyDamping::None => {}
-        StoreyDamping::Rayleigh { mass_factor, stiffness_factor } => {
-            let k = |s: usize| if s < n { stiffness_factor * model.stiffness[s] } else { 0.0 };
-            if i > 0 {
-                visit(i - 1, k(i));
-            }
-            visit(i, mass_factor * model.mass[i] + k(i) + k(i + 1));
-            if i + 1 < n {
-                visit(i + 1, k(i + 1));
-            }
-        }
-        StoreyDamping::Dense(_) => {
-            for (j, &size) in model.damping_sizes[n * i..n * (i + 1)].iter().enumerate() {
-                visit(j, size);
-            }
-        }
-    }
-}
-
-impl Regime {
-    /// Bounds by Gershgorin on the symmetric forms M^(-1/2) K M^(-1/2) and M^(-1/2) C M^(-1/2): the frequency, and the
-    /// exponent of growth.
-    fn frequency_and_growth(&self, model: &Model) -> (f64, f64) {
-        let n = model.storeys();
-        let (tangent, root_tangent) = (self.row(Row::Tangent), self.row(Row::RootTangent));
-        let (inverse_mass, inverse_root) = (self.row(Row::InverseMass), self.row(Row::InverseRootMass));
-        let (mut stiffness_bound, mut damping_bound, mut growth) = (0.0f64, 0.0f64, 0.0f64);
-        for i in 0..n {
-            let mut row = tangent[i].abs() * inverse_mass[i];
-            if i > 0 {
-                row += tangent[i].abs() * (inverse_root[i] * inverse_root[i - 1]);
-            }
-            if i + 1 < n {
-                row += tangent[i + 1].abs() * (inverse_mass[i] + inverse_root[i] * inverse_root[i + 1]);
-            }
-            stiffness_bound = stiffness_bound.max(row);
-            let mut damping = 0.0;
-            damping_row(model, i, |j, c| damping += c * (inverse_root[i] * inverse_root[j]));
-            damping_bound = damping_bound.max(damping);
-            if tangent[i] < 0.0 {
-                let below = if i > 0 { inverse_root[i - 1] } else { 0.0 };
-                growth += 2.0 * root_tangent[i] * (inverse_root[i] + below);
-            }
-        }
-        if model.damping_may_feed() {
-            growth += damping_bound;
-        }
-        (0.5 * damping_bound + (0.25 * damping_bound * damping_bound + stiffness_bound).sqrt(), growth)
-    }
-
-    /// Forms the bounds of the derivatives: with energy norm e, |v''| <= e / sqrt(mass) and |v'| <= e / sqrt(tangent).
-    fn bound_derivatives(&mut self, model: &Model) {
-        let (n, width) = (model.storeys(), model.width);
-        let (known, bounds) = self.rows.split_at_mut(Row::SecondOfAcceleration as usize * width);
-        let known = |row: Row| &known[row as usize * width..][..n];
-        let (tangent, root_tangent) = (known(Row::Tangent), known(Row::RootTangent));
-        let (inverse_mass, inverse_root) = (known(Row::InverseMass), known(Row::InverseRootMass));
-        // In the order of their rows.
-        let mut rows = bounds.chunks_exact_mut(width).map(|row| &mut row[..n]);
-        let mut next = || rows.next().unwrap_or_default();
-        let [second, third, fourth, of_drift, of_rate] = [next(), next(), next(), next(), next()];
-        for i in 0..n {
-            let mut square = 0.0;
-            damping_row(model, i, |j, c| square += c * c * inverse_mass[j]);
-            second[i] = (root_tangent[i] + above(root_tangent, i) + square.sqrt()) * inverse_mass[i];
-        }
-        // The floor accelerations' derivative of one order comes from relative velocities two orders below.
-        bound_from(model, [tangent, inverse_mass], inverse_root, second, third);
-        bound_from(model, [tangent, inverse_mass], second, third, fourth);
-        for (out, of_acceleration) in [(of_drift, &*second), (of_rate, &*third)] {
-            let mut below = 0.0;
-            for (out, &bound) in out.iter_mut().zip(of_acceleration) {
-                *out = bound + below;
-                below = bound;
-            }
-        }
-    }
-}
-
-/// The value above storey or floor `i`, none above the last.
-#[inline(always)]
-fn above(values: &[f64], i: usize) -> f64 {
-    values.get(i + 1).copied().unwrap_or(0.0)
-}
-
-/// Bounds of a derivative of the floor accelerations, from those of two orders and of one order below.
-#[inline]
-fn bound_from(
-    model: &Model,
-    [tangent, inverse_mass]: [&[f64]; 2],
-    two_below: &[f64],
-    one_below: &[f64],
-    out: &mut [f64],
-) {
-    let mut below = 0.0;
-    for i in 0..out.len() {
-        let mut sum = tangent[i].abs() * (two_below[i] + below);
-        sum += above(tangent, i).abs() * (above(two_below, i) + two_below[i]);
-        damping_row(model, i, |j, c| sum += c * one_below[j]);
-        out[i] = sum * inverse_mass[i];
-        below = two_below[i];
-    }
 }

@@ -11,6 +11,7 @@ use crate::histories::Recorder;
 use crate::lanes::{Vector, by_width, for_each_path};
 use crate::model::Model;
 use crate::observe::Observer;
+use crate::padded::Padded;
 use crate::plain_run::Walk;
 use crate::propagator::RegimeCache;
 use crate::regime::Row;
@@ -101,7 +102,7 @@ pub(crate) fn run(
             continue;
         }
         run.state.begin_interval(motion, i);
-        if let Some((storey, time)) = run.series_interval(stop)? {
+        if let Some((storey, time)) = by_width!(model.width, K => solve_interval::<K>(&mut run, stop))? {
             status = Status::Collapsed { storey: storey + 1, time };
             break;
         }
@@ -130,42 +131,47 @@ fn substeps(phase: f64, samples: usize) -> usize {
 }
 
 for_each_path! {
-    /// Advances by a series over at most `h` from `tau`, up to the first event, which is returned with its place, and
-    /// whether all is finite there.
-    ///
-    /// Accelerations are advanced with the state where there is no event.
-    fn step_by_series[K: usize](state: &mut State, observer: &mut Observer, tau: f64, h: f64, isolated: &mut usize)
-        -> (First, bool) = step_by_path
+    /// Solves the present interval by series; returns the storey that collapsed, and when.
+    fn solve_interval[K: usize](run: &mut Run, stop: &AtomicBool) -> Result<Option<(usize, f64)>> = interval_by_path
 }
 
 #[inline(always)]
-fn step_by_path<V: Vector, const K: usize>(
-    state: &mut State,
-    observer: &mut Observer,
-    tau: f64,
-    h: f64,
-    isolated: &mut usize,
-) -> (First, bool) {
-    state.form_series::<V, K>(tau, h);
-    state.update_bounds_in_lanes::<V, K>(observer);
-    state.form_ranges::<V, K>();
-    let event = state.first_event::<V, K>(tau, isolated);
-    let end = event.place();
-    observer.observe_series::<V, K>(state, tau, end, isolated);
-    if state.airborne {
-        observer.observe_flights(state, tau, end);
+fn interval_by_path<V: Vector, const K: usize>(run: &mut Run, stop: &AtomicBool) -> Result<Option<(usize, f64)>> {
+    run.statistics.intervals += 1;
+    let h = run.state.interval.h;
+    let phase_at_start = run.state.regime().frequency * h;
+    let mut events = 0;
+    let mut tau = 0.0;
+    while tau < h {
+        let remaining = h - tau;
+        let phase = run.phase_of(remaining)?;
+        let pieces = if phase > MAX_PHASE { (phase / MAX_PHASE).ceil() } else { 1.0 };
+        let event = run.series_step::<V, K>(tau, remaining / pieces)?;
+        match event.guard() {
+            None if pieces == 1.0 => tau = h,
+            None if stop.load(Ordering::Relaxed) => return Err(Error::Interrupted),
+            None => tau += remaining / pieces,
+            Some(guard) => {
+                tau = (tau + event.place() * remaining / pieces).min(h);
+                events += 1;
+                if let Outcome::Collapse(storey) = run.carry_out::<V, K>(guard, tau) {
+                    return Ok(Some((storey, run.state.interval.start + tau)));
+                }
+                if events > EVENTS_PER_INTERVAL {
+                    let limit = run.event_limit(phase_at_start);
+                    if events > limit {
+                        return Err(run.too_many_events(guard, tau, limit));
+                    }
+                }
+                continue;
+            }
+        }
+        let time = run.state.interval.start + tau;
+        if run.state.is_sliding || run.state.airborne {
+            run.observer.observe_slips(&run.state, time);
+        }
     }
-    if !event.is_none() {
-        state.series.stop_at::<V, K>(state.model, end);
-    }
-    if observer.keeps_energy() {
-        observer.add_energy(state, tau, end);
-    }
-    let is_finite = state.advance::<V, K>(tau, event.is_none());
-    if event.is_none() && state.ranges.suspects != [0; 3] {
-        observer.take_building_in_lanes::<V, K>(state, state.interval.start + tau + state.series.h());
-    }
-    (event, is_finite)
+    Ok(None)
 }
 
 for_each_path! {
@@ -290,45 +296,6 @@ impl Run<'_> {
         if phase <= MOST_PHASE { Ok(phase) } else { Err(self.too_stiff(phase)) }
     }
 
-    /// Solves the present interval by series; returns the storey that collapsed, and when.
-    fn series_interval(&mut self, stop: &AtomicBool) -> Result<Option<(usize, f64)>> {
-        self.statistics.intervals += 1;
-        let h = self.state.interval.h;
-        let phase_at_start = self.state.regime().frequency * h;
-        let mut events = 0;
-        let mut tau = 0.0;
-        while tau < h {
-            let remaining = h - tau;
-            let phase = self.phase_of(remaining)?;
-            let pieces = if phase > MAX_PHASE { (phase / MAX_PHASE).ceil() } else { 1.0 };
-            let event = self.series_step(tau, remaining / pieces)?;
-            match event.guard() {
-                None if pieces == 1.0 => tau = h,
-                None if stop.load(Ordering::Relaxed) => return Err(Error::Interrupted),
-                None => tau += remaining / pieces,
-                Some(guard) => {
-                    tau = (tau + event.place() * remaining / pieces).min(h);
-                    events += 1;
-                    if let Outcome::Collapse(storey) = self.carry_out(guard, tau) {
-                        return Ok(Some((storey, self.state.interval.start + tau)));
-                    }
-                    if events > EVENTS_PER_INTERVAL {
-                        let limit = self.event_limit(phase_at_start);
-                        if events > limit {
-                            return Err(self.too_many_events(guard, tau, limit));
-                        }
-                    }
-                    continue;
-                }
-            }
-            let time = self.state.interval.start + tau;
-            if self.state.is_sliding || self.state.airborne {
-                self.observer.observe_slips(&self.state, time);
-            }
-        }
-        Ok(None)
-    }
-
     /// Events that an interval may have, of so many radians of the stiffest mode.
     fn event_limit(&self, phase: f64) -> usize {
         let machines = self.state.storeys() + self.state.motions.len();
@@ -336,31 +303,58 @@ impl Run<'_> {
     }
 
     /// Advances by a series over at most `h` from `tau`, up to the first event, which is returned with its place.
-    fn series_step(&mut self, tau: f64, h: f64) -> Result<First> {
+    ///
+    /// Accelerations are advanced with the state where there is no event.
+    #[inline(always)]
+    fn series_step<V: Vector, const K: usize>(&mut self, tau: f64, h: f64) -> Result<First> {
         self.statistics.series_steps += 1;
         let (state, observer) = (&mut self.state, &mut self.observer);
         let isolated = &mut self.statistics.guards_isolated;
-        let (event, is_finite) =
-            by_width!(state.model.width, K => step_by_series::<K>(state, observer, tau, h, isolated));
-        if is_finite { Ok(event) } else { Err(state.not_finite(tau + event.place() * h)) }
+        state.form_series::<V, K>(tau, h);
+        state.update_bounds::<V, K>(observer);
+        state.form_ranges::<V, K>();
+        let event = state.first_event::<V, K>(tau, isolated);
+        let end = event.place();
+        observer.observe_series::<V, K>(state, tau, end, isolated);
+        if state.airborne {
+            observer.observe_flights(state, tau, end);
+        }
+        if !event.is_none() {
+            state.series.stop_at::<V, K>(state.model, end);
+        }
+        if observer.keeps_energy() {
+            observer.add_energy(state, tau, end);
+        }
+        if !state.advance::<V, K>(tau, event.is_none()) {
+            return Err(state.not_finite(tau + end * h));
+        }
+        if event.is_none() && state.ranges.suspects != [0; 3] {
+            observer.take_building_in_lanes::<V, K>(state, state.interval.start + tau + state.series.h());
+        }
+        Ok(event)
     }
 
-    fn carry_out(&mut self, guard: Guard, tau: f64) -> Outcome {
-        let time = self.state.interval.start + tau;
+    #[inline(always)]
+    fn carry_out<V: Vector, const K: usize>(&mut self, guard: Guard, tau: f64) -> Outcome {
+        let (state, observer) = (&mut self.state, &mut self.observer);
+        let time = state.interval.start + tau;
         if !guard.is_smooth() {
-            self.state.refresh_accelerations(tau);
-            self.observer.observe_accelerations(&self.state, time);
+            state.refresh::<V, K>(tau);
+            observer.take_accelerations_in_lanes::<V, K>(state, time);
         }
         let logged = self.log.len();
-        let outcome = self.state.carry_out(guard, tau, &mut self.log);
+        let outcome = state.carry_out(guard, tau, &mut self.log);
+        if outcome == Outcome::Continue {
+            state.refresh::<V, K>(tau);
+        }
+        observer.take_building_in_lanes::<V, K>(state, time);
+        if !guard.is_smooth() || state.is_sliding || state.airborne {
+            observer.observe_slips(state, time);
+        }
+        if time == state.interval.start {
+            observer.record_again(state, state.interval.sample);
+        }
         self.count_events(logged);
-        self.observer.observe_building(&self.state, time);
-        if !guard.is_smooth() || self.state.is_sliding || self.state.airborne {
-            self.observer.observe_slips(&self.state, time);
-        }
-        if time == self.state.interval.start {
-            self.observer.record_again(&self.state, self.state.interval.sample);
-        }
         outcome
     }
 
@@ -421,7 +415,7 @@ impl Run<'_> {
 
 /// What moves: drifts, drift rates, floor accelerations, their rates, drift accelerations, and blocks.
 struct Moment {
-    lanes: [Vec<f64>; 5],
+    lanes: [Padded; 5],
     /// See [`State::jerk_slope`] and [`State::is_formed`].
     jerk_slope: f64,
     is_formed: bool,
@@ -445,7 +439,7 @@ impl State<'_> {
         if self.is_sliding || self.airborne {
             for j in 0..self.motions.len() {
                 if !self.motions[j].is_stuck() {
-                    let change = self.block_change(j);
+                    let change = self.block_change::<K>(j);
                     self.motions[j].move_by(change);
                     // No number times zero is zero but a finite one.
                     blocks += 0.0 * (change.0 + change.1);

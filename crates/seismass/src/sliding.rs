@@ -5,6 +5,7 @@ use std::mem::swap;
 use crate::bounds::against;
 use crate::lanes::{FAR, Vector, load};
 use crate::model::Model;
+use crate::padded::Padded;
 use crate::state::{THIRD, range, ranges};
 
 /// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits: at 1e-6, slips
@@ -14,19 +15,19 @@ pub(crate) const SMALL_DIFFERENCE: f64 = 1e-4;
 /// Blocks that slide, at most one on each floor. Padded; lanes in which no block slides never turn.
 pub(crate) struct Layer {
     /// Sign times mu_k.
-    pub(crate) friction: Vec<f64>,
-    pub(crate) sign: Vec<f64>,
+    pub(crate) friction: Padded,
+    pub(crate) sign: Padded,
     /// What the negative of sign times velocity may not reach: 0; far where no block slides.
-    pub(crate) turn: Vec<f64>,
-    pub(crate) velocity: Vec<f64>,
-    pub(crate) slip: Vec<f64>,
+    pub(crate) turn: Padded,
+    pub(crate) velocity: Padded,
+    pub(crate) slip: Padded,
     /// Velocity and slip at the end of the present step.
-    pub(crate) after: [Vec<f64>; 2],
+    pub(crate) after: [Padded; 2],
 }
 
 impl Layer {
     pub(crate) fn new(model: &Model) -> Self {
-        let lanes = |value: f64| vec![value; model.width];
+        let lanes = |value: f64| Padded::new(model.width, value);
         let zero = || lanes(0.0);
         Self {
             friction: zero(),

@@ -8,10 +8,11 @@ use crate::closer_look::{BoundsInLanes, Sample};
 use crate::damping::StoreyDamping;
 use crate::friction::{BlockMotion, BlockState, Demand, Transition};
 use crate::lanes::{
-    Aligned, FAR, LANES, MAX_LANES, Vector, WIDEST, WIDTH, at, by_width, differences, filled, for_each_path, lanes,
-    lanes_mut, load, numbers, padded, store,
+    FAR, LANES, MAX_LANES, Vector, WIDEST, WIDTH, at, by_width, differences, for_each_path, lanes, lanes_mut, load,
+    numbers, padded, store,
 };
 use crate::model::Model;
+use crate::padded::{Padded, PaddedRows};
 use crate::propagator::RegimeCache;
 use crate::regime::{Operator, Regime, Row};
 use crate::scene::{Motion, Scene};
@@ -19,8 +20,8 @@ use crate::storey::StoreySpring;
 use crate::tall_series::Effort;
 use crate::taylor::{Drive, Series, Start};
 
-/// Storeys whose plastic elements fit into a word.
-const STOREYS_PER_WORD: usize = u64::BITS as usize / 2;
+/// Bits of a word.
+const WORD: usize = u64::BITS as usize;
 
 /// Ground motion between two samples, linear in time.
 #[derive(Debug, Clone, Copy, Default)]
@@ -64,18 +65,18 @@ impl Interval {
 pub(crate) struct LoadEffects {
     pub(crate) valid: bool,
     /// Of the springs' base forces (and of friction, without vertical motion).
-    pub(crate) constant: Aligned,
+    pub(crate) constant: PaddedRows<4>,
     /// With vertical motion: of friction at unit contact force.
-    pub(crate) friction: Aligned,
+    pub(crate) friction: PaddedRows<4>,
     /// With vertical motion: of friction with the contact force growing from zero to one.
-    pub(crate) friction_ramp: Aligned,
+    pub(crate) friction_ramp: PaddedRows<4>,
 }
 
 /// Ranges of the storeys and floors over a step, proved: each quantity stays between its two bounds. Padded.
 #[derive(Debug, Default)]
 pub(crate) struct Ranges {
     /// Lower and upper bounds: of drift coordinates, drift rates, floor accelerations.
-    bounds: [[Vec<f64>; 2]; 3],
+    bounds: [[Padded; 2]; 3],
     /// Storeys and floors whose drifts, drift rates and accelerations come to their bounds (see [`Bounds`]).
     pub(crate) suspects: [Set; 3],
     /// Number of storeys.
@@ -90,7 +91,7 @@ pub(crate) struct Ranges {
 
 impl Ranges {
     fn new(storeys: usize) -> Self {
-        let zero = || vec![0.0; padded(storeys)];
+        let zero = || Padded::new(padded(storeys), 0.0);
         let pair = || [zero(), zero()];
         let bounds = [pair(), pair(), pair()];
         Self { bounds, suspects: [Set::MAX; 3], storeys, remainder: 0.0, chord: 0.0, are_known: false }
@@ -137,9 +138,9 @@ impl Ranges {
     }
 
     #[inline(always)]
-    fn vector<V: Vector>(&self, which: usize, k: usize) -> (V, V) {
+    fn vector<V: Vector, const K: usize>(&self, which: usize, k: usize) -> (V, V) {
         let [low, high] = &self.bounds[which];
-        (at(low, k), at(high, k))
+        (low.vector::<V, K>(k), high.vector::<V, K>(k))
     }
 
     /// The suspects of vector `k`, as bits: drifts (0), drift rates (1) or accelerations (2). All are suspect where there
@@ -155,20 +156,20 @@ impl Ranges {
 
     /// Ranges of the drift coordinates of storeys in vector `k`.
     #[inline(always)]
-    pub(crate) fn drifts<V: Vector>(&self, k: usize) -> (V, V) {
-        self.vector(0, k)
+    pub(crate) fn drifts<V: Vector, const K: usize>(&self, k: usize) -> (V, V) {
+        self.vector::<V, K>(0, k)
     }
 
     /// Ranges of the drift rates of storeys in vector `k`.
     #[inline(always)]
-    pub(crate) fn rates<V: Vector>(&self, k: usize) -> (V, V) {
-        self.vector(1, k)
+    pub(crate) fn rates<V: Vector, const K: usize>(&self, k: usize) -> (V, V) {
+        self.vector::<V, K>(1, k)
     }
 
     /// Ranges of the absolute accelerations of floors in vector `k`.
     #[inline(always)]
-    pub(crate) fn accelerations<V: Vector>(&self, k: usize) -> (V, V) {
-        self.vector(2, k)
+    pub(crate) fn accelerations<V: Vector, const K: usize>(&self, k: usize) -> (V, V) {
+        self.vector::<V, K>(2, k)
     }
 
     /// Range of the drift coordinate of storey `i`.
@@ -247,15 +248,15 @@ pub(crate) struct State<'a> {
     pub(crate) vertical: bool,
     pub(crate) interval: Interval,
     /// Drift of each storey since its spring's base.
-    pub(crate) x: Vec<f64>,
+    pub(crate) x: Padded,
     /// Drift rate of each storey.
-    pub(crate) v: Vec<f64>,
+    pub(crate) v: Padded,
     /// Absolute acceleration of each floor.
-    pub(crate) a: Vec<f64>,
+    pub(crate) a: Padded,
     /// Its rate.
-    pub(crate) jerk: Vec<f64>,
+    pub(crate) jerk: Padded,
     /// Second derivative of each drift.
-    pub(crate) drift_acceleration: Vec<f64>,
+    pub(crate) drift_acceleration: Padded,
     /// With vertical motion: slope of the contact force that the rates of accelerations follow (m/s3).
     pub(crate) jerk_slope: f64,
     /// Whether accelerations and their rates were formed from drifts and drift rates, not taken from a series: that may
@@ -270,9 +271,9 @@ pub(crate) struct State<'a> {
     /// Index of the regime in the cache.
     pub(crate) regime: usize,
     /// Force of the springs at their bases on each floor (N).
-    pub(crate) spring_load: Vec<f64>,
+    pub(crate) spring_load: Padded,
     /// Friction on each floor per unit contact force: sum of sign mu_k m over its sliding blocks (kg).
-    pub(crate) friction: Vec<f64>,
+    pub(crate) friction: Padded,
     /// Smallest mu_s of the blocks stuck to the ground (0) and to each floor; infinite where none is.
     pub(crate) stuck_mu: Vec<f64>,
     /// Drift coordinates at which each storey yields next.
@@ -280,11 +281,11 @@ pub(crate) struct State<'a> {
     /// Drift coordinates at which each storey collapses.
     pub(crate) collapse_bounds: Vec<(f64, f64)>,
     /// Drift of each storey at its spring's base.
-    pub(crate) base_drift: Vec<f64>,
+    pub(crate) base_drift: Padded,
     /// Spring force of each storey at its base (N).
-    pub(crate) base_force: Vec<f64>,
+    pub(crate) base_force: Padded,
     /// The same less P-Delta (N).
-    pub(crate) base_load: Vec<f64>,
+    pub(crate) base_load: Padded,
     pub(crate) effects: LoadEffects,
     pub(crate) drive: Drive,
     pub(crate) series: Series,
@@ -292,12 +293,10 @@ pub(crate) struct State<'a> {
     pub(crate) ranges: Ranges,
     /// What a step of a tall building with peaks inside takes.
     pub(crate) effort: Effort,
-    /// Working space: constant loads of the floors.
-    pub(crate) loads: Vec<f64>,
     /// Working space: what becomes of the blocks of a floor.
     pub(crate) transitions: Vec<Transition>,
     stuck_mass: Vec<f64>,
-    /// Plastic elements of each storey, and which blocks are stuck, as bits: the key of the regime.
+    /// Plastic elements of each storey, two bits each, and which blocks are stuck: the key of the regime.
     key: Vec<u64>,
     /// Different regimes entered by this run, and changes into a regime already known to it.
     pub(crate) regimes: (usize, usize),
@@ -317,14 +316,14 @@ impl<'a> State<'a> {
             .map(|b| BlockMotion::new(b.velocity.map_or(0.0, |w| w - floor_velocity(b.floor))))
             .collect();
         cache.begin_run();
-        let zero = || vec![0.0; model.width];
+        let zero = || Padded::new(model.width, 0.0);
         Self {
             model,
             cache,
             vertical,
             interval: Interval::default(),
-            x: filled(scene.initial_drift().iter().copied(), n, 0.0),
-            v: filled((0..n).map(|i| velocity[i] - below(i)), n, 0.0),
+            x: Padded::filled(scene.initial_drift().iter().copied(), n, 0.0),
+            v: Padded::filled((0..n).map(|i| velocity[i] - below(i)), n, 0.0),
             a: zero(),
             jerk: zero(),
             drift_acceleration: zero(),
@@ -345,19 +344,18 @@ impl<'a> State<'a> {
             base_load: zero(),
             effects: LoadEffects {
                 valid: false,
-                constant: Aligned::zeros(4 * model.width),
-                friction: Aligned::zeros(4 * model.width),
-                friction_ramp: Aligned::zeros(4 * model.width),
+                constant: PaddedRows::zeros(model.width),
+                friction: PaddedRows::zeros(model.width),
+                friction_ramp: PaddedRows::zeros(model.width),
             },
             drive: Drive { load: zero(), load_slope: zero(), ..Drive::default() },
             series: Series::default(),
             bounds: Bounds::new(n),
             ranges: Ranges::new(n),
             effort: Effort::default(),
-            loads: vec![0.0; n],
             transitions: Vec::new(),
             stuck_mass: vec![0.0; n],
-            key: vec![0; n.div_ceil(STOREYS_PER_WORD) + blocks.div_ceil(u64::BITS as usize)],
+            key: vec![0; (2 * n + blocks).div_ceil(WORD)],
             regimes: (0, 0),
         }
     }
@@ -412,15 +410,15 @@ impl<'a> State<'a> {
         self.base_load[i] = spring.base_load(law);
         let plastic = spring.plastic();
         self.bounds.follow_spring(i, self.guarded_drift(i), plastic);
-        let (word, shift) = (i / STOREYS_PER_WORD, 2 * (i % STOREYS_PER_WORD));
+        let (word, shift) = (2 * i / WORD, 2 * i % WORD);
         self.key[word] = self.key[word] & !(0b11 << shift) | u64::from(spring.yielded()) << shift;
     }
 
     fn follow_springs(&mut self) {
-        let n = self.storeys();
-        for i in 0..n {
-            let above = if i + 1 < n { self.base_load[i + 1] } else { 0.0 };
-            self.spring_load[i] = above - self.base_load[i];
+        let mut above = 0.0;
+        for (load, &base) in self.spring_load[..self.model.storeys()].iter_mut().zip(&self.base_load).rev() {
+            *load = above - base;
+            above = base;
         }
     }
 
@@ -429,11 +427,11 @@ impl<'a> State<'a> {
         self.stuck_mass.fill(0.0);
         self.stuck_mu.fill(f64::INFINITY);
         self.is_sliding = false;
-        let stuck = &mut self.key[self.springs.len().div_ceil(STOREYS_PER_WORD)..];
-        stuck.fill(0);
+        let of_springs = 2 * self.springs.len();
         for (j, (motion, law)) in self.motions.iter().zip(&self.model.blocks).enumerate() {
             let floor = law.floor;
-            stuck[j / u64::BITS as usize] |= u64::from(motion.is_stuck()) << (j % u64::BITS as usize);
+            let (word, shift) = ((of_springs + j) / WORD, (of_springs + j) % WORD);
+            self.key[word] = self.key[word] & !(1 << shift) | u64::from(motion.is_stuck()) << shift;
             match motion.state {
                 BlockState::Stuck => {
                     self.stuck_mu[floor] = self.stuck_mu[floor].min(law.mu_s);
@@ -477,10 +475,11 @@ impl<'a> State<'a> {
     /// Sets the drive of a series that starts at `tau`.
     pub(crate) fn set_drive(&mut self, tau: f64) {
         self.set_ground_drive(tau);
-        let drive = &mut self.drive;
-        for i in 0..self.spring_load.len() {
-            drive.load[i] = self.spring_load[i] + self.friction[i] * drive.contact;
-            drive.load_slope[i] = self.friction[i] * drive.contact_slope;
+        let Drive { contact, contact_slope, load, load_slope, .. } = &mut self.drive;
+        let loads = load.iter_mut().zip(load_slope.iter_mut());
+        for ((load, slope), (spring, friction)) in loads.zip(self.spring_load.iter().zip(&self.friction)) {
+            *load = spring + friction * *contact;
+            *slope = friction * *contact_slope;
         }
     }
 
@@ -494,11 +493,20 @@ impl<'a> State<'a> {
 
     /// Forms accelerations and their rates at `tau` from the state.
     pub(crate) fn refresh_accelerations(&mut self, tau: f64) {
-        let n = self.storeys();
+        by_width!(self.model.width, K => refresh::<K>(self, tau));
+    }
+
+    /// [`State::refresh_accelerations`] within the code of a path.
+    #[inline(always)]
+    pub(crate) fn refresh<V: Vector, const K: usize>(&mut self, tau: f64) {
         self.jerk_slope = self.interval.contact_slope;
-        if n <= MAX_LANES {
-            return by_width!(self.model.width, K => refresh::<K>(self, tau));
-        }
+        if self.storeys() <= MAX_LANES { refresh_lanes::<V, K>(self, tau) } else { self.refresh_singly(tau) }
+    }
+
+    /// [`State::refresh_accelerations`] for more storeys than vectors hold.
+    #[inline(never)]
+    fn refresh_singly(&mut self, tau: f64) {
+        let n = self.storeys();
         self.set_drive(tau);
         let regime = self.cache.regime(self.regime);
         regime.accelerations(self.model, &self.x, &self.v, &self.drive.load, &mut self.a[..n]);
@@ -517,15 +525,16 @@ impl<'a> State<'a> {
         if n <= MAX_LANES {
             return changes_in_lanes::<V, K>(self, tau);
         }
-        let [drifts, rates] = self.series.changes();
+        let [drifts, rates] = self.series.changes().map(|changes| &changes[..n]);
+        let (x, v) = (&mut self.x[..n], &mut self.v[..n]);
         let mut zeros = 0.0;
         for i in 0..n {
-            self.x[i] += drifts[i];
-            self.v[i] += rates[i];
-            zeros += 0.0 * (self.x[i] + self.v[i]);
+            x[i] += drifts[i];
+            v[i] += rates[i];
+            zeros += 0.0 * (x[i] + v[i]);
         }
         if let Some(tau) = tau {
-            self.refresh_accelerations(tau);
+            self.refresh::<V, K>(tau);
         }
         zeros == 0.0
     }
@@ -585,32 +594,36 @@ impl<'a> State<'a> {
     /// [`State::form_ranges`] for more storeys than vectors hold.
     #[inline(never)]
     fn form_ranges_singly(&mut self) {
-        let slope = self.drive.ground_slope;
+        let (n, slope) = (self.storeys(), self.drive.ground_slope);
         let (root_mass, root_tangent) = (self.regime().row(Row::RootMass), self.regime().row(Row::RootTangent));
+        let (jerk, q) = (&self.jerk[..n], &self.drift_acceleration[..n]);
         let mut square = 0.0;
-        for i in 0..self.storeys() {
-            let (jerk, q) = (root_mass[i] * (self.jerk[i] - slope), root_tangent[i] * self.drift_acceleration[i]);
+        for i in 0..n {
+            let (jerk, q) = (root_mass[i] * (jerk[i] - slope), root_tangent[i] * q[i]);
             square += jerk * jerk + q * q;
         }
         self.bound_derivatives(square);
         let regime = self.cache.regime(self.regime);
         let h = self.series.h();
         let margins = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration].map(|row| regime.row(row));
-        let [dx, dv] = self.series.changes();
-        let [a_end, jerk_end] = self.series.accelerations_at_end();
+        let [dx, dv] = self.series.changes().map(|changes| &changes[..n]);
+        let [a_end, jerk_end] = self.series.accelerations_at_end().map(|values| &values[..n]);
+        let [x, v, a] = [&self.x, &self.v, &self.a].map(|values| &values[..n]);
+        let (jerk, q) = (&self.jerk[..n], &self.drift_acceleration[..n]);
+        let remainder = self.ranges.remainder;
+        let mut bounds = self.ranges.bounds.each_mut().map(|pair| pair.each_mut().map(|bounds| &mut bounds[..n]));
         let mut below = self.drive.ground + self.drive.ground_slope * h;
-        for i in 0..self.storeys() {
-            let (x, v, a) = (self.x[i], self.v[i], self.a[i]);
+        for i in 0..n {
             let q_end = a_end[i] - std::mem::replace(&mut below, a_end[i]);
             let ends = [
-                (x, v, x + dx[i], v + dv[i]),
-                (v, self.drift_acceleration[i], v + dv[i], q_end),
-                (a, self.jerk[i], a_end[i], jerk_end[i]),
+                (x[i], v[i], x[i] + dx[i], v[i] + dv[i]),
+                (v[i], q[i], v[i] + dv[i], q_end),
+                (a[i], jerk[i], a_end[i], jerk_end[i]),
             ];
             for (which, (start, start_rate, end, end_rate)) in ends.into_iter().enumerate() {
-                let margin = self.ranges.remainder * margins[which][i];
-                let (low, high) = range(start, start_rate, end, end_rate, h * THIRD, margin);
-                (self.ranges.bounds[which][0][i], self.ranges.bounds[which][1][i]) = (low, high);
+                let [low, high] = &mut bounds[which];
+                let margin = remainder * margins[which][i];
+                (low[i], high[i]) = range(start, start_rate, end, end_rate, h * THIRD, margin);
             }
         }
     }
@@ -618,9 +631,10 @@ impl<'a> State<'a> {
     /// Floors of vector `k`, as bits, whose jerks keep their signs over the present series: between its ends a jerk differs
     /// from its chord by at most h^2 / 8 times its largest second derivative.
     #[inline(always)]
-    pub(crate) fn steady<V: Vector>(&self, k: usize) -> u32 {
+    pub(crate) fn steady<V: Vector, const K: usize>(&self, k: usize) -> u32 {
         let turn = V::splat(self.ranges.chord).mul(at(self.regime().row(Row::ThirdOfAcceleration), k));
-        let (start, end): (V, V) = (at(&self.jerk, k), at(self.series.accelerations_at_end()[1], k));
+        let (start, end): (V, V) =
+            (self.jerk.vector::<V, K>(k), self.series.accelerations_at_end()[1].vector::<V, K>(k));
         !V::splat(0.0).not_below(start.mul(end)) & !turn.not_below(start.abs().min(end.abs()))
     }
 
@@ -757,7 +771,12 @@ pub(crate) fn turned<V: Vector>(
 
 for_each_path! {
     /// See [`State::refresh_accelerations`].
-    fn refresh[K: usize](state: &mut State, tau: f64) = refresh_lanes
+    fn refresh[K: usize](state: &mut State, tau: f64) = refresh_by_path
+}
+
+#[inline(always)]
+fn refresh_by_path<V: Vector, const K: usize>(state: &mut State, tau: f64) {
+    state.refresh::<V, K>(tau);
 }
 
 #[inline(always)]

@@ -3,8 +3,11 @@
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
 use crate::bernstein::{MAX_DEGREE, Polynomial, by_length};
-use crate::lanes::{MAX_LANES, Plain, Vector, WIDTH, columns_of, differences, for_each_path, load, store};
+use crate::lanes::{
+    MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, lanes, load, store,
+};
 use crate::model::Model;
+use crate::padded::{OfStorey, Padded, PaddedRows};
 use crate::propagator::Table;
 use crate::regime::{Operator, Regime};
 
@@ -23,9 +26,9 @@ pub(crate) struct Drive {
     /// Its slope (m/s3).
     pub(crate) contact_slope: f64,
     /// Force on each floor at the start, beside x, v and their products (N).
-    pub(crate) load: Vec<f64>,
+    pub(crate) load: Padded,
     /// Its slope (N/s).
-    pub(crate) load_slope: Vec<f64>,
+    pub(crate) load_slope: Padded,
 }
 
 impl Drive {
@@ -39,15 +42,15 @@ impl Drive {
 /// The state at the start of a step: drifts, drift rates, floor accelerations and their rates, padded.
 #[derive(Clone, Copy)]
 pub(crate) struct Start<'a> {
-    pub(crate) x: &'a [f64],
-    pub(crate) v: &'a [f64],
-    pub(crate) a: &'a [f64],
-    pub(crate) jerk: &'a [f64],
+    pub(crate) x: &'a Padded,
+    pub(crate) v: &'a Padded,
+    pub(crate) a: &'a Padded,
+    pub(crate) jerk: &'a Padded,
 }
 
 /// Series of the absolute floor accelerations, stored order by order, padded to whole vectors. What drifts and drift
 /// rates do follows by integration of their differences.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Series {
     storeys: usize,
     stride: usize,
@@ -56,21 +59,21 @@ pub(crate) struct Series {
     highest: usize,
     h: f64,
     /// Drifts and drift rates at the start.
-    x: Vec<f64>,
-    v: Vec<f64>,
-    /// Terms of the ground acceleration, and zeros beyond.
-    ground: [f64; MAX_DEGREE + 1],
-    a: Vec<f64>,
+    x: Padded,
+    v: Padded,
+    /// Terms of the ground acceleration, as of a lowest floor, and zeros beyond.
+    ground: [[f64; WIDTH]; MAX_DEGREE + 1],
+    a: PaddedRows<{ MAX_DEGREE + 1 }>,
     /// Floor accelerations and their rates at the end of the step.
-    end: [Vec<f64>; 2],
+    end: [Padded; 2],
     /// Place in [0, 1] that changes and integrals go up to.
     place: f64,
     /// Changes of drifts and drift rates.
-    changes: [Vec<f64>; 2],
+    changes: [Padded; 2],
     /// First and second integrals over [0, place] of the floor accelerations' terms from the second order on, divided by
     /// the third and fourth power of the place.
-    integrals: [Vec<f64>; 2],
-    load: [Vec<f64>; 2],
+    integrals: [Padded; 2],
+    load: [Padded; 2],
 }
 
 /// Largest phase at which the term of order 3, 4, ... is below 2^-60: phase^k / k! rounded down.
@@ -99,9 +102,9 @@ impl Series {
     /// Makes room for the series of so many storeys, in columns of so many numbers.
     #[cold]
     fn resize(&mut self, storeys: usize, stride: usize) {
-        let zero = || vec![0.0; stride];
+        let zero = || Padded::new(stride, 0.0);
         (self.storeys, self.stride, self.highest) = (storeys, stride, 0);
-        (self.x, self.v, self.a) = (zero(), zero(), vec![0.0; (MAX_DEGREE + 1) * stride]);
+        (self.x, self.v, self.a) = (zero(), zero(), PaddedRows::zeros(stride));
         for pair in [&mut self.end, &mut self.changes, &mut self.integrals, &mut self.load] {
             *pair = [zero(), zero()];
         }
@@ -128,9 +131,9 @@ impl Series {
             self.resize(n, stride);
         }
         (self.order, self.h, self.place) = (order, h, 1.0);
-        (self.ground[0], self.ground[1]) = (drive.ground, drive.ground_slope * h);
+        (self.ground[0][0], self.ground[1][0]) = (drive.ground, drive.ground_slope * h);
         if order < self.highest {
-            self.a[(order + 1) * stride..(self.highest + 1) * stride].fill(0.0);
+            self.a.numbers_mut()[(order + 1) * stride..(self.highest + 1) * stride].fill(0.0);
         }
         self.highest = order;
         match (table, K, n) {
@@ -178,7 +181,7 @@ impl Series {
         let linear = sums.rate;
         store(&x, &mut self.x);
         store(&v, &mut self.v);
-        let (starts, of_floors) = columns_mut::<K>(&mut self.a)[..=order].split_at_mut(2);
+        let (starts, of_floors) = self.a.vectors_mut::<K>()[..=order].split_at_mut(2);
         put(&a, &mut starts[0]);
         put(&linear, &mut starts[1]);
         // Powers of the step over that of the table.
@@ -218,7 +221,7 @@ impl Series {
         linear: &[V; K],
         inside: &[V; K],
     ) {
-        let (h, [ground, change, ..]) = (self.h, self.ground);
+        let (h, [ground, change]) = (self.h, self.ground_terms());
         let (mut once, mut twice, mut jerk) = (*a, *a, *a);
         for k in 0..K {
             once[k] = V::splat(0.5).mul_add(linear[k], sums.integrals[0][k]).add(a[k]);
@@ -254,7 +257,7 @@ impl Series {
         store(&v, &mut self.v);
         let mut first = [[zero; K]; 2];
         let mut sums = Sums { value: [zero; K], rate: [zero; K], integrals: [[zero; K]; 2] };
-        let terms = columns_mut::<K>(&mut self.a)[..=self.order].iter_mut();
+        let terms = self.a.vectors_mut::<K>()[..=self.order].iter_mut();
         for ((order, out), weights) in terms.enumerate().zip(&WEIGHTS) {
             let forces = if order < 2 { load(&self.load[order]) } else { [zero; K] };
             let a = operator.accelerations(&x, &v, forces);
@@ -264,7 +267,7 @@ impl Series {
                 first[order] = a;
             }
             let factor = V::splat(h * INVERSE[order + 1]);
-            let drift_acceleration = differences(&a, V::splat(self.ground[order]));
+            let drift_acceleration = differences(&a, V::splat(self.ground[order][0]));
             for k in 0..K {
                 x[k] = factor.mul(v[k]);
                 v[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
@@ -282,24 +285,28 @@ impl Series {
         let (mut x, mut v) = (start.x[..n].to_vec(), start.v[..n].to_vec());
         let zero = vec![0.0; n];
         let slope: Vec<f64> = drive.load_slope.iter().map(|slope| slope * self.h).collect();
-        self.end.iter_mut().chain(&mut self.integrals).for_each(|sums| sums.fill(0.0));
+        let [end, jerk_at_end] = self.end.each_mut().map(|sums| &mut sums[..n]);
+        let [once_of, twice_of] = self.integrals.each_mut().map(|sums| &mut sums[..n]);
+        for sums in [&mut *end, jerk_at_end, once_of, twice_of] {
+            sums.fill(0.0);
+        }
         for (k, &[[order, ..], [once, ..], [twice, ..]]) in WEIGHTS.iter().enumerate().take(self.order + 1) {
-            let load = [&drive.load, &slope, &zero][k.min(2)];
-            let a = &mut self.a[k * stride..k * stride + n];
+            let load: &[f64] = [&drive.load[..], &slope, &zero][k.min(2)];
+            let a = &mut self.a.numbers_mut()[k * stride..k * stride + n];
             regime.accelerations(model, &x, &v, load, a);
             let factor = self.h * INVERSE[k + 1];
-            let mut below = self.ground[k];
+            let mut below = self.ground[k][0];
             for (i, &a) in a.iter().enumerate() {
-                self.end[0][i] += a;
-                self.end[1][i] += order * a;
-                self.integrals[0][i] += once * a;
-                self.integrals[1][i] += twice * a;
+                end[i] += a;
+                jerk_at_end[i] += order * a;
+                once_of[i] += once * a;
+                twice_of[i] += twice * a;
                 x[i] = factor * v[i];
                 v[i] = factor * (a - below);
                 below = a;
             }
         }
-        self.end[1].iter_mut().for_each(|jerk| *jerk /= self.h);
+        jerk_at_end.iter_mut().for_each(|jerk| *jerk /= self.h);
         self.integrate_differences();
     }
 
@@ -320,14 +327,31 @@ impl Series {
         let inside: [V; K] = load(&model.lanes.inside);
         let (place, length) = (V::splat(s), V::splat(s * self.h));
         let zero = [V::splat(0.0); K];
-        let [mut once, mut twice] = [zero; 2];
-        let Some([a, linear, terms @ ..]) = columns_of::<K>(&self.a).get(..=self.order) else { return };
-        for (term, [_, first, second]) in terms.iter().zip(&WEIGHTS[2..]).rev() {
+        let [mut once, mut twice, mut odd_once, mut odd_twice] = [zero; 4];
+        let Some([a, linear, terms @ ..]) = self.a.vectors::<K>().get(..=self.order) else { return };
+        // Even and odd terms apart: half the latency of one chain.
+        let squared = place.mul(place);
+        let (pairs, last) = terms.as_chunks::<2>();
+        let (weights, of_last) = WEIGHTS[2..].split_at(2 * pairs.len());
+        if let Some(term) = last.first() {
+            let [_, first, second] = &of_last[0];
             for k in 0..K {
                 let term = V::load(&term[k]);
-                once[k] = once[k].mul_add(place, term.mul(V::load(first)));
-                twice[k] = twice[k].mul_add(place, term.mul(V::load(second)));
+                (once[k], twice[k]) = (term.mul(V::load(first)), term.mul(V::load(second)));
             }
+        }
+        for (terms, weights) in pairs.iter().zip(weights.as_chunks::<2>().0).rev() {
+            for k in 0..K {
+                let (even, odd) = (V::load(&terms[0][k]), V::load(&terms[1][k]));
+                once[k] = once[k].mul_add(squared, even.mul(V::load(&weights[0][1])));
+                twice[k] = twice[k].mul_add(squared, even.mul(V::load(&weights[0][2])));
+                odd_once[k] = odd_once[k].mul_add(squared, odd.mul(V::load(&weights[1][1])));
+                odd_twice[k] = odd_twice[k].mul_add(squared, odd.mul(V::load(&weights[1][2])));
+            }
+        }
+        for k in 0..K {
+            once[k] = odd_once[k].mul_add(place, once[k]);
+            twice[k] = odd_twice[k].mul_add(place, twice[k]);
         }
         store(&once, &mut self.integrals[0]);
         store(&twice, &mut self.integrals[1]);
@@ -336,7 +360,7 @@ impl Series {
             once[k] = once[k].mul_add(place, V::splat(0.5).mul(linear)).mul_add(place, a);
             twice[k] = twice[k].mul_add(place, V::splat(1.0 / 6.0).mul(linear)).mul_add(place, V::splat(0.5).mul(a));
         }
-        let [ground, change, ..] = self.ground;
+        let [ground, change] = self.ground_terms();
         let of_rate = differences(&once, V::splat(ground + 0.5 * s * change));
         let of_drift = differences(&twice, V::splat(0.5 * ground + (1.0 / 6.0) * s * change));
         let v: [V; K] = load(&self.v);
@@ -353,7 +377,7 @@ impl Series {
     fn integrate_up_to<V: Vector>(&mut self, s: f64) {
         let place = V::splat(s);
         let stride = self.stride / WIDTH;
-        let terms = &self.a.as_chunks::<WIDTH>().0[..(self.order + 1) * stride];
+        let terms = &lanes(self.a.numbers())[..(self.order + 1) * stride];
         let [once, twice] = &mut self.integrals;
         let integrals = once.as_chunks_mut::<WIDTH>().0.iter_mut().zip(twice.as_chunks_mut::<WIDTH>().0);
         for (lane, (once, twice)) in integrals.enumerate() {
@@ -371,14 +395,17 @@ impl Series {
     /// Forms the changes of drifts and drift rates up to the place from the integrals of floor accelerations.
     fn integrate_differences(&mut self) {
         let (s, h) = (self.place, self.place * self.h);
-        let [ground, change, ..] = self.ground;
+        let [ground, change] = self.ground_terms();
         let mut below = (ground + 0.5 * s * change, 0.5 * ground + (1.0 / 6.0) * s * change);
-        for i in 0..self.storeys {
-            let (a, linear) = (self.a[i], self.a[self.stride + i]);
-            let once = (self.integrals[0][i] * s + 0.5 * linear) * s + a;
-            let twice = (self.integrals[1][i] * s + (1.0 / 6.0) * linear) * s + 0.5 * a;
-            self.changes[0][i] = h * (self.v[i] + h * (twice - below.1));
-            self.changes[1][i] = h * (once - below.0);
+        let n = self.storeys;
+        let (a, linear, v) = (&self.a.row(0)[..n], &self.a.row(1)[..n], &self.v[..n]);
+        let [once_of, twice_of] = self.integrals.each_ref().map(|sums| &sums[..n]);
+        let [dx, dv] = self.changes.each_mut().map(|changes| &mut changes[..n]);
+        for i in 0..n {
+            let once = (once_of[i] * s + 0.5 * linear[i]) * s + a[i];
+            let twice = (twice_of[i] * s + (1.0 / 6.0) * linear[i]) * s + 0.5 * a[i];
+            dx[i] = h * (v[i] + h * (twice - below.1));
+            dv[i] = h * (once - below.0);
             below = (once, twice);
         }
     }
@@ -395,18 +422,24 @@ impl Series {
         self.place
     }
 
+    /// The first two terms of the ground acceleration: it has no more.
+    #[inline(always)]
+    fn ground_terms(&self) -> [f64; 2] {
+        [self.ground[0][0], self.ground[1][0]]
+    }
+
     /// Terms of the absolute acceleration of a floor, or of the ground (0).
     #[inline(always)]
-    fn terms_of(&self, floor: usize) -> Terms<'_> {
+    fn terms_of<const K: usize>(&self, floor: usize) -> OfStorey<'_, K> {
         match floor.checked_sub(1) {
-            Some(i) => Terms { values: self.a.get(i..).unwrap_or(&[]), stride: self.stride },
-            None => Terms { values: &self.ground, stride: 1 },
+            Some(i) => self.a.storey(i),
+            None => OfStorey::of_few(&self.ground, 0),
         }
     }
 
     /// Accelerations of storey `i`'s floor less those of what it stands on.
     #[inline(always)]
-    fn difference(&self, i: usize) -> Difference<'_> {
+    fn difference<const K: usize>(&self, i: usize) -> Difference<'_, K> {
         Difference { above: self.terms_of(i + 1), below: self.terms_of(i) }
     }
 
@@ -440,10 +473,23 @@ impl Series {
         sizes.sum()
     }
 
+    /// `p` becomes the terms times a factor; returns the sum of all their sizes.
+    #[inline(always)]
+    fn multiply<V: Vector, const F: usize>(terms: &impl TermByOrder, factor: f64, p: &mut Polynomial) -> f64 {
+        let Some(fours) = p.fours_mut::<F>() else { return 0.0 };
+        let mut sizes = V::splat(0.0);
+        for f in 0..F {
+            let coefficients = terms.four::<V>(WIDTH * f).mul(V::splat(factor));
+            coefficients.store(&mut fours[f]);
+            sizes = sizes.add(coefficients.abs());
+        }
+        sizes.sum()
+    }
+
     /// `p`, of [`Series::zeros`], becomes `factor` times the drift coordinate of storey `i`; returns a bound of its size.
     #[inline(always)]
-    pub(crate) fn drift<V: Vector>(&self, i: usize, factor: f64, p: &mut Polynomial) -> f64 {
-        let difference = self.difference(i);
+    pub(crate) fn drift<V: Vector, const K: usize>(&self, i: usize, factor: f64, p: &mut Polynomial) -> f64 {
+        let difference = self.difference::<K>(i);
         let once = factor * self.h;
         let twice = once * self.h;
         let terms = [0, 1].map(|k| twice * INVERSE_PAIRS[k + 2] * difference.term(k));
@@ -453,8 +499,8 @@ impl Series {
 
     /// `p`, of [`Series::zeros`], becomes `factor` times the drift rate of storey `i`; returns a bound of its size.
     #[inline(always)]
-    pub(crate) fn drift_rate<V: Vector>(&self, i: usize, factor: f64, p: &mut Polynomial) -> f64 {
-        let difference = self.difference(i);
+    pub(crate) fn drift_rate<V: Vector, const K: usize>(&self, i: usize, factor: f64, p: &mut Polynomial) -> f64 {
+        let difference = self.difference::<K>(i);
         let once = factor * self.h;
         let terms = [0, 1, 2].map(|k| once * INVERSE[k + 1] * difference.term(k));
         let first = V::of([factor * self.v[i], terms[0], terms[1], terms[2]]);
@@ -464,7 +510,7 @@ impl Series {
     /// `p`, of [`Series::zeros`], becomes the velocity that starts from `velocity`, whose rate is -`factor` times the absolute
     /// acceleration of a floor, or of the ground (0), and two more terms; returns a bound of its size.
     #[inline(always)]
-    pub(crate) fn velocity_against<V: Vector>(
+    pub(crate) fn velocity_against<V: Vector, const K: usize>(
         &self,
         floor: usize,
         velocity: f64,
@@ -472,7 +518,7 @@ impl Series {
         more: [f64; 2],
         p: &mut Polynomial,
     ) -> f64 {
-        let acceleration = self.terms_of(floor);
+        let acceleration = self.terms_of::<K>(floor);
         let once = -factor * self.h;
         // Added before they are multiplied, so that small sums keep their digits.
         let [first, second] = [0, 1].map(|k| once * INVERSE[k + 1] * (acceleration.term(k) + more[k]));
@@ -483,27 +529,28 @@ impl Series {
     /// `p`, of [`Series::zeros`], becomes `factor` times the absolute acceleration of a floor, or of the ground (0); returns
     /// a bound of its size.
     #[inline(always)]
-    pub(crate) fn acceleration<V: Vector>(&self, floor: usize, factor: f64, p: &mut Polynomial) -> f64 {
-        let terms = self.terms_of(floor);
-        by_length!(p, F => terms.times::<V, F>(factor, p))
+    pub(crate) fn acceleration<V: Vector, const K: usize>(&self, floor: usize, factor: f64, p: &mut Polynomial) -> f64 {
+        let terms = self.terms_of::<K>(floor);
+        by_length!(p, F => Self::multiply::<V, F>(&terms, factor, p))
     }
 
     /// The first two terms of the absolute acceleration of floor `i`, and the first and second integrals of the others up
     /// to the place s, divided by s^3 and s^4.
     #[inline]
-    pub(crate) fn terms_and_integrals(&self, i: usize) -> ([f64; 2], [f64; 2]) {
-        ([self.a[i], self.a[self.stride + i]], [self.integrals[0][i], self.integrals[1][i]])
+    pub(crate) fn terms_and_integrals<const K: usize>(&self, i: usize) -> ([f64; 2], [f64; 2]) {
+        let terms = self.a.storey::<K>(i);
+        ([terms.at(0), terms.at(1)], [self.integrals[0][i], self.integrals[1][i]])
     }
 
     /// Changes of drifts and drift rates up to the place, padded.
     #[inline]
-    pub(crate) fn changes(&self) -> [&[f64]; 2] {
+    pub(crate) fn changes(&self) -> [&Padded; 2] {
         [&self.changes[0], &self.changes[1]]
     }
 
     /// Floor accelerations and their rates at the end of the step, padded.
     #[inline]
-    pub(crate) fn accelerations_at_end(&self) -> [&[f64]; 2] {
+    pub(crate) fn accelerations_at_end(&self) -> [&Padded; 2] {
         [&self.end[0], &self.end[1]]
     }
 
@@ -511,7 +558,7 @@ impl Series {
     pub(crate) fn rates_at(&self, s: f64, out: &mut [f64]) {
         for (i, out) in out.iter_mut().enumerate() {
             let mut rate = self.zeros();
-            self.drift_rate::<Plain>(i, 1.0, &mut rate);
+            by_width!(self.stride, K => self.drift_rate::<Plain, K>(i, 1.0, &mut rate));
             *out = rate.at::<Plain>(s);
         }
     }
@@ -528,46 +575,25 @@ trait TermByOrder {
     fn four<V: Vector>(&self, k: usize) -> V;
 }
 
-/// Terms of one floor: so far apart.
-struct Terms<'a> {
-    values: &'a [f64],
-    stride: usize,
-}
-
-impl Terms<'_> {
-    /// `p` becomes the terms times a factor; returns the sum of all their sizes.
-    #[inline(always)]
-    fn times<V: Vector, const F: usize>(&self, factor: f64, p: &mut Polynomial) -> f64 {
-        let Some(fours) = p.fours_mut::<F>() else { return 0.0 };
-        let mut sizes = V::splat(0.0);
-        for f in 0..F {
-            let coefficients = self.four::<V>(WIDTH * f).mul(V::splat(factor));
-            coefficients.store(&mut fours[f]);
-            sizes = sizes.add(coefficients.abs());
-        }
-        sizes.sum()
-    }
-}
-
-impl TermByOrder for Terms<'_> {
+impl<const K: usize> TermByOrder for OfStorey<'_, K> {
     #[inline(always)]
     fn term(&self, k: usize) -> f64 {
-        self.values[k * self.stride]
+        self.at(k)
     }
 
     #[inline(always)]
     fn four<V: Vector>(&self, k: usize) -> V {
-        V::of([self.term(k), self.term(k + 1), self.term(k + 2), self.term(k + 3)])
+        V::of([self.at(k), self.at(k + 1), self.at(k + 2), self.at(k + 3)])
     }
 }
 
 /// Terms of one floor less those of another.
-struct Difference<'a> {
-    above: Terms<'a>,
-    below: Terms<'a>,
+struct Difference<'a, const K: usize> {
+    above: OfStorey<'a, K>,
+    below: OfStorey<'a, K>,
 }
 
-impl TermByOrder for Difference<'_> {
+impl<const K: usize> TermByOrder for Difference<'_, K> {
     #[inline(always)]
     fn term(&self, k: usize) -> f64 {
         self.above.term(k) - self.below.term(k)
@@ -609,12 +635,6 @@ pub(crate) static WEIGHTS: [[[f64; WIDTH]; 3]; MAX_DEGREE + 1] = {
     }
     table
 };
-
-/// Terms of a series, order by order.
-#[inline(always)]
-fn columns_mut<const K: usize>(values: &mut [f64]) -> &mut [[[f64; WIDTH]; K]] {
-    values.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0
-}
 
 #[inline(always)]
 fn put<V: Vector, const K: usize>(vectors: &[V; K], term: &mut [[f64; WIDTH]; K]) {

@@ -82,6 +82,8 @@ pub(super) fn carry_out(state: &mut State, guard: Guard, tau: f64, events: Event
     let outcome = state.carry_out(guard, tau, log);
     if let Some((storey, rate)) = overshoot {
         state.v[storey] = rate;
+    }
+    if outcome == Outcome::Continue {
         state.refresh_accelerations(tau);
     }
     outcome
