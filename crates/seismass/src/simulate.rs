@@ -334,6 +334,7 @@ impl Run<'_> {
         Ok(event)
     }
 
+    /// Carries out an event at `tau`, to which the state has been advanced.
     #[inline(always)]
     fn carry_out<V: Vector, const K: usize>(&mut self, guard: Guard, tau: f64) -> Outcome {
         let (state, observer) = (&mut self.state, &mut self.observer);
