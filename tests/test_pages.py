@@ -70,11 +70,11 @@ def test_readme_says_of_times_what_the_page_of_performance_does() -> None:
     study = next(float(row[1]) for row in page_rows("The study") if row[0] == "total without figures")
     readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     for words, value, low, high in (
-        ("one more sample in which nothing happens costs some twelve nanoseconds", step, 10.0, 14.0),
-        ("nothing yields or slides takes some forty per sample", calm, 33.0, 47.0),
-        ("An event costs about 0.6 microseconds", event, 0.5, 0.7),
-        ("takes 0.2 to 0.5 ms on one core", min(times), 0.15, 0.25),
-        ("takes 0.2 to 0.5 ms on one core", max(times), 0.4, 0.6),
+        ("one more sample in which nothing happens costs some ten nanoseconds", step, 8.0, 12.0),
+        ("nothing yields or slides takes some thirty per sample", calm, 25.0, 35.0),
+        ("An event costs about 0.4 microseconds", event, 0.35, 0.47),
+        ("takes 0.1 to 0.4 ms on one core", min(times), 0.08, 0.15),
+        ("takes 0.1 to 0.4 ms on one core", max(times), 0.3, 0.45),
         ("less than a third of a second on two", study, 0.0, 1 / 3),
     ):
         assert words in readme
