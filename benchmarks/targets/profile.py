@@ -52,7 +52,7 @@ ACTIVITIES: Final = (
     ("form the series of intervals in which something may happen", ("taylor",)),
     ("bound quantities over them, look at guards and locate their roots", ("state", "bounds", "events", "bernstein")),
     ("go from event to event and follow springs, blocks and peaks", ("simulate", "observe", "storey", "friction")),
-    ("form regimes with their steps and tables", ("regime", "propagator", "few_storeys")),
+    ("form regimes with their steps and tables", ("regime", "regime_bounds", "propagator", "few_storeys")),
     ("allocate, copy and clear memory", (MEMORY,)),
 )
 """What modules do, as a sentence tells it."""
