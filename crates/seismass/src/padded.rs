@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use crate::lanes::{Aligned, Vector, WIDTH, at, columns_of, padded};
+use crate::lanes::{Aligned, Vector, WIDTH, at, columns_of, lanes, lanes_mut, padded};
 
 /// What vectors are read from and written to.
 pub(crate) trait Lanes {
@@ -15,12 +15,12 @@ pub(crate) trait Lanes {
 impl Lanes for [f64] {
     #[inline(always)]
     fn vectors<const K: usize>(&self) -> Option<&[[f64; WIDTH]; K]> {
-        self.as_chunks().0.first_chunk()
+        lanes(self).first_chunk()
     }
 
     #[inline(always)]
     fn vectors_mut<const K: usize>(&mut self) -> Option<&mut [[f64; WIDTH]; K]> {
-        self.as_chunks_mut().0.first_chunk_mut()
+        lanes_mut(self).first_chunk_mut()
     }
 }
 
@@ -59,7 +59,7 @@ impl Padded {
     /// Puts vector `k` of a scene of `K` vectors.
     #[inline(always)]
     pub(crate) fn set_vector<V: Vector, const K: usize>(&mut self, k: usize, values: V) {
-        values.store(if K == 1 { &mut self.few } else { &mut self.many.as_chunks_mut().0[k] });
+        values.store(if K == 1 { &mut self.few } else { &mut lanes_mut(&mut self.many)[k] });
     }
 }
 
@@ -144,7 +144,7 @@ impl<const R: usize> PaddedRows<R> {
     /// The same to be changed.
     #[inline(always)]
     pub(crate) fn vectors_mut<const K: usize>(&mut self) -> &mut [[[f64; WIDTH]; K]] {
-        if K == 1 { self.few.as_chunks_mut().0 } else { self.many.as_chunks_mut().0.as_chunks_mut().0 }
+        if K == 1 { self.few.as_chunks_mut().0 } else { lanes_mut(&mut self.many).as_chunks_mut().0 }
     }
 
     /// One storey's numbers by row, of a scene of `K` vectors.
@@ -176,6 +176,7 @@ impl<'a, const K: usize> OfStorey<'a, K> {
         Self { few, many: few.as_flattened(), width: WIDTH, storey }
     }
 
+    /// The number in a row.
     #[inline(always)]
     pub(crate) fn at(&self, row: usize) -> f64 {
         if K == 1 { self.few[row][self.storey % WIDTH] } else { self.many[row * self.width + self.storey] }
@@ -185,7 +186,7 @@ impl<'a, const K: usize> OfStorey<'a, K> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{Plain, by_width, load, numbers, store};
+    use crate::lanes::{MAX_LANES, Plain, by_width, load, numbers, store};
 
     #[test]
     fn numbers_are_the_same_in_place_and_apart() {
@@ -219,7 +220,7 @@ mod tests {
                 assert_eq!(rows.row(row), (row * width..(row + 1) * width).map(|i| i as f64).collect::<Vec<_>>());
                 by_width!(width, K => assert_eq!(rows.storey::<K>(storeys - 1).at(row), (row * width + storeys - 1) as f64));
             }
-            if width <= 48 {
+            if width <= MAX_LANES {
                 by_width!(width, K => {
                     assert_eq!(rows.vectors::<K>().as_flattened().as_flattened(), rows.numbers());
                     rows.vectors_mut::<K>()[2][0][1] = -1.0;

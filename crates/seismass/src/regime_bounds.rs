@@ -11,10 +11,10 @@ use crate::regime::{ROWS, Row};
 pub(crate) fn form(model: &Model, rows: &mut [f64]) -> (f64, f64) {
     let [stiffness, damping] = form_rows(model, rows);
     let mut growth = if model.damping_may_feed() { damping } else { 0.0 };
-    let row = |row: Row| &rows[row as usize * model.width..][..model.storeys()];
-    let (tangent, inverse_root) = (row(Row::Tangent), row(Row::InverseRootMass));
+    let rows = Rows { numbers: rows, width: model.width };
+    let tangents = rows.row(Row::Tangent).iter().zip(rows.row(Row::RootTangent));
     let mut below = 0.0;
-    for ((&tangent, &root), &inverse_root) in tangent.iter().zip(row(Row::RootTangent)).zip(inverse_root) {
+    for ((&tangent, &root), &inverse_root) in tangents.zip(rows.row(Row::InverseRootMass)) {
         if tangent < 0.0 {
             growth += 2.0 * root * (inverse_root + below);
         }

@@ -23,6 +23,13 @@ use crate::taylor::{Drive, Series, Start};
 /// Bits of a word.
 const WORD: usize = u64::BITS as usize;
 
+/// Sets the bits of a mask, from bit `first` on, which do not lie across two words.
+#[inline]
+fn set_bits(words: &mut [u64], first: usize, mask: u64, bits: u64) {
+    let (word, shift) = (&mut words[first / WORD], first % WORD);
+    *word = *word & !(mask << shift) | bits << shift;
+}
+
 /// Ground motion between two samples, linear in time.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Interval {
@@ -410,8 +417,7 @@ impl<'a> State<'a> {
         self.base_load[i] = spring.base_load(law);
         let plastic = spring.plastic();
         self.bounds.follow_spring(i, self.guarded_drift(i), plastic);
-        let (word, shift) = (2 * i / WORD, 2 * i % WORD);
-        self.key[word] = self.key[word] & !(0b11 << shift) | u64::from(spring.yielded()) << shift;
+        set_bits(&mut self.key, 2 * i, 0b11, u64::from(spring.yielded()));
     }
 
     fn follow_springs(&mut self) {
@@ -430,8 +436,7 @@ impl<'a> State<'a> {
         let of_springs = 2 * self.springs.len();
         for (j, (motion, law)) in self.motions.iter().zip(&self.model.blocks).enumerate() {
             let floor = law.floor;
-            let (word, shift) = ((of_springs + j) / WORD, (of_springs + j) % WORD);
-            self.key[word] = self.key[word] & !(1 << shift) | u64::from(motion.is_stuck()) << shift;
+            set_bits(&mut self.key, of_springs + j, 1, u64::from(motion.is_stuck()));
             match motion.state {
                 BlockState::Stuck => {
                     self.stuck_mu[floor] = self.stuck_mu[floor].min(law.mu_s);
