@@ -26,30 +26,35 @@ impl Table {
         Self { values: vec![0.0; length], width }
     }
 
-    /// The place of a row, and all after it.
+    /// Writes a row in vectors, from number `first` on.
     #[inline(always)]
-    fn rows_from(&mut self, row: usize) -> &mut [f64] {
-        self.values.get_mut(row * self.width..).unwrap_or_default()
+    fn put<V: Vector, const K: usize>(&mut self, first: usize, values: &[V; K]) {
+        if let Some(numbers) = self.values.get_mut(first..) {
+            store(values, numbers);
+        }
     }
 
-    /// Writes a row in vectors.
+    /// Writes a row, from number `first` on.
     #[inline(always)]
-    fn put<V: Vector, const K: usize>(&mut self, row: usize, values: &[V; K]) {
-        store(values, self.rows_from(row));
-    }
-
-    /// Writes a row.
-    #[inline(always)]
-    fn put_row(&mut self, row: usize, values: impl Iterator<Item = f64>) {
-        self.rows_from(row).iter_mut().zip(values).for_each(|(out, value)| *out = value);
+    fn put_row(&mut self, first: usize, values: impl Iterator<Item = f64>) {
+        if let Some(numbers) = self.values.get_mut(first..) {
+            numbers.iter_mut().zip(values).for_each(|(out, value)| *out = value);
+        }
     }
 
     /// The rows, with NaN in those from `written` on.
     fn finish(mut self, rows: usize, written: usize) -> Vec<f64> {
         self.values.truncate(rows * self.width);
-        self.rows_from(written).fill(f64::NAN);
+        self.values[written * self.width..].fill(f64::NAN);
         self.values
     }
+}
+
+/// Where a row begins in the tables of storeys and in those of blocks.
+#[derive(Clone, Copy)]
+struct Place {
+    storeys: usize,
+    blocks: usize,
 }
 
 /// Sums of each lane and all below it, each added to the sum below it, as those of numbers are formed.
@@ -89,6 +94,10 @@ pub(crate) struct Recorder {
     stride: usize,
     /// Rows written so far.
     written: usize,
+    storeys: usize,
+    blocks: usize,
+    /// Whether block after block stands on floor after floor, one on each: then what blocks do is in the lanes of floors.
+    one_on_each: bool,
     drift: Table,
     slip: Table,
     floor_velocity: Table,
@@ -100,8 +109,8 @@ pub(crate) struct Recorder {
     base_force: Padded,
     tangent: Padded,
     /// By block, padded: slip and relative velocity as the next row has them.
-    slips: Vec<f64>,
-    velocities: Vec<f64>,
+    slips: Padded,
+    velocities: Padded,
     /// Of the ground and of the floors, padded: velocity in the row that is written.
     floor_velocities: Vec<f64>,
     /// Whether springs and blocks are taken up as they are now.
@@ -117,11 +126,12 @@ impl Recorder {
         let (n, blocks) = (model.storeys(), model.blocks.len());
         let stride = every.saturating_mul(substeps);
         let rows = samples.div_ceil(stride);
-        let (storeys, blocks_written) = (model.width, blocks.next_multiple_of(WIDTH));
+        let one_on_each = blocks == n && model.blocks.iter().enumerate().all(|(i, law)| law.floor == i + 1);
+        let storeys = model.width;
+        let blocks_written = if one_on_each { storeys } else { blocks.next_multiple_of(WIDTH) };
         let all = !options.displacements_only;
         let of_storeys = |is_kept: bool| Table::new(rows, if is_kept { n } else { 0 }, storeys);
         let of_blocks = |is_kept: bool| Table::new(rows, if is_kept { blocks } else { 0 }, blocks_written);
-        let zero = |length: usize| vec![0.0; length];
         let of_row = if all { 4 * storeys + 2 * blocks_written } else { storeys + blocks_written };
         if !is_there_memory(rows.saturating_mul(of_row)) {
             let (requirement, value) =
@@ -134,6 +144,9 @@ impl Recorder {
             displacements_only: options.displacements_only,
             stride,
             written: 0,
+            storeys: n,
+            blocks,
+            one_on_each,
             drift: of_storeys(true),
             slip: of_blocks(true),
             floor_velocity: of_storeys(all),
@@ -143,18 +156,19 @@ impl Recorder {
             base_drift: Padded::new(storeys, 0.0),
             base_force: Padded::new(storeys, 0.0),
             tangent: Padded::new(storeys, 0.0),
-            slips: zero(blocks_written),
-            velocities: zero(blocks_written),
-            floor_velocities: zero(1 + storeys),
+            slips: Padded::new(blocks_written, 0.0),
+            velocities: Padded::new(blocks_written, 0.0),
+            floor_velocities: vec![0.0; 1 + storeys],
             is_taken_up: false,
         })
     }
 
-    /// The row to be written, which counts as written.
+    /// Where the next row is to be written, which counts as written.
     #[inline(always)]
-    fn next_row(&mut self) -> usize {
+    fn next_row(&mut self) -> Place {
+        let row = self.written;
         self.written += 1;
-        self.written - 1
+        Place { storeys: row * self.storeys, blocks: row * self.blocks }
     }
 
     /// The next sample of which a row is kept.
@@ -189,39 +203,67 @@ impl Recorder {
         (self.velocities[block], self.slips[block]) = (velocity, slip);
     }
 
+    /// The same of the blocks in some lanes of their floors, as bits, where one stands on each floor.
+    #[inline(always)]
+    pub(crate) fn move_lanes<V: Vector, const K: usize>(&mut self, lanes: &[u32; K], velocity: &[V; K], slip: &[V; K]) {
+        for k in 0..K {
+            let kept = (self.velocities.vector::<V, K>(k), self.slips.vector::<V, K>(k));
+            self.velocities.set_vector::<V, K>(k, kept.0.with(lanes[k], velocity[k]));
+            self.slips.set_vector::<V, K>(k, kept.1.with(lanes[k], slip[k]));
+        }
+    }
+
+    /// Whether one block stands on each floor, in their order.
+    #[inline]
+    pub(crate) fn has_one_on_each(&self) -> bool {
+        self.one_on_each
+    }
+
     /// Appends a row with the springs and blocks taken up.
     #[inline(always)]
     pub(crate) fn append<V: Vector, const K: usize>(&mut self, model: &Model, row: &RowInLanes<V, K>) {
         let at = self.next_row();
         let base: [V; K] = load(&self.base_drift);
-        let (force, tangent): ([V; K], [V; K]) = (load(&self.base_force), load(&self.tangent));
-        let (mut drift, mut storey_force) = (base, force);
+        let mut drift = base;
         for k in 0..K {
             drift[k] = base[k].add(row.x[k]);
-            storey_force[k] = tangent[k].mul(row.x[k]).add(force[k]);
         }
-        self.drift.put(at, &drift);
-        for (out, slips) in self.slip.rows_from(at).as_chunks_mut().0.iter_mut().zip(self.slips.as_chunks::<WIDTH>().0)
-        {
-            *out = *slips;
+        self.drift.put(at.storeys, &drift);
+        if self.one_on_each {
+            self.slip.put::<V, K>(at.blocks, &load(&self.slips));
+        } else {
+            self.slip.put_row(at.blocks, self.slips.iter().copied());
         }
         if self.displacements_only {
             return;
         }
         let velocity = running_sums(row.v);
-        self.storey_force.put(at, &storey_force);
-        self.floor_velocity.put(at, &velocity);
-        self.floor_acceleration.put(at, row.a);
-        store(&velocity, &mut self.floor_velocities[1..]);
-        self.put_block_velocities(at, model);
+        let (force, tangent): ([V; K], [V; K]) = (load(&self.base_force), load(&self.tangent));
+        let mut storey_force = force;
+        for k in 0..K {
+            storey_force[k] = tangent[k].mul(row.x[k]).add(force[k]);
+        }
+        self.storey_force.put(at.storeys, &storey_force);
+        self.floor_velocity.put(at.storeys, &velocity);
+        self.floor_acceleration.put(at.storeys, row.a);
+        if self.one_on_each {
+            let mut of_blocks: [V; K] = load(&self.velocities);
+            for k in 0..K {
+                of_blocks[k] = velocity[k].add(of_blocks[k]);
+            }
+            self.block_velocity.put(at.blocks, &of_blocks);
+        } else {
+            store(&velocity, &mut self.floor_velocities[1..]);
+            self.put_block_velocities(at, model);
+        }
     }
 
     /// Writes the velocities of the blocks of a row.
     #[inline(always)]
-    fn put_block_velocities(&mut self, at: usize, model: &Model) {
+    fn put_block_velocities(&mut self, at: Place, model: &Model) {
         let velocities = model.blocks.iter().zip(&self.velocities);
         let velocities = velocities.map(|(law, relative)| self.floor_velocities[law.floor] + relative);
-        self.block_velocity.put_row(at, velocities);
+        self.block_velocity.put_row(at.blocks, velocities);
     }
 
     /// Appends the present state, if it has a row.
@@ -254,22 +296,22 @@ impl Recorder {
         for (block, (velocity, slip)) in blocks.enumerate() {
             self.move_block(block, velocity, slip);
         }
-        self.drift.put_row(at, state.springs.iter().zip(x).map(|(spring, &x)| spring.drift(x)));
-        self.slip.put_row(at, self.slips.iter().copied());
+        self.drift.put_row(at.storeys, state.springs.iter().zip(x).map(|(spring, &x)| spring.drift(x)));
+        self.slip.put_row(at.blocks, self.slips.iter().copied());
         if self.displacements_only {
             return;
         }
         let n = state.storeys();
         let tangent = state.regime().row(Row::SpringTangent);
         let forces = state.base_force.iter().zip(tangent).zip(x).map(|((base, tangent), x)| tangent * x + base);
-        self.storey_force.put_row(at, forces);
+        self.storey_force.put_row(at.storeys, forces);
         let mut velocity = 0.0;
         for (out, rate) in self.floor_velocities[1..].iter_mut().zip(&v[..n]) {
             velocity += rate;
             *out = velocity;
         }
-        self.floor_velocity.put_row(at, self.floor_velocities[1..=n].iter().copied());
-        self.floor_acceleration.put_row(at, a[..n].iter().copied());
+        self.floor_velocity.put_row(at.storeys, self.floor_velocities[1..=n].iter().copied());
+        self.floor_acceleration.put_row(at.storeys, a[..n].iter().copied());
         self.put_block_velocities(at, state.model);
     }
 

@@ -441,7 +441,9 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         if reached == next_recorded
             && let Some(recorder) = &mut recorder
         {
-            if SLIDING {
+            if SLIDING && recorder.has_one_on_each() {
+                recorder.move_lanes(&layer.taken(), &layer.velocity, &layer.slip);
+            } else if SLIDING {
                 let (velocity, slip) = (numbers(&layer.velocity), numbers(&layer.slip));
                 for &(block, of_layer, lane) in &walk.on_floors {
                     let (velocity, slip) = match of_layer.checked_sub(1).and_then(|other| others.get(other)) {

@@ -97,6 +97,16 @@ impl<V: Vector, const K: usize> LayerInLanes<V, K> {
         }
     }
 
+    /// Lanes in which blocks slide, as bits.
+    #[inline(always)]
+    pub(crate) fn taken(&self) -> [u32; K] {
+        let mut lanes = [0; K];
+        for k in 0..K {
+            lanes[k] = self.sign[k].abs().not_below(V::splat(1.0));
+        }
+        lanes
+    }
+
     /// h / 3 times the size of the relative acceleration, less sign times velocity.
     #[inline(always)]
     fn approach(&self, k: usize, velocity: V, a: V, contact: f64, third: V) -> V {
