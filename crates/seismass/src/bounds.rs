@@ -126,7 +126,7 @@ impl State<'_> {
             return;
         }
         let (zero, half, far) = (V::splat(0.0), V::splat(0.5), V::splat(FAR));
-        let flexibility: [V; K] = self.cache.regime(self.regime).lanes(Row::SpringFlexibility);
+        let flexibility: [V; K] = self.regime.lanes(Row::SpringFlexibility);
         let (base, force): ([V; K], [V; K]) = (load(&self.base_drift), load(&self.base_force));
         let [drift, shear, acceleration] = observer.peak_sizes::<V, K>();
         let bounds = &mut self.bounds;

@@ -104,20 +104,23 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
 }
 
 /// What a closer look at a step finds that the loop did not clear.
-pub(crate) struct Closer {
+pub(crate) struct Closer<V, const K: usize> {
     /// Whether a guard may fall.
     pub(crate) fails: bool,
     /// Storeys and floors whose peaks of drift or shear and of acceleration the end of the step may beat.
     beaten: [Set; 2],
     /// Those that may turn beyond their peaks inside the step.
     turns: [Set; 2],
+    /// Storeys and floors whose drifts, drift rates and accelerations come to their bounds, and the ranges of these.
+    pub(crate) suspects: [Set; 3],
+    pub(crate) ranges: [[[V; K]; 2]; 3],
 }
 
-impl Closer {
+impl<V: Vector, const K: usize> Closer<V, K> {
     /// Looks at what the loop did not clear in a step by the Bezier points themselves. Margins are per unit of `norm`;
     /// `bounds` are those of the run, `in_state` those that the state has.
     #[inline(always)]
-    pub(crate) fn look<V: Vector, const K: usize>(
+    pub(crate) fn look(
         suspects: [Set; 3],
         bounds: &BoundsInLanes<V, K>,
         in_state: &Bounds,
@@ -130,7 +133,9 @@ impl Closer {
         let (lowest, highest): ([V; K], [V; K]) = (load(&in_state.guarded[0]), load(&in_state.guarded[1]));
         // Between its ends a jerk differs from its chord by at most h^2 / 8 times its second derivative.
         let chord = V::splat(0.125 * h * h / off_cubic(h));
-        let mut closer = Self { fails: false, beaten: [0; 2], turns: [0; 2] };
+        let ranges_of_all = [[[zero; K]; 2]; 3];
+        let mut closer =
+            Self { fails: false, beaten: [0; 2], turns: [0; 2], suspects: [0; 3], ranges: ranges_of_all };
         for k in 0..K {
             let lanes = WIDTH * k;
             let of = [suspects[0] >> lanes, suspects[1] >> lanes, suspects[2] >> lanes];
@@ -162,6 +167,12 @@ impl Closer {
             closer.fails |= of[2] & breaks != 0;
             closer.beaten[1] |= Set::from(beaten) << lanes;
             closer.turns[1] |= Set::from(beaten & !steady) << lanes;
+            closer.suspects[0] = closer.beaten[0];
+            closer.suspects[1] |= Set::from(turning) << lanes;
+            closer.suspects[2] |= Set::from(beaten | of[2] & breaks) << lanes;
+            for (out, (low, high)) in closer.ranges.iter_mut().zip([drift, rate, (low, high)]) {
+                (out[0][k], out[1][k]) = (low, high);
+            }
         }
         closer
     }
@@ -212,7 +223,7 @@ impl Beaten {
     #[inline(always)]
     pub(crate) fn note<V: Vector, const K: usize>(
         &mut self,
-        closer: &Closer,
+        closer: &Closer<V, K>,
         fails: bool,
         is_first: bool,
         [before, after]: [&Sample<V, K>; 2],

@@ -61,7 +61,7 @@ impl<'a, const K: usize> Course<'a, K> {
     #[inline(always)]
     fn new(state: &'a State, h: f64) -> Option<Self> {
         let regime = state.regime();
-        let Whole::Dense(propagator) = &regime.steps.as_ref()?.whole else { return None };
+        let Whole::Dense(propagator) = &regime.steps(state.vertical)?.whole else { return None };
         let (of_drift, others) = four_rows(propagator.state_and_motion_columns()).split_at_checked(state.storeys())?;
         let (of_rate, others) = others.split_at_checked(state.storeys())?;
         let [of_ground, of_change, ..] = others else { return None };
@@ -136,7 +136,7 @@ fn prepare_effects<V: Vector, const K: usize, const VERTICAL: bool>(state: &mut 
     if state.effects.valid {
         return;
     }
-    let steps = state.cache.regime(state.regime).steps.as_ref();
+    let steps = state.regime.steps(state.vertical);
     let Some(Whole::Dense(propagator)) = steps.map(|steps| &steps.whole) else { return };
     let of_loads = four_rows(propagator.load_columns());
     let (mut loads, friction): ([V; K], [V; K]) = (load(&state.spring_load), load(&state.friction));
@@ -428,7 +428,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             let (fails, time) = (closer.fails || is_turning || !has_contact, (reached + 1) as f64 * h);
             let in_state = (&state.bounds, &mut bounds);
             if !walk.beaten.note(&closer, fails, reached == first, samples, time, in_state) {
-                open = (fails && has_contact).then_some((taken, norm, least_contact));
+                open = (fails && has_contact).then_some((closer, norm));
                 break;
             }
             apart_after = bounds.apart(&taken, third);
@@ -465,11 +465,11 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     if walk.beaten.any() {
         bounds.put_into(&mut state.bounds);
     }
-    if let Some((end, norm, least_contact)) = open {
+    if let Some((closer, norm)) = open {
         let [norm, ..] = numbers(&[norm])[0];
         let ranges = &mut state.ranges;
         ranges.set_margins(norm * growth, h);
-        ranges.form([&sample, &end], (state.cache.regime(state.regime), h), (&bounds, least_contact));
+        ranges.keep(&closer.ranges, closer.suspects);
         ranges.suspects[0] |= walk.beaten.followed();
         ranges.suspects[1] |= walk.beaten.followed();
         ranges.are_known = true;
@@ -590,10 +590,10 @@ impl State<'_> {
         first: usize,
         end: usize,
     ) -> usize {
-        if self.airborne || !self.cache.visit(self.regime, self.model, self.vertical) {
+        if self.airborne || !self.cache.visit(self.entry, self.model, self.vertical) {
             return first;
         }
-        let reached = match self.regime().steps.as_ref().map(|steps| &steps.whole) {
+        let reached = match self.regime.steps(self.vertical).map(|steps| &steps.whole) {
             Some(Whole::Tall(step)) => {
                 let step = Arc::clone(step);
                 tall_run::run(self, observer, motion, &step, first, end)

@@ -8,6 +8,7 @@
 //! short enough, and the step composed with itself.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
@@ -407,8 +408,8 @@ fn column_of_change(model: &Model, regime: &Regime, cause: Cause, step: &Step, h
 
 /// An entry of the cache: a regime, and how often the present run took a whole interval in it.
 struct Entry {
-    /// Apart, so that to make room for more entries moves little.
-    regime: Box<Regime>,
+    /// Shared with the run that is in it.
+    regime: Rc<Regime>,
     run: u64,
     visits: u32,
 }
@@ -514,7 +515,7 @@ impl RegimeCache {
         let index = match self.index.get(key) {
             Some(index) => index,
             None => {
-                let regime = Box::new(form());
+                let regime = Rc::new(form());
                 self.bytes += Self::entry_bytes(&regime, key);
                 self.entries.push(Entry { regime, run: 0, visits: 0 });
                 self.index.insert(key, self.entries.len() - 1);
@@ -537,7 +538,7 @@ impl RegimeCache {
 
     /// The regime at an index.
     #[inline]
-    pub(crate) fn regime(&self, index: usize) -> &Regime {
+    pub(crate) fn regime(&self, index: usize) -> &Rc<Regime> {
         &self.entries[index].regime
     }
 
@@ -550,7 +551,7 @@ impl RegimeCache {
         if n == 0 || n > MAX_TABLE || n > MAX_AT_ONCE && entry.visits <= Self::series_visits(n) {
             return false;
         }
-        if entry.regime.steps.is_none() {
+        if entry.regime.steps(vertical).is_none() {
             self.form_steps(index, model, vertical);
         }
         true
@@ -558,10 +559,10 @@ impl RegimeCache {
 
     #[cold]
     fn form_steps(&mut self, index: usize, model: &Model, vertical: bool) {
-        let entry = &mut self.entries[index];
-        let steps = Steps::new(model, &entry.regime, self.dt, vertical, &mut self.sums);
+        let regime = &self.entries[index].regime;
+        let steps = Steps::new(model, regime, self.dt, vertical, &mut self.sums);
         self.bytes += steps.bytes(vertical);
-        entry.regime.steps = Some(steps);
+        regime.keep_steps(steps, vertical);
     }
 
     /// Counts a whole interval in a regime; true once its propagator is to be used, which then exists.
@@ -577,16 +578,12 @@ impl RegimeCache {
         if entry.visits <= series_visits {
             return false;
         }
-        let lacks = |steps: &Steps| match &steps.whole {
-            Whole::Dense(propagator) => vertical && propagator.ramp_columns().is_empty(),
-            Whole::Tall(_) => false,
-        };
-        if entry.regime.steps.as_ref().is_none_or(lacks) {
+        if entry.regime.steps(vertical).is_none() {
             self.form_steps(index, model, vertical);
         }
         let entry = &self.entries[index];
         if entry.visits == series_visits + 1 {
-            self.run_bytes += entry.regime.steps.as_ref().map_or(0, |steps| steps.bytes(vertical));
+            self.run_bytes += entry.regime.steps(vertical).map_or(0, |steps| steps.bytes(vertical));
         }
         true
     }

@@ -4,6 +4,8 @@
 //! linear between samples), so (v', v'') obeys the homogeneous equation, whose energy never grows where tangents and
 //! damping are not negative. That energy, known at the start of a step, bounds all higher derivatives inside the step.
 
+use std::cell::OnceCell;
+
 use crate::damping::StoreyDamping;
 use crate::lanes::{Vector, columns_of, load, numbers, prefix_sums};
 use crate::model::{Model, ModelLanes};
@@ -12,6 +14,7 @@ use crate::propagator::Steps;
 use crate::regime_bounds;
 
 /// The linear operators of one regime.
+#[derive(Default)]
 pub(crate) struct Regime {
     /// One row of each [`Row`], padded with zeros.
     rows: PaddedRows<ROWS>,
@@ -19,8 +22,8 @@ pub(crate) struct Regime {
     pub(crate) frequency: f64,
     /// Exponent (1/s) with which the energy of the derivatives may grow: positive with a negative tangent.
     growth: f64,
-    /// The steps of the cache's time step, once they pay.
-    pub(crate) steps: Option<Steps>,
+    /// The steps of the cache's time step, once they pay: without vertical motion, and with it.
+    steps: [OnceCell<Steps>; 2],
 }
 
 /// What is known of each storey, or floor, in a regime. Bounds are per unit of [`Regime::liveliness_of`].
@@ -70,7 +73,18 @@ impl Regime {
             numbers[Row::Mass as usize * width + i] = model.mass[i] + stuck_mass[i];
         }
         let (frequency, growth) = regime_bounds::form(model, numbers);
-        Self { rows, frequency, growth, steps: None }
+        Self { rows, frequency, growth, steps: Default::default() }
+    }
+
+    /// The steps of the cache's time step, if they are formed, without vertical motion or with it.
+    #[inline(always)]
+    pub(crate) fn steps(&self, vertical: bool) -> Option<&Steps> {
+        self.steps[usize::from(vertical)].get()
+    }
+
+    /// Keeps the steps that [`Regime::steps`] gives, if there are none yet.
+    pub(crate) fn keep_steps(&self, steps: Steps, vertical: bool) {
+        self.steps[usize::from(vertical)].get_or_init(|| steps);
     }
 
     /// A row, padded.

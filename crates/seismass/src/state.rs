@@ -1,6 +1,7 @@
 //! The state of a run: drifts, drift rates, spring and block machines, and what one sample interval does to them.
 
 use std::mem::take;
+use std::rc::Rc;
 
 use crate::STANDARD_GRAVITY;
 use crate::bounds::{Bounds, Set, first};
@@ -136,6 +137,16 @@ impl Ranges {
             store(&highs, high);
             self.suspects[which] = suspects & first(self.storeys);
         }
+    }
+
+    /// Keeps ranges, and which of them come to their bounds.
+    #[inline(always)]
+    pub(crate) fn keep<V: Vector, const K: usize>(&mut self, ranges: &[[[V; K]; 2]; 3], suspects: [Set; 3]) {
+        for (bounds, ranges) in self.bounds.iter_mut().zip(ranges) {
+            store(&ranges[0], &mut bounds[0]);
+            store(&ranges[1], &mut bounds[1]);
+        }
+        self.suspects = suspects;
     }
 
     #[inline]
@@ -275,8 +286,9 @@ pub(crate) struct State<'a> {
     pub(crate) airborne: bool,
     /// Whether a block slides.
     pub(crate) is_sliding: bool,
-    /// Index of the regime in the cache.
-    pub(crate) regime: usize,
+    /// The regime, and its index in the cache.
+    pub(crate) regime: Rc<Regime>,
+    pub(crate) entry: usize,
     /// Force of the springs at their bases on each floor (N).
     pub(crate) spring_load: Padded,
     /// Friction on each floor per unit contact force: sum of sign mu_k m over its sliding blocks (kg).
@@ -340,7 +352,8 @@ impl<'a> State<'a> {
             motions,
             airborne: false,
             is_sliding: false,
-            regime: 0,
+            regime: Rc::default(),
+            entry: 0,
             spring_load: zero(),
             friction: zero(),
             stuck_mu: vec![f64::INFINITY; n + 1],
@@ -376,7 +389,7 @@ impl<'a> State<'a> {
     /// The present regime.
     #[inline]
     pub(crate) fn regime(&self) -> &Regime {
-        self.cache.regime(self.regime)
+        &self.regime
     }
 
     /// Whether nothing moves and no spring is deformed.
@@ -461,8 +474,8 @@ impl<'a> State<'a> {
     fn find_regime(&mut self) {
         let (model, springs, stuck_mass) = (self.model, &self.springs, &self.stuck_mass);
         let form = || Regime::new(model, |i| springs[i].yielded(), stuck_mass);
-        let (regime, known) = self.cache.enter(&self.key, form);
-        self.regime = regime;
+        let (entry, known) = self.cache.enter(&self.key, form);
+        (self.regime, self.entry) = (Rc::clone(self.cache.regime(entry)), entry);
         if known {
             self.regimes.1 += 1;
         } else {
@@ -513,12 +526,10 @@ impl<'a> State<'a> {
     fn refresh_singly(&mut self, tau: f64) {
         let n = self.storeys();
         self.set_drive(tau);
-        let regime = self.cache.regime(self.regime);
-        regime.accelerations(self.model, &self.x, &self.v, &self.drive.load, &mut self.a[..n]);
+        self.regime.accelerations(self.model, &self.x, &self.v, &self.drive.load, &mut self.a[..n]);
         self.refresh_drift_accelerations(self.drive.ground);
         let slope = &self.drive.load_slope;
-        let regime = self.cache.regime(self.regime);
-        regime.accelerations(self.model, &self.v, &self.drift_acceleration, slope, &mut self.jerk[..n]);
+        self.regime.accelerations(self.model, &self.v, &self.drift_acceleration, slope, &mut self.jerk[..n]);
     }
 
     /// Adds the changes of the present series to drifts and drift rates; if the time of its end, `tau`, is given,
@@ -557,16 +568,15 @@ impl<'a> State<'a> {
     /// Forms the series over `h` from `tau`, where accelerations and their rates must be those of the state.
     #[inline(always)]
     pub(crate) fn form_series<V: Vector, const K: usize>(&mut self, tau: f64, h: f64) {
-        let by_table = self.cache.prepare_table(self.regime, self.model, self.vertical);
+        let by_table = self.cache.prepare_table(self.entry, self.model, self.vertical);
         if by_table {
             self.set_ground_drive(tau);
         } else {
             self.set_drive(tau);
         }
         let start = Start { x: &self.x, v: &self.v, a: &self.a, jerk: &self.jerk };
-        let regime = self.cache.regime(self.regime);
-        let table = regime.steps.as_ref().and_then(|steps| steps.table.as_ref()).filter(|_| by_table);
-        self.series.form::<V, K>(self.model, (regime, table), &start, &self.drive, h);
+        let table = self.regime.steps(self.vertical).and_then(|steps| steps.table.as_ref()).filter(|_| by_table);
+        self.series.form::<V, K>(self.model, (&self.regime, table), &start, &self.drive, h);
     }
 
     /// Vectors of storeys: `K`, or as many as there are where the most do not hold them.
@@ -608,7 +618,7 @@ impl<'a> State<'a> {
             square += jerk * jerk + q * q;
         }
         self.bound_derivatives(square);
-        let regime = self.cache.regime(self.regime);
+        let regime = &self.regime;
         let h = self.series.h();
         let margins = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration].map(|row| regime.row(row));
         let [dx, dv] = self.series.changes().map(|changes| &changes[..n]);
@@ -757,7 +767,7 @@ for_each_path! {
 
 #[inline(always)]
 fn turn_by_path<V: Vector>(state: &mut State, change: f64) {
-    let inverse_mass = lanes(state.cache.regime(state.regime).row(Row::InverseMass));
+    let inverse_mass = lanes(state.regime.row(Row::InverseMass));
     turned::<V>(&mut state.jerk, lanes(&state.friction), inverse_mass, change);
 }
 
@@ -786,7 +796,7 @@ fn refresh_by_path<V: Vector, const K: usize>(state: &mut State, tau: f64) {
 
 #[inline(always)]
 fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
-    let operator = Operator::<V, K>::new(state.model, state.cache.regime(state.regime));
+    let operator = Operator::<V, K>::new(state.model, &state.regime);
     let inside: [V; K] = load(&state.model.lanes.inside);
     let (x, v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
     let (mut forces, friction): ([V; K], [V; K]) = (load(&state.spring_load), load(&state.friction));
@@ -866,7 +876,7 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State) {
     }
     let contact = V::splat(state.drive.least_contact(h));
     let bounds = BoundsInLanes::of(state);
-    state.ranges.form([&start, &end], (state.cache.regime(state.regime), h), (&bounds, contact));
+    state.ranges.form([&start, &end], (&state.regime, h), (&bounds, contact));
 }
 
 #[cfg(test)]

@@ -208,8 +208,7 @@ impl<S: Scheme> Run<'_, S> {
         }
         self.advance_blocks(tau, h);
         let state = &mut self.state;
-        let regime = state.cache.regime(state.regime);
-        regime.accelerations(state.model, &state.x, &state.v, &state.drive.load, &mut state.a[..n]);
+        state.regime.accelerations(state.model, &state.x, &state.v, &state.drive.load, &mut state.a[..n]);
         Ok(())
     }
 
@@ -219,7 +218,7 @@ impl<S: Scheme> Run<'_, S> {
         let singular = || Error::SingularStep { time };
         let start = &self.start;
         if whole {
-            let index = self.state.regime;
+            let index = self.state.entry;
             if self.maps.len() <= index {
                 self.maps.resize_with(index + 1, || None);
             }
@@ -283,7 +282,7 @@ fn drifts<'s>(state: &'s State) -> impl ExactSizeIterator<Item = f64> + 's {
 fn load(state: &mut State, tau: f64, q: &mut [f64]) {
     state.set_drive(tau);
     let mut below = state.drive.ground;
-    let regime = state.cache.regime(state.regime);
+    let regime = &state.regime;
     for i in 0..q.len() {
         let a = state.drive.load[i] * regime.row(Row::InverseMass)[i];
         q[i] = a - below;
