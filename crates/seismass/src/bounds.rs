@@ -69,9 +69,10 @@ impl Bounds {
 
     /// Follows a change of a storey's spring: drift coordinates between which no guard falls, and the sign of its forces
     /// if it is plastic.
-    pub(crate) fn follow_spring(&mut self, i: usize, guarded: (f64, f64), plastic: Option<Sign>) {
-        (self.guarded[0][i], self.guarded[1][i]) = guarded;
-        self.plastic[i] = plastic.map_or(0.0, Sign::factor);
+    #[inline]
+    pub(crate) fn follow_spring<const K: usize>(&mut self, i: usize, guarded: (f64, f64), plastic: Option<Sign>) {
+        (self.guarded[0].numbers_mut::<K>()[i], self.guarded[1].numbers_mut::<K>()[i]) = guarded;
+        self.plastic.numbers_mut::<K>()[i] = plastic.map_or(0.0, Sign::factor);
         self.is_stale = true;
     }
 

@@ -1,5 +1,7 @@
 //! Guards of all state machines as polynomials, the first that falls, and what it does (`numerics`, section 5).
 
+use std::mem::replace;
+
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
 use crate::bounds::{Set, members};
@@ -219,7 +221,7 @@ impl State<'_> {
         first: &mut First,
         isolated: &mut usize,
     ) {
-        let (low, high) = self.ranges.drift(i);
+        let (low, high) = self.ranges.drift::<K>(i);
         let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
         let (sign, reached, of_yield, of_collapse) = match is_positive {
             true => (Sign::Positive, high, yields.1, collapses.1),
@@ -234,7 +236,7 @@ impl State<'_> {
     #[inline(always)]
     fn rate_guard<V: Vector, const K: usize>(&self, i: usize, first: &mut First, isolated: &mut usize) {
         let Some(sign) = self.springs[i].plastic() else { return };
-        let (low, high) = self.ranges.rate(i);
+        let (low, high) = self.ranges.rate::<K>(i);
         if if sign == Sign::Positive { low > 0.0 } else { high < 0.0 } {
             return;
         }
@@ -258,11 +260,13 @@ impl State<'_> {
 
     /// Whether a drift coordinate, times `sign`, stays below a limit over the present series, but for its start.
     #[inline(always)]
-    fn stays_below(&self, i: usize, limit: f64, sign: Sign) -> bool {
-        let ([dx, dv], factor, third) = (self.series.changes(), sign.factor(), self.series.h() * THIRD);
+    fn stays_below<const K: usize>(&self, i: usize, limit: f64, sign: Sign) -> bool {
+        let (factor, third) = (sign.factor(), self.series.h() * THIRD);
+        let [dx, dv] = self.series.changes().map(|changes| changes.numbers::<K>()[i]);
+        let (x, v) = (self.x.numbers::<K>()[i], self.v.numbers::<K>()[i]);
         let margin = self.ranges.remainder * self.regime().row(Row::FourthOfDrift)[i];
         let of = |x: f64, v: f64| [limit - factor * x, -factor * v];
-        stays_above_zero(of(self.x[i], self.v[i]), of(self.x[i] + dx[i], self.v[i] + dv[i]), third, margin, 0.0)
+        stays_above_zero(of(x, v), of(x + dx, v + dv), third, margin, 0.0)
     }
 
     /// Considers the guard of a storey's drift coordinate that, times `sign`, must stay below `limit`, if it may have
@@ -277,13 +281,13 @@ impl State<'_> {
         first: &mut First,
         isolated: &mut usize,
     ) {
-        if reached < limit || limit == f64::INFINITY || self.stays_below(i, limit, sign) {
+        if reached < limit || limit == f64::INFINITY || self.stays_below::<K>(i, limit, sign) {
             return;
         }
         *isolated += 1;
         let mut p = self.series.zeros();
         let size = self.series.drift::<V, K>(i, -sign.factor(), &mut p);
-        p.coefficients_mut()[0] = limit - sign.factor() * self.x[i];
+        p.coefficients_mut()[0] = limit - sign.factor() * self.x.numbers::<K>()[i];
         let range = self.model.laws[i].yield_range(self.springs[i].yielded());
         first.consider::<V>(guard, &p, ROUNDING * (limit.abs() + size + range));
     }
@@ -312,7 +316,7 @@ impl State<'_> {
     ) {
         let contact_change = self.drive.contact_slope * self.series.h();
         let (contact, mu) = (self.drive.contact, self.stuck_mu[floor]);
-        let (low, high) = self.acceleration_range(floor);
+        let (low, high) = self.acceleration_range::<K>(floor);
         let reached = [(Sign::Positive, high), (Sign::Negative, -low)];
         if reached.iter().all(|&(_, size)| size < mu * least_contact) {
             return;
@@ -362,9 +366,9 @@ impl State<'_> {
     }
 
     /// Range of the absolute acceleration of a floor, or of the ground (0), over the present series.
-    fn acceleration_range(&self, floor: usize) -> (f64, f64) {
+    fn acceleration_range<const K: usize>(&self, floor: usize) -> (f64, f64) {
         match floor.checked_sub(1) {
-            Some(i) => self.ranges.acceleration(i),
+            Some(i) => self.ranges.acceleration::<K>(i),
             None => {
                 let (start, end) = (self.drive.ground, self.drive.ground + self.drive.ground_slope * self.series.h());
                 (start.min(end), start.max(end))
@@ -383,7 +387,7 @@ impl State<'_> {
         let (a, margin) = match law.floor.checked_sub(1) {
             Some(i) => {
                 let margin = self.ranges.remainder * self.regime().row(Row::ThirdOfAcceleration)[i];
-                ((self.a[i], self.series.accelerations_at_end()[0][i]), margin)
+                ((self.a.numbers::<K>()[i], self.series.accelerations_at_end()[0].numbers::<K>()[i]), margin)
             }
             None => ((self.drive.ground, self.drive.ground + self.drive.ground_slope * h), 0.0),
         };
@@ -415,21 +419,21 @@ impl State<'_> {
 
     /// Carries out an event at `tau`, to which the state has been advanced, accelerations included where blocks decide.
     /// What happened is appended to `log`; accelerations are those before it.
-    pub(crate) fn carry_out(&mut self, guard: Guard, tau: f64, log: &mut Vec<Event>) -> Outcome {
+    pub(crate) fn carry_out<const K: usize>(&mut self, guard: Guard, tau: f64, log: &mut Vec<Event>) -> Outcome {
         let time = self.interval.start + tau;
         match guard {
             Guard::Collapse { storey } => return Outcome::Collapse(storey),
             Guard::Yield { storey, sign } => {
-                let kind = self.springs[storey].yield_next(&self.model.laws[storey], self.x[storey], sign);
-                self.x[storey] = 0.0;
+                let x = replace(&mut self.x.numbers_mut::<K>()[storey], 0.0);
+                let kind = self.springs[storey].yield_next(&self.model.laws[storey], x, sign);
                 let element = self.springs[storey].yielded();
                 log.push(Event { time, kind, number: storey + 1, sign: sign.as_i8(), element });
             }
             Guard::Unload { storey } => {
                 let sign = self.springs[storey].plastic().map_or(0, Sign::as_i8);
-                let kind = self.springs[storey].unload(&self.model.laws[storey], self.x[storey]);
-                self.x[storey] = 0.0;
-                self.v[storey] = 0.0;
+                let x = replace(&mut self.x.numbers_mut::<K>()[storey], 0.0);
+                let kind = self.springs[storey].unload(&self.model.laws[storey], x);
+                self.v.numbers_mut::<K>()[storey] = 0.0;
                 log.push(Event { time, kind, number: storey + 1, sign, element: 0 });
             }
             Guard::Breakaway { floor, sign } => {
@@ -439,30 +443,30 @@ impl State<'_> {
                     .filter(|&j| self.motions[j].is_stuck())
                     .min_by(|&i, &j| self.model.blocks[i].mu_s.total_cmp(&self.model.blocks[j].mu_s));
                 if let Some(weakest) = weakest {
-                    self.settle_floor(floor, tau, Cause::Breakaway(weakest, sign), log);
+                    self.settle_floor::<K>(floor, tau, Cause::Breakaway(weakest, sign), log);
                 }
             }
             Guard::Arrival { block } => {
                 let floor = self.model.blocks[block].floor;
-                self.arrive_with(block, tau);
-                self.settle_floor(floor, tau, Cause::Other, log);
+                self.arrive_with::<K>(block, tau);
+                self.settle_floor::<K>(floor, tau, Cause::Other, log);
             }
-            Guard::Contact => self.change_contact(tau, log),
+            Guard::Contact => self.change_contact::<K>(tau, log),
         }
         match guard {
-            Guard::Yield { storey, .. } | Guard::Unload { storey } => self.enter_regime_of_spring(storey),
-            _ => self.enter_regime_of_blocks(),
+            Guard::Yield { storey, .. } | Guard::Unload { storey } => self.enter_regime_of_spring::<K>(storey),
+            _ => self.enter_regime_of_blocks::<K>(),
         }
         Outcome::Continue
     }
 
     /// Brings a block to rest, and those on its floor that arrive at the same instant: within rounding, or because they
     /// have moved as it does.
-    fn arrive_with(&mut self, block: usize, tau: f64) {
+    fn arrive_with<const K: usize>(&mut self, block: usize, tau: f64) {
         let arriving = self.motions[block];
         let BlockLaw { floor, mu_k, .. } = self.model.blocks[block];
         let contact = self.contact_at(tau);
-        let a = if floor > 0 { self.a[floor - 1] } else { self.interval.ground_at(tau) };
+        let a = if floor > 0 { self.a.numbers::<K>()[floor - 1] } else { self.interval.ground_at(tau) };
         for position in 0..self.model.on_floor[floor].len() {
             let j = self.model.on_floor[floor][position];
             let BlockMotion { state, velocity, .. } = self.motions[j];
@@ -478,8 +482,8 @@ impl State<'_> {
         }
     }
 
-    fn settle_floor(&mut self, floor: usize, tau: f64, cause: Cause, log: &mut Vec<Event>) {
-        let (demand, contact, model) = (self.demand(floor, tau), self.contact_at(tau), self.model);
+    fn settle_floor<const K: usize>(&mut self, floor: usize, tau: f64, cause: Cause, log: &mut Vec<Event>) {
+        let (demand, contact, model) = (self.demand::<K>(floor, tau), self.contact_at(tau), self.model);
         let transitions = &mut self.transitions;
         transitions.clear();
         settle(demand, &model.blocks, &mut self.motions, &model.on_floor[floor], contact, cause, transitions);
@@ -494,7 +498,7 @@ impl State<'_> {
     }
 
     /// All blocks leave or regain contact.
-    fn change_contact(&mut self, tau: f64, log: &mut Vec<Event>) {
+    fn change_contact<const K: usize>(&mut self, tau: f64, log: &mut Vec<Event>) {
         let time = self.interval.start + tau;
         let kind = if self.airborne { EventKind::Land } else { EventKind::Lift };
         for (j, motion) in self.motions.iter_mut().enumerate() {
@@ -512,17 +516,17 @@ impl State<'_> {
         self.airborne = !self.airborne;
         if kind == EventKind::Land {
             // Contact has only just returned: the accelerations decide, with no friction yet.
-            self.enter_regime_of_blocks();
+            self.enter_regime_of_blocks::<K>();
             self.refresh_accelerations(tau);
-            self.settle_all(tau, log);
+            self.settle_all::<K>(tau, log);
         }
     }
 
     /// Lets every floor decide, at the start of a run or at a landing.
-    pub(crate) fn settle_all(&mut self, tau: f64, log: &mut Vec<Event>) {
+    pub(crate) fn settle_all<const K: usize>(&mut self, tau: f64, log: &mut Vec<Event>) {
         for floor in 0..self.model.on_floor.len() {
             if self.model.on_floor[floor].iter().any(|&j| self.motions[j].is_stuck()) {
-                self.settle_floor(floor, tau, Cause::Other, log);
+                self.settle_floor::<K>(floor, tau, Cause::Other, log);
             }
         }
     }

@@ -248,7 +248,7 @@ impl Observer {
                 let steady = forward | backward | state.bounds.plastic_in::<V, K>(k);
                 for lane in members(suspects & !Set::from(steady)) {
                     let i = WIDTH * k + lane;
-                    let (low, high) = state.ranges.drift(i);
+                    let (low, high) = state.ranges.drift::<K>(i);
                     if self.drift_may_peak(state, i, low, high) {
                         *isolated += 1;
                         self.take_turns_of_drift::<V, K>(state, i, start, end);
@@ -259,7 +259,7 @@ impl Observer {
             if suspects != 0 {
                 for lane in members(suspects & !Set::from(state.steady::<V, K>(k))) {
                     let i = WIDTH * k + lane;
-                    let (low, high) = state.ranges.acceleration(i);
+                    let (low, high) = state.ranges.acceleration::<K>(i);
                     if self.acceleration_may_peak(i, low, high) {
                         *isolated += 1;
                         self.take_turns_of_acceleration::<V, K>(state, i, start, end);

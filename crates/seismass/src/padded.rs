@@ -50,6 +50,18 @@ impl Padded {
         out
     }
 
+    /// The numbers of a scene of `K` vectors: where that is known, nothing has to be asked.
+    #[inline(always)]
+    pub(crate) fn numbers<const K: usize>(&self) -> &[f64] {
+        if K == 1 { &self.few } else { &self.many }
+    }
+
+    /// The same to be changed.
+    #[inline(always)]
+    pub(crate) fn numbers_mut<const K: usize>(&mut self) -> &mut [f64] {
+        if K == 1 { &mut self.few } else { &mut self.many }
+    }
+
     /// Vector `k` of a scene of `K` vectors.
     #[inline(always)]
     pub(crate) fn vector<V: Vector, const K: usize>(&self, k: usize) -> V {

@@ -20,7 +20,7 @@ use crate::events::NO_CONTACT;
 use crate::friction::BlockMotion;
 use crate::histories::RowInLanes;
 use crate::lanes::{
-    FAR, Vector, WIDEST, WIDTH, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
+    FAR, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
 };
 use crate::model::Model;
 use crate::observe::Observer;
@@ -202,44 +202,45 @@ impl Walk {
     }
 
     /// Takes up the sliding blocks at a sample.
-    fn begin(&mut self, state: &State, sample: usize) {
+    fn begin<const K: usize>(&mut self, state: &State, sample: usize) {
         for (_, layer, lane) in self.on_floors.drain(..) {
-            self.layers[layer].leave(lane);
+            self.layers[layer].leave::<K>(lane);
         }
         self.used = 0;
         self.renews_bounds = true;
         self.beaten.forget_turned();
         self.on_ground.begin(sample, state.stuck_mu[0]);
         if state.is_sliding {
-            self.take_blocks(state);
+            self.take_blocks::<K>(state);
         }
     }
 
-    fn take_blocks(&mut self, state: &State) {
+    #[inline(always)]
+    fn take_blocks<const K: usize>(&mut self, state: &State) {
         for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
             let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
             let friction = sign * law.mu_k;
-            let BlockMotion { velocity, slip, .. } = *motion;
             let Some(lane) = law.floor.checked_sub(1) else {
+                let BlockMotion { velocity, slip, .. } = *motion;
                 self.on_ground.push(GroundBlock { block, friction, sign, velocity, slip });
                 continue;
             };
-            let free = self.layers.iter().position(|layer| layer.is_free(lane));
+            let free = self.layers.iter().position(|layer| layer.is_free::<K>(lane));
             let which = free.unwrap_or(self.layers.len());
             if free.is_none() {
                 self.layers.push(Layer::new(state.model));
             }
-            self.layers[which].take(lane, sign, friction, velocity, slip);
+            self.layers[which].take::<K>(lane, sign, friction, motion);
             self.on_floors.push((block, which, lane));
             self.used = self.used.max(which + 1);
         }
     }
 
     /// Brings the sliding blocks up to date.
-    fn put_blocks(&self, motions: &mut [BlockMotion]) {
+    #[inline(always)]
+    fn put_blocks<const K: usize>(&self, motions: &mut [BlockMotion]) {
         for &(block, layer, lane) in &self.on_floors {
-            let (layer, motion) = (&self.layers[layer], &mut motions[block]);
-            (motion.velocity, motion.slip) = (layer.velocity[lane], layer.slip[lane]);
+            (motions[block].velocity, motions[block].slip) = self.layers[layer].motion::<K>(lane);
         }
         for ground in self.on_ground.sliding() {
             (motions[ground.block].velocity, motions[ground.block].slip) = (ground.velocity, ground.slip);
@@ -525,7 +526,7 @@ fn run(
     let drive = |i: usize| {
         (Linear { start: samples[i], end: samples[i + 1] }, Linear { start: contact(i), end: contact(i + 1) })
     };
-    walk.begin(state, first);
+    by_width!(state.model.width, K => walk.begin::<K>(state, first));
     if let Some(recorder) = &mut observer.histories {
         recorder.take_up(state);
     }
@@ -574,7 +575,7 @@ fn run(
         walk.isolated += (turns[0].count_ones() + turns[1].count_ones()) as usize;
     }
     walk.on_ground.go_back(reached, h, drive);
-    walk.put_blocks(&mut state.motions);
+    by_width!(state.model.width, K => walk.put_blocks::<K>(&mut state.motions));
     walk.beaten.take_followed(state, observer, reached as f64 * h);
     reached
 }

@@ -208,7 +208,7 @@ impl Run<'_> {
         state.enter_regime();
         state.refresh_accelerations(0.0);
         if !state.airborne {
-            state.settle_all(0.0, &mut self.log);
+            by_width!(state.model.width, K => state.settle_all::<K>(0.0, &mut self.log));
             state.enter_regime();
             state.refresh_accelerations(0.0);
         }
@@ -269,6 +269,7 @@ impl Run<'_> {
 
     /// Takes plain steps from interval `i` as far as nothing has to be looked at between; returns the interval reached,
     /// and whether that one is not plain.
+    #[inline(always)]
     fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> (usize, bool) {
         let last = motion.acceleration().len() - 1;
         let cut = if i < quiet_from { quiet_from.min(i + STEPS_PER_POLL) } else { i + STEPS_OF_QUIET };
@@ -344,7 +345,7 @@ impl Run<'_> {
             observer.take_accelerations_in_lanes::<V, K>(state, time);
         }
         let logged = self.log.len();
-        let outcome = state.carry_out(guard, tau, &mut self.log);
+        let outcome = state.carry_out::<K>(guard, tau, &mut self.log);
         if outcome == Outcome::Continue {
             state.refresh::<V, K>(tau);
         }

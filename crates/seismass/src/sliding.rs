@@ -3,6 +3,7 @@
 use std::mem::swap;
 
 use crate::bounds::against;
+use crate::friction::BlockMotion;
 use crate::lanes::{FAR, Vector, load};
 use crate::model::Model;
 use crate::padded::Padded;
@@ -40,18 +41,33 @@ impl Layer {
     }
 
     /// Whether no block slides in a lane.
-    pub(crate) fn is_free(&self, lane: usize) -> bool {
-        self.sign[lane] == 0.0
+    #[inline(always)]
+    pub(crate) fn is_free<const K: usize>(&self, lane: usize) -> bool {
+        self.sign.numbers::<K>()[lane] == 0.0
     }
 
-    pub(crate) fn take(&mut self, lane: usize, sign: f64, friction: f64, velocity: f64, slip: f64) {
-        (self.sign[lane], self.turn[lane], self.friction[lane]) = (sign, 0.0, friction);
-        (self.velocity[lane], self.slip[lane]) = (velocity, slip);
+    #[inline(always)]
+    pub(crate) fn take<const K: usize>(&mut self, lane: usize, sign: f64, friction: f64, motion: &BlockMotion) {
+        self.set::<K>(lane, [sign, 0.0, friction, motion.velocity, motion.slip]);
     }
 
-    pub(crate) fn leave(&mut self, lane: usize) {
-        (self.sign[lane], self.turn[lane], self.friction[lane]) = (0.0, FAR, 0.0);
-        (self.velocity[lane], self.slip[lane]) = (0.0, 0.0);
+    #[inline(always)]
+    pub(crate) fn leave<const K: usize>(&mut self, lane: usize) {
+        self.set::<K>(lane, [0.0, FAR, 0.0, 0.0, 0.0]);
+    }
+
+    #[inline(always)]
+    fn set<const K: usize>(&mut self, lane: usize, values: [f64; 5]) {
+        let Self { sign, turn, friction, velocity, slip, .. } = self;
+        for (numbers, value) in [sign, turn, friction, velocity, slip].into_iter().zip(values) {
+            numbers.numbers_mut::<K>()[lane] = value;
+        }
+    }
+
+    /// Velocity and slip in a lane.
+    #[inline(always)]
+    pub(crate) fn motion<const K: usize>(&self, lane: usize) -> (f64, f64) {
+        (self.velocity.numbers::<K>()[lane], self.slip.numbers::<K>()[lane])
     }
 
     /// Takes the present step.

@@ -149,10 +149,10 @@ impl Ranges {
         self.suspects = suspects;
     }
 
-    #[inline]
-    fn of(&self, which: usize, i: usize) -> (f64, f64) {
+    #[inline(always)]
+    fn of<const K: usize>(&self, which: usize, i: usize) -> (f64, f64) {
         let [low, high] = &self.bounds[which];
-        (low[i], high[i])
+        (low.numbers::<K>()[i], high.numbers::<K>()[i])
     }
 
     #[inline(always)]
@@ -191,21 +191,21 @@ impl Ranges {
     }
 
     /// Range of the drift coordinate of storey `i`.
-    #[inline]
-    pub(crate) fn drift(&self, i: usize) -> (f64, f64) {
-        self.of(0, i)
+    #[inline(always)]
+    pub(crate) fn drift<const K: usize>(&self, i: usize) -> (f64, f64) {
+        self.of::<K>(0, i)
     }
 
     /// Range of the drift rate of storey `i`.
-    #[inline]
-    pub(crate) fn rate(&self, i: usize) -> (f64, f64) {
-        self.of(1, i)
+    #[inline(always)]
+    pub(crate) fn rate<const K: usize>(&self, i: usize) -> (f64, f64) {
+        self.of::<K>(1, i)
     }
 
     /// Range of the absolute acceleration of floor `i`.
-    #[inline]
-    pub(crate) fn acceleration(&self, i: usize) -> (f64, f64) {
-        self.of(2, i)
+    #[inline(always)]
+    pub(crate) fn acceleration<const K: usize>(&self, i: usize) -> (f64, f64) {
+        self.of::<K>(2, i)
     }
 }
 
@@ -399,50 +399,60 @@ impl<'a> State<'a> {
 
     /// Follows all state machines: bounds, loads, and the regime.
     pub(crate) fn enter_regime(&mut self) {
-        for i in 0..self.storeys() {
-            self.follow_spring(i);
-        }
-        self.follow_springs();
-        self.follow_blocks();
+        by_width!(self.model.width, K => {
+            for i in 0..self.storeys() {
+                self.follow_spring::<K>(i);
+            }
+            self.follow_springs::<K>();
+            self.follow_blocks::<K>();
+        });
         self.find_regime();
     }
 
     /// Follows a change of one storey's spring.
-    pub(crate) fn enter_regime_of_spring(&mut self, i: usize) {
-        self.follow_spring(i);
-        self.follow_springs();
+    #[inline(always)]
+    pub(crate) fn enter_regime_of_spring<const K: usize>(&mut self, i: usize) {
+        self.follow_spring::<K>(i);
+        self.follow_springs::<K>();
         self.find_regime();
     }
 
     /// Follows changes of blocks.
-    pub(crate) fn enter_regime_of_blocks(&mut self) {
-        self.follow_blocks();
+    #[inline(always)]
+    pub(crate) fn enter_regime_of_blocks<const K: usize>(&mut self) {
+        self.follow_blocks::<K>();
         self.find_regime();
     }
 
-    fn follow_spring(&mut self, i: usize) {
+    #[inline(always)]
+    fn follow_spring<const K: usize>(&mut self, i: usize) {
         let (spring, law) = (&self.springs[i], &self.model.laws[i]);
         self.yield_bounds[i] = spring.yield_bounds(law);
         let (limit, base) = (law.collapse_drift, spring.drift(0.0));
         self.collapse_bounds[i] = (-limit - base, limit - base);
-        self.base_drift[i] = base;
-        self.base_force[i] = spring.base_force(law);
-        self.base_load[i] = spring.base_load(law);
+        self.base_drift.numbers_mut::<K>()[i] = base;
+        self.base_force.numbers_mut::<K>()[i] = spring.base_force(law);
+        self.base_load.numbers_mut::<K>()[i] = spring.base_load(law);
         let plastic = spring.plastic();
-        self.bounds.follow_spring(i, self.guarded_drift(i), plastic);
+        self.bounds.follow_spring::<K>(i, self.guarded_drift(i), plastic);
         set_bits(&mut self.key, 2 * i, 0b11, u64::from(spring.yielded()));
     }
 
-    fn follow_springs(&mut self) {
+    #[inline(always)]
+    fn follow_springs<const K: usize>(&mut self) {
+        let n = self.storeys();
         let mut above = 0.0;
-        for (load, &base) in self.spring_load[..self.model.storeys()].iter_mut().zip(&self.base_load).rev() {
+        let bases = &self.base_load.numbers::<K>()[..n];
+        for (load, &base) in self.spring_load.numbers_mut::<K>()[..n].iter_mut().zip(bases).rev() {
             *load = above - base;
             above = base;
         }
     }
 
-    fn follow_blocks(&mut self) {
-        self.friction.fill(0.0);
+    #[inline(always)]
+    fn follow_blocks<const K: usize>(&mut self) {
+        let friction = self.friction.numbers_mut::<K>();
+        friction.fill(0.0);
         self.stuck_mass.fill(0.0);
         self.stuck_mu.fill(f64::INFINITY);
         self.is_sliding = false;
@@ -460,13 +470,13 @@ impl<'a> State<'a> {
                 BlockState::Sliding(sign) => {
                     self.is_sliding = true;
                     if floor > 0 {
-                        self.friction[floor - 1] += sign.factor() * law.mu_k * law.mass;
+                        friction[floor - 1] += sign.factor() * law.mu_k * law.mass;
                     }
                 }
                 BlockState::Airborne => {}
             }
         }
-        for (bound, mu) in self.bounds.stuck_mu.iter_mut().zip(&self.stuck_mu[1..]) {
+        for (bound, mu) in self.bounds.stuck_mu.numbers_mut::<K>().iter_mut().zip(&self.stuck_mu[1..]) {
             *bound = mu.min(FAR);
         }
     }
@@ -702,7 +712,7 @@ impl<'a> State<'a> {
     }
 
     /// What floor `floor` (0: the ground) asks of its blocks at `tau`, where its acceleration must be that of the state.
-    pub(crate) fn demand(&self, floor: usize, tau: f64) -> Demand {
+    pub(crate) fn demand<const K: usize>(&self, floor: usize, tau: f64) -> Demand {
         if floor == 0 {
             return Demand::Ground { acceleration: self.interval.ground_at(tau) };
         }
@@ -710,7 +720,7 @@ impl<'a> State<'a> {
         let contact = self.contact_at(tau);
         let mass = self.regime().row(Row::Mass)[i];
         Demand::Floor {
-            force: self.a[i] * mass - self.friction[i] * contact,
+            force: self.a.numbers::<K>()[i] * mass - self.friction.numbers::<K>()[i] * contact,
             size: self.acceleration_size(floor, contact) * mass,
             mass: self.model.mass[i],
         }
@@ -725,6 +735,7 @@ impl<'a> State<'a> {
     }
 
     /// Moves on to the interval between samples `i` and `i + 1` of a motion, or to a point at the last sample.
+    #[inline(always)]
     pub(crate) fn set_interval(&mut self, motion: &Motion, i: usize) {
         let vertical = motion.vertical().filter(|_| self.vertical);
         self.interval = interval(motion, vertical, i);
@@ -732,6 +743,7 @@ impl<'a> State<'a> {
 
     /// Moves on to the interval between samples `i` and `i + 1` of a motion, at whose start the state is: with vertical
     /// motion, the rates of accelerations turn there, as they do within a run of plain steps.
+    #[inline(always)]
     pub(crate) fn begin_interval(&mut self, motion: &Motion, i: usize) {
         self.set_interval(motion, i);
         if self.vertical {
@@ -741,6 +753,7 @@ impl<'a> State<'a> {
     }
 }
 
+#[inline(always)]
 fn interval(motion: &Motion, vertical: Option<&[f64]>, i: usize) -> Interval {
     let last = motion.acceleration().len() - 1;
     let pair = |samples: &[f64]| (samples[i], samples[(i + 1).min(last)] - samples[i]);

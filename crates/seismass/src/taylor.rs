@@ -493,7 +493,7 @@ impl Series {
         let once = factor * self.h;
         let twice = once * self.h;
         let terms = [0, 1].map(|k| twice * INVERSE_PAIRS[k + 2] * difference.term(k));
-        let first = V::of([factor * self.x[i], once * self.v[i], terms[0], terms[1]]);
+        let first = V::of([factor * self.x.numbers::<K>()[i], once * self.v.numbers::<K>()[i], terms[0], terms[1]]);
         by_length!(p, F => Self::integrate::<V, F>(first, &difference, 2, &INVERSE_PAIRS, twice, p))
     }
 
@@ -503,7 +503,7 @@ impl Series {
         let difference = self.difference::<K>(i);
         let once = factor * self.h;
         let terms = [0, 1, 2].map(|k| once * INVERSE[k + 1] * difference.term(k));
-        let first = V::of([factor * self.v[i], terms[0], terms[1], terms[2]]);
+        let first = V::of([factor * self.v.numbers::<K>()[i], terms[0], terms[1], terms[2]]);
         by_length!(p, F => Self::integrate::<V, F>(first, &difference, 1, &INVERSE, once, p))
     }
 
@@ -539,7 +539,7 @@ impl Series {
     #[inline]
     pub(crate) fn terms_and_integrals<const K: usize>(&self, i: usize) -> ([f64; 2], [f64; 2]) {
         let terms = self.a.storey::<K>(i);
-        ([terms.at(0), terms.at(1)], [self.integrals[0][i], self.integrals[1][i]])
+        ([terms.at(0), terms.at(1)], [0, 1].map(|which| self.integrals[which].numbers::<K>()[i]))
     }
 
     /// Changes of drifts and drift rates up to the place, padded.

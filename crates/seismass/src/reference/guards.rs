@@ -2,6 +2,7 @@
 
 use super::Events;
 use crate::events::{Guard, Outcome};
+use crate::lanes::by_width;
 use crate::response::Event;
 use crate::state::State;
 use crate::storey::Sign;
@@ -79,7 +80,7 @@ pub(super) fn carry_out(state: &mut State, guard: Guard, tau: f64, events: Event
         (Guard::Unload { storey }, Events::AtStepEnds) => Some((storey, state.v[storey])),
         _ => None,
     };
-    let outcome = state.carry_out(guard, tau, log);
+    let outcome = by_width!(state.model.width, K => state.carry_out::<K>(guard, tau, log));
     if let Some((storey, rate)) = overshoot {
         state.v[storey] = rate;
     }

@@ -13,6 +13,7 @@ use super::scheme::{Columns, Scheme, StepMap, System};
 use super::{Error, Events};
 use crate::events::{Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
+use crate::lanes::by_width;
 use crate::model::Model;
 use crate::propagator::RegimeCache;
 use crate::regime::Row;
@@ -101,7 +102,7 @@ impl<S: Scheme> Run<'_, S> {
         }
         state.enter_regime();
         if !state.airborne {
-            state.settle_all(0.0, &mut self.log);
+            by_width!(state.model.width, K => state.settle_all::<K>(0.0, &mut self.log));
             state.enter_regime();
             self.history.events += self.log.len();
             self.log.clear();
