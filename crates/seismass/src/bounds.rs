@@ -69,10 +69,16 @@ impl Bounds {
 
     /// Follows a change of a storey's spring: drift coordinates between which no guard falls, and the sign of its forces
     /// if it is plastic.
-    #[inline]
-    pub(crate) fn follow_spring<const K: usize>(&mut self, i: usize, guarded: (f64, f64), plastic: Option<Sign>) {
-        (self.guarded[0].numbers_mut::<K>()[i], self.guarded[1].numbers_mut::<K>()[i]) = guarded;
-        self.plastic.numbers_mut::<K>()[i] = plastic.map_or(0.0, Sign::factor);
+    #[inline(always)]
+    pub(crate) fn follow_spring<V: Vector, const K: usize>(
+        &mut self,
+        i: usize,
+        guarded: (f64, f64),
+        plastic: Option<Sign>,
+    ) {
+        self.guarded[0].set_lane::<V, K>(i, guarded.0);
+        self.guarded[1].set_lane::<V, K>(i, guarded.1);
+        self.plastic.set_lane::<V, K>(i, plastic.map_or(0.0, Sign::factor));
         self.is_stale = true;
     }
 

@@ -1,12 +1,10 @@
 //! Guards of all state machines as polynomials, the first that falls, and what it does (`numerics`, section 5).
 
-use std::mem::replace;
-
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
 use crate::bounds::{Set, members};
 use crate::friction::{self, BlockLaw, BlockMotion, BlockState, Cause, settle};
-use crate::lanes::{FAR, Plain, Vector, WIDTH, by_width};
+use crate::lanes::{FAR, Plain, Vector, WIDTH, by_width, for_each_path};
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
 use crate::state::{State, THIRD, stays_above_zero};
@@ -127,6 +125,22 @@ impl First {
             *self = Self { place, guard: guard.packed() };
         }
     }
+}
+
+for_each_path! {
+    /// [`State::carry_out`] for what is not compiled for a path.
+    pub(crate) fn carry_out[K: usize](state: &mut State, guard: Guard, tau: f64, log: &mut Vec<Event>) -> Outcome
+        = carry_out_by_path
+}
+
+#[inline(always)]
+fn carry_out_by_path<V: Vector, const K: usize>(
+    state: &mut State,
+    guard: Guard,
+    tau: f64,
+    log: &mut Vec<Event>,
+) -> Outcome {
+    state.carry_out::<V, K>(guard, tau, log)
 }
 
 impl State<'_> {
@@ -419,23 +433,42 @@ impl State<'_> {
 
     /// Carries out an event at `tau`, to which the state has been advanced, accelerations included where blocks decide.
     /// What happened is appended to `log`; accelerations are those before it.
-    pub(crate) fn carry_out<const K: usize>(&mut self, guard: Guard, tau: f64, log: &mut Vec<Event>) -> Outcome {
+    #[inline(always)]
+    pub(crate) fn carry_out<V: Vector, const K: usize>(
+        &mut self,
+        guard: Guard,
+        tau: f64,
+        log: &mut Vec<Event>,
+    ) -> Outcome {
         let time = self.interval.start + tau;
         match guard {
             Guard::Collapse { storey } => return Outcome::Collapse(storey),
             Guard::Yield { storey, sign } => {
-                let x = replace(&mut self.x.numbers_mut::<K>()[storey], 0.0);
+                let x = self.x.take_lane::<V, K>(storey);
                 let kind = self.springs[storey].yield_next(&self.model.laws[storey], x, sign);
                 let element = self.springs[storey].yielded();
                 log.push(Event { time, kind, number: storey + 1, sign: sign.as_i8(), element });
+                self.enter_regime_of_spring::<V, K>(storey);
             }
             Guard::Unload { storey } => {
                 let sign = self.springs[storey].plastic().map_or(0, Sign::as_i8);
-                let x = replace(&mut self.x.numbers_mut::<K>()[storey], 0.0);
+                let x = self.x.take_lane::<V, K>(storey);
                 let kind = self.springs[storey].unload(&self.model.laws[storey], x);
-                self.v.numbers_mut::<K>()[storey] = 0.0;
+                self.v.set_lane::<V, K>(storey, 0.0);
                 log.push(Event { time, kind, number: storey + 1, sign, element: 0 });
+                self.enter_regime_of_spring::<V, K>(storey);
             }
+            _ => {
+                self.change_blocks::<K>(guard, tau, log);
+                self.enter_regime_of_blocks::<V, K>();
+            }
+        }
+        Outcome::Continue
+    }
+
+    /// What an event does to blocks.
+    fn change_blocks<const K: usize>(&mut self, guard: Guard, tau: f64, log: &mut Vec<Event>) {
+        match guard {
             Guard::Breakaway { floor, sign } => {
                 let weakest = self.model.on_floor[floor]
                     .iter()
@@ -452,12 +485,8 @@ impl State<'_> {
                 self.settle_floor::<K>(floor, tau, Cause::Other, log);
             }
             Guard::Contact => self.change_contact::<K>(tau, log),
+            Guard::Yield { .. } | Guard::Collapse { .. } | Guard::Unload { .. } => {}
         }
-        match guard {
-            Guard::Yield { storey, .. } | Guard::Unload { storey } => self.enter_regime_of_spring::<K>(storey),
-            _ => self.enter_regime_of_blocks::<K>(),
-        }
-        Outcome::Continue
     }
 
     /// Brings a block to rest, and those on its floor that arrive at the same instant: within rounding, or because they
@@ -516,7 +545,7 @@ impl State<'_> {
         self.airborne = !self.airborne;
         if kind == EventKind::Land {
             // Contact has only just returned: the accelerations decide, with no friction yet.
-            self.enter_regime_of_blocks::<K>();
+            self.enter_regime();
             self.refresh_accelerations(tau);
             self.settle_all::<K>(tau, log);
         }

@@ -58,6 +58,13 @@ impl PeakLanes {
         beats
     }
 
+    /// [`PeakLanes::take`] within the code of a path, of which vectors are read soon.
+    #[inline(always)]
+    fn take_lane<V: Vector, const K: usize>(&mut self, i: usize, value: f64, time: f64) -> bool {
+        let k = if K == 1 { 0 } else { i / WIDTH };
+        self.take_vector::<V, K>(k, V::splat(0.0).with(1 << (i % WIDTH), V::splat(value)), time) != 0
+    }
+
     /// Takes the values of vector `k` that beat their peaks; tells, as bits, which did.
     #[inline(always)]
     fn take_vector<V: Vector, const K: usize>(&mut self, k: usize, values: V, time: f64) -> u32 {
@@ -164,9 +171,8 @@ impl Observer {
     /// Takes drift and shear at a drift coordinate of storey `i` into their peaks.
     #[inline]
     pub(crate) fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
-        let drift = self.drift.take(i, state.springs[i].drift(x), time);
-        let shear = state.base_force[i] + state.regime().row(Row::SpringTangent)[i] * x;
-        self.beaten |= self.shear.take(i, shear, time) | drift;
+        let [drift, shear] = drift_and_shear(state, i, x);
+        self.beaten |= self.drift.take(i, drift, time) | self.shear.take(i, shear, time);
     }
 
     /// Takes the acceleration of floor `i` into its peak.
@@ -279,7 +285,9 @@ impl Observer {
         for s in first.into_iter().chain(others).filter(|&s| s < end) {
             let mut drift = state.series.zeros();
             state.series.drift::<V, K>(i, 1.0, &mut drift);
-            self.take_drift(state, i, drift.at::<V>(s), start + s * state.series.h());
+            let [drift, shear] = drift_and_shear(state, i, drift.at::<V>(s));
+            let time = start + s * state.series.h();
+            self.beaten |= self.drift.take_lane::<V, K>(i, drift, time) | self.shear.take_lane::<V, K>(i, shear, time);
         }
     }
 
@@ -290,7 +298,8 @@ impl Observer {
         state.series.acceleration::<V, K>(i + 1, 1.0, &mut acceleration);
         let (first, others) = acceleration.derivative().sign_changes::<V>();
         for s in first.into_iter().chain(others).filter(|&s| s < end) {
-            self.take_acceleration(i, acceleration.at::<V>(s), start + s * state.series.h());
+            let time = start + s * state.series.h();
+            self.beaten |= self.acceleration.take_lane::<V, K>(i, acceleration.at::<V>(s), time);
         }
     }
 
@@ -404,6 +413,12 @@ impl Observer {
         energy.relative_residual = if residual == 0.0 { 0.0 } else { residual / scale };
         Some(energy)
     }
+}
+
+/// Drift and shear of storey `i` at a drift coordinate.
+#[inline(always)]
+fn drift_and_shear(state: &State, i: usize, x: f64) -> [f64; 2] {
+    [state.springs[i].drift(x), state.base_force[i] + state.regime().row(Row::SpringTangent)[i] * x]
 }
 
 fn kinetic_energy(state: &State) -> f64 {

@@ -68,6 +68,23 @@ impl Padded {
         if K == 1 { V::load(&self.few) } else { at(&self.many, k) }
     }
 
+    /// Puts the number of storey `i` of a scene of `K` vectors with the others of its vector, which is read as a whole soon:
+    /// read after a number alone was written, it would wait until that is in memory.
+    #[inline(always)]
+    pub(crate) fn set_lane<V: Vector, const K: usize>(&mut self, i: usize, value: f64) {
+        let k = if K == 1 { 0 } else { i / WIDTH };
+        let vector = self.vector::<V, K>(k).with(1 << (i % WIDTH), V::splat(value));
+        self.set_vector::<V, K>(k, vector);
+    }
+
+    /// The number of storey `i` of a scene of `K` vectors, which becomes 0.
+    #[inline(always)]
+    pub(crate) fn take_lane<V: Vector, const K: usize>(&mut self, i: usize) -> f64 {
+        let value = self.numbers::<K>()[i];
+        self.set_lane::<V, K>(i, 0.0);
+        value
+    }
+
     /// Puts vector `k` of a scene of `K` vectors.
     #[inline(always)]
     pub(crate) fn set_vector<V: Vector, const K: usize>(&mut self, k: usize, values: V) {

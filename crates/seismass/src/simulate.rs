@@ -345,7 +345,7 @@ impl Run<'_> {
             observer.take_accelerations_in_lanes::<V, K>(state, time);
         }
         let logged = self.log.len();
-        let outcome = state.carry_out::<K>(guard, tau, &mut self.log);
+        let outcome = state.carry_out::<V, K>(guard, tau, &mut self.log);
         if outcome == Outcome::Continue {
             state.refresh::<V, K>(tau);
         }

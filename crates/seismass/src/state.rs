@@ -399,60 +399,55 @@ impl<'a> State<'a> {
 
     /// Follows all state machines: bounds, loads, and the regime.
     pub(crate) fn enter_regime(&mut self) {
-        by_width!(self.model.width, K => {
-            for i in 0..self.storeys() {
-                self.follow_spring::<K>(i);
-            }
-            self.follow_springs::<K>();
-            self.follow_blocks::<K>();
-        });
+        by_width!(self.model.width, K => follow_machines::<K>(self));
         self.find_regime();
     }
 
     /// Follows a change of one storey's spring.
     #[inline(always)]
-    pub(crate) fn enter_regime_of_spring<const K: usize>(&mut self, i: usize) {
-        self.follow_spring::<K>(i);
-        self.follow_springs::<K>();
+    pub(crate) fn enter_regime_of_spring<V: Vector, const K: usize>(&mut self, i: usize) {
+        self.follow_spring::<V, K>(i);
+        self.follow_springs::<V, K>();
         self.find_regime();
     }
 
     /// Follows changes of blocks.
     #[inline(always)]
-    pub(crate) fn enter_regime_of_blocks<const K: usize>(&mut self) {
-        self.follow_blocks::<K>();
+    pub(crate) fn enter_regime_of_blocks<V: Vector, const K: usize>(&mut self) {
+        self.follow_blocks::<V, K>();
         self.find_regime();
     }
 
     #[inline(always)]
-    fn follow_spring<const K: usize>(&mut self, i: usize) {
+    fn follow_spring<V: Vector, const K: usize>(&mut self, i: usize) {
         let (spring, law) = (&self.springs[i], &self.model.laws[i]);
         self.yield_bounds[i] = spring.yield_bounds(law);
         let (limit, base) = (law.collapse_drift, spring.drift(0.0));
         self.collapse_bounds[i] = (-limit - base, limit - base);
-        self.base_drift.numbers_mut::<K>()[i] = base;
-        self.base_force.numbers_mut::<K>()[i] = spring.base_force(law);
-        self.base_load.numbers_mut::<K>()[i] = spring.base_load(law);
+        self.base_drift.set_lane::<V, K>(i, base);
+        self.base_force.set_lane::<V, K>(i, spring.base_force(law));
+        self.base_load.set_lane::<V, K>(i, spring.base_load(law));
         let plastic = spring.plastic();
-        self.bounds.follow_spring::<K>(i, self.guarded_drift(i), plastic);
+        self.bounds.follow_spring::<V, K>(i, self.guarded_drift(i), plastic);
         set_bits(&mut self.key, 2 * i, 0b11, u64::from(spring.yielded()));
     }
 
     #[inline(always)]
-    fn follow_springs<const K: usize>(&mut self) {
-        let n = self.storeys();
-        let mut above = 0.0;
-        let bases = &self.base_load.numbers::<K>()[..n];
-        for (load, &base) in self.spring_load.numbers_mut::<K>()[..n].iter_mut().zip(bases).rev() {
-            *load = above - base;
+    fn follow_springs<V: Vector, const K: usize>(&mut self) {
+        let mut above = V::splat(0.0);
+        for k in (0..self.vectors::<K>()).rev() {
+            let base = self.base_load.vector::<V, K>(k);
+            self.spring_load.set_vector::<V, K>(k, base.shifted_down(above).sub(base));
             above = base;
         }
     }
 
     #[inline(always)]
-    fn follow_blocks<const K: usize>(&mut self) {
-        let friction = self.friction.numbers_mut::<K>();
-        friction.fill(0.0);
+    fn follow_blocks<V: Vector, const K: usize>(&mut self) {
+        for k in 0..self.vectors::<K>() {
+            self.friction.set_vector::<V, K>(k, V::splat(0.0));
+            self.bounds.stuck_mu.set_vector::<V, K>(k, V::splat(FAR));
+        }
         self.stuck_mass.fill(0.0);
         self.stuck_mu.fill(f64::INFINITY);
         self.is_sliding = false;
@@ -462,22 +457,22 @@ impl<'a> State<'a> {
             set_bits(&mut self.key, of_springs + j, 1, u64::from(motion.is_stuck()));
             match motion.state {
                 BlockState::Stuck => {
-                    self.stuck_mu[floor] = self.stuck_mu[floor].min(law.mu_s);
-                    if floor > 0 {
-                        self.stuck_mass[floor - 1] += law.mass;
+                    let least = self.stuck_mu[floor].min(law.mu_s);
+                    self.stuck_mu[floor] = least;
+                    if let Some(i) = floor.checked_sub(1) {
+                        self.stuck_mass[i] += law.mass;
+                        self.bounds.stuck_mu.set_lane::<V, K>(i, least.min(FAR));
                     }
                 }
                 BlockState::Sliding(sign) => {
                     self.is_sliding = true;
-                    if floor > 0 {
-                        friction[floor - 1] += sign.factor() * law.mu_k * law.mass;
+                    if let Some(i) = floor.checked_sub(1) {
+                        let others = self.friction.numbers::<K>()[i];
+                        self.friction.set_lane::<V, K>(i, others + sign.factor() * law.mu_k * law.mass);
                     }
                 }
                 BlockState::Airborne => {}
             }
-        }
-        for (bound, mu) in self.bounds.stuck_mu.numbers_mut::<K>().iter_mut().zip(&self.stuck_mu[1..]) {
-            *bound = mu.min(FAR);
         }
     }
 
@@ -771,6 +766,20 @@ fn interval(motion: &Motion, vertical: Option<&[f64]>, i: usize) -> Interval {
         contact_change,
         contact_slope: contact_change * per_second,
     }
+}
+
+for_each_path! {
+    /// Follows all springs and blocks.
+    fn follow_machines[K: usize](state: &mut State) = machines_by_path
+}
+
+#[inline(always)]
+fn machines_by_path<V: Vector, const K: usize>(state: &mut State) {
+    for i in 0..state.storeys() {
+        state.follow_spring::<V, K>(i);
+    }
+    state.follow_springs::<V, K>();
+    state.follow_blocks::<V, K>();
 }
 
 for_each_path! {

@@ -193,12 +193,12 @@ impl StoreySpring {
 
     /// Element forces at coordinate `x`.
     fn forces(&self, law: &StoreyLaw, x: f64) -> [f64; 2] {
-        let mut force = self.force;
-        for (e, element) in law.elements().iter().enumerate().skip(self.yielded as usize) {
-            let limit = element.yield_force;
-            force[e] = (force[e] + element.stiffness * x).clamp(-limit, limit);
-        }
-        force
+        // Numbers of the place `e` alone: a place that is not known keeps all forces in memory.
+        [0, 1].map(|e| {
+            let (force, Element { stiffness, yield_force: limit }) = (self.force[e], law.elements[e]);
+            let moves = (self.yielded..law.count).contains(&(e as u8));
+            if moves { (force + stiffness * x).clamp(-limit, limit) } else { force }
+        })
     }
 
     /// Coordinates at which the next element yields, (lower, upper); infinite where there is no such guard.
@@ -224,7 +224,10 @@ impl StoreySpring {
     /// Transition *yield* of the next element at coordinate `x`, which becomes the new base.
     pub(crate) fn yield_next(&mut self, law: &StoreyLaw, x: f64, sign: Sign) -> EventKind {
         self.rebase(law, x);
-        self.force[self.yielded as usize] = sign.factor() * law.elements()[self.yielded as usize].yield_force;
+        let (force, yields) = (self.force, self.yielded);
+        self.force = [0, 1].map(|e| {
+            if e == yields as usize { sign.factor() * law.elements[e].yield_force } else { force[e] }
+        });
         self.yielded += 1;
         self.sign = sign;
         EventKind::Yield
