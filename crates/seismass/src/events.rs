@@ -86,6 +86,16 @@ fn spread(bits: u32) -> Set {
     Set::from(bits & 1 | (bits & 2) << 1 | (bits & 4) << 2 | (bits & 8) << 3)
 }
 
+for_each_path! {
+    /// The place of [`Polynomial::first_fall`]; infinite where there is none.
+    fn first_fall(polynomial: &Polynomial, tolerance: f64) -> f64 = first_fall_by_path
+}
+
+#[inline(always)]
+fn first_fall_by_path<V: Vector>(polynomial: &Polynomial, tolerance: f64) -> f64 {
+    polynomial.first_fall::<V>(tolerance).unwrap_or(f64::INFINITY)
+}
+
 /// The first fall within a series, or none.
 ///
 /// Its guard is packed: a copy of parts that have just been written, each by itself, would wait until they are in memory.
@@ -119,9 +129,8 @@ impl First {
 
     #[inline(always)]
     fn consider<V: Vector>(&mut self, guard: Guard, polynomial: &Polynomial, tolerance: f64) {
-        if let Some(place) = polynomial.first_fall::<V>(tolerance)
-            && place < self.place
-        {
+        let place = first_fall(polynomial, tolerance);
+        if place < self.place {
             *self = Self { place, guard: guard.packed() };
         }
     }

@@ -298,6 +298,8 @@ impl Run<'_> {
     }
 
     /// Events that an interval may have, of so many radians of the stiffest mode.
+    #[cold]
+    #[inline(never)]
     fn event_limit(&self, phase: f64) -> usize {
         let machines = self.state.storeys() + self.state.motions.len();
         EVENTS_PER_INTERVAL + EVENTS_PER_MACHINE * machines * (1 + phase as usize)
@@ -376,6 +378,7 @@ impl Run<'_> {
         Error::TooStiff { time: self.state.interval.start, phase: phase * substeps, limit: MOST_PHASE * substeps }
     }
 
+    #[cold]
     fn too_many_events(&self, guard: Guard, tau: f64, limit: usize) -> Error {
         let storey = |i: usize| (format!("storey {}", i + 1), self.state.springs[i].state_name());
         let block = |j: usize| (format!("block {}", j + 1), self.state.motions[j].state_name());

@@ -225,9 +225,8 @@ impl StoreySpring {
     pub(crate) fn yield_next(&mut self, law: &StoreyLaw, x: f64, sign: Sign) -> EventKind {
         self.rebase(law, x);
         let (force, yields) = (self.force, self.yielded);
-        self.force = [0, 1].map(|e| {
-            if e == yields as usize { sign.factor() * law.elements[e].yield_force } else { force[e] }
-        });
+        self.force =
+            [0, 1].map(|e| if e == yields as usize { sign.factor() * law.elements[e].yield_force } else { force[e] });
         self.yielded += 1;
         self.sign = sign;
         EventKind::Yield
