@@ -189,12 +189,18 @@ impl Recorder {
         if take(&mut self.is_taken_up) {
             return;
         }
-        self.base_drift.copy_from_slice(&state.base_drift);
-        self.base_force.copy_from_slice(&state.base_force);
-        self.tangent.copy_from_slice(state.regime().row(Row::SpringTangent));
-        for (block, motion) in state.motions.iter().enumerate() {
-            self.move_block(block, motion.velocity, motion.slip);
+        by_width!(state.model.width, K => self.take_up_springs::<K>(state));
+        let (velocities, slips) = (&mut self.velocities[..], &mut self.slips[..]);
+        for ((velocity, slip), motion) in velocities.iter_mut().zip(slips).zip(&state.motions) {
+            (*velocity, *slip) = (motion.velocity, motion.slip);
         }
+    }
+
+    #[inline(always)]
+    fn take_up_springs<const K: usize>(&mut self, state: &State) {
+        self.base_drift.numbers_mut::<K>().copy_from_slice(state.base_drift.numbers::<K>());
+        self.base_force.numbers_mut::<K>().copy_from_slice(state.base_force.numbers::<K>());
+        self.tangent.numbers_mut::<K>().copy_from_slice(state.regime().row(Row::SpringTangent));
     }
 
     /// Notes relative velocity and slip of a block, for rows in vectors.
