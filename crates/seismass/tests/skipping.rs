@@ -124,18 +124,53 @@ fn a_run_of_a_batch_is_the_run_alone_to_the_bit() {
         let yielding = building.storeys().iter().enumerate().map(yields).collect();
         let building = Arc::new(building.with_storeys(yielding).unwrap());
         let blocks = (1..=storeys).map(|floor| Block::new(floor, 500.0, 0.15)).collect();
-        let (scenes, motions) = ([Scene::new(Some(building), blocks).unwrap()], [motion(0, 0)]);
-        for factors in [[0.4, 0.7, 1.0, 1.6], [1.6, 1.0, 0.7, 0.4]] {
-            let runs = factors.map(|scale| Run { scale, ..Run::new(0, 0) });
+        let scenes = [Scene::new(Some(building), blocks).unwrap()];
+        let horizontal = motion(0, 0);
+        let vertical: Vec<f64> = (0..800).map(|i| 2.0 * (0.23 * f64::from(i)).sin()).collect();
+        let both = Motion::new(horizontal.acceleration(), 0.01, Some(vertical.into())).unwrap();
+        let motions = [horizontal, both];
+        // With vertical motion, steps have more columns.
+        let mut runs: Vec<Run> = [0.4, 0.7, 1.0, 1.6].map(|scale| Run { scale, ..Run::new(0, 0) }).into();
+        runs.insert(2, Run::new(0, 1));
+        for is_reversed in [false, true] {
+            if is_reversed {
+                runs.reverse();
+            }
             let batch = simulate_many(&scenes, &motions, &runs, &Options::default(), Some(1), &Control::default());
-            for (factor, response) in factors.iter().zip(batch.unwrap()) {
-                let samples: Vec<f64> = motions[0].acceleration().iter().map(|a| a * factor).collect();
-                let alone = simulate(&scenes[0], &Motion::new(samples, 0.01, None).unwrap(), &Options::default());
-                let (response, alone) = (response.unwrap(), alone.unwrap());
+            for (run, response) in runs.iter().zip(batch.unwrap()) {
+                let Run { motion, scale, .. } = *run;
+                let samples: Vec<f64> = motions[motion].acceleration().iter().map(|a| a * scale).collect();
+                let alone = Motion::new(samples, 0.01, motions[motion].vertical().map(Into::into)).unwrap();
+                let alone = simulate(&scenes[0], &alone, &Options::default()).unwrap();
                 assert!(alone.statistics.regime_hits > 10 && alone.statistics.plain_steps > 10, "{storeys} storeys");
-                assert_eq!(response, alone, "{storeys} storeys, factor {factor}");
+                assert_eq!(response.unwrap(), alone, "{storeys} storeys, motion {motion}, factor {scale}");
             }
         }
+    }
+}
+
+/// What blocks do is read from the lanes of their floors where block after block stands on floor after floor, one by one
+/// elsewhere: histories are the same.
+#[test]
+fn the_order_of_blocks_changes_no_history() {
+    let options = Options { histories: NonZeroUsize::new(1), ..Options::default() };
+    let vertical: Arc<[f64]> = (0..800).map(|i| 2.0 * (0.23 * f64::from(i)).sin()).collect();
+    for (n, vertical) in
+        [1, 3, 4, 7, 13, 20, 40].into_iter().flat_map(|n| [(n, None), (n, Some(Arc::clone(&vertical)))])
+    {
+        let building = Building::uniform(n, 0.15 * n as f64, 1000.0, Damping::Modal { ratio: 0.03 }).unwrap();
+        let building = Arc::new(building);
+        let block = |i: usize| Block::new(i + 1, 400.0 + 10.0 * i as f64, 0.05 + 0.3 * (i % 3) as f64);
+        let response = |blocks: Vec<Block>| {
+            let motion = Motion::new(motion(0, 0).acceleration(), 0.01, vertical.clone()).unwrap();
+            simulate(&Scene::new(Some(Arc::clone(&building)), blocks).unwrap(), &motion, &options).unwrap()
+        };
+        let (upwards, downwards) = (response((0..n).map(block).collect()), response((0..n).rev().map(block).collect()));
+        assert!(upwards.statistics.events.total() > 0, "{n} storeys");
+        let turned = |values: &[f64]| values.chunks(n).flat_map(|row| row.iter().rev().copied()).collect::<Vec<_>>();
+        let (mut found, expected) = (downwards.histories.unwrap(), upwards.histories.unwrap());
+        (found.slip, found.block_velocity) = (turned(&found.slip), turned(&found.block_velocity));
+        assert_eq!(found, expected, "{n} storeys");
     }
 }
 
