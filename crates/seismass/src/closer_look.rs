@@ -133,8 +133,8 @@ impl<V: Vector, const K: usize> Closer<V, K> {
         let (lowest, highest): ([V; K], [V; K]) = (load(&in_state.guarded[0]), load(&in_state.guarded[1]));
         // Between its ends a jerk differs from its chord by at most h^2 / 8 times its second derivative.
         let chord = V::splat(0.125 * h * h / off_cubic(h));
-        let ranges_of_all = [[[zero; K]; 2]; 3];
-        let mut closer = Self { fails: false, beaten: [0; 2], turns: [0; 2], suspects: [0; 3], ranges: ranges_of_all };
+        let ranges_yet = [[[zero; K]; 2]; 3];
+        let mut closer = Self { fails: false, beaten: [0; 2], turns: [0; 2], suspects: [0; 3], ranges: ranges_yet };
         for k in 0..K {
             let lanes = WIDTH * k;
             let of = [suspects[0] >> lanes, suspects[1] >> lanes, suspects[2] >> lanes];

@@ -193,7 +193,7 @@ impl StoreySpring {
 
     /// Element forces at coordinate `x`.
     fn forces(&self, law: &StoreyLaw, x: f64) -> [f64; 2] {
-        // Numbers of the place `e` alone: a place that is not known keeps all forces in memory.
+        // Each place by itself: an index known only at run time would keep all of them in memory.
         [0, 1].map(|e| {
             let (force, Element { stiffness, yield_force: limit }) = (self.force[e], law.elements[e]);
             let moves = (self.yielded..law.count).contains(&(e as u8));
@@ -224,9 +224,8 @@ impl StoreySpring {
     /// Transition *yield* of the next element at coordinate `x`, which becomes the new base.
     pub(crate) fn yield_next(&mut self, law: &StoreyLaw, x: f64, sign: Sign) -> EventKind {
         self.rebase(law, x);
-        let (force, yields) = (self.force, self.yielded);
-        self.force =
-            [0, 1].map(|e| if e == yields as usize { sign.factor() * law.elements[e].yield_force } else { force[e] });
+        let (force, next) = (self.force, self.yielded as usize);
+        self.force = [0, 1].map(|e| if e == next { sign.factor() * law.elements[e].yield_force } else { force[e] });
         self.yielded += 1;
         self.sign = sign;
         EventKind::Yield
