@@ -73,8 +73,8 @@ def test_readme_says_of_times_what_the_page_of_performance_does() -> None:
         ("one more sample in which nothing happens costs some ten nanoseconds", step, 8.0, 12.0),
         ("nothing yields or slides takes some thirty per sample", calm, 25.0, 35.0),
         ("An event costs about 0.4 microseconds", event, 0.35, 0.47),
-        ("takes 0.1 to 0.4 ms on one core", min(times), 0.08, 0.15),
-        ("takes 0.1 to 0.4 ms on one core", max(times), 0.3, 0.45),
+        ("takes 0.1 to 0.3 ms on one core", min(times), 0.08, 0.15),
+        ("takes 0.1 to 0.3 ms on one core", max(times), 0.25, 0.35),
         ("less than a third of a second on two", study, 0.0, 1 / 3),
     ):
         assert words in readme
