@@ -133,8 +133,8 @@ impl<V: Vector, const K: usize> Closer<V, K> {
         let (lowest, highest): ([V; K], [V; K]) = (load(&in_state.guarded[0]), load(&in_state.guarded[1]));
         // Between its ends a jerk differs from its chord by at most h^2 / 8 times its second derivative.
         let chord = V::splat(0.125 * h * h / off_cubic(h));
-        let ranges_yet = [[[zero; K]; 2]; 3];
-        let mut closer = Self { fails: false, beaten: [0; 2], turns: [0; 2], suspects: [0; 3], ranges: ranges_yet };
+        let mut closer =
+            Self { fails: false, beaten: [0; 2], turns: [0; 2], suspects: [0; 3], ranges: [[[zero; K]; 2]; 3] };
         for k in 0..K {
             let lanes = WIDTH * k;
             let of = [suspects[0] >> lanes, suspects[1] >> lanes, suspects[2] >> lanes];
@@ -166,13 +166,13 @@ impl<V: Vector, const K: usize> Closer<V, K> {
             closer.fails |= of[2] & breaks != 0;
             closer.beaten[1] |= Set::from(beaten) << lanes;
             closer.turns[1] |= Set::from(beaten & !steady) << lanes;
-            closer.suspects[0] = closer.beaten[0];
             closer.suspects[1] |= Set::from(turning) << lanes;
             closer.suspects[2] |= Set::from(beaten | of[2] & breaks) << lanes;
             for (out, (low, high)) in closer.ranges.iter_mut().zip([drift, rate, (low, high)]) {
                 (out[0][k], out[1][k]) = (low, high);
             }
         }
+        closer.suspects[0] = closer.beaten[0];
         closer
     }
 }

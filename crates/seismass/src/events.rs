@@ -128,7 +128,7 @@ impl First {
     }
 
     #[inline(always)]
-    fn consider<V: Vector>(&mut self, guard: Guard, polynomial: &Polynomial, tolerance: f64) {
+    fn consider(&mut self, guard: Guard, polynomial: &Polynomial, tolerance: f64) {
         let place = first_fall(polynomial, tolerance);
         if place < self.place {
             *self = Self { place, guard: guard.packed() };
@@ -185,7 +185,7 @@ impl State<'_> {
         self.storey_guards::<V, K>(&mut first, isolated);
         if !self.motions.is_empty() {
             if self.vertical || self.airborne {
-                first.consider::<V>(Guard::Contact, &self.contact_guard(tau), NO_CONTACT);
+                first.consider(Guard::Contact, &self.contact_guard(tau), NO_CONTACT);
             }
             if !self.airborne && (self.ranges.suspects[2] != 0 || self.stuck_mu[0] < f64::INFINITY) {
                 self.breakaway_guards::<V, K>(&mut first, isolated);
@@ -269,7 +269,7 @@ impl State<'_> {
         let contact = self.drive.contact;
         let sizes = self.size_in_lanes::<V, K>(i + 1, contact) + self.size_in_lanes::<V, K>(i, contact);
         let tolerance = ROUNDING * (size + self.series.h() * sizes);
-        first.consider::<V>(Guard::Unload { storey: i }, &p, tolerance);
+        first.consider(Guard::Unload { storey: i }, &p, tolerance);
     }
 
     /// Storeys of vector `k` whose drifts may come to a guard over the present series: each storey has two bits, of its
@@ -287,7 +287,7 @@ impl State<'_> {
         let (factor, third) = (sign.factor(), self.series.h() * THIRD);
         let [dx, dv] = self.series.changes().map(|changes| changes.numbers::<K>()[i]);
         let (x, v) = (self.x.numbers::<K>()[i], self.v.numbers::<K>()[i]);
-        let margin = self.ranges.remainder * self.regime().row(Row::FourthOfDrift)[i];
+        let margin = self.ranges.remainder * self.regime.row(Row::FourthOfDrift)[i];
         let of = |x: f64, v: f64| [limit - factor * x, -factor * v];
         stays_above_zero(of(x, v), of(x + dx, v + dv), third, margin, 0.0)
     }
@@ -312,7 +312,7 @@ impl State<'_> {
         let size = self.series.drift::<V, K>(i, -sign.factor(), &mut p);
         p.coefficients_mut()[0] = limit - sign.factor() * self.x.numbers::<K>()[i];
         let range = self.model.laws[i].yield_range(self.springs[i].yielded());
-        first.consider::<V>(guard, &p, ROUNDING * (limit.abs() + size + range));
+        first.consider(guard, &p, ROUNDING * (limit.abs() + size + range));
     }
 
     #[inline(always)]
@@ -358,7 +358,7 @@ impl State<'_> {
             if let [c0, c1, ..] = p.coefficients_mut() {
                 (*c0, *c1) = (*c0 + limit, *c1 + mu * contact_change);
             }
-            first.consider::<V>(Guard::Breakaway { floor, sign }, &p, tolerance);
+            first.consider(Guard::Breakaway { floor, sign }, &p, tolerance);
         }
     }
 
@@ -384,7 +384,7 @@ impl State<'_> {
             let size = self.relative_velocity::<V, K>(j, sign.factor(), &mut p);
             let law = &self.model.blocks[j];
             let rates = self.size_in_lanes::<V, K>(law.floor, self.drive.contact) + law.mu_k * STANDARD_GRAVITY;
-            first.consider::<V>(Guard::Arrival { block: j }, &p, ROUNDING * (size + self.series.h() * rates));
+            first.consider(Guard::Arrival { block: j }, &p, ROUNDING * (size + self.series.h() * rates));
         }
     }
 
@@ -409,7 +409,7 @@ impl State<'_> {
         let contact = (self.drive.contact, self.drive.contact + self.drive.contact_slope * h);
         let (a, margin) = match law.floor.checked_sub(1) {
             Some(i) => {
-                let margin = self.ranges.remainder * self.regime().row(Row::ThirdOfAcceleration)[i];
+                let margin = self.ranges.remainder * self.regime.row(Row::ThirdOfAcceleration)[i];
                 ((self.a.numbers::<K>()[i], self.series.accelerations_at_end()[0].numbers::<K>()[i]), margin)
             }
             None => ((self.drive.ground, self.drive.ground + self.drive.ground_slope * h), 0.0),
@@ -457,7 +457,6 @@ impl State<'_> {
                 let kind = self.springs[storey].yield_next(&self.model.laws[storey], x, sign);
                 let element = self.springs[storey].yielded();
                 log.push(Event { time, kind, number: storey + 1, sign: sign.as_i8(), element });
-                self.enter_regime_of_spring::<V, K>(storey);
             }
             Guard::Unload { storey } => {
                 let sign = self.springs[storey].plastic().map_or(0, Sign::as_i8);
@@ -465,36 +464,30 @@ impl State<'_> {
                 let kind = self.springs[storey].unload(&self.model.laws[storey], x);
                 self.v.set_lane::<V, K>(storey, 0.0);
                 log.push(Event { time, kind, number: storey + 1, sign, element: 0 });
-                self.enter_regime_of_spring::<V, K>(storey);
             }
-            _ => {
-                self.change_blocks::<K>(guard, tau, log);
-                self.enter_regime_of_blocks::<V, K>();
+            Guard::Breakaway { floor, sign } => self.break_away::<K>(floor, sign, tau, log),
+            Guard::Arrival { block } => {
+                self.arrive_with::<K>(block, tau);
+                self.settle_floor::<K>(self.model.blocks[block].floor, tau, Cause::Other, log);
             }
+            Guard::Contact => self.change_contact(tau, log),
+        }
+        match guard {
+            Guard::Yield { storey, .. } | Guard::Unload { storey } => self.enter_regime_of_spring::<V, K>(storey),
+            _ => self.enter_regime_of_blocks::<V, K>(),
         }
         Outcome::Continue
     }
 
-    /// What an event does to blocks.
-    fn change_blocks<const K: usize>(&mut self, guard: Guard, tau: f64, log: &mut Vec<Event>) {
-        match guard {
-            Guard::Breakaway { floor, sign } => {
-                let weakest = self.model.on_floor[floor]
-                    .iter()
-                    .copied()
-                    .filter(|&j| self.motions[j].is_stuck())
-                    .min_by(|&i, &j| self.model.blocks[i].mu_s.total_cmp(&self.model.blocks[j].mu_s));
-                if let Some(weakest) = weakest {
-                    self.settle_floor::<K>(floor, tau, Cause::Breakaway(weakest, sign), log);
-                }
-            }
-            Guard::Arrival { block } => {
-                let floor = self.model.blocks[block].floor;
-                self.arrive_with::<K>(block, tau);
-                self.settle_floor::<K>(floor, tau, Cause::Other, log);
-            }
-            Guard::Contact => self.change_contact::<K>(tau, log),
-            Guard::Yield { .. } | Guard::Collapse { .. } | Guard::Unload { .. } => {}
+    /// Has the weakest block stuck to a floor break away, and lets the floor decide.
+    fn break_away<const K: usize>(&mut self, floor: usize, sign: Sign, tau: f64, log: &mut Vec<Event>) {
+        let weakest = self.model.on_floor[floor]
+            .iter()
+            .copied()
+            .filter(|&j| self.motions[j].is_stuck())
+            .min_by(|&i, &j| self.model.blocks[i].mu_s.total_cmp(&self.model.blocks[j].mu_s));
+        if let Some(weakest) = weakest {
+            self.settle_floor::<K>(floor, tau, Cause::Breakaway(weakest, sign), log);
         }
     }
 
@@ -536,7 +529,7 @@ impl State<'_> {
     }
 
     /// All blocks leave or regain contact.
-    fn change_contact<const K: usize>(&mut self, tau: f64, log: &mut Vec<Event>) {
+    fn change_contact(&mut self, tau: f64, log: &mut Vec<Event>) {
         let time = self.interval.start + tau;
         let kind = if self.airborne { EventKind::Land } else { EventKind::Lift };
         for (j, motion) in self.motions.iter_mut().enumerate() {
@@ -556,15 +549,15 @@ impl State<'_> {
             // Contact has only just returned: the accelerations decide, with no friction yet.
             self.enter_regime();
             self.refresh_accelerations(tau);
-            self.settle_all::<K>(tau, log);
+            self.settle_all(tau, log);
         }
     }
 
     /// Lets every floor decide, at the start of a run or at a landing.
-    pub(crate) fn settle_all<const K: usize>(&mut self, tau: f64, log: &mut Vec<Event>) {
+    pub(crate) fn settle_all(&mut self, tau: f64, log: &mut Vec<Event>) {
         for floor in 0..self.model.on_floor.len() {
             if self.model.on_floor[floor].iter().any(|&j| self.motions[j].is_stuck()) {
-                self.settle_floor::<K>(floor, tau, Cause::Other, log);
+                by_width!(self.model.width, K => self.settle_floor::<K>(floor, tau, Cause::Other, log));
             }
         }
     }

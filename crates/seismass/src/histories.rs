@@ -94,8 +94,6 @@ pub(crate) struct Recorder {
     stride: usize,
     /// Rows written so far.
     written: usize,
-    storeys: usize,
-    blocks: usize,
     /// Whether block after block stands on floor after floor, one on each: then what blocks do is in the lanes of floors.
     one_on_each: bool,
     drift: Table,
@@ -144,8 +142,6 @@ impl Recorder {
             displacements_only: options.displacements_only,
             stride,
             written: 0,
-            storeys: n,
-            blocks,
             one_on_each,
             drift: of_storeys(true),
             slip: of_blocks(true),
@@ -168,7 +164,7 @@ impl Recorder {
     fn next_row(&mut self) -> Place {
         let row = self.written;
         self.written += 1;
-        Place { storeys: row * self.storeys, blocks: row * self.blocks }
+        Place { storeys: row * self.drift.width, blocks: row * self.slip.width }
     }
 
     /// The next sample of which a row is kept.
@@ -200,7 +196,7 @@ impl Recorder {
     fn take_up_springs<const K: usize>(&mut self, state: &State) {
         self.base_drift.numbers_mut::<K>().copy_from_slice(state.base_drift.numbers::<K>());
         self.base_force.numbers_mut::<K>().copy_from_slice(state.base_force.numbers::<K>());
-        self.tangent.numbers_mut::<K>().copy_from_slice(state.regime().row(Row::SpringTangent));
+        self.tangent.numbers_mut::<K>().copy_from_slice(state.regime.row(Row::SpringTangent));
     }
 
     /// Notes relative velocity and slip of a block, for rows in vectors.
@@ -308,7 +304,7 @@ impl Recorder {
             return;
         }
         let n = state.storeys();
-        let tangent = state.regime().row(Row::SpringTangent);
+        let tangent = state.regime.row(Row::SpringTangent);
         let forces = state.base_force.iter().zip(tangent).zip(x).map(|((base, tangent), x)| tangent * x + base);
         self.storey_force.put_row(at.storeys, forces);
         let mut velocity = 0.0;

@@ -9,7 +9,7 @@ use crate::friction::BlockState;
 use crate::histories::Recorder;
 use crate::lanes::{FAR, LANES, Plain, Vector, WIDTH, at, by_width, for_each_path, load};
 use crate::model::Model;
-use crate::padded::Padded;
+use crate::padded::{Padded, lane_of};
 use crate::regime::{Row, viscous_power};
 use crate::response::{Energy, Peak, Peaks};
 use crate::scene::Options;
@@ -61,8 +61,8 @@ impl PeakLanes {
     /// [`PeakLanes::take`] within the code of a path, of which vectors are read soon.
     #[inline(always)]
     fn take_lane<V: Vector, const K: usize>(&mut self, i: usize, value: f64, time: f64) -> bool {
-        let k = if K == 1 { 0 } else { i / WIDTH };
-        self.take_vector::<V, K>(k, V::splat(0.0).with(1 << (i % WIDTH), V::splat(value)), time) != 0
+        let (k, lane) = lane_of::<K>(i);
+        self.take_vector::<V, K>(k, V::splat(0.0).with(lane, V::splat(value)), time) != 0
     }
 
     /// Takes the values of vector `k` that beat their peaks; tells, as bits, which did.
@@ -152,14 +152,9 @@ impl Observer {
     /// Whether a drift coordinate between `low` and `high` could beat a peak of storey `i`.
     #[inline]
     pub(crate) fn drift_may_peak(&self, state: &State, i: usize, low: f64, high: f64) -> bool {
-        let spring = &state.springs[i];
-        let drift = spring.drift(low).abs().max(spring.drift(high).abs());
-        if drift > self.drift.size[i] {
-            return true;
-        }
-        let tangent = state.regime().row(Row::SpringTangent)[i];
-        let base = state.base_force[i];
-        (base + tangent * low).abs().max((base + tangent * high).abs()) > self.shear.size[i]
+        let [[drift_low, shear_low], [drift_high, shear_high]] = [low, high].map(|x| drift_and_shear(state, i, x));
+        drift_low.abs().max(drift_high.abs()) > self.drift.size[i]
+            || shear_low.abs().max(shear_high.abs()) > self.shear.size[i]
     }
 
     /// Whether an acceleration between `low` and `high` could beat the peak of floor `i`.
@@ -219,7 +214,7 @@ impl Observer {
     /// [`Observer::observe_building`] within the code of a path.
     #[inline(always)]
     pub(crate) fn take_building_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, time: f64) {
-        let tangents = state.regime().row(Row::SpringTangent);
+        let tangents = state.regime.row(Row::SpringTangent);
         let mut beaten = 0;
         for k in 0..state.vectors::<K>() {
             let (x, tangent): (V, V) = (state.x.vector::<V, K>(k), at(tangents, k));
@@ -418,7 +413,7 @@ impl Observer {
 /// Drift and shear of storey `i` at a drift coordinate.
 #[inline(always)]
 fn drift_and_shear(state: &State, i: usize, x: f64) -> [f64; 2] {
-    [state.springs[i].drift(x), state.base_force[i] + state.regime().row(Row::SpringTangent)[i] * x]
+    [state.springs[i].drift(x), state.base_force[i] + state.regime.row(Row::SpringTangent)[i] * x]
 }
 
 fn kinetic_energy(state: &State) -> f64 {

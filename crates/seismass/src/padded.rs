@@ -24,6 +24,12 @@ impl Lanes for [f64] {
     }
 }
 
+/// The vector that the number of storey `i` lies in, of a scene of `K` vectors, and its lane there, as bits.
+#[inline(always)]
+pub(crate) fn lane_of<const K: usize>(i: usize) -> (usize, u32) {
+    (if K == 1 { 0 } else { i / WIDTH }, 1 << (i % WIDTH))
+}
+
 /// A number of each storey or floor, padded. Those of one vector are kept in place: what reads them as one need not ask how
 /// many there are, and a run of a small building allocates nothing for them.
 #[derive(Debug, Clone, Default)]
@@ -72,9 +78,8 @@ impl Padded {
     /// read after a number alone was written, it would wait until that is in memory.
     #[inline(always)]
     pub(crate) fn set_lane<V: Vector, const K: usize>(&mut self, i: usize, value: f64) {
-        let k = if K == 1 { 0 } else { i / WIDTH };
-        let vector = self.vector::<V, K>(k).with(1 << (i % WIDTH), V::splat(value));
-        self.set_vector::<V, K>(k, vector);
+        let (k, lane) = lane_of::<K>(i);
+        self.set_vector::<V, K>(k, self.vector::<V, K>(k).with(lane, V::splat(value)));
     }
 
     /// The number of storey `i` of a scene of `K` vectors, which becomes 0.

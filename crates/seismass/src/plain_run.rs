@@ -60,7 +60,7 @@ impl<'a, const K: usize> Course<'a, K> {
     /// None where the regime has no propagator of this width.
     #[inline(always)]
     fn new(state: &'a State, h: f64) -> Option<Self> {
-        let regime = state.regime();
+        let regime = &state.regime;
         let Whole::Dense(propagator) = &regime.steps(state.vertical)?.whole else { return None };
         let (of_drift, others) = four_rows(propagator.state_and_motion_columns()).split_at_checked(state.storeys())?;
         let (of_rate, others) = others.split_at_checked(state.storeys())?;
@@ -564,7 +564,7 @@ fn run(
             walk.renews_bounds = true;
             continue;
         }
-        if state.regime().frequency * h > MAX_PHASE {
+        if state.regime.frequency * h > MAX_PHASE {
             break;
         }
         // The series of the step gives the extremes; then the run goes on.

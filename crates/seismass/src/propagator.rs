@@ -507,8 +507,9 @@ impl RegimeCache {
         *self = Self { run: self.run, frequency: self.frequency, ..Self::new(self.dt) };
     }
 
-    /// The regime of a key, formed by `form` when it is new. Returns its index and whether this run knew it.
-    pub(crate) fn enter(&mut self, key: &[u64], form: impl FnOnce() -> Regime) -> (usize, bool) {
+    /// The regime of a key, formed by `form` when it is new. Returns it, its index, and whether this
+    /// run knew it.
+    pub(crate) fn enter(&mut self, key: &[u64], form: impl FnOnce() -> Regime) -> (Rc<Regime>, usize, bool) {
         if self.run_bytes > CACHE_BYTES {
             self.clear();
         }
@@ -529,17 +530,11 @@ impl RegimeCache {
             entry.visits = 0;
             self.run_bytes += Self::entry_bytes(&entry.regime, key);
         }
-        (index, known)
+        (Rc::clone(&entry.regime), index, known)
     }
 
     fn entry_bytes(regime: &Regime, key: &[u64]) -> usize {
         8 * regime.row(Row::Mass).len() * 16 + 16 * key.len() + 256
-    }
-
-    /// The regime at an index.
-    #[inline]
-    pub(crate) fn regime(&self, index: usize) -> &Rc<Regime> {
-        &self.entries[index].regime
     }
 
     /// Whether series of a regime go by its table, which then exists: once the present run has taken as many intervals in

@@ -139,7 +139,7 @@ for_each_path! {
 fn interval_by_path<V: Vector, const K: usize>(run: &mut Run, stop: &AtomicBool) -> Result<Option<(usize, f64)>> {
     run.statistics.intervals += 1;
     let h = run.state.interval.h;
-    let phase_at_start = run.state.regime().frequency * h;
+    let phase_at_start = run.state.regime.frequency * h;
     let mut events = 0;
     let mut tau = 0.0;
     while tau < h {
@@ -208,7 +208,7 @@ impl Run<'_> {
         state.enter_regime();
         state.refresh_accelerations(0.0);
         if !state.airborne {
-            by_width!(state.model.width, K => state.settle_all::<K>(0.0, &mut self.log));
+            state.settle_all(0.0, &mut self.log);
             state.enter_regime();
             state.refresh_accelerations(0.0);
         }
@@ -239,7 +239,7 @@ impl Run<'_> {
     /// Whether in a motionless tail the energy left bounds everything below its peak and its guard.
     fn no_peak_can_be_beaten(&self) -> bool {
         let state = &self.state;
-        let regime = state.regime();
+        let regime = &state.regime;
         let tangent = &regime.row(Row::Tangent)[..state.storeys()];
         let settled = state.motions.iter().all(BlockMotion::is_stuck)
             && state.springs.iter().all(|s| s.plastic().is_none())
@@ -293,7 +293,7 @@ impl Run<'_> {
 
     /// Radians of the stiffest vibration of the present regime in a time.
     fn phase_of(&self, time: f64) -> Result<f64> {
-        let phase = self.state.regime().frequency * time;
+        let phase = self.state.regime.frequency * time;
         if phase <= MOST_PHASE { Ok(phase) } else { Err(self.too_stiff(phase)) }
     }
 
@@ -472,7 +472,7 @@ impl State<'_> {
     fn add_energy_of_interval(&mut self, start: Moment, observer: &mut Observer) {
         let end = self.moment();
         self.set_moment(start);
-        let pieces = (self.regime().frequency * self.interval.h / MAX_PHASE).ceil().max(1.0);
+        let pieces = (self.regime.frequency * self.interval.h / MAX_PHASE).ceil().max(1.0);
         let h = self.interval.h / pieces;
         for piece in 0..pieces as usize {
             let tau = piece as f64 * h;

@@ -386,12 +386,6 @@ impl<'a> State<'a> {
         self.model.storeys()
     }
 
-    /// The present regime.
-    #[inline]
-    pub(crate) fn regime(&self) -> &Regime {
-        &self.regime
-    }
-
     /// Whether nothing moves and no spring is deformed.
     pub(crate) fn is_at_rest(&self) -> bool {
         self.x.iter().chain(&self.v).all(|&value| value == 0.0) && self.motions.iter().all(BlockMotion::is_stuck)
@@ -479,8 +473,8 @@ impl<'a> State<'a> {
     fn find_regime(&mut self) {
         let (model, springs, stuck_mass) = (self.model, &self.springs, &self.stuck_mass);
         let form = || Regime::new(model, |i| springs[i].yielded(), stuck_mass);
-        let (entry, known) = self.cache.enter(&self.key, form);
-        (self.regime, self.entry) = (Rc::clone(self.cache.regime(entry)), entry);
+        let known;
+        (self.regime, self.entry, known) = self.cache.enter(&self.key, form);
         if known {
             self.regimes.1 += 1;
         } else {
@@ -607,7 +601,7 @@ impl<'a> State<'a> {
     #[inline]
     fn bound_derivatives(&mut self, square: f64) {
         let h = self.series.h();
-        let liveliness = self.regime().liveliness_of(square, h);
+        let liveliness = self.regime.liveliness_of(square, h);
         self.ranges.set_margins(liveliness, h);
     }
 
@@ -615,7 +609,7 @@ impl<'a> State<'a> {
     #[inline(never)]
     fn form_ranges_singly(&mut self) {
         let (n, slope) = (self.storeys(), self.drive.ground_slope);
-        let (root_mass, root_tangent) = (self.regime().row(Row::RootMass), self.regime().row(Row::RootTangent));
+        let (root_mass, root_tangent) = (self.regime.row(Row::RootMass), self.regime.row(Row::RootTangent));
         let (jerk, q) = (&self.jerk[..n], &self.drift_acceleration[..n]);
         let mut square = 0.0;
         for i in 0..n {
@@ -652,7 +646,7 @@ impl<'a> State<'a> {
     /// from its chord by at most h^2 / 8 times its largest second derivative.
     #[inline(always)]
     pub(crate) fn steady<V: Vector, const K: usize>(&self, k: usize) -> u32 {
-        let turn = V::splat(self.ranges.chord).mul(at(self.regime().row(Row::ThirdOfAcceleration), k));
+        let turn = V::splat(self.ranges.chord).mul(at(self.regime.row(Row::ThirdOfAcceleration), k));
         let (start, end): (V, V) =
             (self.jerk.vector::<V, K>(k), self.series.accelerations_at_end()[1].vector::<V, K>(k));
         !V::splat(0.0).not_below(start.mul(end)) & !turn.not_below(start.abs().min(end.abs()))
@@ -664,7 +658,7 @@ impl<'a> State<'a> {
         if K == WIDEST || floor == 0 {
             return self.acceleration_size(floor, contact);
         }
-        let operator = Operator::<V, K>::new(self.model, self.regime());
+        let operator = Operator::<V, K>::new(self.model, &self.regime);
         let (mut x, mut v): ([V; K], [V; K]) = (load(&self.x), load(&self.v));
         let (loads, mut forces): ([V; K], [V; K]) = (load(&self.base_load), load(&self.friction));
         for k in 0..K {
@@ -678,13 +672,13 @@ impl<'a> State<'a> {
     pub(crate) fn acceleration_size(&self, floor: usize, contact: f64) -> f64 {
         let Some(i) = floor.checked_sub(1) else { return self.drive.ground.abs() };
         let above = if i + 1 < self.storeys() { self.shear_size(i + 1) } else { 0.0 };
-        (self.shear_size(i) + above + self.friction[i].abs() * contact) * self.regime().row(Row::InverseMass)[i]
+        (self.shear_size(i) + above + self.friction[i].abs() * contact) * self.regime.row(Row::InverseMass)[i]
             + self.mass_damping_size(i)
     }
 
     /// Sum of the sizes of the terms of a storey's force.
     fn shear_size(&self, i: usize) -> f64 {
-        let elastic = (self.regime().row(Row::Tangent)[i] * self.x[i]).abs() + self.base_load[i].abs();
+        let elastic = (self.regime.row(Row::Tangent)[i] * self.x[i]).abs() + self.base_load[i].abs();
         let viscous = match self.model.damping() {
             StoreyDamping::None => 0.0,
             StoreyDamping::Rayleigh { stiffness_factor, .. } => {
@@ -703,7 +697,7 @@ impl<'a> State<'a> {
     fn mass_damping_size(&self, i: usize) -> f64 {
         let StoreyDamping::Rayleigh { mass_factor, .. } = self.model.damping() else { return 0.0 };
         let velocity: f64 = self.v[..=i].iter().map(|v| v.abs()).sum();
-        velocity * mass_factor * self.model.mass[i] * self.regime().row(Row::InverseMass)[i]
+        velocity * mass_factor * self.model.mass[i] * self.regime.row(Row::InverseMass)[i]
     }
 
     /// What floor `floor` (0: the ground) asks of its blocks at `tau`, where its acceleration must be that of the state.
@@ -713,7 +707,7 @@ impl<'a> State<'a> {
         }
         let i = floor - 1;
         let contact = self.contact_at(tau);
-        let mass = self.regime().row(Row::Mass)[i];
+        let mass = self.regime.row(Row::Mass)[i];
         Demand::Floor {
             force: self.a.numbers::<K>()[i] * mass - self.friction.numbers::<K>()[i] * contact,
             size: self.acceleration_size(floor, contact) * mass,
@@ -879,7 +873,7 @@ fn changes_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: Option<f6
 #[inline(always)]
 fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State) {
     let start = Sample::<V, K>::of(state);
-    let (mass, tangent) = (state.regime().lanes::<V, K>(Row::RootMass), state.regime().lanes::<V, K>(Row::RootTangent));
+    let (mass, tangent) = (state.regime.lanes::<V, K>(Row::RootMass), state.regime.lanes::<V, K>(Row::RootTangent));
     let mut squares = V::splat(0.0);
     for k in 0..K {
         let kinetic = mass[k].mul(start.jerk[k].sub(V::splat(state.drive.ground_slope)));

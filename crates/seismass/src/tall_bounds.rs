@@ -70,7 +70,7 @@ struct Course {
 
 impl Course {
     fn new(state: &State, observer: &Observer, k: usize) -> Self {
-        let (n, from, regime) = (state.storeys(), WIDTH * k, state.regime());
+        let (n, from, regime) = (state.storeys(), WIDTH * k, &state.regime);
         let (tangents, flexibilities) = (regime.row(Row::SpringTangent), regime.row(Row::SpringFlexibility));
         let by_storey = |padding: f64, value: &dyn Fn(usize) -> f64| {
             [0, 1, 2, 3].map(|lane| if from + lane < n { value(from + lane) } else { padding })

@@ -25,7 +25,7 @@ pub(crate) struct Rows {
 
 impl Rows {
     pub(crate) fn new(state: &State, h: f64, length: usize) -> Self {
-        let (n, regime) = (state.storeys(), state.regime());
+        let (n, regime) = (state.storeys(), &state.regime);
         let row = |row: Row| filled_to(length, regime.row(row)[..n].iter().copied(), 0.0);
         Self {
             root_mass: row(Row::RootMass),
@@ -126,7 +126,7 @@ impl Reach {
         match state.model.damping() {
             StoreyDamping::Dense(_) => Self { falls_by: 1.0, growth: growth * growth },
             _ => {
-                let (n, row) = (state.storeys(), |row: Row| state.regime().row(row));
+                let (n, row) = (state.storeys(), |row: Row| state.regime.row(row));
                 let (root_mass, root_tangent) = (&row(Row::RootMass)[..n], &row(Row::RootTangent)[..n]);
                 Self::of_chain(root_mass, root_tangent, &state.model.lanes.storey_damping, h, growth)
             }

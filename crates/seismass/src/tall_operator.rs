@@ -53,7 +53,7 @@ pub(crate) struct Operator<'a> {
 
 impl<'a> Operator<'a> {
     pub(crate) fn new(state: &State<'a>, length: usize) -> Self {
-        let (n, regime, model) = (state.storeys(), state.regime(), &state.model.lanes);
+        let (n, regime, model) = (state.storeys(), &state.regime, &state.model.lanes);
         let of_regime = |row: Row| filled_to(length, regime.row(row)[..n].iter().copied(), 0.0);
         let of_model = |values: &[f64]| filled_to(length, values.iter().copied().take(n), 0.0);
         Self {

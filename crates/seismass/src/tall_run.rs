@@ -78,7 +78,7 @@ fn run_lanes<V: Vector>(
     let length = whole_blocks(n);
     let mut map = match step {
         TallStep::Banded(step) => Map::Banded(step),
-        TallStep::Full(step) => Map::Full(step, Shears::new(state.regime(), n)),
+        TallStep::Full(step) => Map::Full(step, Shears::new(&state.regime, n)),
     };
     let margin = if let TallStep::Banded(step) = step { step.half_width } else { 0 };
     let (third, per_second) = (V::splat(h * THIRD), 1.0 / h);

@@ -27,6 +27,11 @@ fn motion(head: usize, tail: usize) -> Motion {
     Motion::new(samples, 0.01, None).unwrap()
 }
 
+/// Vertical motion of that length that takes no contact away.
+fn vertical() -> Arc<[f64]> {
+    (0..800).map(|i| 2.0 * (0.23 * f64::from(i)).sin()).collect()
+}
+
 #[test]
 fn a_quiet_tail_is_left_out_when_only_peaks_are_wanted() {
     let motion = motion(0, 5000);
@@ -126,8 +131,7 @@ fn a_run_of_a_batch_is_the_run_alone_to_the_bit() {
         let blocks = (1..=storeys).map(|floor| Block::new(floor, 500.0, 0.15)).collect();
         let scenes = [Scene::new(Some(building), blocks).unwrap()];
         let horizontal = motion(0, 0);
-        let vertical: Vec<f64> = (0..800).map(|i| 2.0 * (0.23 * f64::from(i)).sin()).collect();
-        let both = Motion::new(horizontal.acceleration(), 0.01, Some(vertical.into())).unwrap();
+        let both = Motion::new(horizontal.acceleration(), 0.01, Some(vertical())).unwrap();
         let motions = [horizontal, both];
         // With vertical motion, steps have more columns.
         let mut runs: Vec<Run> = [0.4, 0.7, 1.0, 1.6].map(|scale| Run { scale, ..Run::new(0, 0) }).into();
@@ -154,10 +158,7 @@ fn a_run_of_a_batch_is_the_run_alone_to_the_bit() {
 #[test]
 fn the_order_of_blocks_changes_no_history() {
     let options = Options { histories: NonZeroUsize::new(1), ..Options::default() };
-    let vertical: Arc<[f64]> = (0..800).map(|i| 2.0 * (0.23 * f64::from(i)).sin()).collect();
-    for (n, vertical) in
-        [1, 3, 4, 7, 13, 20, 40].into_iter().flat_map(|n| [(n, None), (n, Some(Arc::clone(&vertical)))])
-    {
+    for (n, vertical) in [1, 3, 4, 7, 13, 20, 40].into_iter().flat_map(|n| [(n, None), (n, Some(vertical()))]) {
         let building = Building::uniform(n, 0.15 * n as f64, 1000.0, Damping::Modal { ratio: 0.03 }).unwrap();
         let building = Arc::new(building);
         let block = |i: usize| Block::new(i + 1, 400.0 + 10.0 * i as f64, 0.05 + 0.3 * (i % 3) as f64);

@@ -1,7 +1,7 @@
 //! The guards of all state machines as numbers, and how a stepping method carries out their events.
 
 use super::Events;
-use crate::events::{self, Guard, Outcome};
+use crate::events::{Guard, Outcome};
 use crate::lanes::by_width;
 use crate::response::Event;
 use crate::state::State;
@@ -67,7 +67,7 @@ pub(super) fn fallen(state: &State, tau: f64, known: Option<Guard>) -> Option<Gu
 ///
 /// At the end of a step a velocity that has turned is kept: made zero, as it is where its turn was located, it would
 /// take momentum from the building.
-pub(super) fn carry_out(state: &mut State, guard: Guard, tau: f64, placing: Events, log: &mut Vec<Event>) -> Outcome {
+pub(super) fn carry_out(state: &mut State, guard: Guard, tau: f64, events: Events, log: &mut Vec<Event>) -> Outcome {
     if let Guard::Arrival { block } = guard {
         let floor = state.model.blocks[block].floor;
         for &j in &state.model.on_floor[floor] {
@@ -76,11 +76,11 @@ pub(super) fn carry_out(state: &mut State, guard: Guard, tau: f64, placing: Even
             }
         }
     }
-    let overshoot = match (guard, placing) {
+    let overshoot = match (guard, events) {
         (Guard::Unload { storey }, Events::AtStepEnds) => Some((storey, state.v[storey])),
         _ => None,
     };
-    let outcome = by_width!(state.model.width, K => events::carry_out::<K>(state, guard, tau, log));
+    let outcome = by_width!(state.model.width, K => crate::events::carry_out::<K>(state, guard, tau, log));
     if let Some((storey, rate)) = overshoot {
         state.v[storey] = rate;
     }

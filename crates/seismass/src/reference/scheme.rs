@@ -15,7 +15,7 @@ pub(super) struct System {
 impl System {
     pub(super) fn new(state: &State) -> Self {
         let n = state.storeys();
-        let regime = state.regime();
+        let regime = &state.regime;
         let mut unit = vec![0.0; 2 * n];
         let (mut a, load) = (vec![0.0; n], vec![0.0; n]);
         let mut lower = DMatrix::zeros(n, 2 * n);

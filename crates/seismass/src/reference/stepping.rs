@@ -13,7 +13,6 @@ use super::scheme::{Columns, Scheme, StepMap, System};
 use super::{Error, Events};
 use crate::events::{Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
-use crate::lanes::by_width;
 use crate::model::Model;
 use crate::propagator::RegimeCache;
 use crate::regime::Row;
@@ -102,7 +101,7 @@ impl<S: Scheme> Run<'_, S> {
         }
         state.enter_regime();
         if !state.airborne {
-            by_width!(state.model.width, K => state.settle_all::<K>(0.0, &mut self.log));
+            state.settle_all(0.0, &mut self.log);
             state.enter_regime();
             self.history.events += self.log.len();
             self.log.clear();
@@ -223,7 +222,7 @@ impl<S: Scheme> Run<'_, S> {
             if self.maps.len() <= index {
                 self.maps.resize_with(index + 1, || None);
             }
-            let regime = self.state.regime();
+            let regime = &self.state.regime;
             if !self.maps[index].as_ref().is_some_and(|map| map.belongs_to(regime)) {
                 let system = System::new(&self.state);
                 self.maps[index] = Some(StepMap::new(self.scheme, &system, regime, self.step).ok_or_else(singular)?);
