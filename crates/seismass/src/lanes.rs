@@ -14,7 +14,7 @@ pub enum InstructionSet {
     Baseline,
     /// 256-bit vectors and fused multiply-add (x86-64-v3).
     Avx2,
-    /// The same with twice the registers (x86-64-v4).
+    /// The same with twice the registers, and vectors of 512 bits where two are taken at once (x86-64-v4).
     Avx512,
 }
 
@@ -211,8 +211,28 @@ impl DerefMut for Aligned {
     }
 }
 
+/// Two vectors that are taken at once.
+pub(crate) trait Pair<V>: Copy {
+    /// Whether it is one vector of the path.
+    const IS_ONE: bool;
+
+    fn splat(value: f64) -> Self;
+    /// One lane of a vector in all.
+    fn lane(of: V, lane: usize) -> Self;
+    fn of(halves: [V; 2]) -> Self;
+    fn load(values: &[[f64; WIDTH]; 2]) -> Self;
+    fn store(self, values: &mut [[f64; WIDTH]; 2]);
+    fn add(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    /// self * factor + term, fused where the path has it.
+    fn mul_add(self, factor: Self, term: Self) -> Self;
+    fn halves(self) -> [V; 2];
+}
+
 /// Four lanes.
 pub(crate) trait Vector: Copy {
+    type Pair: Pair<Self>;
+
     fn splat(value: f64) -> Self;
     fn load(values: &[f64; WIDTH]) -> Self;
     /// From numbers that are not in memory yet: to put them there and load them at once would wait for each.
@@ -259,7 +279,50 @@ impl Plain {
     }
 }
 
+impl Pair<Plain> for [Plain; 2] {
+    const IS_ONE: bool = false;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        [Plain::splat(value); 2]
+    }
+    #[inline(always)]
+    fn lane(of: Plain, lane: usize) -> Self {
+        [of.broadcast(lane); 2]
+    }
+    #[inline(always)]
+    fn of(halves: [Plain; 2]) -> Self {
+        halves
+    }
+    #[inline(always)]
+    fn load(values: &[[f64; WIDTH]; 2]) -> Self {
+        [Plain(values[0]), Plain(values[1])]
+    }
+    #[inline(always)]
+    fn store(self, values: &mut [[f64; WIDTH]; 2]) {
+        *values = [self[0].0, self[1].0];
+    }
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        [self[0].add(other[0]), self[1].add(other[1])]
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        [self[0].mul(other[0]), self[1].mul(other[1])]
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        [self[0].mul_add(factor[0], term[0]), self[1].mul_add(factor[1], term[1])]
+    }
+    #[inline(always)]
+    fn halves(self) -> [Plain; 2] {
+        self
+    }
+}
+
 impl Vector for Plain {
+    type Pair = [Plain; 2];
+
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self([value; WIDTH])
@@ -499,12 +562,12 @@ macro_rules! for_each_path {
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
             fn avx512 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused $($(, $constant)*)?>($($arg),*)
+                $inner::<crate::lanes::Fused<crate::lanes::Wide> $($(, $constant)*)?>($($arg),*)
             }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma")]
             fn avx2 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused $($(, $constant)*)?>($($arg),*)
+                $inner::<crate::lanes::Fused<crate::lanes::Two> $($(, $constant)*)?>($($arg),*)
             }
             match crate::lanes::InstructionSet::in_use() {
                 // SAFETY: `in_use` returns only what this machine has.
@@ -521,36 +584,46 @@ macro_rules! for_each_path {
 pub(crate) use for_each_path;
 
 #[cfg(target_arch = "x86_64")]
-pub(crate) use x86::Fused;
+pub(crate) use x86::{Fused, Two, Wide};
 
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code)]
 mod x86 {
     use std::arch::x86_64::*;
+    use std::marker::PhantomData;
 
-    use super::{Vector, WIDTH};
+    use super::{Pair, Vector, WIDTH};
 
-    /// A 256-bit vector with fused multiply-add.
+    /// A 256-bit vector with fused multiply-add, of which `P` is a pair.
     ///
-    /// To be used only inside functions compiled for `avx2,fma`, which call nothing that is not inlined into them: these
-    /// are reached through [`super::InstructionSet::in_use`] alone. A closure is a call: it is compiled for the baseline,
-    /// and each operation of a vector in it becomes a call too.
+    /// To be used only inside functions compiled for `avx2,fma`, and for `avx512f` too where the pair is [`Wide`], which call
+    /// nothing that is not inlined into them: these are reached through [`super::InstructionSet::in_use`] alone. A closure
+    /// is a call: it is compiled for the baseline, and each operation of a vector in it becomes a call too.
     #[derive(Clone, Copy)]
-    pub(crate) struct Fused(__m256d);
+    pub(crate) struct Fused<P>(__m256d, PhantomData<P>);
+
+    impl<P> Fused<P> {
+        #[inline(always)]
+        fn new(lanes: __m256d) -> Self {
+            Self(lanes, PhantomData)
+        }
+    }
 
     // SAFETY, of all blocks below: see the type.
-    impl Vector for Fused {
+    impl<P: Pair<Self>> Vector for Fused<P> {
+        type Pair = P;
+
         #[inline(always)]
         fn splat(value: f64) -> Self {
-            Self(unsafe { _mm256_set1_pd(value) })
+            Self::new(unsafe { _mm256_set1_pd(value) })
         }
         #[inline(always)]
         fn load(values: &[f64; WIDTH]) -> Self {
-            Self(unsafe { _mm256_loadu_pd(values.as_ptr()) })
+            Self::new(unsafe { _mm256_loadu_pd(values.as_ptr()) })
         }
         #[inline(always)]
         fn of([first, second, third, fourth]: [f64; WIDTH]) -> Self {
-            Self(unsafe { _mm256_set_pd(fourth, third, second, first) })
+            Self::new(unsafe { _mm256_set_pd(fourth, third, second, first) })
         }
         #[inline(always)]
         fn store(self, values: &mut [f64; WIDTH]) {
@@ -558,43 +631,43 @@ mod x86 {
         }
         #[inline(always)]
         fn add(self, other: Self) -> Self {
-            Self(unsafe { _mm256_add_pd(self.0, other.0) })
+            Self::new(unsafe { _mm256_add_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn sub(self, other: Self) -> Self {
-            Self(unsafe { _mm256_sub_pd(self.0, other.0) })
+            Self::new(unsafe { _mm256_sub_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn mul(self, other: Self) -> Self {
-            Self(unsafe { _mm256_mul_pd(self.0, other.0) })
+            Self::new(unsafe { _mm256_mul_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn div(self, other: Self) -> Self {
-            Self(unsafe { _mm256_div_pd(self.0, other.0) })
+            Self::new(unsafe { _mm256_div_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn sqrt(self) -> Self {
-            Self(unsafe { _mm256_sqrt_pd(self.0) })
+            Self::new(unsafe { _mm256_sqrt_pd(self.0) })
         }
         #[inline(always)]
         fn mul_add(self, factor: Self, term: Self) -> Self {
-            Self(unsafe { _mm256_fmadd_pd(self.0, factor.0, term.0) })
+            Self::new(unsafe { _mm256_fmadd_pd(self.0, factor.0, term.0) })
         }
         #[inline(always)]
         fn abs(self) -> Self {
-            Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
+            Self::new(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
         }
         #[inline(always)]
         fn min(self, other: Self) -> Self {
-            Self(unsafe { _mm256_min_pd(self.0, other.0) })
+            Self::new(unsafe { _mm256_min_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn max(self, other: Self) -> Self {
-            Self(unsafe { _mm256_max_pd(self.0, other.0) })
+            Self::new(unsafe { _mm256_max_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn broadcast(self, lane: usize) -> Self {
-            Self(unsafe {
+            Self::new(unsafe {
                 match lane {
                     0 => _mm256_permute4x64_pd::<0b00_00_00_00>(self.0),
                     1 => _mm256_permute4x64_pd::<0b01_01_01_01>(self.0),
@@ -606,7 +679,7 @@ mod x86 {
         #[inline(always)]
         fn shifted_up(self, before: Self) -> Self {
             // (before 2, 3, self 0, 1), of which the upper of each pair goes to the lower of the next.
-            Self(unsafe {
+            Self::new(unsafe {
                 let middle = _mm256_permute2f128_pd::<0x21>(before.0, self.0);
                 _mm256_shuffle_pd::<0b0101>(middle, self.0)
             })
@@ -614,14 +687,14 @@ mod x86 {
         #[inline(always)]
         fn shifted_down(self, after: Self) -> Self {
             // (self 2, 3, after 0, 1).
-            Self(unsafe {
+            Self::new(unsafe {
                 let middle = _mm256_permute2f128_pd::<0x21>(self.0, after.0);
                 _mm256_shuffle_pd::<0b0101>(self.0, middle)
             })
         }
         #[inline(always)]
         fn with(self, bits: u32, other: Self) -> Self {
-            Self(unsafe {
+            Self::new(unsafe {
                 let of_lanes = _mm256_set_epi64x(8, 4, 2, 1);
                 let set = _mm256_and_si256(_mm256_set1_epi64x(i64::from(bits)), of_lanes);
                 let mask = _mm256_cmpeq_epi64(set, of_lanes);
@@ -635,10 +708,10 @@ mod x86 {
                 let (more_even, more_odd) =
                     (_mm256_unpacklo_pd(third.0, fourth.0), _mm256_unpackhi_pd(third.0, fourth.0));
                 [
-                    Self(_mm256_permute2f128_pd::<0x20>(even, more_even)),
-                    Self(_mm256_permute2f128_pd::<0x20>(odd, more_odd)),
-                    Self(_mm256_permute2f128_pd::<0x31>(even, more_even)),
-                    Self(_mm256_permute2f128_pd::<0x31>(odd, more_odd)),
+                    Self::new(_mm256_permute2f128_pd::<0x20>(even, more_even)),
+                    Self::new(_mm256_permute2f128_pd::<0x20>(odd, more_odd)),
+                    Self::new(_mm256_permute2f128_pd::<0x31>(even, more_even)),
+                    Self::new(_mm256_permute2f128_pd::<0x31>(odd, more_odd)),
                 ]
             }
         }
@@ -659,10 +732,112 @@ mod x86 {
         }
         #[inline(always)]
         fn total(self) -> Self {
-            Self(unsafe {
+            Self::new(unsafe {
                 let pairs = _mm256_add_pd(self.0, _mm256_permute2f128_pd::<0x01>(self.0, self.0));
                 _mm256_add_pd(pairs, _mm256_permute_pd::<0b0101>(pairs))
             })
+        }
+    }
+
+    /// Two vectors of 256 bits.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Two([__m256d; 2]);
+
+    impl Pair<Fused<Two>> for Two {
+        const IS_ONE: bool = false;
+
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(unsafe { [_mm256_set1_pd(value); 2] })
+        }
+        #[inline(always)]
+        fn lane(of: Fused<Two>, lane: usize) -> Self {
+            let lanes = of.broadcast(lane).0;
+            Self([lanes, lanes])
+        }
+        #[inline(always)]
+        fn of([low, high]: [Fused<Two>; 2]) -> Self {
+            Self([low.0, high.0])
+        }
+        #[inline(always)]
+        fn load(values: &[[f64; WIDTH]; 2]) -> Self {
+            Self(unsafe { [_mm256_loadu_pd(values[0].as_ptr()), _mm256_loadu_pd(values[1].as_ptr())] })
+        }
+        #[inline(always)]
+        fn store(self, values: &mut [[f64; WIDTH]; 2]) {
+            unsafe {
+                _mm256_storeu_pd(values[0].as_mut_ptr(), self.0[0]);
+                _mm256_storeu_pd(values[1].as_mut_ptr(), self.0[1]);
+            }
+        }
+        #[inline(always)]
+        fn add(self, other: Self) -> Self {
+            Self(unsafe { [_mm256_add_pd(self.0[0], other.0[0]), _mm256_add_pd(self.0[1], other.0[1])] })
+        }
+        #[inline(always)]
+        fn mul(self, other: Self) -> Self {
+            Self(unsafe { [_mm256_mul_pd(self.0[0], other.0[0]), _mm256_mul_pd(self.0[1], other.0[1])] })
+        }
+        #[inline(always)]
+        fn mul_add(self, factor: Self, term: Self) -> Self {
+            Self(unsafe {
+                [_mm256_fmadd_pd(self.0[0], factor.0[0], term.0[0]), _mm256_fmadd_pd(self.0[1], factor.0[1], term.0[1])]
+            })
+        }
+        #[inline(always)]
+        fn halves(self) -> [Fused<Two>; 2] {
+            [Fused::new(self.0[0]), Fused::new(self.0[1])]
+        }
+    }
+
+    /// A vector of 512 bits.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Wide(__m512d);
+
+    impl Pair<Fused<Wide>> for Wide {
+        const IS_ONE: bool = true;
+
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            Self(unsafe { _mm512_set1_pd(value) })
+        }
+        #[inline(always)]
+        fn lane(of: Fused<Wide>, lane: usize) -> Self {
+            Self(unsafe {
+                let of = _mm512_castpd256_pd512(of.0);
+                match lane {
+                    0 => _mm512_broadcastsd_pd(_mm512_castpd512_pd128(of)),
+                    _ => _mm512_permutexvar_pd(_mm512_set1_epi64(lane as i64), of),
+                }
+            })
+        }
+        #[inline(always)]
+        fn of([low, high]: [Fused<Wide>; 2]) -> Self {
+            Self(unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low.0), high.0) })
+        }
+        #[inline(always)]
+        fn load(values: &[[f64; WIDTH]; 2]) -> Self {
+            Self(unsafe { _mm512_loadu_pd(values.as_ptr().cast()) })
+        }
+        #[inline(always)]
+        fn store(self, values: &mut [[f64; WIDTH]; 2]) {
+            unsafe { _mm512_storeu_pd(values.as_mut_ptr().cast(), self.0) }
+        }
+        #[inline(always)]
+        fn add(self, other: Self) -> Self {
+            Self(unsafe { _mm512_add_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn mul(self, other: Self) -> Self {
+            Self(unsafe { _mm512_mul_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn mul_add(self, factor: Self, term: Self) -> Self {
+            Self(unsafe { _mm512_fmadd_pd(self.0, factor.0, term.0) })
+        }
+        #[inline(always)]
+        fn halves(self) -> [Fused<Wide>; 2] {
+            unsafe { [Fused::new(_mm512_castpd512_pd256(self.0)), Fused::new(_mm512_extractf64x4_pd::<1>(self.0))] }
         }
     }
 }

@@ -20,7 +20,8 @@ use crate::events::NO_CONTACT;
 use crate::friction::BlockMotion;
 use crate::histories::RowInLanes;
 use crate::lanes::{
-    FAR, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
+    FAR, Pair, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, prefix_sums,
+    store,
 };
 use crate::model::Model;
 use crate::observe::Observer;
@@ -85,6 +86,16 @@ fn four_rows<const K: usize>(values: &[f64]) -> &[Column<K>] {
     columns_of::<K>(values).as_chunks::<4>().0
 }
 
+/// A column of one vector as two pairs of rows: (dx, dv) and (a, j).
+#[inline(always)]
+fn pairs_of<V: Vector, const K: usize>(column: &Column<K>) -> [V::Pair; 2] {
+    let mut pairs = [V::Pair::splat(0.0); 2];
+    for (pair, rows) in pairs.iter_mut().zip(column.as_flattened().as_chunks().0) {
+        *pair = V::Pair::load(rows);
+    }
+    pairs
+}
+
 /// rows += column * weight.
 #[inline(always)]
 fn add<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column: &Column<K>, weight: V) {
@@ -97,37 +108,77 @@ fn add<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column: &Column<K>, we
 
 /// rows += columns * weights.
 #[inline(always)]
-fn multiply<V: Vector, const K: usize, const S: usize>(
-    rows: &mut [[V; K]; 4],
-    columns: &[Column<K>],
-    weights: &[V; K],
-) {
-    if S > 0 {
-        let Some(columns) = columns.first_chunk::<S>() else { return };
-        for c in 0..S {
-            add(rows, &columns[c], weights[0].broadcast(c));
+fn multiply<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], columns: &[Column<K>], weights: &[V; K]) {
+    let values = numbers(weights);
+    let each = columns.iter().zip(values.as_flattened());
+    if K > 1 && V::Pair::IS_ONE {
+        // Two vectors at a time: half of the sums' room is left.
+        let mut sums = [[V::Pair::splat(0.0); K]; 4];
+        for r in 0..4 {
+            for k in 0..K / 2 {
+                sums[r][k] = V::Pair::of([rows[r][2 * k], rows[r][2 * k + 1]]);
+            }
+        }
+        for (column, &weight) in each {
+            let weight = V::Pair::splat(weight);
+            for r in 0..4 {
+                for (k, pair) in column[r].as_chunks().0.iter().enumerate() {
+                    sums[r][k] = V::Pair::load(pair).mul_add(weight, sums[r][k]);
+                }
+            }
+        }
+        for r in 0..4 {
+            for k in 0..K / 2 {
+                [rows[r][2 * k], rows[r][2 * k + 1]] = sums[r][k].halves();
+            }
+        }
+    } else if K <= 2 {
+        for (column, &weight) in each {
+            add(rows, column, V::splat(weight));
         }
     } else {
-        // As many rows at a time as stay in the registers of every path.
-        let values = numbers(weights);
-        let each = columns.iter().zip(values.as_flattened());
-        if K <= 2 {
-            for (column, &weight) in each {
-                add(rows, column, V::splat(weight));
-            }
-        } else {
-            for pair in [[0, 1], [2, 3]] {
-                for (column, &weight) in each.clone() {
-                    let weight = V::splat(weight);
-                    for r in pair {
-                        for k in 0..K {
-                            rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
-                        }
+        // As many rows at a time as stay in the registers.
+        for pair in [[0, 1], [2, 3]] {
+            for (column, &weight) in each.clone() {
+                let weight = V::splat(weight);
+                for r in pair {
+                    for k in 0..K {
+                        rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
                     }
                 }
             }
         }
     }
+}
+
+/// The step of a scene of one vector with so many storeys, from columns of each drift and of each drift rate, of the ground
+/// acceleration and of its change: two rows at a time.
+///
+/// Two sums: half the latency of one, which is what a small step waits for.
+#[inline(always)]
+fn small_step<V: Vector, const K: usize, const S: usize>(
+    course: &Course<K>,
+    [of_drift, of_rate]: [&[Column<K>; S]; 2],
+    [ground, change]: [f64; 2],
+    [x, v]: [V; 2],
+) -> [V; 4] {
+    let (ground, change) = (V::Pair::splat(ground), V::Pair::splat(change));
+    let (of_change, of_ground) = (pairs_of::<V, K>(course.of_change), pairs_of::<V, K>(course.of_ground));
+    let mut rows = pairs_of::<V, K>(course.constant);
+    let mut of_rates = [V::Pair::splat(0.0); 2];
+    for r in 0..2 {
+        rows[r] = of_ground[r].mul_add(ground, of_change[r].mul_add(change, rows[r]));
+    }
+    for c in 0..S {
+        let (x, v) = (V::Pair::lane(x, c), V::Pair::lane(v, c));
+        let (of_drift, of_rate) = (pairs_of::<V, K>(&of_drift[c]), pairs_of::<V, K>(&of_rate[c]));
+        for r in 0..2 {
+            rows[r] = of_drift[r].mul_add(x, rows[r]);
+            of_rates[r] = of_rate[r].mul_add(v, of_rates[r]);
+        }
+    }
+    let ([dx, dv], [a, jerk]) = (rows[0].add(of_rates[0]).halves(), rows[1].add(of_rates[1]).halves());
+    [dx, dv, a, jerk]
 }
 
 /// Forms the effects of the floor loads on the step of the present regime, if they have changed.
@@ -158,7 +209,7 @@ fn prepare_effects<V: Vector, const K: usize, const VERTICAL: bool>(state: &mut 
 #[inline(always)]
 fn put_product<V: Vector, const K: usize>(columns: &[Column<K>], weights: &[V; K], rows: &mut PaddedRows<4>) {
     let mut product = [[V::splat(0.0); K]; 4];
-    multiply::<V, K, 0>(&mut product, columns, weights);
+    multiply(&mut product, columns, weights);
     for (out, row) in rows.vectors_mut::<K>().iter_mut().zip(&product) {
         *out = numbers(row);
     }
@@ -278,6 +329,11 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     let mut recorder = observer.histories.as_mut();
     prepare_effects::<V, K, VERTICAL>(state);
     let Some(course) = Course::<K>::new(state, motion.dt()) else { return first };
+    let (Some(of_drifts), Some(of_rates)) = (course.of_drift.first_chunk::<S>(), course.of_rate.first_chunk::<S>())
+    else {
+        return first;
+    };
+    let few_columns = [of_drifts, of_rates];
     let h = course.h;
     let (length, third, per_second) = (V::splat(h), V::splat(h * THIRD), 1.0 / h);
     let regime = course.regime;
@@ -348,31 +404,28 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         let norm = sizes.total();
         // The step.
         let mut rows = [[V::splat(0.0); K]; 4];
-        let (ground, ramp) = (V::splat(before), V::splat(change));
-        for r in 0..4 {
-            for k in 0..K {
-                let constant = V::load(&course.constant[r][k]);
-                let row = V::load(&course.of_change[r][k]).mul_add(ramp, constant);
-                rows[r][k] = V::load(&course.of_ground[r][k]).mul_add(ground, row);
-                if VERTICAL {
-                    let friction = V::load(&course.friction[r][k]).mul_add(V::splat(contact.0), rows[r][k]);
-                    rows[r][k] =
-                        V::load(&course.friction_ramp[r][k]).mul_add(V::splat(contact.1 - contact.0), friction);
-                }
-            }
-        }
-        multiply::<V, K, S>(&mut rows, course.of_drift, &sample.x);
         if S > 0 {
-            // Two sums: half the latency of one, which is what a small step waits for.
-            let mut of_rates = [[V::splat(0.0); K]; 4];
-            multiply::<V, K, S>(&mut of_rates, course.of_rate, &sample.v);
+            let drive = [before, change];
+            let few = small_step::<V, K, S>(&course, few_columns, drive, [sample.x[0], sample.v[0]]);
             for r in 0..4 {
-                for k in 0..K {
-                    rows[r][k] = rows[r][k].add(of_rates[r][k]);
-                }
+                rows[r] = [few[r]; K];
             }
         } else {
-            multiply::<V, K, S>(&mut rows, course.of_rate, &sample.v);
+            let (ground, ramp) = (V::splat(before), V::splat(change));
+            for r in 0..4 {
+                for k in 0..K {
+                    let constant = V::load(&course.constant[r][k]);
+                    let row = V::load(&course.of_change[r][k]).mul_add(ramp, constant);
+                    rows[r][k] = V::load(&course.of_ground[r][k]).mul_add(ground, row);
+                    if VERTICAL {
+                        let friction = V::load(&course.friction[r][k]).mul_add(V::splat(contact.0), rows[r][k]);
+                        rows[r][k] =
+                            V::load(&course.friction_ramp[r][k]).mul_add(V::splat(contact.1 - contact.0), friction);
+                    }
+                }
+            }
+            multiply(&mut rows, course.of_drift, &sample.x);
+            multiply(&mut rows, course.of_rate, &sample.v);
         }
         let [dx, dv, a, jerk] = rows;
         let mut taken = Sample { x: sample.x, v: sample.v, a, jerk, q: differences(&a, V::splat(after)) };

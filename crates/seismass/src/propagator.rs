@@ -16,8 +16,8 @@ use rustc_hash::FxBuildHasher;
 
 use crate::few_storeys;
 use crate::lanes::{
-    Aligned, MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, padded,
-    store, unit,
+    Aligned, MAX_LANES, Pair, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers,
+    padded, store, unit,
 };
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
@@ -54,11 +54,40 @@ pub(crate) enum Whole {
 
 /// Taylor terms of the floor accelerations from the second order on, over a step `h`, of unit drift accelerations and
 /// of unit rates of these: by order, by column, by floor padded to whole vectors.
+///
+/// Of one vector, where two are read at once, columns of two orders alternate, the first of them even; zeros stand for an
+/// order beyond the last.
 pub(crate) struct Table {
     pub(crate) h: f64,
     /// Order of the last terms.
     pub(crate) order: usize,
     pub(crate) terms: Aligned,
+}
+
+impl Table {
+    /// Whether the columns of two orders alternate, of a scene of `K` vectors.
+    #[inline(always)]
+    pub(crate) const fn is_in_pairs<V: Vector, const K: usize>() -> bool {
+        K == 1 && V::Pair::IS_ONE
+    }
+
+    /// The place of the first column of an order among all, of which an order has so many.
+    #[inline(always)]
+    pub(crate) fn first_column<V: Vector, const K: usize>(columns: usize, order: usize) -> usize {
+        if Self::is_in_pairs::<V, K>() { 2 * columns * (order / 2 - 1) + order % 2 } else { columns * (order - 2) }
+    }
+
+    /// How far the columns of an order are apart.
+    #[inline(always)]
+    pub(crate) const fn columns_apart<V: Vector, const K: usize>() -> usize {
+        if Self::is_in_pairs::<V, K>() { 2 } else { 1 }
+    }
+
+    /// Columns that there are, with those beyond the last order, whether or not two orders alternate.
+    fn columns(storeys: usize, order: usize) -> usize {
+        let orders = order - 1;
+        2 * storeys * if storeys <= WIDTH { orders.next_multiple_of(2) } else { orders }
+    }
 }
 
 /// The step of a regime over one sample interval, acting on rows (dx, dv, a, j): changes of drifts and drift rates,
@@ -168,7 +197,8 @@ fn remainders<V: Vector, const K: usize>(
                     v[column][l] = once.mul(drift_acceleration[l]).mul(inside[l]);
                 }
                 if keeps_terms && k + 2 <= order {
-                    store(&term, &mut terms[(k * 2 * n + places[column]) * width..]);
+                    let first = Table::first_column::<V, K>(2 * n, k + 2);
+                    store(&term, &mut terms[(first + Table::columns_apart::<V, K>() * places[column]) * width..]);
                 }
             }
         }
@@ -312,7 +342,7 @@ impl Steps {
         // Parts of a halved interval may be longer than its table's step.
         let order = terms::<Plain>(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
         sums.resize(2 * n * 4 * width, 0.0);
-        let mut table = Aligned::unset(if n <= MAX_TABLE { (order - 1) * 2 * n * width } else { 0 });
+        let mut table = Aligned::unset(if n <= MAX_TABLE { Table::columns(n, order) * width } else { 0 });
         form_remainders(model, regime, h, order, sums, &mut table);
         let formed = |with_ramps: bool| {
             let mut columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
@@ -623,7 +653,7 @@ mod tests {
             let (h, order) = (0.7 / regime.frequency, 14);
             let formed = |few: bool| {
                 let mut sums = vec![0.0; 2 * n * 4 * WIDTH];
-                let mut terms = vec![0.0; (order - 1) * 2 * n * WIDTH];
+                let mut terms = vec![0.0; WIDTH * Table::columns(n, order)];
                 let mut out = vec![0.0; column_count(n, true) * 4 * WIDTH];
                 if few {
                     remainders_by_width::<Plain>(&model, &regime, h, order, &mut sums, &mut terms);

@@ -4,7 +4,7 @@
 
 use crate::bernstein::{MAX_DEGREE, Polynomial, by_length};
 use crate::lanes::{
-    MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, lanes, load, store,
+    MAX_LANES, Pair, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, lanes, load, store,
 };
 use crate::model::Model;
 use crate::padded::{OfStorey, Padded, PaddedRows};
@@ -181,32 +181,42 @@ impl Series {
         let linear = sums.rate;
         store(&x, &mut self.x);
         store(&v, &mut self.v);
-        let (starts, of_floors) = self.a.vectors_mut::<K>()[..=order].split_at_mut(2);
+        let (starts, of_floors) = self.a.vectors_mut::<K>().split_at_mut(2);
         put(&a, &mut starts[0]);
         put(&linear, &mut starts[1]);
         // Powers of the step over that of the table.
-        let ratio = V::splat(h / table.h);
-        let mut power = ratio;
-        let terms = &columns_of::<K>(&table.terms)[..(order - 1) * COLUMNS];
-        let (mut firsts, mut rates) = ([zero; S], [zero; S]);
-        for c in 0..S {
-            firsts[c] = first[c / WIDTH].broadcast(c % WIDTH);
-            rates[c] = rate[c / WIDTH].broadcast(c % WIDTH);
-        }
-        for ((columns, out), weights) in terms.as_chunks::<COLUMNS>().0.iter().zip(of_floors).zip(&WEIGHTS[2..]) {
-            power = power.mul(ratio);
-            let mut term = [zero; K];
-            for k in 0..K {
-                let mut of_first = V::load(&columns[0][k]).mul(firsts[0]);
-                let mut of_rate = V::load(&columns[S][k]).mul(rates[0]);
-                for c in 1..S {
-                    of_first = V::load(&columns[c][k]).mul_add(firsts[c], of_first);
-                    of_rate = V::load(&columns[S + c][k]).mul_add(rates[c], of_rate);
-                }
-                term[k] = of_first.add(of_rate).mul(power);
+        let ratio = h / table.h;
+        let terms = columns_of::<K>(&table.terms);
+        if Table::is_in_pairs::<V, K>() {
+            let pairs = terms.as_flattened().as_chunks().0.as_chunks().0;
+            let out = of_floors.as_flattened_mut().as_chunks_mut().0;
+            let [value, rate, once, twice] = two_at_a_time::<V, S, COLUMNS>(pairs, [first[0], rate[0]], ratio, out);
+            (sums.value[0], sums.rate[0]) = (sums.value[0].add(value), sums.rate[0].add(rate));
+            (sums.integrals[0][0], sums.integrals[1][0]) = (once, twice);
+        } else {
+            let ratio = V::splat(ratio);
+            let mut power = ratio;
+            let (mut firsts, mut rates) = ([zero; S], [zero; S]);
+            for c in 0..S {
+                firsts[c] = first[c / WIDTH].broadcast(c % WIDTH);
+                rates[c] = rate[c / WIDTH].broadcast(c % WIDTH);
             }
-            put(&term, out);
-            sums.add(&term, weights);
+            let terms = terms[..(order - 1) * COLUMNS].as_chunks::<COLUMNS>().0;
+            for ((columns, out), weights) in terms.iter().zip(of_floors).zip(&WEIGHTS[2..]) {
+                power = power.mul(ratio);
+                let mut term = [zero; K];
+                for k in 0..K {
+                    let mut of_first = V::load(&columns[0][k]).mul(firsts[0]);
+                    let mut of_rate = V::load(&columns[S][k]).mul(rates[0]);
+                    for c in 1..S {
+                        of_first = V::load(&columns[c][k]).mul_add(firsts[c], of_first);
+                        of_rate = V::load(&columns[S + c][k]).mul_add(rates[c], of_rate);
+                    }
+                    term[k] = of_first.add(of_rate).mul(power);
+                }
+                put(&term, out);
+                sums.add(&term, weights);
+            }
         }
         self.put_sums(&sums, &v, &a, &linear, &inside);
     }
@@ -326,32 +336,28 @@ impl Series {
     fn stop_in_lanes<V: Vector, const K: usize>(&mut self, model: &Model, s: f64) {
         let inside: [V; K] = load(&model.lanes.inside);
         let (place, length) = (V::splat(s), V::splat(s * self.h));
-        let zero = [V::splat(0.0); K];
-        let [mut once, mut twice, mut odd_once, mut odd_twice] = [zero; 4];
-        let Some([a, linear, terms @ ..]) = self.a.vectors::<K>().get(..=self.order) else { return };
+        let pairs = self.a.vectors::<K>().as_chunks::<2>().0;
+        let Some([[a, linear], pairs @ ..]) = pairs.get(..=self.order / 2) else { return };
         // Even and odd terms apart: half the latency of one chain.
-        let squared = place.mul(place);
-        let (pairs, last) = terms.as_chunks::<2>();
-        let (weights, of_last) = WEIGHTS[2..].split_at(2 * pairs.len());
-        if let Some(term) = last.first() {
-            let [_, first, second] = &of_last[0];
+        let squared = V::Pair::splat(s * s);
+        let mut sums = [[V::Pair::splat(0.0); K]; 2];
+        for (pair, weights) in pairs.iter().zip(&WEIGHTS_OF_PAIRS[1..]).rev() {
             for k in 0..K {
-                let term = V::load(&term[k]);
-                (once[k], twice[k]) = (term.mul(V::load(first)), term.mul(V::load(second)));
+                let terms = match pair.as_flattened().first_chunk() {
+                    Some(both) if K == 1 => V::Pair::load(both),
+                    _ => V::Pair::of([V::load(&pair[0][k]), V::load(&pair[1][k])]),
+                };
+                for which in 0..2 {
+                    let weighted = terms.mul(V::Pair::load(&weights[1 + which]));
+                    sums[which][k] = sums[which][k].mul_add(squared, weighted);
+                }
             }
         }
-        for (terms, weights) in pairs.iter().zip(weights.as_chunks::<2>().0).rev() {
-            for k in 0..K {
-                let (even, odd) = (V::load(&terms[0][k]), V::load(&terms[1][k]));
-                once[k] = once[k].mul_add(squared, even.mul(V::load(&weights[0][1])));
-                twice[k] = twice[k].mul_add(squared, even.mul(V::load(&weights[0][2])));
-                odd_once[k] = odd_once[k].mul_add(squared, odd.mul(V::load(&weights[1][1])));
-                odd_twice[k] = odd_twice[k].mul_add(squared, odd.mul(V::load(&weights[1][2])));
-            }
-        }
+        let [mut once, mut twice] = [[V::splat(0.0); K]; 2];
         for k in 0..K {
-            once[k] = odd_once[k].mul_add(place, once[k]);
-            twice[k] = odd_twice[k].mul_add(place, twice[k]);
+            let ([even_once, odd_once], [even_twice, odd_twice]) = (sums[0][k].halves(), sums[1][k].halves());
+            once[k] = odd_once.mul_add(place, even_once);
+            twice[k] = odd_twice.mul_add(place, even_twice);
         }
         store(&once, &mut self.integrals[0]);
         store(&twice, &mut self.integrals[1]);
@@ -605,6 +611,49 @@ impl<const K: usize> TermByOrder for Difference<'_, K> {
     }
 }
 
+/// Terms of one vector from the second order on, from pairs of columns of a [`Table`], drift accelerations and their rates,
+/// and the ratio of the step to that of the table; returns their [`Sums`]: value, rate, first and second integrals.
+/// `S` and `COLUMNS` are those of [`Series::by_table`].
+#[inline(always)]
+fn two_at_a_time<V: Vector, const S: usize, const COLUMNS: usize>(
+    columns: &[[[[f64; WIDTH]; 2]; COLUMNS]],
+    [first, rate]: [V; 2],
+    ratio: f64,
+    out: &mut [[[f64; WIDTH]; 2]],
+) -> [V; 4] {
+    let zero = V::Pair::splat(0.0);
+    let (mut firsts, mut rates) = ([zero; S], [zero; S]);
+    for c in 0..S {
+        firsts[c] = V::Pair::lane(first, c);
+        rates[c] = V::Pair::lane(rate, c);
+    }
+    let squared = ratio * ratio;
+    let mut power = V::Pair::of([V::splat(squared), V::splat(squared * ratio)]);
+    let squared = V::Pair::splat(squared);
+    let mut sums = [zero; 4];
+    for ((columns, out), weights) in columns.iter().zip(out).zip(&WEIGHTS_OF_PAIRS[1..]) {
+        let mut of_first = V::Pair::load(&columns[0]).mul(firsts[0]);
+        let mut of_rate = V::Pair::load(&columns[S]).mul(rates[0]);
+        for c in 1..S {
+            of_first = V::Pair::load(&columns[c]).mul_add(firsts[c], of_first);
+            of_rate = V::Pair::load(&columns[S + c]).mul_add(rates[c], of_rate);
+        }
+        let terms = of_first.add(of_rate).mul(power);
+        power = power.mul(squared);
+        terms.store(out);
+        sums[0] = sums[0].add(terms);
+        for (sum, weights) in sums[1..].iter_mut().zip(weights) {
+            *sum = V::Pair::load(weights).mul_add(terms, *sum);
+        }
+    }
+    let mut of_all = [V::splat(0.0); 4];
+    for which in 0..4 {
+        let [even, odd] = sums[which].halves();
+        of_all[which] = even.add(odd);
+    }
+    of_all
+}
+
 /// Sums of terms: value and rate at the end of a step of unit length, first and second integrals from the second order on.
 struct Sums<V, const K: usize> {
     value: [V; K],
@@ -631,6 +680,21 @@ pub(crate) static WEIGHTS: [[[f64; WIDTH]; 3]; MAX_DEGREE + 1] = {
     while k <= MAX_DEGREE {
         let once = if k > 1 { 1.0 / (k + 1) as f64 } else { 0.0 };
         table[k] = [[k as f64; WIDTH], [once; WIDTH], [once / (k + 2) as f64; WIDTH]];
+        k += 1;
+    }
+    table
+};
+
+/// The same by pairs of orders 2 k and 2 k + 1.
+static WEIGHTS_OF_PAIRS: [[[[f64; WIDTH]; 2]; 3]; MAX_DEGREE.div_ceil(2)] = {
+    let mut table = [[[[0.0; WIDTH]; 2]; 3]; MAX_DEGREE.div_ceil(2)];
+    let mut k = 0;
+    while k <= MAX_DEGREE {
+        let mut which = 0;
+        while which < 3 {
+            table[k / 2][which][k % 2] = WEIGHTS[k][which];
+            which += 1;
+        }
         k += 1;
     }
     table
