@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
@@ -126,6 +126,16 @@ def section4(second_slope: float, mu: float = 0.3) -> sm.Scene:
     return sm.Scene(building, sm.blocks_on_floors([1.0] * 3, mu=mu))
 
 
+def at_half_step(bench: BenchmarkScene) -> BenchmarkScene:
+    """Return the scene under the same motion at half its time step."""
+    acceleration = bench.motion.acceleration
+    twice = np.empty(2 * acceleration.size - 1)
+    twice[::2] = acceleration
+    twice[1::2] = 0.5 * (acceleration[:-1] + acceleration[1:])
+    motion = sm.Motion(twice, 0.5 * bench.motion.dt)
+    return replace(bench, motion=motion, motion_name=f"{bench.motion_name} at {motion.dt:g} s")
+
+
 def _study_scenes(motions: sm.records.Suite) -> Iterator[BenchmarkScene]:
     scaling = sm.scale_asce7_10(motions, sm.TargetSpectrum.asce7(1.07, 0.61, 8.0), 1.0)
 
@@ -159,9 +169,14 @@ def scenes() -> list[BenchmarkScene]:
     motion = record.scaled(PEAK_G / record.pga_g).motion
     name = f"{_name(record)}, {PEAK_G} g"
     elastic = sm.Scene(sm.Building.uniform(4, 0.57, damping=DAMPING))
+    soft, stiff = (
+        BenchmarkScene(f"section4-{slope:g}", f"Section 4, r2 = {slope:g}", section4(slope), motion, name)
+        for slope in (0.05, 0.5)
+    )
     return [
-        BenchmarkScene("section4-0.05", "Section 4, r2 = 0.05", section4(0.05), motion, name),
-        BenchmarkScene("section4-0.5", "Section 4, r2 = 0.5", section4(0.5), motion, name),
+        soft,
+        stiff,
+        *(replace(at_half_step(bench), name=f"{bench.name}-fine") for bench in (soft, stiff)),
         *_study_scenes(motions),
         BenchmarkScene("sliding", "All sliding: section 4, mu = 0.05", section4(0.05, mu=0.05), motion, name),
         BenchmarkScene("elastic", "Elastic: 4 storeys, no block", elastic, motion, name),

@@ -11,7 +11,17 @@ from numpy.typing import NDArray
 from scenes import BenchmarkScene
 
 FloatArray = NDArray[np.float64]
-EVERYWHERE = ("section4-0.05", "section4-0.5", "study-2", "study-3", "study-4", "sliding", "elastic")
+EVERYWHERE = (
+    "section4-0.05",
+    "section4-0.5",
+    "section4-0.05-fine",
+    "section4-0.5-fine",
+    "study-2",
+    "study-3",
+    "study-4",
+    "sliding",
+    "elastic",
+)
 MAIN = ("section4-0.05",)
 """The scene of the README's figure; what is too slow for the others runs here."""
 
