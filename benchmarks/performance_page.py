@@ -27,7 +27,8 @@ Set before anything was measured, and not moved: what is missed is missed. {coun
 {targets}"""
 LATER: Final = """
 Added after these had been measured, with the same bound: the short motions at half their step, which gives them the
-length that the target is meant for, and one of them milder, which gives it as many events. {counts}
+length that the target is meant for, and one of them milder, which gives it the most events that it is meant for.
+{counts}
 
 {targets}"""
 

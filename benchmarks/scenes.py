@@ -176,7 +176,10 @@ def scenes() -> list[BenchmarkScene]:
     return [
         soft,
         stiff,
-        *(replace(at_half_step(bench), name=f"{bench.name}-fine") for bench in (soft, stiff)),
+        *(
+            replace(at_half_step(bench), name=f"{bench.name}-fine", title=f"{bench.title}, half the step")
+            for bench in (soft, stiff)
+        ),
         *_study_scenes(motions),
         BenchmarkScene("sliding", "All sliding: section 4, mu = 0.05", section4(0.05, mu=0.05), motion, name),
         BenchmarkScene("elastic", "Elastic: 4 storeys, no block", elastic, motion, name),

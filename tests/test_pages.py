@@ -72,7 +72,7 @@ def test_readme_says_of_times_what_the_page_of_performance_does() -> None:
     for words, value, low, high in (
         ("one more sample in which nothing happens costs some ten nanoseconds", step, 8.0, 12.0),
         ("nothing yields or slides takes some thirty per sample", calm, 25.0, 35.0),
-        ("An event costs about 0.4 microseconds", event, 0.35, 0.47),
+        ("An event costs 0.3 to 0.4 microseconds", event, 0.3, 0.4),
         ("takes 0.1 to 0.3 ms on one core", min(times), 0.08, 0.15),
         ("takes 0.1 to 0.3 ms on one core", max(times), 0.25, 0.35),
         ("less than a third of a second on two", study, 0.0, 1 / 3),
@@ -90,6 +90,6 @@ def test_readme_says_of_the_leapfrog_what_the_page_of_errors_does() -> None:
     assert head in page.partition("At an error of 1e-06 of the drift history")[2]
     assert met is not None
     assert met.group(1) == met.group(2)
-    assert "that can still be about twice as fast as the exact run" in readme
+    assert "that can still be up to about 1.6 times as fast as the exact run" in readme
     factors = [float(factor) for factor in re.findall(r"by leapfrog, by up to a factor of ([\d.]+):", page)]
-    assert 1.5 < max(factors) < 2.5
+    assert 1.4 < max(factors) < 1.8
