@@ -279,28 +279,29 @@ impl Plain {
     }
 }
 
-impl Pair<Plain> for [Plain; 2] {
+impl<V: Vector> Pair<V> for [V; 2] {
     const IS_ONE: bool = false;
 
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        [Plain::splat(value); 2]
+        [V::splat(value); 2]
     }
     #[inline(always)]
-    fn lane(of: Plain, lane: usize) -> Self {
+    fn lane(of: V, lane: usize) -> Self {
         [of.broadcast(lane); 2]
     }
     #[inline(always)]
-    fn of(halves: [Plain; 2]) -> Self {
+    fn of(halves: [V; 2]) -> Self {
         halves
     }
     #[inline(always)]
     fn load(values: &[[f64; WIDTH]; 2]) -> Self {
-        [Plain(values[0]), Plain(values[1])]
+        [V::load(&values[0]), V::load(&values[1])]
     }
     #[inline(always)]
     fn store(self, values: &mut [[f64; WIDTH]; 2]) {
-        *values = [self[0].0, self[1].0];
+        self[0].store(&mut values[0]);
+        self[1].store(&mut values[1]);
     }
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -315,7 +316,7 @@ impl Pair<Plain> for [Plain; 2] {
         [self[0].mul_add(factor[0], term[0]), self[1].mul_add(factor[1], term[1])]
     }
     #[inline(always)]
-    fn halves(self) -> [Plain; 2] {
+    fn halves(self) -> [V; 2] {
         self
     }
 }
@@ -562,12 +563,12 @@ macro_rules! for_each_path {
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
             fn avx512 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused<crate::lanes::Wide> $($(, $constant)*)?>($($arg),*)
+                $inner::<crate::lanes::Fused<crate::lanes::InOne> $($(, $constant)*)?>($($arg),*)
             }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma")]
             fn avx2 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused<crate::lanes::Two> $($(, $constant)*)?>($($arg),*)
+                $inner::<crate::lanes::Fused<crate::lanes::Apart> $($(, $constant)*)?>($($arg),*)
             }
             match crate::lanes::InstructionSet::in_use() {
                 // SAFETY: `in_use` returns only what this machine has.
@@ -584,7 +585,7 @@ macro_rules! for_each_path {
 pub(crate) use for_each_path;
 
 #[cfg(target_arch = "x86_64")]
-pub(crate) use x86::{Fused, Two, Wide};
+pub(crate) use x86::{Apart, Fused, InOne};
 
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code)]
@@ -594,9 +595,30 @@ mod x86 {
 
     use super::{Pair, Vector, WIDTH};
 
-    /// A 256-bit vector with fused multiply-add, of which `P` is a pair.
+    /// How pairs of a vector are taken.
+    pub(crate) trait Pairing: Copy {
+        type Pair: Pair<Fused<Self>>;
+    }
+
+    /// One vector after the other.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Apart;
+
+    impl Pairing for Apart {
+        type Pair = [Fused<Self>; 2];
+    }
+
+    /// As one vector of 512 bits.
+    #[derive(Clone, Copy)]
+    pub(crate) struct InOne;
+
+    impl Pairing for InOne {
+        type Pair = Wide;
+    }
+
+    /// A 256-bit vector with fused multiply-add, of which pairs are taken as `P` says.
     ///
-    /// To be used only inside functions compiled for `avx2,fma`, and for `avx512f` too where the pair is [`Wide`], which call
+    /// To be used only inside functions compiled for `avx2,fma`, and for `avx512f` too where that is [`InOne`], which call
     /// nothing that is not inlined into them: these are reached through [`super::InstructionSet::in_use`] alone. A closure
     /// is a call: it is compiled for the baseline, and each operation of a vector in it becomes a call too.
     #[derive(Clone, Copy)]
@@ -610,8 +632,8 @@ mod x86 {
     }
 
     // SAFETY, of all blocks below: see the type.
-    impl<P: Pair<Self>> Vector for Fused<P> {
-        type Pair = P;
+    impl<P: Pairing> Vector for Fused<P> {
+        type Pair = P::Pair;
 
         #[inline(always)]
         fn splat(value: f64) -> Self {
@@ -739,62 +761,11 @@ mod x86 {
         }
     }
 
-    /// Two vectors of 256 bits.
-    #[derive(Clone, Copy)]
-    pub(crate) struct Two([__m256d; 2]);
-
-    impl Pair<Fused<Two>> for Two {
-        const IS_ONE: bool = false;
-
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            Self(unsafe { [_mm256_set1_pd(value); 2] })
-        }
-        #[inline(always)]
-        fn lane(of: Fused<Two>, lane: usize) -> Self {
-            let lanes = of.broadcast(lane).0;
-            Self([lanes, lanes])
-        }
-        #[inline(always)]
-        fn of([low, high]: [Fused<Two>; 2]) -> Self {
-            Self([low.0, high.0])
-        }
-        #[inline(always)]
-        fn load(values: &[[f64; WIDTH]; 2]) -> Self {
-            Self(unsafe { [_mm256_loadu_pd(values[0].as_ptr()), _mm256_loadu_pd(values[1].as_ptr())] })
-        }
-        #[inline(always)]
-        fn store(self, values: &mut [[f64; WIDTH]; 2]) {
-            unsafe {
-                _mm256_storeu_pd(values[0].as_mut_ptr(), self.0[0]);
-                _mm256_storeu_pd(values[1].as_mut_ptr(), self.0[1]);
-            }
-        }
-        #[inline(always)]
-        fn add(self, other: Self) -> Self {
-            Self(unsafe { [_mm256_add_pd(self.0[0], other.0[0]), _mm256_add_pd(self.0[1], other.0[1])] })
-        }
-        #[inline(always)]
-        fn mul(self, other: Self) -> Self {
-            Self(unsafe { [_mm256_mul_pd(self.0[0], other.0[0]), _mm256_mul_pd(self.0[1], other.0[1])] })
-        }
-        #[inline(always)]
-        fn mul_add(self, factor: Self, term: Self) -> Self {
-            Self(unsafe {
-                [_mm256_fmadd_pd(self.0[0], factor.0[0], term.0[0]), _mm256_fmadd_pd(self.0[1], factor.0[1], term.0[1])]
-            })
-        }
-        #[inline(always)]
-        fn halves(self) -> [Fused<Two>; 2] {
-            [Fused::new(self.0[0]), Fused::new(self.0[1])]
-        }
-    }
-
     /// A vector of 512 bits.
     #[derive(Clone, Copy)]
     pub(crate) struct Wide(__m512d);
 
-    impl Pair<Fused<Wide>> for Wide {
+    impl Pair<Fused<InOne>> for Wide {
         const IS_ONE: bool = true;
 
         #[inline(always)]
@@ -802,7 +773,7 @@ mod x86 {
             Self(unsafe { _mm512_set1_pd(value) })
         }
         #[inline(always)]
-        fn lane(of: Fused<Wide>, lane: usize) -> Self {
+        fn lane(of: Fused<InOne>, lane: usize) -> Self {
             Self(unsafe {
                 let of = _mm512_castpd256_pd512(of.0);
                 match lane {
@@ -812,7 +783,7 @@ mod x86 {
             })
         }
         #[inline(always)]
-        fn of([low, high]: [Fused<Wide>; 2]) -> Self {
+        fn of([low, high]: [Fused<InOne>; 2]) -> Self {
             Self(unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low.0), high.0) })
         }
         #[inline(always)]
@@ -836,7 +807,7 @@ mod x86 {
             Self(unsafe { _mm512_fmadd_pd(self.0, factor.0, term.0) })
         }
         #[inline(always)]
-        fn halves(self) -> [Fused<Wide>; 2] {
+        fn halves(self) -> [Fused<InOne>; 2] {
             unsafe { [Fused::new(_mm512_castpd512_pd256(self.0)), Fused::new(_mm512_extractf64x4_pd::<1>(self.0))] }
         }
     }

@@ -537,8 +537,7 @@ impl RegimeCache {
         *self = Self { run: self.run, frequency: self.frequency, ..Self::new(self.dt) };
     }
 
-    /// The regime of a key, formed by `form` when it is new. Returns it, its index, and whether this
-    /// run knew it.
+    /// The regime of a key, formed by `form` when it is new. Returns it, its index, and whether this run knew it.
     pub(crate) fn enter(&mut self, key: &[u64], form: impl FnOnce() -> Regime) -> (Rc<Regime>, usize, bool) {
         if self.run_bytes > CACHE_BYTES {
             self.clear();
