@@ -1,7 +1,7 @@
 //! Roots of polynomials on [0, 1] with proof: Bernstein coefficients bound a polynomial, so no sign change means no
 //! root and one sign change means exactly one (Descartes' rule).
 
-use crate::lanes::{Plain, Vector, WIDTH, load};
+use crate::lanes::{OnLine, Plain, Vector, WIDTH, load};
 
 /// Highest degree: Taylor series of a step never need more terms.
 pub(crate) const MAX_DEGREE: usize = 23;
@@ -75,12 +75,6 @@ impl Polynomial {
     #[inline(always)]
     pub(crate) fn coefficients(&self) -> &[f64] {
         &self.coefficients[..self.length.min(MAX_DEGREE + 1)]
-    }
-
-    /// The coefficients, to be changed in place.
-    #[inline(always)]
-    pub(crate) fn coefficients_mut(&mut self) -> &mut [f64] {
-        &mut self.coefficients[..self.length.min(MAX_DEGREE + 1)]
     }
 
     /// The first coefficients, and zeros beyond, in vectors.
@@ -320,7 +314,7 @@ struct Shape {
 }
 
 /// By order k: 1 and k from the second on, k (k - 1) from the third on.
-const SHAPE_WEIGHTS: [[[f64; WIDTH]; 3]; (MAX_DEGREE + 1) / WIDTH] = {
+static SHAPE_WEIGHTS: OnLine<[[[f64; WIDTH]; 3]; (MAX_DEGREE + 1) / WIDTH]> = {
     let mut table = [[[0.0; WIDTH]; 3]; (MAX_DEGREE + 1) / WIDTH];
     let mut k = 2;
     while k <= MAX_DEGREE {
@@ -330,7 +324,7 @@ const SHAPE_WEIGHTS: [[[f64; WIDTH]; 3]; (MAX_DEGREE + 1) / WIDTH] = {
         of_four[2][k % WIDTH] = if k > 2 { (k * (k - 1)) as f64 } else { 0.0 };
         k += 1;
     }
-    table
+    OnLine(table)
 };
 
 /// 0, 1, 2, ...

@@ -86,9 +86,15 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
             1 => against(range, self.sign[k]).not_below(self.turn[k]),
             _ => {
                 let size = range.1.max(V::splat(0.0).sub(range.0));
-                size.not_below(self.stuck_mu[k].mul(least_contact).min(self.a_peak[k]))
+                size.not_below(self.of_accelerations(k, least_contact))
             }
         }
+    }
+
+    /// What floor accelerations of vector `k` may not reach, with this least contact force.
+    #[inline(always)]
+    pub(crate) fn of_accelerations(&self, k: usize, least_contact: V) -> V {
+        self.stuck_mu[k].mul(least_contact).min(self.a_peak[k])
     }
 
     /// [`bounds::apart`] of all vectors.

@@ -309,8 +309,7 @@ impl State<'_> {
         }
         *isolated += 1;
         let mut p = self.series.zeros();
-        let size = self.series.drift::<V, K>(i, -sign.factor(), &mut p);
-        p.coefficients_mut()[0] = limit - sign.factor() * self.x.numbers::<K>()[i];
+        let size = self.series.drift::<V, K>(i, -sign.factor(), limit, &mut p);
         let range = self.model.laws[i].yield_range(self.springs[i].yielded());
         first.consider(guard, &p, ROUNDING * (limit.abs() + size + range));
     }
@@ -352,12 +351,9 @@ impl State<'_> {
                 continue;
             }
             let mut p = self.series.zeros();
-            let size = self.series.acceleration::<V, K>(floor, -sign.factor(), &mut p);
+            let size = self.series.acceleration::<V, K>(floor, -sign.factor(), [limit, mu * contact_change], &mut p);
             // Not below what a decision takes as equal: what has just stuck must not break away for that.
             let tolerance = friction::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size + sizes);
-            if let [c0, c1, ..] = p.coefficients_mut() {
-                (*c0, *c1) = (*c0 + limit, *c1 + mu * contact_change);
-            }
             first.consider(Guard::Breakaway { floor, sign }, &p, tolerance);
         }
     }

@@ -211,6 +211,20 @@ impl DerefMut for Aligned {
     }
 }
 
+/// At the start of a cache line: no vector of it lies across two.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+pub(crate) struct OnLine<T>(pub(crate) T);
+
+impl<T> Deref for OnLine<T> {
+    type Target = T;
+
+    #[inline(always)]
+    fn deref(&self) -> &T {
+        &self.0
+    }
+}
+
 /// Two vectors that are taken at once.
 pub(crate) trait Pair<V>: Copy {
     /// Whether it is one vector of the path.
@@ -256,6 +270,8 @@ pub(crate) trait Vector: Copy {
     fn shifted_down(self, after: Self) -> Self;
     /// The same with the lanes of `other` of which the bits are set.
     fn with(self, bits: u32, other: Self) -> Self;
+    /// The same with a number in one lane. What is made so can be stored and read again at once.
+    fn with_lane(self, lane: usize, value: f64) -> Self;
     /// Lane j of vector i becomes lane i of vector j.
     fn transposed(vectors: [Self; WIDTH]) -> [Self; WIDTH];
     /// Bits of the lanes that are not below those of `other`; lanes that are no numbers are not.
@@ -396,6 +412,10 @@ impl Vector for Plain {
             }
         }
         self
+    }
+    #[inline(always)]
+    fn with_lane(self, lane: usize, value: f64) -> Self {
+        self.with(1 << lane, Self::splat(value))
     }
     #[inline(always)]
     fn transposed(vectors: [Self; WIDTH]) -> [Self; WIDTH] {
@@ -721,6 +741,16 @@ mod x86 {
                 let set = _mm256_and_si256(_mm256_set1_epi64x(i64::from(bits)), of_lanes);
                 let mask = _mm256_cmpeq_epi64(set, of_lanes);
                 _mm256_blendv_pd(self.0, other.0, _mm256_castsi256_pd(mask))
+            })
+        }
+        #[inline(always)]
+        fn with_lane(self, lane: usize, value: f64) -> Self {
+            // Of a choice of lanes that is stored the compiler makes a store of these alone, which what is read next has to
+            // wait for: bits, and masks that it does not see through, are none.
+            static MASKS: [[i64; WIDTH]; WIDTH] = [[-1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 0], [0, 0, 0, -1]];
+            Self::new(unsafe {
+                let mask = _mm256_loadu_pd(MASKS[lane % WIDTH].as_ptr().cast());
+                _mm256_or_pd(_mm256_andnot_pd(mask, self.0), _mm256_and_pd(mask, _mm256_set1_pd(value)))
             })
         }
         #[inline(always)]

@@ -9,7 +9,7 @@ use crate::friction::BlockState;
 use crate::histories::Recorder;
 use crate::lanes::{FAR, LANES, Plain, Vector, WIDTH, at, by_width, for_each_path, load};
 use crate::model::Model;
-use crate::padded::{Padded, lane_of};
+use crate::padded::{Padded, vector_of};
 use crate::regime::{Row, viscous_power};
 use crate::response::{Energy, Peak, Peaks};
 use crate::scene::Options;
@@ -61,8 +61,8 @@ impl PeakLanes {
     /// [`PeakLanes::take`] within the code of a path, of which vectors are read soon.
     #[inline(always)]
     fn take_lane<V: Vector, const K: usize>(&mut self, i: usize, value: f64, time: f64) -> bool {
-        let (k, lane) = lane_of::<K>(i);
-        self.take_vector::<V, K>(k, V::splat(0.0).with(lane, V::splat(value)), time) != 0
+        let values = V::splat(0.0).with_lane(i % WIDTH, value);
+        self.take_vector::<V, K>(vector_of::<K>(i), values, time) != 0
     }
 
     /// Takes the values of vector `k` that beat their peaks; tells, as bits, which did.
@@ -279,7 +279,7 @@ impl Observer {
         let (first, others) = rate.sign_changes::<V>();
         for s in first.into_iter().chain(others).filter(|&s| s < end) {
             let mut drift = state.series.zeros();
-            state.series.drift::<V, K>(i, 1.0, &mut drift);
+            state.series.drift::<V, K>(i, 1.0, 0.0, &mut drift);
             let [drift, shear] = drift_and_shear(state, i, drift.at::<V>(s));
             let time = start + s * state.series.h();
             self.beaten |= self.drift.take_lane::<V, K>(i, drift, time) | self.shear.take_lane::<V, K>(i, shear, time);
@@ -290,7 +290,7 @@ impl Observer {
     #[inline(always)]
     fn take_turns_of_acceleration<V: Vector, const K: usize>(&mut self, state: &State, i: usize, start: f64, end: f64) {
         let mut acceleration = state.series.zeros();
-        state.series.acceleration::<V, K>(i + 1, 1.0, &mut acceleration);
+        state.series.acceleration::<V, K>(i + 1, 1.0, [0.0; 2], &mut acceleration);
         let (first, others) = acceleration.derivative().sign_changes::<V>();
         for s in first.into_iter().chain(others).filter(|&s| s < end) {
             let time = start + s * state.series.h();

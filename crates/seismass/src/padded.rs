@@ -24,10 +24,10 @@ impl Lanes for [f64] {
     }
 }
 
-/// The vector that the number of storey `i` lies in, of a scene of `K` vectors, and its lane there, as bits.
+/// The vector that the number of storey `i` lies in, of a scene of `K` vectors.
 #[inline(always)]
-pub(crate) fn lane_of<const K: usize>(i: usize) -> (usize, u32) {
-    (if K == 1 { 0 } else { i / WIDTH }, 1 << (i % WIDTH))
+pub(crate) fn vector_of<const K: usize>(i: usize) -> usize {
+    if K == 1 { 0 } else { i / WIDTH }
 }
 
 /// A number of each storey or floor, padded. Those of one vector are kept in place: what reads them as one need not ask how
@@ -78,8 +78,8 @@ impl Padded {
     /// read after a number alone was written, it would wait until that is in memory.
     #[inline(always)]
     pub(crate) fn set_lane<V: Vector, const K: usize>(&mut self, i: usize, value: f64) {
-        let (k, lane) = lane_of::<K>(i);
-        self.set_vector::<V, K>(k, self.vector::<V, K>(k).with(lane, V::splat(value)));
+        let k = vector_of::<K>(i);
+        self.set_vector::<V, K>(k, self.vector::<V, K>(k).with_lane(i % WIDTH, value));
     }
 
     /// The number of storey `i` of a scene of `K` vectors, which becomes 0.
@@ -220,7 +220,36 @@ impl<'a, const K: usize> OfStorey<'a, K> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{MAX_LANES, Plain, by_width, load, numbers, store};
+    use crate::lanes::{MAX_LANES, Plain, by_width, for_each_path, load, numbers, store};
+
+    for_each_path! {
+        fn set_lane[K: usize](numbers: &mut Padded, i: usize, value: f64) = set_lane_by_path
+    }
+
+    #[inline(always)]
+    fn set_lane_by_path<V: Vector, const K: usize>(numbers: &mut Padded, i: usize, value: f64) {
+        numbers.set_lane::<V, K>(i, value);
+    }
+
+    #[test]
+    fn a_number_is_put_and_the_others_stay() {
+        for storeys in [1, 3, 4, 5, 8, 13, 48] {
+            let before = Padded::filled((0..storeys).map(|i| 1.0 + i as f64), storeys, -1.0);
+            for i in 0..storeys {
+                for value in [-0.0, 0.5, f64::INFINITY, f64::NAN] {
+                    let (mut found, mut plain, mut expected) = (before.clone(), before.clone(), before.to_vec());
+                    expected[i] = value;
+                    by_width!(padded(storeys), K => {
+                        set_lane::<K>(&mut found, i, value);
+                        plain.set_lane::<Plain, K>(i, value);
+                    });
+                    let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
+                    assert_eq!(bits(&found), bits(&expected), "{storeys} storeys, {i}");
+                    assert_eq!(bits(&plain), bits(&expected), "{storeys} storeys, {i}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn numbers_are_the_same_in_place_and_apart() {

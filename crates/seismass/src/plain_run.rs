@@ -208,6 +208,20 @@ fn prepare_effects<V: Vector, const K: usize, const VERTICAL: bool>(state: &mut 
 /// rows = columns * weights.
 #[inline(always)]
 fn put_product<V: Vector, const K: usize>(columns: &[Column<K>], weights: &[V; K], rows: &mut PaddedRows<4>) {
+    if K == 1 {
+        // In pairs, as the step reads them.
+        let mut product = [V::Pair::splat(0.0); 2];
+        for (column, &weight) in columns.iter().zip(numbers(weights).as_flattened()) {
+            let column = pairs_of::<V, K>(column);
+            for r in 0..2 {
+                product[r] = column[r].mul_add(V::Pair::splat(weight), product[r]);
+            }
+        }
+        for (out, rows) in rows.vectors_mut::<K>().as_flattened_mut().as_chunks_mut().0.iter_mut().zip(product) {
+            rows.store(out);
+        }
+        return;
+    }
     let mut product = [[V::splat(0.0); K]; 4];
     multiply(&mut product, columns, weights);
     for (out, row) in rows.vectors_mut::<K>().iter_mut().zip(&product) {
@@ -374,13 +388,12 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     let mut next_recorded = recorder.as_ref().map_or(usize::MAX, |recorder| recorder.next_sample());
     let last = end.min(samples.len() - 1);
     let within = bounds::first(state.storeys());
+    // Of scenes of one vector, without vertical motion: formed where it changes. Others have no registers left for it.
+    let mut few_accelerations = bounds.of_accelerations(0, V::splat(STANDARD_GRAVITY));
     let mut reached = first;
     let mut open = None;
-    loop {
-        if reached >= last {
-            break;
-        }
-        let (before, after) = (samples[reached], samples[reached + 1]);
+    for interval in samples.get(first..=last).unwrap_or(&[]).windows(2) {
+        let &[before, after] = interval else { break };
         let change = after - before;
         let contact = match VERTICAL {
             true => (contact_at(vertical, reached), contact_at(vertical, reached + 1)),
@@ -439,7 +452,10 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         let mut suspects: [Set; 3] = [0; 3];
         for k in 0..K {
             let most = |which: usize| (apart_before[which][k], apart_after[which][k]);
-            let limit = bounds.stuck_mu[k].mul(least_contact).min(bounds.a_peak[k]);
+            let limit = match K == 1 && !VERTICAL {
+                true => few_accelerations,
+                false => bounds.of_accelerations(k, least_contact),
+            };
             suspects[0] |= not_clear(most(0), norm, margins[0][k], bounds.reach[k]) << (WIDTH * k);
             suspects[1] |= not_clear(most(1), norm, margins[1][k], bounds.turn[k]) << (WIDTH * k);
             suspects[2] |= not_clear(most(2), norm, margins[2][k], limit) << (WIDTH * k);
@@ -486,6 +502,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 break;
             }
             apart_after = bounds.apart(&taken, third);
+            few_accelerations = bounds.of_accelerations(0, least_contact);
         }
         (sample, apart_before, layer) = (taken, apart_after, layer_after);
         for other in others.iter_mut() {

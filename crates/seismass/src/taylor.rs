@@ -4,7 +4,7 @@
 
 use crate::bernstein::{MAX_DEGREE, Polynomial, by_length};
 use crate::lanes::{
-    MAX_LANES, Pair, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, lanes, load, store,
+    MAX_LANES, OnLine, Pair, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, lanes, load, store,
 };
 use crate::model::Model;
 use crate::padded::{OfStorey, Padded, PaddedRows};
@@ -77,13 +77,13 @@ pub(crate) struct Series {
 }
 
 /// Largest phase at which the term of order 3, 4, ... is below 2^-60: phase^k / k! rounded down.
-static PHASE_LIMITS: [[f64; WIDTH]; 5] = [
+static PHASE_LIMITS: OnLine<[[f64; WIDTH]; 5]> = OnLine([
     [0.0000, 0.0000, 0.0006, 0.0029],
     [0.0088, 0.0207, 0.0408, 0.0707],
     [0.1119, 0.1652, 0.2312, 0.3099],
     [0.4014, 0.5054, 0.6215, 0.7493],
     [0.8883, 1.0380, f64::INFINITY, f64::INFINITY],
-];
+]);
 
 /// What longer phases have too.
 const MOST_TERMS: usize = 21;
@@ -92,7 +92,7 @@ const MOST_TERMS: usize = 21;
 #[inline(always)]
 pub(crate) fn terms<V: Vector>(phase: f64) -> usize {
     let mut reached = 0;
-    for limits in &PHASE_LIMITS {
+    for limits in PHASE_LIMITS.iter() {
         reached = reached << WIDTH | V::splat(phase).not_below(V::load(limits));
     }
     (3 + reached.count_ones() as usize).min(MOST_TERMS)
@@ -268,7 +268,7 @@ impl Series {
         let mut first = [[zero; K]; 2];
         let mut sums = Sums { value: [zero; K], rate: [zero; K], integrals: [[zero; K]; 2] };
         let terms = self.a.vectors_mut::<K>()[..=self.order].iter_mut();
-        for ((order, out), weights) in terms.enumerate().zip(&WEIGHTS) {
+        for ((order, out), weights) in terms.enumerate().zip(WEIGHTS.iter()) {
             let forces = if order < 2 { load(&self.load[order]) } else { [zero; K] };
             let a = operator.accelerations(&x, &v, forces);
             put(&a, out);
@@ -388,7 +388,7 @@ impl Series {
         let integrals = once.as_chunks_mut::<WIDTH>().0.iter_mut().zip(twice.as_chunks_mut::<WIDTH>().0);
         for (lane, (once, twice)) in integrals.enumerate() {
             let mut sums = [V::splat(0.0); 2];
-            for (column, weights) in terms.chunks_exact(stride).zip(&WEIGHTS).skip(2).rev() {
+            for (column, weights) in terms.chunks_exact(stride).zip(WEIGHTS.iter()).skip(2).rev() {
                 let term = V::load(&column[lane]);
                 sums[0] = sums[0].mul_add(place, term.mul(V::load(&weights[1])));
                 sums[1] = sums[1].mul_add(place, term.mul(V::load(&weights[2])));
@@ -456,11 +456,13 @@ impl Series {
         Polynomial::zeros(self.order + 1)
     }
 
-    /// Sets the first four coefficients, and the others to terms so many orders lower, times their weights and a factor.
-    /// Returns the sum of all their sizes: a bound on [0, 1].
+    /// Sets the first four coefficients, to the sums of two vectors, and the others to terms so many orders lower, times
+    /// their weights and a factor. Returns the sum of the sizes of all but the second: a bound on [0, 1].
+    ///
+    /// To add it here is not to wait for what has just been stored.
     #[inline(always)]
     fn integrate<V: Vector, const F: usize>(
-        first: V,
+        [first, more]: [V; 2],
         terms: &impl TermByOrder,
         orders: usize,
         weights: &Weights,
@@ -469,7 +471,7 @@ impl Series {
     ) -> f64 {
         let Some(fours) = p.fours_mut::<F>() else { return 0.0 };
         let mut sizes = first.abs();
-        first.store(&mut fours[0]);
+        first.add(more).store(&mut fours[0]);
         for f in 1..F {
             let weights = V::load(&weights.as_chunks().0[f]);
             let coefficients = terms.four::<V>(WIDTH * f - orders).mul(V::splat(factor)).mul(weights);
@@ -479,12 +481,14 @@ impl Series {
         sizes.sum()
     }
 
-    /// `p` becomes the terms times a factor; returns the sum of all their sizes.
+    /// `p` becomes the terms times a factor, and `more` is added to the first four; returns the sum of the terms' sizes.
     #[inline(always)]
-    fn multiply<V: Vector, const F: usize>(terms: &impl TermByOrder, factor: f64, p: &mut Polynomial) -> f64 {
+    fn multiply<V: Vector, const F: usize>(terms: &impl TermByOrder, factor: f64, more: V, p: &mut Polynomial) -> f64 {
         let Some(fours) = p.fours_mut::<F>() else { return 0.0 };
-        let mut sizes = V::splat(0.0);
-        for f in 0..F {
+        let first = terms.four::<V>(0).mul(V::splat(factor));
+        let mut sizes = first.abs();
+        first.add(more).store(&mut fours[0]);
+        for f in 1..F {
             let coefficients = terms.four::<V>(WIDTH * f).mul(V::splat(factor));
             coefficients.store(&mut fours[f]);
             sizes = sizes.add(coefficients.abs());
@@ -492,14 +496,22 @@ impl Series {
         sizes.sum()
     }
 
-    /// `p`, of [`Series::zeros`], becomes `factor` times the drift coordinate of storey `i`; returns a bound of its size.
+    /// `p`, of [`Series::zeros`], becomes `limit` and `factor` times the drift coordinate of storey `i`; returns a bound of
+    /// the size of the latter.
     #[inline(always)]
-    pub(crate) fn drift<V: Vector, const K: usize>(&self, i: usize, factor: f64, p: &mut Polynomial) -> f64 {
+    pub(crate) fn drift<V: Vector, const K: usize>(
+        &self,
+        i: usize,
+        factor: f64,
+        limit: f64,
+        p: &mut Polynomial,
+    ) -> f64 {
         let difference = self.difference::<K>(i);
         let once = factor * self.h;
         let twice = once * self.h;
         let terms = [0, 1].map(|k| twice * INVERSE_PAIRS[k + 2] * difference.term(k));
         let first = V::of([factor * self.x.numbers::<K>()[i], once * self.v.numbers::<K>()[i], terms[0], terms[1]]);
+        let first = [first, V::of([limit, 0.0, 0.0, 0.0])];
         by_length!(p, F => Self::integrate::<V, F>(first, &difference, 2, &INVERSE_PAIRS, twice, p))
     }
 
@@ -510,7 +522,7 @@ impl Series {
         let once = factor * self.h;
         let terms = [0, 1, 2].map(|k| once * INVERSE[k + 1] * difference.term(k));
         let first = V::of([factor * self.v.numbers::<K>()[i], terms[0], terms[1], terms[2]]);
-        by_length!(p, F => Self::integrate::<V, F>(first, &difference, 1, &INVERSE, once, p))
+        by_length!(p, F => Self::integrate::<V, F>([first, V::splat(0.0)], &difference, 1, &INVERSE, once, p))
     }
 
     /// `p`, of [`Series::zeros`], becomes the velocity that starts from `velocity`, whose rate is -`factor` times the absolute
@@ -529,15 +541,21 @@ impl Series {
         // Added before they are multiplied, so that small sums keep their digits.
         let [first, second] = [0, 1].map(|k| once * INVERSE[k + 1] * (acceleration.term(k) + more[k]));
         let first = V::of([velocity, first, second, once * INVERSE[3] * acceleration.term(2)]);
-        by_length!(p, F => Self::integrate::<V, F>(first, &acceleration, 1, &INVERSE, once, p))
+        by_length!(p, F => Self::integrate::<V, F>([first, V::splat(0.0)], &acceleration, 1, &INVERSE, once, p))
     }
 
-    /// `p`, of [`Series::zeros`], becomes `factor` times the absolute acceleration of a floor, or of the ground (0); returns
-    /// a bound of its size.
+    /// `p`, of [`Series::zeros`], becomes a limit that changes linearly (its start and its change over the step) and `factor`
+    /// times the absolute acceleration of a floor, or of the ground (0); returns a bound of the size of the latter.
     #[inline(always)]
-    pub(crate) fn acceleration<V: Vector, const K: usize>(&self, floor: usize, factor: f64, p: &mut Polynomial) -> f64 {
+    pub(crate) fn acceleration<V: Vector, const K: usize>(
+        &self,
+        floor: usize,
+        factor: f64,
+        [limit, change]: [f64; 2],
+        p: &mut Polynomial,
+    ) -> f64 {
         let terms = self.terms_of::<K>(floor);
-        by_length!(p, F => Self::multiply::<V, F>(&terms, factor, p))
+        by_length!(p, F => Self::multiply::<V, F>(&terms, factor, V::of([limit, change, 0.0, 0.0]), p))
     }
 
     /// The first two terms of the absolute acceleration of floor `i`, and the first and second integrals of the others up
@@ -674,7 +692,7 @@ impl<V: Vector, const K: usize> Sums<V, K> {
 }
 
 /// Orders k, and from the second on the first and second integrals of s^k over [0, 1], each in all lanes.
-pub(crate) static WEIGHTS: [[[f64; WIDTH]; 3]; MAX_DEGREE + 1] = {
+pub(crate) static WEIGHTS: OnLine<[[[f64; WIDTH]; 3]; MAX_DEGREE + 1]> = {
     let mut table = [[[0.0; WIDTH]; 3]; MAX_DEGREE + 1];
     let mut k = 1;
     while k <= MAX_DEGREE {
@@ -682,22 +700,22 @@ pub(crate) static WEIGHTS: [[[f64; WIDTH]; 3]; MAX_DEGREE + 1] = {
         table[k] = [[k as f64; WIDTH], [once; WIDTH], [once / (k + 2) as f64; WIDTH]];
         k += 1;
     }
-    table
+    OnLine(table)
 };
 
 /// The same by pairs of orders 2 k and 2 k + 1.
-static WEIGHTS_OF_PAIRS: [[[[f64; WIDTH]; 2]; 3]; MAX_DEGREE.div_ceil(2)] = {
+static WEIGHTS_OF_PAIRS: OnLine<[[[[f64; WIDTH]; 2]; 3]; MAX_DEGREE.div_ceil(2)]> = {
     let mut table = [[[[0.0; WIDTH]; 2]; 3]; MAX_DEGREE.div_ceil(2)];
     let mut k = 0;
     while k <= MAX_DEGREE {
         let mut which = 0;
         while which < 3 {
-            table[k / 2][which][k % 2] = WEIGHTS[k][which];
+            table[k / 2][which][k % 2] = WEIGHTS.0[k][which];
             which += 1;
         }
         k += 1;
     }
-    table
+    OnLine(table)
 };
 
 #[inline(always)]
@@ -708,14 +726,14 @@ fn put<V: Vector, const K: usize>(vectors: &[V; K], term: &mut [[f64; WIDTH]; K]
 }
 
 /// 1 / k.
-pub(crate) const INVERSE: Weights = {
+pub(crate) static INVERSE: OnLine<Weights> = {
     let mut table = [0.0; MAX_DEGREE + 1];
     let mut k = 1;
     while k <= MAX_DEGREE {
         table[k] = 1.0 / k as f64;
         k += 1;
     }
-    table
+    OnLine(table)
 };
 
 for_each_path! {
@@ -729,14 +747,14 @@ fn any_by_path<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, s
 }
 
 /// 1 / (k (k - 1)).
-const INVERSE_PAIRS: Weights = {
+static INVERSE_PAIRS: OnLine<Weights> = {
     let mut table = [0.0; MAX_DEGREE + 1];
     let mut k = 2;
     while k <= MAX_DEGREE {
         table[k] = 1.0 / (k * (k - 1)) as f64;
         k += 1;
     }
-    table
+    OnLine(table)
 };
 
 #[cfg(test)]
