@@ -4,6 +4,7 @@ use std::hint::black_box;
 use std::mem::take;
 
 use crate::error::{Domain, Error, Result};
+use crate::friction::BlockMotion;
 use crate::lanes::{MAX_LANES, Vector, WIDTH, by_width, for_each_path, load, store};
 use crate::model::Model;
 use crate::padded::Padded;
@@ -85,6 +86,32 @@ pub(crate) struct RowInLanes<'a, V, const K: usize> {
     pub(crate) a: &'a [V; K],
 }
 
+/// Relative velocities and slips of blocks that stand one on each floor, in the lanes of these.
+#[derive(Clone, Copy)]
+pub(crate) struct BlocksInLanes<V, const K: usize> {
+    velocity: [V; K],
+    slip: [V; K],
+}
+
+impl<V: Vector, const K: usize> BlocksInLanes<V, K> {
+    /// Of a state: read one by one, for to read as vectors what has just been written in numbers would be to wait for it.
+    #[inline(always)]
+    fn of(motions: &[BlockMotion]) -> Self {
+        let zero = [V::splat(0.0); K];
+        let mut blocks = Self { velocity: zero, slip: zero };
+        for k in 0..K {
+            let (mut velocity, mut slip) = ([0.0; WIDTH], [0.0; WIDTH]);
+            for lane in 0..WIDTH {
+                if let Some(motion) = motions.get(WIDTH * k + lane) {
+                    (velocity[lane], slip[lane]) = (motion.velocity, motion.slip);
+                }
+            }
+            (blocks.velocity[k], blocks.slip[k]) = (V::of(velocity), V::of(slip));
+        }
+        blocks
+    }
+}
+
 /// Writes histories.
 pub(crate) struct Recorder {
     every: usize,
@@ -159,12 +186,18 @@ impl Recorder {
         })
     }
 
-    /// Where the next row is to be written, which counts as written.
+    /// Where the next row is to be written.
+    #[inline(always)]
+    fn place(&self) -> Place {
+        Place { storeys: self.written * self.drift.width, blocks: self.written * self.slip.width }
+    }
+
+    /// The same; the row counts as written.
     #[inline(always)]
     fn next_row(&mut self) -> Place {
-        let row = self.written;
+        let at = self.place();
         self.written += 1;
-        Place { storeys: row * self.drift.width, blocks: row * self.slip.width }
+        at
     }
 
     /// The next sample of which a row is kept.
@@ -182,21 +215,44 @@ impl Recorder {
 
     /// Takes up the springs and blocks of the present state, for rows in vectors, unless its own row has just been written.
     pub(crate) fn take_up(&mut self, state: &State) {
-        if take(&mut self.is_taken_up) {
-            return;
+        if !take(&mut self.is_taken_up) {
+            by_width!(state.model.width, K => take_up::<K>(self, state));
         }
-        by_width!(state.model.width, K => self.take_up_springs::<K>(state));
+    }
+
+    /// The same within the code of a path; returns the blocks where one stands on each floor.
+    #[inline(always)]
+    fn take_up_in_lanes<V: Vector, const K: usize>(&mut self, state: &State) -> Option<BlocksInLanes<V, K>> {
+        store::<V, K>(&load(&state.base_drift), &mut self.base_drift);
+        store::<V, K>(&load(&state.base_force), &mut self.base_force);
+        store::<V, K>(&state.regime.lanes(Row::SpringTangent), &mut self.tangent);
+        if self.one_on_each {
+            let blocks = BlocksInLanes::of(&state.motions);
+            store(&blocks.velocity, &mut self.velocities);
+            store(&blocks.slip, &mut self.slips);
+            return Some(blocks);
+        }
         let (velocities, slips) = (&mut self.velocities[..], &mut self.slips[..]);
         for ((velocity, slip), motion) in velocities.iter_mut().zip(slips).zip(&state.motions) {
             (*velocity, *slip) = (motion.velocity, motion.slip);
         }
+        None
     }
 
+    /// The blocks taken up where one stands on each floor, but those that have moved since in some lanes, as bits.
     #[inline(always)]
-    fn take_up_springs<const K: usize>(&mut self, state: &State) {
-        self.base_drift.numbers_mut::<K>().copy_from_slice(state.base_drift.numbers::<K>());
-        self.base_force.numbers_mut::<K>().copy_from_slice(state.base_force.numbers::<K>());
-        self.tangent.numbers_mut::<K>().copy_from_slice(state.regime.row(Row::SpringTangent));
+    pub(crate) fn blocks<V: Vector, const K: usize>(
+        &self,
+        lanes: &[u32; K],
+        velocity: &[V; K],
+        slip: &[V; K],
+    ) -> BlocksInLanes<V, K> {
+        let mut blocks = BlocksInLanes::<V, K> { velocity: load(&self.velocities), slip: load(&self.slips) };
+        for k in 0..K {
+            blocks.velocity[k] = blocks.velocity[k].with(lanes[k], velocity[k]);
+            blocks.slip[k] = blocks.slip[k].with(lanes[k], slip[k]);
+        }
+        blocks
     }
 
     /// Notes relative velocity and slip of a block, for rows in vectors.
@@ -205,26 +261,21 @@ impl Recorder {
         (self.velocities[block], self.slips[block]) = (velocity, slip);
     }
 
-    /// The same of the blocks in some lanes of their floors, as bits, where one stands on each floor.
-    #[inline(always)]
-    pub(crate) fn move_lanes<V: Vector, const K: usize>(&mut self, lanes: &[u32; K], velocity: &[V; K], slip: &[V; K]) {
-        for k in 0..K {
-            let kept = (self.velocities.vector::<V, K>(k), self.slips.vector::<V, K>(k));
-            self.velocities.set_vector::<V, K>(k, kept.0.with(lanes[k], velocity[k]));
-            self.slips.set_vector::<V, K>(k, kept.1.with(lanes[k], slip[k]));
-        }
-    }
-
     /// Whether one block stands on each floor, in their order.
     #[inline]
     pub(crate) fn has_one_on_each(&self) -> bool {
         self.one_on_each
     }
 
-    /// Appends a row with the springs and blocks taken up.
+    /// Writes a row with the springs taken up, and these blocks, or those taken up.
     #[inline(always)]
-    pub(crate) fn append<V: Vector, const K: usize>(&mut self, model: &Model, row: &RowInLanes<V, K>) {
-        let at = self.next_row();
+    fn put<V: Vector, const K: usize>(
+        &mut self,
+        at: Place,
+        model: &Model,
+        row: &RowInLanes<V, K>,
+        blocks: Option<BlocksInLanes<V, K>>,
+    ) {
         let base: [V; K] = load(&self.base_drift);
         let mut drift = base;
         for k in 0..K {
@@ -232,7 +283,11 @@ impl Recorder {
         }
         self.drift.put(at.storeys, &drift);
         if self.one_on_each {
-            self.slip.put::<V, K>(at.blocks, &load(&self.slips));
+            let slips = match &blocks {
+                Some(blocks) => blocks.slip,
+                None => load(&self.slips),
+            };
+            self.slip.put(at.blocks, &slips);
         } else {
             self.slip.put_row(at.blocks, self.slips.iter().copied());
         }
@@ -249,7 +304,10 @@ impl Recorder {
         self.floor_velocity.put(at.storeys, &velocity);
         self.floor_acceleration.put(at.storeys, row.a);
         if self.one_on_each {
-            let mut of_blocks: [V; K] = load(&self.velocities);
+            let mut of_blocks = match &blocks {
+                Some(blocks) => blocks.velocity,
+                None => load(&self.velocities),
+            };
             for k in 0..K {
                 of_blocks[k] = velocity[k].add(of_blocks[k]);
             }
@@ -270,13 +328,21 @@ impl Recorder {
 
     /// Appends the present state, if it has a row.
     pub(crate) fn append_state(&mut self, state: &State, sample: usize) {
+        by_width!(state.model.width, K => append_state::<K>(self, state, sample));
+    }
+
+    /// [`Recorder::append_state`] within the code of a path.
+    #[inline(always)]
+    pub(crate) fn append_state_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, sample: usize) {
         self.is_taken_up = false;
         if self.next_sample() != sample {
             return;
         }
         if state.storeys() <= MAX_LANES {
-            self.take_up(state);
-            by_width!(state.model.width, K => append_state::<K>(self, state));
+            let at = self.next_row();
+            let blocks = self.take_up_in_lanes::<V, K>(state);
+            let (x, v, a): ([V; K], [V; K], [V; K]) = (load(&state.x), load(&state.v), load(&state.a));
+            self.put(at, state.model, &RowInLanes { x: &x, v: &v, a: &a }, blocks);
             self.is_taken_up = true;
         } else {
             let blocks = state.motions.iter().map(|m| (m.velocity, m.slip));
@@ -334,14 +400,72 @@ impl Recorder {
 }
 
 for_each_path! {
-    /// Appends the present state, of which springs and blocks are taken up.
-    fn append_state[K: usize](recorder: &mut Recorder, state: &State) = append_by_path
+    /// See [`Recorder::take_up`].
+    fn take_up[K: usize](recorder: &mut Recorder, state: &State) = take_up_by_path
 }
 
 #[inline(always)]
-fn append_by_path<V: Vector, const K: usize>(recorder: &mut Recorder, state: &State) {
-    let (x, v, a): ([V; K], [V; K], [V; K]) = (load(&state.x), load(&state.v), load(&state.a));
-    recorder.append(state.model, &RowInLanes { x: &x, v: &v, a: &a });
+fn take_up_by_path<V: Vector, const K: usize>(recorder: &mut Recorder, state: &State) {
+    recorder.take_up_in_lanes::<V, K>(state);
+}
+
+for_each_path! {
+    /// See [`Recorder::append_state`].
+    fn append_state[K: usize](recorder: &mut Recorder, state: &State, sample: usize) = append_by_path
+}
+
+#[inline(always)]
+fn append_by_path<V: Vector, const K: usize>(recorder: &mut Recorder, state: &State, sample: usize) {
+    recorder.append_state_in_lanes::<V, K>(state, sample);
+}
+
+/// Appends rows within a run of plain steps, with the springs and blocks taken up.
+pub(crate) struct Pen<'a> {
+    recorder: &'a mut Recorder,
+    /// Of the next row: its number, its place, and its sample.
+    row: usize,
+    at: Place,
+    sample: usize,
+}
+
+impl<'a> Pen<'a> {
+    #[inline(always)]
+    pub(crate) fn new(recorder: &'a mut Recorder) -> Self {
+        let (row, at, sample) = (recorder.written, recorder.place(), recorder.next_sample());
+        Self { recorder, row, at, sample }
+    }
+
+    /// The sample of the next row.
+    #[inline(always)]
+    pub(crate) fn sample(&self) -> usize {
+        self.sample
+    }
+
+    #[inline(always)]
+    pub(crate) fn recorder(&mut self) -> &mut Recorder {
+        self.recorder
+    }
+
+    /// Appends a row with these blocks where one stands on each floor, or with those taken up.
+    #[inline(always)]
+    pub(crate) fn append<V: Vector, const K: usize>(
+        &mut self,
+        model: &Model,
+        row: &RowInLanes<V, K>,
+        blocks: Option<BlocksInLanes<V, K>>,
+    ) {
+        self.recorder.put(self.at, model, row, blocks);
+        self.row += 1;
+        self.at.storeys += self.recorder.drift.width;
+        self.at.blocks += self.recorder.slip.width;
+        self.sample += self.recorder.stride;
+    }
+
+    /// Has the rows count as written.
+    #[inline(always)]
+    pub(crate) fn lay_down(self) {
+        self.recorder.written = self.row;
+    }
 }
 
 #[cfg(test)]

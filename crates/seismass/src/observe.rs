@@ -338,6 +338,14 @@ impl Observer {
         }
     }
 
+    /// [`Observer::record`] within the code of a path.
+    #[inline(always)]
+    pub(crate) fn record_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, sample: usize) {
+        if let Some(recorder) = &mut self.histories {
+            recorder.append_state_in_lanes::<V, K>(state, sample);
+        }
+    }
+
     /// Writes the row of a sample, if the histories have one, again: an event fell at its very time.
     pub(crate) fn record_again(&mut self, state: &State, sample: usize) {
         if self.histories.as_mut().is_some_and(|recorder| recorder.take_back(sample)) {

@@ -18,7 +18,7 @@ use crate::bounds::{self, Set};
 use crate::closer_look::{Beaten, BoundsInLanes, Closer, Sample};
 use crate::events::NO_CONTACT;
 use crate::friction::BlockMotion;
-use crate::histories::RowInLanes;
+use crate::histories::{Pen, RowInLanes};
 use crate::lanes::{
     FAR, Pair, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, prefix_sums,
     store,
@@ -340,7 +340,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     if take(&mut walk.renews_bounds) {
         state.update_bounds::<V, K>(observer);
     }
-    let mut recorder = observer.histories.as_mut();
+    let mut pen = observer.histories.as_mut().map(Pen::new);
     prepare_effects::<V, K, VERTICAL>(state);
     let Some(course) = Course::<K>::new(state, motion.dt()) else { return first };
     let (Some(of_drifts), Some(of_rates)) = (course.of_drift.first_chunk::<S>(), course.of_rate.first_chunk::<S>())
@@ -385,7 +385,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             LayerInLanes { friction: nothing, sign: nothing, turn, velocity: nothing, slip: nothing }
         }
     };
-    let mut next_recorded = recorder.as_ref().map_or(usize::MAX, |recorder| recorder.next_sample());
+    let mut next_recorded = pen.as_ref().map_or(usize::MAX, Pen::sample);
     let last = end.min(samples.len() - 1);
     let within = bounds::first(state.storeys());
     // Of scenes of one vector, without vertical motion: formed where it changes. Others have no registers left for it.
@@ -510,10 +510,11 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         }
         reached += 1;
         if reached == next_recorded
-            && let Some(recorder) = &mut recorder
+            && let Some(pen) = &mut pen
         {
-            if SLIDING && recorder.has_one_on_each() {
-                recorder.move_lanes(&layer.taken(), &layer.velocity, &layer.slip);
+            let mut blocks = None;
+            if SLIDING && pen.recorder().has_one_on_each() {
+                blocks = Some(pen.recorder().blocks(&layer.taken(), &layer.velocity, &layer.slip));
             } else if SLIDING {
                 let (velocity, slip) = (numbers(&layer.velocity), numbers(&layer.slip));
                 for &(block, of_layer, lane) in &walk.on_floors {
@@ -521,12 +522,15 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                         Some(other) => (&other.velocity[..], &other.slip[..]),
                         None => (velocity.as_flattened(), slip.as_flattened()),
                     };
-                    recorder.move_block(block, velocity[lane], slip[lane]);
+                    pen.recorder().move_block(block, velocity[lane], slip[lane]);
                 }
             }
-            recorder.append(state.model, &RowInLanes { x: &sample.x, v: &sample.v, a: &sample.a });
-            next_recorded = recorder.next_sample();
+            pen.append(state.model, &RowInLanes { x: &sample.x, v: &sample.v, a: &sample.a }, blocks);
+            next_recorded = pen.sample();
         }
+    }
+    if let Some(pen) = pen {
+        pen.lay_down();
     }
     if let Some(lowest) = &mut lowest {
         store(&layer.velocity, &mut lowest.velocity);

@@ -107,7 +107,6 @@ pub(crate) fn run(
             break;
         }
         i += 1;
-        run.observer.record(&run.state, i);
     }
     if status == Status::Completed {
         run.statistics.skipped.tail_samples = last - i;
@@ -131,7 +130,7 @@ fn substeps(phase: f64, samples: usize) -> usize {
 }
 
 for_each_path! {
-    /// Solves the present interval by series; returns the storey that collapsed, and when.
+    /// Solves the present interval by series and records its end; returns the storey that collapsed, and when.
     fn solve_interval[K: usize](run: &mut Run, stop: &AtomicBool) -> Result<Option<(usize, f64)>> = interval_by_path
 }
 
@@ -171,6 +170,7 @@ fn interval_by_path<V: Vector, const K: usize>(run: &mut Run, stop: &AtomicBool)
             run.observer.observe_slips(&run.state, time);
         }
     }
+    run.observer.record_in_lanes::<V, K>(&run.state, run.state.interval.sample + 1);
     Ok(None)
 }
 
