@@ -21,6 +21,7 @@ from performance_figure import storeys_figure
 from performance_page import page, targets_table
 from scenes import suite
 from targets.base import Section
+from targets.gauge import Gauge
 
 SECTIONS: Final = (
     "leapfrog",
@@ -38,7 +39,9 @@ SECTIONS: Final = (
 
 
 def measure(names: Sequence[str], *, quick: bool) -> dict[str, Section]:
-    """Measure section by section."""
+    """Measure section by section, and how busy the machine was between them."""
+    gauge = Gauge()
+    gauge.read()
     found = {}
     for name in names:
         began = time.perf_counter()
@@ -46,7 +49,10 @@ def measure(names: Sequence[str], *, quick: bool) -> dict[str, Section]:
         print(f"## {found[name].title} ({time.perf_counter() - began:.0f} s)\n\n{found[name].text}", flush=True)
         for target in found[name].targets:
             print(f"  {target.verdict}: {target.what}: {target.value} (bound {target.bound} {target.unit})", flush=True)
-    return found
+        gauge.read()
+    busy = gauge.section([section.title for section in found.values()])
+    print(f"## {busy.title}\n\n{busy.text}", flush=True)
+    return found | {"busy": busy}
 
 
 def write(sections: Mapping[str, Section], machine: str, out: Path) -> None:

@@ -161,7 +161,8 @@ def test_quick_mode_writes_the_page(module: Any, tmp_path: Path, monkeypatch: py
     docs = tmp_path / "out" / "bench" / "docs"
     page = (docs / "performance.md").read_text(encoding="utf-8")
     assert (docs / "figures" / "performance_storeys.png").stat().st_size > 10_000
-    assert page.count("\n## ") == 1 + len(performance.SECTIONS)
+    assert page.count("\n## ") == 2 + len(performance.SECTIONS)
+    assert page.count("\n| after: ") == len(performance.SECTIONS)
     assert "{" not in page
     leapfrog = module("targets.leapfrog")
     assert page.count("| exact run / leapfrog pass") == len(leapfrog.scenes()) * len(leapfrog.OUTPUTS) >= 12

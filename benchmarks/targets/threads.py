@@ -23,6 +23,8 @@ arithmetic in registers and its two copies on two threads. Speed-ups are medians
 
 {table}"""
 PROCESSES: Final = 2
+SECONDS: Final = 10.0
+"""How long the turns of a batch go on."""
 
 
 def make_batch(what: str, size: int) -> Batch:
@@ -94,7 +96,7 @@ def section(*, quick: bool) -> Section:
         batch = make_batch(kind, size)
         with Processes(kind, size) as processes:
             works = [batch.on(1), batch.on(2), processes.solve]
-            one, two, both = np.array(turns(works, 0.0, least=1 if quick else 7))
+            one, two, both = np.array(turns(works, 0.0 if quick else SECONDS, least=1 if quick else 7))
         threads, apart = repeated(one / two), repeated(2.0 * one / both)
         title = f"1 thread / 2 threads, {what}"
         targets.append(Target(title, threads.median, 1.95, at_most=False, scatter=threads.quartiles))
