@@ -164,6 +164,60 @@ def test_histories_of_displacements_alone_are_those_of_all() -> None:
             displacements.storey_force  # noqa: B018
 
 
+def halved(samples: np.ndarray) -> np.ndarray:
+    """The same motion at half the step."""
+    return np.interp(np.arange(2 * len(samples) - 1) / 2.0, np.arange(len(samples)), samples)
+
+
+def random_blocks(random: np.random.Generator, count: int) -> list[sm.Block]:
+    """Blocks on the ground and on floors in any order: none on some floors, several on others, or one on each."""
+    anywhere = random.integers(0, count + 1, int(random.choice([1, 2, count + 1, 2 * count + 1])))
+    floors = random.permutation(count) + 1 if count and random.random() < 0.3 else anywhere
+    static = random.uniform(0.02, 0.6, len(floors))
+    return [
+        sm.Block(floor, mass=float(random.choice([1e4, 1e5])), mu_s=mu, mu_k=mu * float(random.choice([1.0, 0.8])))
+        for floor, mu in zip(floors.tolist(), static.tolist(), strict=True)
+    ]
+
+
+def test_histories_of_random_scenes_hold_together() -> None:
+    """Rows wherever blocks lie: the same at half the step and for blocks in another order, no larger than the peaks."""
+    names = ("drift", "slip", "floor_velocity", "block_velocity", "floor_acceleration", "storey_force")
+    events = collapsed = 0
+    for seed in range(150):
+        random = np.random.default_rng(seed)
+        count = int(random.choice([0, 1, 2, 3, 4, 5, 8, 9, 13, 17]))
+        blocks = random_blocks(random, count)
+        building = storeys(count) if count else None
+        limit = float(random.uniform(0.005, 0.05)) if count and random.random() < 0.15 else None
+        motion = shaking(seed, int(random.integers(3, 400)), float(random.uniform(0.5, 9.0)))
+        if random.random() < 0.25:
+            motion = sm.Motion(motion.acceleration, motion.dt, random.choice([2.0, 8.0]) * motion.acceleration[::-1])
+        fine = [None if part is None else halved(part) for part in (motion.acceleration, motion.vertical)]
+        order = random.permutation(len(blocks)).tolist()
+        every = int(random.integers(2, 9))
+
+        placed = sm.Scene(building, blocks, collapse_drift=limit)
+        other = sm.Scene(building, [blocks[place] for place in order], collapse_drift=limit)
+        run = sm.simulate(placed, motion, histories=True)
+        decimated = sm.simulate(placed, motion, histories=every)
+        permuted = sm.simulate(other, motion, histories=True)
+        halves = sm.simulate(placed, sm.Motion(fine[0], motion.dt / 2.0, fine[1]), histories=2)
+        events, collapsed = events + len(run.events), collapsed + (run.status == "collapsed")
+        for name in names:
+            rows, of_blocks = getattr(run, name), name in ("slip", "block_velocity")
+            scale = np.nanmax(np.abs(rows), initial=1e-300)
+            np.testing.assert_array_equal(getattr(decimated, name), rows[::every], f"seed {seed}, {name}")
+            for found, wanted in ((halves, rows), (permuted, rows[:, order] if of_blocks else rows)):
+                np.testing.assert_allclose(
+                    getattr(found, name), wanted, rtol=0.0, atol=1e-8 * scale, err_msg=f"seed {seed}, {name}"
+                )
+        for name, peak in (("drift", run.peak_drift), ("slip", run.peak_slip)):
+            assert (np.nanmax(np.abs(getattr(run, name)), axis=0, initial=0.0) <= peak * (1.0 + 1e-14)).all(), seed
+    assert events > 2000
+    assert collapsed > 5
+
+
 def test_a_batch_is_one_row_per_run_in_the_order_asked_for() -> None:
     scenes = [scene(3), sm.Scene(storeys(2, heights=3.0)), scene(4), sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)])]
     motions = [shaking(seed) for seed in (1, 2)]
