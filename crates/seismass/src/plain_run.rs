@@ -385,7 +385,6 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             LayerInLanes { friction: nothing, sign: nothing, turn, velocity: nothing, slip: nothing }
         }
     };
-    let mut next_recorded = pen.as_ref().map_or(usize::MAX, Pen::sample);
     let last = end.min(samples.len() - 1);
     let within = bounds::first(state.storeys());
     // Of scenes of one vector, without vertical motion: formed where it changes. Others have no registers left for it.
@@ -509,8 +508,8 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             other.accept();
         }
         reached += 1;
-        if reached == next_recorded
-            && let Some(pen) = &mut pen
+        if let Some(pen) = &mut pen
+            && pen.sample() == reached
         {
             let mut blocks = None;
             if SLIDING && pen.recorder().has_one_on_each() {
@@ -526,7 +525,6 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 }
             }
             pen.append(state.model, &RowInLanes { x: &sample.x, v: &sample.v, a: &sample.a }, blocks);
-            next_recorded = pen.sample();
         }
     }
     if let Some(pen) = pen {
