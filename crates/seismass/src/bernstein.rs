@@ -118,7 +118,12 @@ impl Polynomial {
     /// The derivative.
     #[inline(always)]
     pub(crate) fn derivative(&self) -> Self {
-        Self::new(self.coefficients().iter().zip(&ORDERS).skip(1).map(|(&c, &k)| k * c))
+        // All of them, whatever the length, for whole vectors.
+        let mut coefficients = [0.0; MAX_DEGREE + 1];
+        for k in 0..MAX_DEGREE {
+            coefficients[k] = ORDERS[k + 1] * self.coefficients[k + 1];
+        }
+        Self { coefficients, length: self.length.saturating_sub(1) }
     }
 
     /// What the coefficients say of values and derivatives on [0, 1].
