@@ -16,6 +16,8 @@ use crate::regime::{Regime, Row};
 pub(crate) const BLOCK: usize = 2 * WIDTH;
 /// Longest step of one series, as frequency times time: the largest of its terms is 2.
 pub(crate) const SERIES_PHASE: f64 = 2.0;
+/// Terms of a series that are at most so large are below rounding: 2^-60.
+pub(crate) const BELOW_ROUNDING: f64 = 1.0 / (1u64 << 60) as f64;
 /// Entries below this part of the largest in their row are left out: 2^27 below rounding, so that neighbours may differ
 /// by as much before it is seen.
 const NEGLIGIBLE: f64 = 1.0 / (1u128 << 80) as f64;
@@ -232,7 +234,7 @@ impl Effect {
         let n = start.drift.storeys;
         let mut order = 0;
         let mut size = 1.0;
-        while size > (-60f64).exp2() {
+        while size > BELOW_ROUNDING {
             order += 1;
             size *= phase / order as f64;
         }
@@ -301,8 +303,8 @@ for_each_path! {
 #[inline(always)]
 fn effects_by_path<V: Vector>(model: &Model, regime: &Regime, dt: f64) -> [Effect; 2] {
     let (n, system) = (model.storeys(), System::new(model, regime));
-    let halvings = (regime.frequency * dt / SERIES_PHASE).log2().ceil().max(0.0);
-    let mut h = dt * (-halvings).exp2();
+    let halvings = libm::log2(regime.frequency * dt / SERIES_PHASE).ceil().max(0.0);
+    let mut h = dt * libm::exp2(-halvings);
     let phase = regime.frequency * h;
     let (unit, zero) = (|| Band::unit(n, 0), || Band::zeros(n, 0));
     let of = |start: Term| Effect::by_series(&system, start, h, phase, halvings > 0.0);

@@ -158,8 +158,8 @@ fn orthogonal_columns(mass: &[f64], stiffness: &[f64]) -> DMatrix<f64> {
                 }
                 rotated = true;
                 let zeta = (qq - pp) / (2.0 * pq);
-                let t = 1.0f64.copysign(zeta) / (zeta.abs() + zeta.hypot(1.0));
-                let cosine = 1.0 / t.hypot(1.0);
+                let t = 1.0f64.copysign(zeta) / (zeta.abs() + libm::hypot(zeta, 1.0));
+                let cosine = 1.0 / libm::hypot(t, 1.0);
                 let sine = cosine * t;
                 for r in 0..n {
                     let (x, y) = (g[(r, p)], g[(r, q)]);

@@ -22,7 +22,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::banded_step::{SERIES_PHASE, whole_blocks};
+use crate::banded_step::{BELOW_ROUNDING, SERIES_PHASE, whole_blocks};
 use crate::lanes::{Vector, WIDTH, filled_to, for_each_path};
 use crate::model::Model;
 use crate::regime::{Regime, Row};
@@ -220,7 +220,7 @@ impl<'a> System<'a> {
                 sum.add(&term, factor);
             }
             size *= phase / k as f64;
-            if size <= (-60f64).exp2() {
+            if size <= BELOW_ROUNDING {
                 break;
             }
             let next = self.term::<V>(&before, &term, h, k + 1);
@@ -273,8 +273,8 @@ for_each_path! {
 #[inline(always)]
 fn effects_by_path<V: Vector>(damping: &DMatrix<f64>, regime: &Regime, dt: f64) -> [Square; 3] {
     let system = System::new(damping, regime);
-    let halvings = (regime.frequency * dt / SERIES_PHASE).log2().ceil().max(0.0);
-    let mut h = dt * (-halvings).exp2();
+    let halvings = libm::log2(regime.frequency * dt / SERIES_PHASE).ceil().max(0.0);
+    let mut h = dt * libm::exp2(-halvings);
     let mut effects = system.by_series::<V>(h, regime.frequency * h);
     for _ in 0..halvings as usize {
         effects = system.doubled::<V>(&effects, h);
@@ -341,7 +341,7 @@ fn of_ground(model: &Model, regime: &Regime, dt: f64) -> [Vec<f64>; 3] {
                 integrals[1][i] += once * twice * value[i];
                 integrals[2][i] += once * twice * thrice * value[i];
             }
-            if size <= (-60f64).exp2() {
+            if size <= BELOW_ROUNDING {
                 break;
             }
             size *= regime.frequency * once;

@@ -6,8 +6,7 @@ use std::sync::OnceLock;
 
 use crate::padded::Lanes;
 
-/// Instructions the hot loops are compiled for. Paths agree to rounding; each gives the same bits everywhere, with
-/// the same C library.
+/// Instructions the hot loops are compiled for. Paths agree to rounding; each gives the same bits on every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InstructionSet {
     /// What every machine of the architecture has.

@@ -47,6 +47,8 @@
 //! g + a_v, without flight. Where two guards fall closer together than rounding, or a guard only just touches zero, the
 //! branch taken is decided by rounding, as it would be in nature by less.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod banded_step;
 pub mod batch;
 mod bernstein;

@@ -11,13 +11,12 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
 use rustc_hash::FxBuildHasher;
 
 use crate::few_storeys;
 use crate::lanes::{
     Aligned, MAX_LANES, Pair, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers,
-    padded, store, unit,
+    store, unit,
 };
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
@@ -272,59 +271,48 @@ fn columns<V: Vector, const K: usize>(model: &Model, regime: &Regime, h: f64, su
     }
 }
 
-/// Changes of the state (x, v) over a step as an affine map; slopes are per second.
-struct Step {
-    state: DMatrix<f64>,
-    load: DMatrix<f64>,
-    ramp: DMatrix<f64>,
-    ground: DVector<f64>,
-    ground_ramp: DVector<f64>,
+for_each_path! {
+    /// The step taken twice: its columns, of changes of drifts and drift rates over `h`, each padded to whole vectors. Ramps
+    /// are per second.
+    fn doubled(changes: &[f64], storeys: usize, width: usize, h: f64) -> Vec<f64> = doubled_by_width
 }
 
-impl Step {
-    /// The step from its columns of rows (dx, dv, a, j), those of ramps among them.
-    fn new(n: usize, columns: &[f64]) -> Self {
-        let changes: Vec<_> = columns
-            .chunks_exact(4 * padded(n))
-            .map(|rows| DVector::from_iterator(2 * n, rows[..n].iter().chain(&rows[padded(n)..][..n]).copied()))
-            .collect();
-        let (state, others) = changes.split_at(2 * n);
-        let (motion, others) = others.split_at(2);
-        let (load, ramp) = others.split_at(n);
-        Self {
-            state: DMatrix::from_columns(state),
-            load: DMatrix::from_columns(load),
-            ramp: DMatrix::from_columns(ramp),
-            ground: motion[0].clone(),
-            ground_ramp: motion[1].clone(),
-        }
-    }
+#[inline(always)]
+fn doubled_by_width<V: Vector>(changes: &[f64], storeys: usize, width: usize, h: f64) -> Vec<f64> {
+    by_width!(width, K => doubled_columns::<V, K>(changes, storeys, h))
+}
 
-    /// The step taken twice; `h` is its length.
-    fn doubled(&self, h: f64) -> Self {
-        let state = &self.state;
-        Self {
-            state: state * 2.0 + state * state,
-            load: &self.load * 2.0 + state * &self.load,
-            ramp: &self.ramp * 2.0 + state * &self.ramp + &self.load * h,
-            ground: &self.ground * 2.0 + state * &self.ground,
-            ground_ramp: &self.ground_ramp * 2.0 + state * &self.ground_ramp + &self.ground * h,
+#[inline(always)]
+fn doubled_columns<V: Vector, const K: usize>(changes: &[f64], n: usize, h: f64) -> Vec<f64> {
+    let mut out = vec![0.0; changes.len()];
+    let columns = columns_of::<K>(changes).as_chunks::<2>().0;
+    let columns_out = out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0.as_chunks_mut::<2>().0;
+    for (c, (column, out)) in columns.iter().zip(columns_out).enumerate() {
+        let mut sums = [[V::splat(0.0); K]; 2];
+        let mut add = |column: &[[[f64; WIDTH]; K]; 2], weight: f64| {
+            let weight = V::splat(weight);
+            for r in 0..2 {
+                for k in 0..K {
+                    sums[r][k] = V::load(&column[r][k]).mul_add(weight, sums[r][k]);
+                }
+            }
+        };
+        // What the first half changes in the state goes on in the second, and a ramp is at `h` there.
+        let [of_drifts, of_rates] = column.each_ref().map(|rows| &rows.as_flattened()[..n]);
+        for (state, &weight) in columns.iter().zip(of_drifts.iter().chain(of_rates)) {
+            add(state, weight);
+        }
+        match Cause::of(c, n) {
+            Cause::GroundRamp => add(&columns[c - 1], h),
+            Cause::Ramp(_) => add(&columns[c - n], h),
+            _ => {}
+        }
+        add(column, 2.0);
+        for r in 0..2 {
+            out[r] = numbers(&sums[r]);
         }
     }
-
-    /// Change of the state in the column of a cause.
-    fn change(&self, cause: Cause) -> &[f64] {
-        let rows = self.ground.len();
-        let column = |matrix: &'_ DMatrix<f64>, i: usize| rows * i..rows * (i + 1).min(matrix.ncols());
-        match cause {
-            Cause::Drift(i) => &self.state.as_slice()[column(&self.state, i)],
-            Cause::DriftRate(i) => &self.state.as_slice()[column(&self.state, rows / 2 + i)],
-            Cause::Load(i) => &self.load.as_slice()[column(&self.load, i)],
-            Cause::Ramp(i) => &self.ramp.as_slice()[column(&self.ramp, i)],
-            Cause::Ground => self.ground.as_slice(),
-            Cause::GroundRamp => self.ground_ramp.as_slice(),
-        }
-    }
+    out
 }
 
 impl Steps {
@@ -337,8 +325,8 @@ impl Steps {
         }
         let width = model.width;
         let phase = regime.frequency * dt;
-        let halvings = if phase > MAX_PHASE { (phase / MAX_PHASE).log2().ceil() } else { 0.0 };
-        let h = dt * (-halvings).exp2();
+        let halvings = if phase > MAX_PHASE { libm::log2(phase / MAX_PHASE).ceil() } else { 0.0 };
+        let h = dt * libm::exp2(-halvings);
         // Parts of a halved interval may be longer than its table's step.
         let order = terms::<Plain>(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
         sums.resize(2 * n * 4 * width, 0.0);
@@ -351,15 +339,17 @@ impl Steps {
         };
         let mut columns;
         if halvings > 0.0 {
-            let mut step = Step::new(n, &formed(true));
+            let mut changes: Vec<f64> =
+                formed(true).chunks_exact(4 * width).flat_map(|rows| &rows[..2 * width]).copied().collect();
             let mut length = h;
             for _ in 0..halvings as usize {
-                step = step.doubled(length);
+                changes = doubled(&changes, n, width, length);
                 length *= 2.0;
             }
             columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
-            for (i, column) in columns.chunks_exact_mut(4 * width).enumerate() {
-                column_of_change(model, regime, Cause::of(i, n), &step, dt, column);
+            let changes = changes.chunks_exact(2 * width);
+            for (i, (column, change)) in columns.chunks_exact_mut(4 * width).zip(changes).enumerate() {
+                column_of_change(model, regime, Cause::of(i, n), change, dt, column);
             }
         } else {
             columns = formed(with_ramps);
@@ -412,10 +402,11 @@ impl Propagator {
     }
 }
 
-/// Forms the rows (dx, dv, a, j) of a column from the step's change of the state, over `h`.
-fn column_of_change(model: &Model, regime: &Regime, cause: Cause, step: &Step, h: f64, out: &mut [f64]) {
-    let (n, change) = (model.storeys(), step.change(cause));
-    let (mut x, mut v) = (change[..n].to_vec(), change[n..].to_vec());
+/// Forms the rows (dx, dv, a, j) of a column from its change of the state over `h`: dx and dv, each padded.
+fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64], h: f64, out: &mut [f64]) {
+    let n = model.storeys();
+    let [dx, dv] = [0, model.width].map(|first| &change[first..first + n]);
+    let (mut x, mut v) = (dx.to_vec(), dv.to_vec());
     let (mut load, mut slope, mut ground) = (vec![0.0; n], vec![0.0; n], 0.0);
     match cause {
         Cause::Drift(i) => x[i] += 1.0,
@@ -430,7 +421,7 @@ fn column_of_change(model: &Model, regime: &Regime, cause: Cause, step: &Step, h
     let mut below = ground;
     let drift_acceleration: Vec<f64> = a.iter().map(|&a| a - std::mem::replace(&mut below, a)).collect();
     regime.accelerations(model, &v, &drift_acceleration, &slope, &mut jerk);
-    for (row, part) in out.chunks_exact_mut(model.width).zip([&change[..n], &change[n..], &a, &jerk]) {
+    for (row, part) in out.chunks_exact_mut(model.width).zip([dx, dv, &a, &jerk]) {
         row[..n].copy_from_slice(part);
         row[n..].fill(0.0);
     }

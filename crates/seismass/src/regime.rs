@@ -131,7 +131,7 @@ impl Regime {
     /// Factor by which the norm may grow over `h`.
     #[inline]
     pub(crate) fn growth_over(&self, h: f64) -> f64 {
-        if self.growth > 0.0 { (self.growth * h).exp() } else { 1.0 }
+        if self.growth > 0.0 { libm::exp(self.growth * h) } else { 1.0 }
     }
 
     /// Whether energy cannot grow in this regime: no negative tangent, damping known not to feed it.

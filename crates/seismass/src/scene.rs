@@ -286,7 +286,7 @@ pub fn uniform_stiffness(storeys: usize, period: f64, mass: f64) -> Result<f64> 
     check(period.is_finite() && period > 0.0, "period", "building", "a positive number", period)?;
     check(mass.is_finite() && mass > 0.0, "mass", "building", "a positive number", mass)?;
     let angle = std::f64::consts::PI / (2.0 * (2 * storeys + 1) as f64);
-    let root = std::f64::consts::PI / (period * angle.sin());
+    let root = std::f64::consts::PI / (period * libm::sin(angle));
     Ok(mass * root * root)
 }
 

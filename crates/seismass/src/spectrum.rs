@@ -151,7 +151,8 @@ impl Load {
         let first = acceleration.iter().position(|&a| a != 0.0).unwrap_or(0).saturating_sub(1);
         let last = acceleration.iter().rposition(|&a| a != 0.0).unwrap_or(0);
         let largest = acceleration.iter().fold(0.0, |most, a| a.abs().max(most));
-        let exponent = if largest > 0.0 { largest.log2().clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT) as i32 } else { 0 };
+        let exponent =
+            if largest > 0.0 { libm::log2(largest).clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT) as i32 } else { 0 };
         let (unit, per_unit) = (2f64.powi(exponent), 2f64.powi(-exponent));
         let scaled = acceleration[first..=last].iter().map(|a| square * (a * per_unit));
         let samples: Vec<f64> = scaled.chain([0.0; 2]).collect();

@@ -148,7 +148,7 @@ impl Reach {
             by_floor = by_floor.max(own * (root_tangent[i] + above.0));
             dampers = dampers.max(damper(i) + above.1);
         }
-        let (springs, dampers, exponent) = (h * (by_storey * by_floor).sqrt(), h * dampers, Self::GROWTH.ln());
+        let (springs, dampers, exponent) = (h * (by_storey * by_floor).sqrt(), h * dampers, libm::log(Self::GROWTH));
         let d = 2.0 * exponent / (springs + (springs * springs + 4.0 * dampers * exponent).sqrt());
         let root = 0.5 * (d + (d * d + 4.0).sqrt());
         Self { falls_by: (root * root).powi(-2 * WIDTH as i32), growth: Self::GROWTH * growth * growth }

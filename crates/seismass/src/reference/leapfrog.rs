@@ -71,7 +71,7 @@ fn check_stability(model: &Model, dt: f64, substeps: usize) -> Result<(), Error>
     for (i, j) in (0..model.storeys()).flat_map(|i| (0..model.storeys()).map(move |j| (i, j))) {
         damping[(i, j)] /= (model.mass[i] * model.mass[j]).sqrt();
     }
-    let least = |damping: f64| 0.5 * dt * (damping + damping.hypot(highest));
+    let least = |damping: f64| 0.5 * dt * (damping + libm::hypot(damping, highest));
     // Sums of rows bound the eigenvalues, at no cost.
     let most = damping.row_iter().map(|row| row.iter().map(|c| c.abs()).sum()).fold(0.0, f64::max);
     if substeps as f64 > least(most) {

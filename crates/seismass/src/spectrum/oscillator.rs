@@ -64,8 +64,8 @@ impl ImpulseResponse {
         let theta_low = s.mul_add(q, -theta) + s * q_low + s_low * q;
         let decay_exponent = zeta * s;
         let decay_low = zeta.mul_add(s, -decay_exponent) + zeta * s_low;
-        let decay = (-decay_exponent).exp() * (1.0 - decay_low);
-        let (sine, cosine) = theta.sin_cos();
+        let decay = libm::exp(-decay_exponent) * (1.0 - decay_low);
+        let (sine, cosine) = libm::sincos(theta);
         let (sine, cosine) = (sine + theta_low * cosine, cosine - theta_low * sine);
         let gamma = decay * sine / theta;
         let free = decay * cosine + zeta * s * gamma;
@@ -124,7 +124,7 @@ impl Oscillator {
         // w = uu u + uv v + u0 b0 + u1 b1 in place of v. Where the step is small, no sum loses more than a digit.
         let step_w = [uv * vu - vv * uu, uu + vv, uv * v0 - vv * u0 - u0, uv * v1 - vv * u1 + (u0 - u1), u1];
         // u'' is a free vibration: within a small step at most e^(zeta s) / cos(q s / 2) times its largest end value.
-        let chord = (zeta * s).exp() / (8.0 * (0.5 * q * s).cos());
+        let chord = libm::exp(zeta * s) / (8.0 * libm::cos(0.5 * q * s));
         let particular = [1.0 / square, viscous / (square * square)];
         Self { s, zeta, q, step_u, step_v, step_w, particular, chord }
     }
@@ -167,7 +167,7 @@ impl Oscillator {
         let free = u0 - particular[0];
         let free_rate = v0 + per_load * (b1 - b0);
         let out_of_phase = (free_rate + self.zeta * self.s * free) / (self.q * self.s);
-        particular[0].abs().max(particular[1].abs()) + free.hypot(out_of_phase)
+        particular[0].abs().max(particular[1].abs()) + libm::hypot(free, out_of_phase)
     }
 
     /// The larger of `peak` and |u| at any zero of u' inside the steps of a block.
@@ -198,7 +198,7 @@ impl Oscillator {
         }
         let (theta, decay) = (self.q * self.s, self.zeta * self.s);
         let y_rate = -(b1 - b0) - 2.0 * decay * y0 - self.s * self.s * v0;
-        let mut phase = (-y0).atan2((y_rate + decay * y0) / theta);
+        let mut phase = libm::atan2(-y0, (y_rate + decay * y0) / theta);
         while phase <= 0.0 {
             phase += std::f64::consts::PI;
         }
@@ -257,12 +257,12 @@ impl Oscillator {
     /// of w) has decayed at the rate 2 zeta w.
     pub(super) fn free_peak(&self, u: f64, v: f64) -> f64 {
         let v = v / self.s;
-        let mut phase = (self.q * v).atan2(self.zeta * v + u);
+        let mut phase = libm::atan2(self.q * v, self.zeta * v + u);
         if phase < 0.0 {
             phase += std::f64::consts::PI;
         }
-        let envelope = (u + self.zeta * v).hypot(self.q * v);
-        u.abs().max(envelope * (-self.zeta * phase / self.q).exp())
+        let envelope = libm::hypot(u + self.zeta * v, self.q * v);
+        u.abs().max(envelope * libm::exp(-self.zeta * phase / self.q))
     }
 }
 
