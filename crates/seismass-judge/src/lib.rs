@@ -21,6 +21,7 @@ mod compare;
 mod events;
 mod model;
 mod polynomial;
+pub mod portable_scene;
 pub mod random_scene;
 mod real;
 mod record;

@@ -1,0 +1,43 @@
+//! A path gives the same bits whatever else a processor has: where another one can be emulated.
+
+#![allow(clippy::unwrap_used)]
+
+use std::process::Command;
+
+const SCENES: &str = "60";
+
+/// What `bits` prints on a path, by itself or under an emulator; none where that is not at hand.
+fn printed(path: &str, emulator: Option<[&str; 3]>) -> Option<String> {
+    let bits = env!("CARGO_BIN_EXE_bits");
+    let mut command = Command::new(emulator.map_or(bits, |[name, ..]| name));
+    if let Some([_, option, value]) = emulator {
+        command.args([option, value, bits]);
+    }
+    let output = command.arg(SCENES).env("SEISMASS_INSTRUCTIONS", path).output().ok()?;
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{path}, {emulator:?}: {errors}");
+    Some(String::from_utf8(output.stdout).unwrap())
+}
+
+/// The first processor has neither AVX nor fused multiply-add, the second not AVX-512.
+#[test]
+fn a_path_gives_the_same_bits_on_every_processor() {
+    for (path, processor) in [("baseline", "qemu64"), ("avx2", "Haswell")] {
+        let here = printed(path, None).unwrap();
+        assert_eq!(here.lines().count(), 1 + SCENES.parse::<usize>().unwrap());
+        let emulator = ["qemu-x86_64", "-cpu", processor];
+        let there = if cfg!(target_arch = "x86_64") { printed(path, Some(emulator)) } else { None };
+        let Some(there) = there else {
+            println!("skipped: no x86-64 processor, or no qemu-x86_64");
+            return;
+        };
+        if !here.starts_with(path) || !there.starts_with(path) {
+            println!("skipped: {path}, which this machine or its emulator does not have");
+            continue;
+        }
+        for (here, there) in here.lines().zip(there.lines()) {
+            assert_eq!(here, there, "{path}: seed, storeys, events, hash");
+        }
+        println!("{path}: the same bits on this processor and on {processor}, {SCENES} scenes");
+    }
+}
