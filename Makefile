@@ -14,7 +14,8 @@ export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
-.PHONY: study test bench bench-kernel count-instructions stress docs clean build lint test-rust test-python test-wheel
+.PHONY: study test bench bench-kernel count-instructions stress docs clean build lint test-rust test-python test-wheel wheels \
+	test-aarch64
 
 study: build
 	$(VENV)/bin/seismass study --out out/study
@@ -63,6 +64,15 @@ test-python: build
 
 test-wheel: build
 	sh tools/check-wheel $(PYTHON)
+
+# Wheels for Linux on x86-64 and aarch64 in dist, from either. Needs Rust's standard library for both, and says so.
+wheels: build
+	$(PYTHON) -m pip install --quiet --group wheels
+	env -u CONDA_PREFIX VIRTUAL_ENV=$(abspath $(VENV)) PATH="$(abspath $(VENV))/bin:$$PATH" sh tools/make-wheels $(PYTHON) dist
+
+# The kernel's tests on an emulated aarch64; a quarter of an hour. Needs qemu-user and Rust's standard library for it.
+test-aarch64:
+	sh tools/test-aarch64
 
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps

@@ -485,7 +485,7 @@ def instruction_set() -> str:
 
     It is the widest that the machine has, or the one that the environment variable SEISMASS_INSTRUCTIONS names when the
     kernel is first used, if the machine has it ("baseline": every machine). Results agree to rounding between
-    instruction sets, and to the bit with the same one, on every machine with the same C library.
+    instruction sets, and to the bit with the same one, on every machine.
 
     Examples
     --------
