@@ -8,7 +8,7 @@
 //! (q', J') obey the same system: their second integral is what the step adds to drift rates beyond h q.
 
 use crate::damping::StoreyDamping;
-use crate::lanes::{Aligned, Vector, WIDTH, for_each_path};
+use crate::lanes::{Aligned, Pair, Vector, WIDTH, for_each_path};
 use crate::model::Model;
 use crate::regime::{Regime, Row};
 
@@ -350,32 +350,28 @@ impl BandedStep {
     #[inline(always)]
     pub(crate) fn advance<V: Vector>(&self, start: Start, dx: &mut [f64], dv: &mut [f64]) {
         let width = Self::columns(self.half_width);
-        let blocks = self.entries.as_chunks::<WIDTH>().0.as_chunks::<4>().0.chunks_exact(width);
-        let out = dx.as_chunks_mut::<BLOCK>().0.iter_mut().zip(dv.as_chunks_mut::<BLOCK>().0);
+        let blocks = self.entries.as_chunks::<WIDTH>().0.as_chunks::<2>().0.as_chunks::<2>().0.chunks_exact(width);
+        let [dx, dv] = [dx, dv].map(|rows| rows.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<2>().0);
+        let out = dx.iter_mut().zip(dv);
         for (block, (columns, (dx, dv))) in blocks.zip(out).enumerate() {
             let within = BLOCK * block..BLOCK * block + width;
             let (q, q_rates) = (&start.q[0][within.clone()], &start.q[1][within.clone()]);
             let (jerk, jerk_rates) = (&start.jerk[0][within.clone()], &start.jerk[1][within]);
             // Of q and its rate, of J and its rate.
-            let mut of_q = [V::splat(0.0); 4];
+            let mut of_q = [V::Pair::splat(0.0); 2];
             let mut of_jerk = of_q;
             let weights = q.iter().zip(jerk).zip(q_rates.iter().zip(jerk_rates));
             for (entries, ((&q, &jerk), (&q_rate, &jerk_rate))) in columns.iter().zip(weights) {
-                for half in 0..2 {
-                    let (by_q, by_jerk) = (V::load(&entries[half]), V::load(&entries[2 + half]));
-                    of_q[half] = by_q.mul_add(V::splat(q), of_q[half]);
-                    of_jerk[half] = by_jerk.mul_add(V::splat(jerk), of_jerk[half]);
-                    of_q[2 + half] = by_q.mul_add(V::splat(q_rate), of_q[2 + half]);
-                    of_jerk[2 + half] = by_jerk.mul_add(V::splat(jerk_rate), of_jerk[2 + half]);
-                }
+                let (by_q, by_jerk) = (V::Pair::load(&entries[0]), V::Pair::load(&entries[1]));
+                of_q[0] = by_q.mul_add(V::Pair::splat(q), of_q[0]);
+                of_jerk[0] = by_jerk.mul_add(V::Pair::splat(jerk), of_jerk[0]);
+                of_q[1] = by_q.mul_add(V::Pair::splat(q_rate), of_q[1]);
+                of_jerk[1] = by_jerk.mul_add(V::Pair::splat(jerk_rate), of_jerk[1]);
             }
-            let here = q[self.half_width..].as_chunks::<WIDTH>().0;
-            let (dx, dv) = (dx.as_chunks_mut::<WIDTH>().0, dv.as_chunks_mut::<WIDTH>().0);
-            for half in 0..2 {
-                of_q[half].add(of_jerk[half]).store(&mut dx[half]);
-                let more = of_q[2 + half].add(of_jerk[2 + half]);
-                V::splat(self.h).mul_add(V::load(&here[half]), more).store(&mut dv[half]);
-            }
+            of_q[0].add(of_jerk[0]).store(dx);
+            let here = &q[self.half_width..].as_chunks::<WIDTH>().0.as_chunks::<2>().0[0];
+            let more = of_q[1].add(of_jerk[1]);
+            V::Pair::splat(self.h).mul_add(V::Pair::load(here), more).store(dv);
         }
     }
 }

@@ -36,7 +36,7 @@ pub(crate) struct Model {
 pub(crate) struct ModelLanes {
     /// 1 for a storey, 0 for padding.
     pub(crate) inside: Padded,
-    /// Columns of the full damping matrix, one after the other, an even number and at least a vector's; empty without one.
+    /// Columns of the full damping matrix, one after the other, as many as fill vectors; empty without one.
     pub(crate) damping: Vec<f64>,
     /// Columns of the absolute values of the full damping matrix in floor coordinates, one after the other; empty without one.
     pub(crate) damping_sizes: Vec<f64>,
@@ -60,7 +60,7 @@ impl ModelLanes {
             StoreyDamping::Dense(d) => {
                 let mut columns: Vec<f64> =
                     d.column_iter().flat_map(|column| filled(column.iter().copied(), n, 0.0)).collect();
-                columns.resize(padded(n) * n.next_multiple_of(2).max(WIDTH), 0.0);
+                columns.resize(padded(n) * n.next_multiple_of(WIDTH), 0.0);
                 Self { inside, damping: columns, damping_sizes: damping_sizes(d), ..Self::default() }
             }
         }

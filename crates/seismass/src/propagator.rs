@@ -176,13 +176,14 @@ fn remainders<V: Vector, const K: usize>(
     let keeps_terms = !terms.is_empty();
     for storey in 0..n {
         let (mut x, mut v) = ([unit(storey), zero], [zero, unit(storey)]);
+        let mut floors = [zero, operator.floor_velocities(&v[1])];
         let places = [storey, n + storey];
         let mut rows = [[zero; 4]; 2];
         for k in 0..=order {
             let (once, twice) = (h * INVERSE[k + 1], h * h * (INVERSE[k + 1] * INVERSE[k + 2]));
             let (once, twice) = (V::splat(once), V::splat(twice));
             for column in 0..2 {
-                let a = operator.accelerations(&x[column], &v[column], zero);
+                let a = operator.accelerations(&x[column], &v[column], &floors[column], zero);
                 let drift_acceleration = differences(&a, V::splat(0.0));
                 let mut term = zero;
                 for l in 0..K {
@@ -194,6 +195,7 @@ fn remainders<V: Vector, const K: usize>(
                     rows[3][l] = once.mul_add(a[l], rows[3][l]);
                     x[column][l] = once.mul(v[column][l]);
                     v[column][l] = once.mul(drift_acceleration[l]).mul(inside[l]);
+                    floors[column][l] = once.mul(a[l]);
                 }
                 if keeps_terms && k + 2 <= order {
                     let first = Table::first_column::<V, K>(2 * n, k + 2);
@@ -245,9 +247,12 @@ fn columns<V: Vector, const K: usize>(model: &Model, regime: &Regime, h: f64, su
             Cause::Ground => ground = 1.0,
             Cause::GroundRamp => ground_slope = 1.0,
         }
-        let a = operator.accelerations(&x, &v, force);
-        let q = differences(&a, V::splat(ground));
-        let jerk = operator.accelerations(&v, &q, slope);
+        let a = operator.accelerations(&x, &v, &operator.floor_velocities(&v), force);
+        let (q, mut floors) = (differences(&a, V::splat(ground)), a);
+        for k in 0..K {
+            floors[k] = a[k].sub(V::splat(ground));
+        }
+        let jerk = operator.accelerations(&v, &q, &floors, slope);
         let rate = differences(&jerk, V::splat(ground_slope));
         let mut rows = [zero; 4];
         for k in 0..K {

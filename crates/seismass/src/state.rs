@@ -823,12 +823,14 @@ fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
         forces[k] = friction[k].mul(contact).add(forces[k]);
         slopes[k] = friction[k].mul(contact_slope);
     }
-    let a = operator.accelerations(&x, &v, forces);
-    let mut drift_acceleration = differences(&a, V::splat(state.interval.ground_at(tau)));
+    let a = operator.accelerations(&x, &v, &operator.floor_velocities(&v), forces);
+    let ground = V::splat(state.interval.ground_at(tau));
+    let (mut drift_acceleration, mut floors) = (differences(&a, ground), a);
     for k in 0..K {
         drift_acceleration[k] = drift_acceleration[k].mul(inside[k]);
+        floors[k] = a[k].sub(ground);
     }
-    let jerk = operator.accelerations(&v, &drift_acceleration, slopes);
+    let jerk = operator.accelerations(&v, &drift_acceleration, &floors, slopes);
     store(&a, &mut state.a);
     store(&drift_acceleration, &mut state.drift_acceleration);
     store(&jerk, &mut state.jerk);

@@ -262,7 +262,7 @@ impl Series {
         let inside: [V; K] = load(&model.lanes.inside);
         let (zero, h) = (V::splat(0.0), self.h);
         let (mut x, mut v): ([V; K], [V; K]) = (load(start.x), load(start.v));
-        let rates = v;
+        let (rates, mut floors) = (v, operator.floor_velocities(&v));
         store(&x, &mut self.x);
         store(&v, &mut self.v);
         let mut first = [[zero; K]; 2];
@@ -270,17 +270,24 @@ impl Series {
         let terms = self.a.vectors_mut::<K>()[..=self.order].iter_mut();
         for ((order, out), weights) in terms.enumerate().zip(WEIGHTS.iter()) {
             let forces = if order < 2 { load(&self.load[order]) } else { [zero; K] };
-            let a = operator.accelerations(&x, &v, forces);
+            let a = operator.accelerations(&x, &v, &floors, forces);
             put(&a, out);
             sums.add(&a, weights);
             if order < 2 {
                 first[order] = a;
             }
             let factor = V::splat(h * INVERSE[order + 1]);
-            let drift_acceleration = differences(&a, V::splat(self.ground[order][0]));
+            // What is beyond the last storey meets zeros alone.
+            let ground = V::splat(self.ground[order][0]);
+            let drift_acceleration = differences(&a, ground);
             for k in 0..K {
                 x[k] = factor.mul(v[k]);
-                v[k] = factor.mul(drift_acceleration[k]).mul(inside[k]);
+                v[k] = factor.mul(drift_acceleration[k]);
+            }
+            if operator.damps_floors() {
+                for k in 0..K {
+                    floors[k] = factor.mul(a[k].sub(ground));
+                }
             }
         }
         self.put_sums(&sums, &rates, &first[0], &first[1], &inside);
