@@ -225,23 +225,8 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
                 let damping = |c: usize, sum: V| V::load(&columns[c][0]).mul_add(v[0].broadcast(c), sum);
                 shear[0] = damping(0, damping(1, shear[0])).add(damping(2, damping(3, zero)));
             }
-        } else if columns.is_empty() {
-            // Nothing couples storeys but the floors between them.
-        } else if V::Pair::IS_ONE {
-            add_product_in_pairs(columns, v, &mut shear);
-        } else {
-            let rates = numbers(v);
-            let mut others = [zero; K];
-            for (pair, rates) in columns.as_chunks::<2>().0.iter().zip(rates.as_flattened().as_chunks::<2>().0) {
-                let (even, odd) = (V::splat(rates[0]), V::splat(rates[1]));
-                for k in 0..K {
-                    shear[k] = V::load(&pair[0][k]).mul_add(even, shear[k]);
-                    others[k] = V::load(&pair[1][k]).mul_add(odd, others[k]);
-                }
-            }
-            for k in 0..K {
-                shear[k] = shear[k].add(others[k]);
-            }
+        } else if !columns.is_empty() {
+            add_product(columns, v, &mut shear);
         }
         if let Some(damping) = self.add_storey_damping(v, &mut shear) {
             for k in 0..K {
@@ -258,23 +243,38 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
     }
 }
 
-/// sums += columns * weights, two vectors at a time. Four sums: a quarter of the latency of one.
+/// sums += columns * weights, of more vectors than one.
 #[inline(always)]
-fn add_product_in_pairs<V: Vector, const K: usize>(columns: &[[[f64; WIDTH]; K]], weights: &[V; K], sums: &mut [V; K]) {
+fn add_product<V: Vector, const K: usize>(columns: &[[[f64; WIDTH]; K]], weights: &[V; K], sums: &mut [V; K]) {
     let weights = numbers(weights);
-    // Half of the room is left.
-    let mut pairs = [[V::Pair::splat(0.0); K]; 4];
-    for (columns, weights) in columns.as_chunks::<4>().0.iter().zip(&weights) {
-        for c in 0..4 {
-            let weight = V::Pair::splat(weights[c]);
-            for (k, column) in columns[c].as_chunks().0.iter().enumerate() {
-                pairs[c][k] = V::Pair::load(column).mul_add(weight, pairs[c][k]);
+    if V::Pair::IS_ONE {
+        // Two vectors at a time: half of the room is left. Four sums: a quarter of the latency of one.
+        let mut pairs = [[V::Pair::splat(0.0); K]; 4];
+        for (columns, weights) in columns.as_chunks::<4>().0.iter().zip(&weights) {
+            for c in 0..4 {
+                let weight = V::Pair::splat(weights[c]);
+                for (k, column) in columns[c].as_chunks().0.iter().enumerate() {
+                    pairs[c][k] = V::Pair::load(column).mul_add(weight, pairs[c][k]);
+                }
             }
         }
-    }
-    for k in 0..K / 2 {
-        let [low, high] = pairs[0][k].add(pairs[1][k]).add(pairs[2][k].add(pairs[3][k])).halves();
-        (sums[2 * k], sums[2 * k + 1]) = (sums[2 * k].add(low), sums[2 * k + 1].add(high));
+        for k in 0..K / 2 {
+            let [low, high] = pairs[0][k].add(pairs[1][k]).add(pairs[2][k].add(pairs[3][k])).halves();
+            (sums[2 * k], sums[2 * k + 1]) = (sums[2 * k].add(low), sums[2 * k + 1].add(high));
+        }
+    } else {
+        // Two sums: there is no room for more.
+        let mut others = [V::splat(0.0); K];
+        for (pair, weights) in columns.as_chunks::<2>().0.iter().zip(weights.as_flattened().as_chunks::<2>().0) {
+            let (even, odd) = (V::splat(weights[0]), V::splat(weights[1]));
+            for k in 0..K {
+                sums[k] = V::load(&pair[0][k]).mul_add(even, sums[k]);
+                others[k] = V::load(&pair[1][k]).mul_add(odd, others[k]);
+            }
+        }
+        for k in 0..K {
+            sums[k] = sums[k].add(others[k]);
+        }
     }
 }
 
