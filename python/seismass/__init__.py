@@ -2,6 +2,7 @@
 
 from seismass import _kernel
 from seismass.batch import simulate_many, stream_many, write_many
+from seismass.effective_mass import EffectiveMass, attached_scene, effective_mass, effective_mass_of_design
 from seismass.errors import (
     InvalidMotion,
     InvalidOption,
@@ -26,6 +27,7 @@ __all__ = [
     "STANDARD_GRAVITY",
     "Block",
     "Building",
+    "EffectiveMass",
     "Grid",
     "InvalidMotion",
     "InvalidOption",
@@ -44,8 +46,11 @@ __all__ = [
     "Suite",
     "TargetSpectrum",
     "__version__",
+    "attached_scene",
     "blocks_on_floors",
     "builtin_suite",
+    "effective_mass",
+    "effective_mass_of_design",
     "instruction_set",
     "read_record",
     "read_scene",
