@@ -2,7 +2,15 @@
 
 from seismass import _kernel
 from seismass.batch import simulate_many, stream_many, write_many
-from seismass.effective_mass import EffectiveMass, attached_scene, effective_mass, effective_mass_of_design
+from seismass.effective_mass import (
+    EffectiveMass,
+    EffectiveMassMap,
+    EffectiveMassParameters,
+    attached_scene,
+    effective_mass,
+    effective_mass_map,
+    effective_mass_of_design,
+)
 from seismass.errors import (
     InvalidMotion,
     InvalidOption,
@@ -28,6 +36,8 @@ __all__ = [
     "Block",
     "Building",
     "EffectiveMass",
+    "EffectiveMassMap",
+    "EffectiveMassParameters",
     "Grid",
     "InvalidMotion",
     "InvalidOption",
@@ -50,6 +60,7 @@ __all__ = [
     "blocks_on_floors",
     "builtin_suite",
     "effective_mass",
+    "effective_mass_map",
     "effective_mass_of_design",
     "instruction_set",
     "read_record",
