@@ -64,17 +64,17 @@ class Table:
         kept = set(nullable)
         self.values = {key: value for key, value in given.items() if value is not None or key in kept}
         self._all_keys = tuple(given)
-        self._place = place
-        self._file = file
+        self.place = place
+        self.file = file
         self._kind = kind
 
     def key(self, key: str) -> str:
         """Where a key stands: building.damping.ratio."""
-        return f"{self._place}.{key}" if self._place else key
+        return f"{self.place}.{key}" if self.place else key
 
     def refuse(self, key: str, requirement: str, got: str) -> NoReturn:
         """Raise the error of the one form."""
-        raise refusal(self._kind, self.key(key), self._file, requirement, got)
+        raise refusal(self._kind, self.key(key), self.file, requirement, got)
 
     def known(self, keys: tuple[str, ...]) -> None:
         """Refuse every other key."""
@@ -105,7 +105,7 @@ class Table:
         value = self.values[key]
         if not isinstance(value, dict):
             self.refuse(key, "a table of keys", brief(value))
-        return Table(value, self.key(key), self._file, self._kind, nullable)
+        return Table(value, self.key(key), self.file, self._kind, nullable)
 
     def tables(self, key: str) -> list[Table]:
         """Return the tables of a list; none where the key is absent."""
@@ -116,7 +116,7 @@ class Table:
         for number, item in enumerate(value, start=1):
             if not isinstance(item, dict):
                 self.refuse(f"{key}[{number}]", "a table of keys", brief(item))
-            tables.append(Table(item, self.key(f"{key}[{number}]"), self._file, self._kind))
+            tables.append(Table(item, self.key(f"{key}[{number}]"), self.file, self._kind))
         return tables
 
     def text(self, key: str) -> str:
@@ -129,8 +129,8 @@ class Table:
     def per_storey(self, key: str) -> FloatArray | None:
         """Return one number or a list of them."""
         value = self.values.get(key)
-        return None if value is None else as_array(value, self.key(key), self._file, InvalidScene, or_number=True)
+        return None if value is None else as_array(value, self.key(key), self.file, InvalidScene, or_number=True)
 
     def number(self, key: str, default: float) -> float:
         """Return a number, or the default where the key is absent."""
-        return as_number(self.values.get(key, default), self.key(key), self._file, self._kind)
+        return as_number(self.values.get(key, default), self.key(key), self.file, self._kind)
