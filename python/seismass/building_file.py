@@ -122,7 +122,7 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
     mass = np.array([_mass(storey, building) for storey in storeys])
     heights = _heights(storeys, building)
     fraction = _code(code)
-    strength, design = _strength(storeys, building, mass, fraction)
+    strength, design = _strength(storeys, building, mass)
     live_load = np.array([_live_load(storey, goods, building) for storey in storeys])
     occupied = np.array([_between(storey, goods, "occupied", 1.0, 0.0, 1.0) for storey in storeys])
     friction = [
@@ -294,7 +294,7 @@ def _stiffness(storeys: list[Table], building: Table, mass: Any) -> Any:
     return trial * (vibration_modes(mass, trial).periods[0] / period) ** 2
 
 
-def _strength(storeys: list[Table], building: Table, mass: Any, code: CodeFraction) -> tuple[Any, DesignRule | None]:
+def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, DesignRule | None]:
     """First yield shears (N), or the rule that designs them."""
     if _flag(building, "design", False):
         for table in (building, *storeys):
@@ -306,7 +306,8 @@ def _strength(storeys: list[Table], building: Table, mass: Any, code: CodeFracti
         combination = building.values.get("combination", "srss")
         if combination not in get_args(Combination):
             building.refuse("combination", f"one of {', '.join(get_args(Combination))}", brief(combination))
-        fraction = _between(building, building, "design_fraction", code.fraction, 0.0, 1.0)
+        stated = "design_fraction" in building.values
+        fraction = _between(building, building, "design_fraction", 0.0, 0.0, 1.0) if stated else None
         return None, DesignRule(reduction, fraction, combination)
     for key in _DESIGN:
         if key in building.values:

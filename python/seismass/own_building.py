@@ -35,14 +35,14 @@ class DesignRule:
     ----------
     R : float
         Response modification factor, at least 1.
-    fraction : float
-        Fraction of the design live load in the mass of the design.
+    fraction : float or None
+        Fraction of the design live load in the mass of the design; None: that of the code.
     combination : {"srss", "cqc"}
         Modal combination.
     """
 
     R: float
-    fraction: float
+    fraction: float | None
     combination: Combination = "srss"
 
 
@@ -148,6 +148,12 @@ class OwnBuilding:
         total = float(self.live_load.sum())
         return float(self.goods.sum()) / total if total > 0.0 else 0.0
 
+    @property
+    def design_fraction(self) -> float:
+        """Fraction of the design live load in the mass of the design: as stated, else that of the code."""
+        stated = None if self.design is None else self.design.fraction
+        return self.code.fraction if stated is None else stated
+
     def period(self, attached: FloatArray | float = 0.0) -> float:
         """Return the first period (s) with a mass attached to each floor (kg)."""
         return float(vibration_modes(self.mass + attached, self.stiffness).periods[0])
@@ -165,9 +171,8 @@ class OwnBuilding:
         InvalidOption
             There is no site spectrum, or it does not cover the modal periods.
         """
-        fraction = self.code.fraction if self.design is None else self.design.fraction
         return response_spectrum_analysis(
-            self.mass + fraction * self.live_load,
+            self.mass + self.design_fraction * self.live_load,
             self.stiffness,
             self.site_spectrum(target),
             combination="srss" if self.design is None else self.design.combination,
