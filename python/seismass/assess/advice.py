@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Final
 
 import polars as pl
@@ -71,7 +72,7 @@ def _mean(storeys: pl.DataFrame, model: str) -> list[float | None]:
     return means
 
 
-def _largest_ratio(storeys: pl.DataFrame, reals: list[str], models: tuple[str, ...]) -> tuple[float, int] | None:
+def _largest_ratio(storeys: pl.DataFrame, reals: Sequence[str], models: tuple[str, ...]) -> tuple[float, int] | None:
     """Largest real mean over the largest mean of the models, over storeys and frictions, with its storey."""
     found: list[tuple[float, int]] = []
     covers = [_mean(storeys, model) for model in models]
@@ -83,7 +84,7 @@ def _largest_ratio(storeys: pl.DataFrame, reals: list[str], models: tuple[str, .
     return max(found) if found else None
 
 
-def _envelope(storeys: pl.DataFrame, reals: list[str]) -> list[str]:
+def _envelope(storeys: pl.DataFrame, reals: Sequence[str]) -> list[str]:
     alone, both = (_largest_ratio(storeys, reals, models) for models in ((ADVISED,), (ADVISED, BARE)))
     if alone is None or both is None:
         return []
@@ -113,7 +114,7 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
         verdict = "above" if row["mean_over_limit"] > 1.0 else "within"
         lines.append(
             f"The mean drift ratio is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
-            f"(storey {row['storey']}, {NAMES[row['model']]}; {row['motions_above_limit']} motions above the limit there)."
+            f"(storey {row['storey']}, {NAMES[row['model']]}; motions above the limit: {row['motions_above_limit']})."
         )
     elif above.height:
         lines.append(f"No mean drift ratio exists beside the limit of {limit:g} %: runs collapsed.")
@@ -139,7 +140,7 @@ def _collapses(collapses: dict[str, int], models: Any, motions: int) -> list[str
     ]
 
 
-def _against_code(building: OwnBuilding, storeys: pl.DataFrame, reals: list[str]) -> list[str]:
+def _against_code(building: OwnBuilding, storeys: pl.DataFrame, reals: Sequence[str]) -> list[str]:
     worst = _largest_ratio(storeys, reals, (CODE,))
     if worst is None:
         return []
@@ -193,14 +194,12 @@ def assumptions_of(
     building: OwnBuilding, target: TargetSpectrum | None, scaling: ScalingResult | None, suite: dict[str, Any]
 ) -> tuple[str, ...]:
     """Return everything that was assumed, sentence by sentence."""
-    return tuple(
-        [
-            *_about_motions(building, target, scaling, suite),
-            *_about_structure(building),
-            *_about_limits(building),
-            *_about_goods(building),
-            _about_code(building),
-        ]
+    return (
+        *_about_motions(building, target, scaling, suite),
+        *_about_structure(building),
+        *_about_limits(building),
+        *_about_goods(building),
+        _about_code(building),
     )
 
 
@@ -209,9 +208,7 @@ def _about_motions(
 ) -> list[str]:
     motions, synthetic = len(suite["motions"]), suite["synthetic"]
     kind = "all synthetic" if synthetic == motions else f"{synthetic} synthetic" if synthetic else "recorded"
-    lines = [
-        f"Motions: {suite['name']}, {motions}, {kind}; in one direction, with a vertical one where a motion has it."
-    ]
+    lines = [f"Motions: {suite['name']}, {motions}, {kind}; one direction, vertical where a motion has it."]
     if target is not None:
         lines.append(f"Site spectrum: {target.label}.")
     if scaling is None:
@@ -229,8 +226,8 @@ def _about_motions(
 
 def _about_structure(building: OwnBuilding) -> list[str]:
     lines = [
-        "Shear building: rigid floors, one degree of freedom per floor, trilinear storeys with Masing unloading, no loss "
-        "of strength but by P-Delta.",
+        "Shear building: rigid floors, one degree of freedom per floor, trilinear storeys with Masing unloading, no "
+        "loss of strength but by P-Delta.",
         f"Springs: Omega {_listed(building.overstrength)}, r2 {_listed(building.second_slope)}, "
         f"r3 {_listed(building.third_slope)}.",
     ]
@@ -240,7 +237,7 @@ def _about_structure(building: OwnBuilding) -> list[str]:
         rule = building.design
         lines.append(
             f"Strength: V_y = V_e/R with R = {rule.R:g}, response spectrum analysis ({rule.combination.upper()}) under "
-            f"the site spectrum, with {building.design_fraction:g} of the design live load as mass; R = 1 yields at V_e."
+            f"the site spectrum, with {building.design_fraction:g} of the design live load as mass."
         )
     lines.append(
         f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods; every model has that "
@@ -273,7 +270,7 @@ def _about_goods(building: OwnBuilding) -> list[str]:
     low, high = building.mu_factors
     contacts = ", ".join(dict.fromkeys(name for name in building.friction if name)) or "as stated"
     lines = [
-        "Goods: rigid blocks that slide by Coulomb friction, those of a floor as one; they do not rock, topple or strike.",
+        "Goods: rigid blocks that slide by Coulomb friction, one per floor; they do not rock, topple or strike.",
         f"Friction: {contacts}; mu {_listed(building.mu_s[loaded])} static, {_listed(building.mu_k[loaded])} kinetic.",
     ]
     if (low, high) != (1.0, 1.0):

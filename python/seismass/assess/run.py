@@ -186,8 +186,8 @@ def _building(given: Any, code: CodeFraction | None, mu_factors: tuple[float, fl
 
 def _suite(motions: Any) -> Any:
     """Motions as a sequence; each has samples and can be scaled."""
-    suite = motions if isinstance(motions, Suite) else None
-    if suite is None:
+    suite: Any = motions
+    if not isinstance(motions, Suite):
         if hasattr(motions, "acceleration"):
             motions = [motions]
         try:
@@ -257,7 +257,7 @@ def _digest(
         structure = scene.building
         assert structure is not None
         digest.update(name.encode())
-        arrays = (structure.mass, structure.stiffness, structure.yield_shear, structure.overstrength)
+        arrays: tuple[Any, ...] = (structure.mass, structure.stiffness, structure.yield_shear, structure.overstrength)
         arrays += (structure.second_slope, structure.third_slope, structure.damping_matrix, scene.geometric_stiffness)
         for array in (*arrays, structure.heights, scene.collapse_drift, scene.block_mass):
             digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())

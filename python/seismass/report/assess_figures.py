@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any, Final
 
 import matplotlib as mpl
@@ -10,12 +11,13 @@ import polars as pl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from seismass._values import FloatArray
 from seismass.assess.advice import NAMES
 from seismass.assess.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
 from seismass.assess.result import Assessment
+from seismass.effective_mass import EffectiveMass
+from seismass.report.effective_figures import STORAGE_CODES
 from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION
 
 SKY: Final = "#56B4E9"
@@ -39,8 +41,6 @@ MODEL_LOOKS: Final[dict[str, tuple[str, Any, str]]] = {
     BARE: (GREY, (0, (8, 2)), "v"),
 }
 """Colour, line and marker of each model."""
-RESAMPLES: Final = 2000
-"""Resamples of the band of the first figure; those of the interval are drawn the same way."""
 
 
 def assessment_figures(result: Assessment) -> dict[str, Figure]:
@@ -58,91 +58,55 @@ def assessment_figures(result: Assessment) -> dict[str, Figure]:
 
 def fraction_figure(result: Assessment) -> Figure:
     """Mean largest drift with sliding goods over that of the model, against the share attached."""
-    figure = Figure(figsize=(6.8, 4.9), layout="constrained")
+    figure = Figure(figsize=(6.8, 5.9), layout="constrained")
     axes = figure.add_subplot()
-    handles, highest, lowest = [], 1.0, 1.0
     low, high = result.building.mu_factors
-    factors = {REAL: "", REAL_HIGH: f", {high:g} mu", REAL_LOW: f", {low:g} mu"}
+    factors = {REAL: "", REAL_HIGH: rf", {high:g} $\mu$", REAL_LOW: rf", {low:g} $\mu$"}
     for model, effective in result.effective.items():
         colour, line, marker, name = FRICTION_LOOKS[model]
         curve = effective.curve.filter(pl.col("storey") == 0).sort("fraction")
         share, ratio = curve["fraction"].to_numpy(), curve["ratio"].to_numpy()
-        known = np.isfinite(ratio)
-        if not known.any():
-            continue
-        axes.plot(share[known], ratio[known], color=colour, linestyle=line, linewidth=1.7)
-        highest, lowest = max(highest, ratio[known].max()), min(lowest, ratio[known].min())
+        if model == REAL and curve["ratio_low"].null_count() == 0:
+            label = f"{100.0 * effective.confidence:g} % interval over the motions, friction as stated"
+            band = (curve["ratio_low"].to_numpy(), curve["ratio_high"].to_numpy())
+            axes.fill_between(share, *band, color=colour, alpha=0.15, linewidth=0.0, label=label)
+        label = rf"friction {name}{factors[model]}: $\lambda_{{eff}}$ = {_value(effective)}"
+        axes.plot(share, ratio, color=colour, linestyle=line, linewidth=1.7, label=label, marker=marker, markevery=[])
         if np.isfinite(effective.value):
-            at = float(np.interp(effective.value, share[known], ratio[known]))
-            axes.plot(
-                [effective.value],
-                [at],
-                color=colour,
-                marker=marker,
-                markersize=7.0,
-                markeredgecolor="white",
-                clip_on=False,
-                zorder=5,
-            )
-        label = rf"friction {name}{factors[model]}: $\lambda_{{eff}}$ = {effective.value:.2f}"
-        handles.append(Line2D([], [], color=colour, linestyle=line, linewidth=1.7, marker=marker, label=label))
-        if model == REAL and effective.interval is not None:
-            axes.axvspan(*effective.interval, color=colour, alpha=0.13, linewidth=0.0)
-            handles.append(
-                Patch(
-                    facecolor=colour,
-                    alpha=0.13,
-                    label=rf"{100.0 * effective.confidence:g} % interval of $\lambda_{{eff}}$ over the motions, "
-                    "friction as stated",
-                )
-            )
+            at = effective.real / effective.model
+            axes.plot([effective.value], [at], color=colour, marker=marker, markersize=7.5, clip_on=False, zorder=5)
     axes.axhline(1.0, color=INK, linewidth=0.9)
     axes.set_xlim(0.0, 1.0)
-    room = 0.16 * (highest - lowest) + 0.02
-    axes.set_ylim(lowest - room, highest + 1.6 * room)
-    _mark(axes, result)
+    _mark_shares(axes, result)
     axes.set_xlabel(r"share $\lambda$ of the goods present that is attached as mass")
-    axes.set_ylabel("largest storey drift, mean over the motions:\ngoods slide / model with the share attached")
-    axes.text(
-        0.985,
-        1.0,
-        "above 1: the model is unsafe",
-        transform=axes.get_yaxis_transform(),
-        ha="right",
-        va="bottom",
-        fontsize=7.5,
-    )
+    axes.set_ylabel("largest storey drift, mean over the motions:\ngoods slide / model (above 1: the model is unsafe)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-    figure.legend(handles=handles, loc="outside upper center", ncols=1, frameon=False)
+    figure.legend(loc="outside upper center", ncols=1, frameon=False)
     figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
 
 
-def _mark(axes: Axes, result: Assessment) -> None:
-    """Mark the code's share and the advised one, their labels at two heights so that they cannot meet."""
-    present = result.building.present_share
-    code = result.building.code
-    places = []
-    if present > 0.0:
-        places.append((code.fraction / present, f"{code.code}\n{code.fraction:g} of live load", DASH_DOT, PURPLE))
+def _value(effective: EffectiveMass) -> str:
+    if effective.interval is None:
+        return f"{effective.value:.2f}"
+    return f"{effective.value:.2f} [{effective.interval[0]:.2f}, {effective.interval[1]:.2f}]"
+
+
+def _mark_shares(axes: Axes, result: Assessment) -> None:
+    """Mark the advised share and the code's, and name those of other codes at the upper edge."""
+    code, present = result.building.code, result.building.present_share
     if result.advised is not None:
-        places.append((result.advised, f"advised\n{result.advised:.2f}", DASH, INK))
-    for number, (place, label, line, colour) in enumerate(places):
-        if place > 1.0:
-            continue
-        axes.axvline(place, color=colour, linestyle=line, linewidth=1.0)
-        left = place < 0.5
-        axes.annotate(
-            label,
-            (place, 0.985 - 0.87 * number),
-            xycoords=("data", "axes fraction"),
-            xytext=(4 if left else -4, 0),
-            textcoords="offset points",
-            ha="left" if left else "right",
-            va="top" if number == 0 else "bottom",
-            fontsize=7.5,
-            color=colour,
-        )
+        label = f"advised: {result.advised:.2f} of the goods present"
+        axes.axvline(result.advised, color=INK, linestyle=DASH, linewidth=1.2, label=label)
+    if code.fraction <= present:
+        label = f"{_plain(code.code)}: {code.fraction:g} of the design live load"
+        axes.axvline(code.fraction / present, color=PURPLE, linestyle=DASH_DOT, linewidth=1.4, label=label)
+    if code.use != "storage":
+        return
+    marks = {name: share / present for name, share in STORAGE_CODES.items() if share <= present}
+    upper = axes.secondary_xaxis("top")
+    names = [f"{name} {STORAGE_CODES[name]:g}" for name in marks]
+    upper.set_xticks(list(marks.values()), names, rotation=35.0, ha="left", fontsize=7.0)
 
 
 def drift_figure(result: Assessment) -> Figure:
@@ -277,7 +241,8 @@ def _caption(result: Assessment) -> str:
     suite = result.suite
     kind = " (synthetic, none recorded)" if suite["synthetic"] == len(suite["motions"]) else ""
     target = "" if result.target is None or result.scaling is None else f", scaled to {result.target.label}"
-    return _plain(f"{result.building.name};  {len(suite['motions'])} motions{kind}{target}")
+    text = f"{result.building.name};  {len(suite['motions'])} motions{kind}{target}"
+    return _plain(textwrap.fill(text, 120))
 
 
 def _plain(text: str) -> str:
