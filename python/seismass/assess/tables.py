@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 import numpy as np
 import polars as pl
@@ -27,7 +27,7 @@ def statistics_of(values: FloatArray) -> dict[str, float | None]:
     """
     collapsed = bool(np.isinf(values).any())
     # Between a number and infinity nothing can be interpolated; then a quantile is the next larger value.
-    method = "higher" if collapsed else "linear"
+    method: Literal["higher", "linear"] = "higher" if collapsed else "linear"
     found = {"mean": float(values.mean())}
     found |= {name: float(np.quantile(values, share, method=method)) for name, share in QUANTILES.items()}
     found["max"] = float(values.max())
