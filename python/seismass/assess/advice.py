@@ -9,7 +9,7 @@ import polars as pl
 
 from seismass.assess.models import ADVISED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW, REALS
 from seismass.effective_mass import EffectiveMass
-from seismass.friction import BOUND_FACTORS, BOUNDS_SOURCE
+from seismass.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
 from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, THETA_THRESHOLD, OwnBuilding
 from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
 from seismass.scaling import ScalingResult
@@ -268,7 +268,8 @@ def _about_goods(building: OwnBuilding) -> list[str]:
     if not loaded.any():
         return []
     low, high = building.mu_factors
-    contacts = ", ".join(dict.fromkeys(name for name in building.friction if name)) or "as stated"
+    pairs = [friction_pair(name) for name in dict.fromkeys(building.friction) if name]
+    contacts = ", ".join(f"{pair.pair_id} ({pair.source}; {pair.kind})" for pair in pairs) or "as stated"
     lines = [
         "Goods: rigid blocks that slide by Coulomb friction, one per floor; they do not rock, topple or strike.",
         f"Friction: {contacts}; mu {_listed(building.mu_s[loaded])} static, {_listed(building.mu_k[loaded])} kinetic.",

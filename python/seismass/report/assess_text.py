@@ -159,7 +159,7 @@ def _stability(result: Assessment) -> list[str]:
 
 def _slips(result: Assessment) -> list[str]:
     lines = ["Slip of the goods, mm: what aisles and edges must allow for"]
-    rows = [["floor", "mu", "slides in", "peak mean", "median", "84 %", "largest", "residual mean", "84 %"]]
+    rows = [["floor", "mu", "slides in", "peak mean", "median", "84 %", "largest", "residual mean", "residual 84 %"]]
     names = ("peak_mean", "peak_median", "peak_p84", "peak_max", "residual_mean", "residual_p84")
     motions = len(result.suite["motions"])
     for model in (REAL, REAL_LOW):
