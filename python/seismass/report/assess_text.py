@@ -59,10 +59,10 @@ def _answer(result: Assessment) -> list[str]:
     lines.append(
         f"code      {code.code}, {code.use}: {code.fraction:g}{spread} of the design live load{of_present}{source}"
     )
-    lines.append(
-        f"by hand   eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}: best min(1, eta^2) = "
-        f"{real.estimate:.2f}, conservative min(1, eta) = {real.conservative:.2f} of the goods present"
-    )
+    lines += [
+        f"by hand   eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}: min(1, eta^2) = "
+        f"{real.estimate:.2f} at best, min(1, eta) = {real.conservative:.2f} to be safe",
+    ]
     return lines
 
 
