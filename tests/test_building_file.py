@@ -278,3 +278,20 @@ def test_a_design_without_a_site_asks_for_one() -> None:
     del tables["site"]
     with pytest.raises(sm.InvalidOption, match=r"target of building building must be given: \[site\] in the file"):
         sm.read_building(tables).scene()
+
+
+PAGE = (Path(__file__).parents[1] / "docs" / "building_file.md").read_text(encoding="utf-8")
+
+
+def test_the_page_names_every_key() -> None:
+    for table, keys in KEYS.items():
+        for key in keys:
+            assert re.search(rf"`(?:{table}\.)?{key}`", PAGE), (table, key)
+
+
+def test_the_file_of_the_page_is_read(tmp_path: Path) -> None:
+    (text,) = re.findall(r"^```toml\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+    (tmp_path / "warehouse.toml").write_text(text)
+    building = sm.read_building(tmp_path / "warehouse.toml")
+    assert building.storeys == 2
+    assert building.goods[0] == pytest.approx(0.8 * 7.2 * 1200.0 * 1e3 / G, rel=1e-14)
