@@ -13,9 +13,9 @@ import pytest
 from matplotlib.figure import Figure
 
 import seismass as sm
-from seismass.assess.models import with_mass
-from seismass.assess.run import advised_share
-from seismass.assess.tables import statistics_of
+from seismass.assessment.models import with_mass
+from seismass.assessment.run import advised_share
+from seismass.assessment.tables import statistics_of
 from seismass.building_file import example_file
 from seismass.cli import main
 

@@ -1,7 +1,7 @@
 """How much of a building's live load acts as mass in an earthquake: exact sliding-block shear-building simulation."""
 
 from seismass import _kernel
-from seismass.assess import Assessment, assess
+from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
 from seismass.building_file import read_building
 from seismass.codes import CodeFraction, code_fraction, code_table

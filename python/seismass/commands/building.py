@@ -94,7 +94,7 @@ def run(args: argparse.Namespace) -> int:
     if args.example or args.codes or args.frictions:
         print(_listing(args), end="")
         return 0
-    from seismass.assess import assess
+    from seismass.assessment import assess
     from seismass.building_file import read_building
     from seismass.errors import SimulationError
     from seismass.report.write import check_out

@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from seismass._values import FloatArray
-from seismass.assess.advice import NAMES
-from seismass.assess.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
-from seismass.assess.result import Assessment
+from seismass.assessment.advice import NAMES
+from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
+from seismass.assessment.result import Assessment
 from seismass.effective_mass import EffectiveMass
 from seismass.report.effective_figures import STORAGE_CODES
 from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION
@@ -65,11 +65,15 @@ def fraction_figure(result: Assessment) -> Figure:
     for model, effective in result.effective.items():
         colour, line, marker, name = FRICTION_LOOKS[model]
         curve = effective.curve.filter(pl.col("storey") == 0).sort("fraction")
-        share, ratio = curve["fraction"].to_numpy(), curve["ratio"].to_numpy()
+        share = curve["fraction"].to_numpy()
+        # A model that collapses drifts without limit, of which there is no ratio to draw.
+        ratio, lowest, highest = (
+            np.where(curve["ratio"].to_numpy() > 0.0, curve[name].to_numpy(), np.nan)
+            for name in ("ratio", "ratio_low", "ratio_high")
+        )
         if model == REAL and curve["ratio_low"].null_count() == 0:
             label = f"{100.0 * effective.confidence:g} % interval over the motions, friction as stated"
-            band = (curve["ratio_low"].to_numpy(), curve["ratio_high"].to_numpy())
-            axes.fill_between(share, *band, color=colour, alpha=0.15, linewidth=0.0, label=label)
+            axes.fill_between(share, lowest, highest, color=colour, alpha=0.15, linewidth=0.0, label=label)
         label = rf"friction {name}{factors[model]}: $\lambda_{{eff}}$ = {_value(effective)}"
         axes.plot(share, ratio, color=colour, linestyle=line, linewidth=1.7, label=label, marker=marker, markevery=[])
         if np.isfinite(effective.value):
@@ -87,7 +91,7 @@ def fraction_figure(result: Assessment) -> Figure:
 
 
 def _value(effective: EffectiveMass) -> str:
-    if effective.interval is None:
+    if effective.interval is None or not np.isfinite(effective.interval).all():
         return f"{effective.value:.2f}"
     return f"{effective.value:.2f} [{effective.interval[0]:.2f}, {effective.interval[1]:.2f}]"
 
@@ -240,9 +244,10 @@ def _model_label(result: Assessment, model: str) -> str:
 def _caption(result: Assessment) -> str:
     suite = result.suite
     kind = " (synthetic, none recorded)" if suite["synthetic"] == len(suite["motions"]) else ""
-    target = "" if result.target is None or result.scaling is None else f", scaled to {result.target.label}"
-    text = f"{result.building.name};  {len(suite['motions'])} motions{kind}{target}"
-    return _plain(textwrap.fill(text, 120))
+    lines = [f"{result.building.name};  {len(suite['motions'])} motions{kind}"]
+    if result.target is not None and result.scaling is not None:
+        lines.append(f"scaled to {result.target.label}")
+    return _plain("\n".join(textwrap.fill(line, 110) for line in lines))
 
 
 def _plain(text: str) -> str:

@@ -8,9 +8,9 @@ from typing import Any, Final
 
 import polars as pl
 
-from seismass.assess.advice import NAMES
-from seismass.assess.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
-from seismass.assess.result import Assessment
+from seismass.assessment.advice import NAMES
+from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
+from seismass.assessment.result import Assessment
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.result import KIND_TEXTS
 
@@ -56,9 +56,8 @@ def _answer(result: Assessment) -> list[str]:
     of_present = "" if share == 1.0 else f" ({code.fraction / share:.2f} of the goods present)"
     spread = f" (range {code.low:g} to {code.high:g})" if code.low < code.high else ""
     source = "".join(f"; {part}" for part in (code.clause, code.status) if part)
-    lines.append(
-        f"code      {code.code}, {code.use}: {code.fraction:g}{spread} of the design live load{of_present}{source}"
-    )
+    told = f"{code.code}, {code.use}: {code.fraction:g}{spread} of the design live load{of_present}{source}"
+    lines += textwrap.wrap(told, WIDTH, initial_indent="code      ", subsequent_indent=" " * 10)
     lines += [
         f"by hand   eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}: min(1, eta^2) = "
         f"{real.estimate:.2f} at best, min(1, eta) = {real.conservative:.2f} to be safe",
@@ -70,7 +69,7 @@ def _fraction(result: EffectiveMass) -> str:
     if not math.isfinite(result.value):
         return "no value: the building collapses under too many motions"
     scatter = "no interval"
-    if result.interval is not None:
+    if result.interval is not None and all(math.isfinite(end) for end in result.interval):
         low, high = result.interval
         scatter = f"{100.0 * result.confidence:g} % interval {low:.2f} to {high:.2f}"
     kind = {"stuck": "no goods slide", "one": "all act, and a little more", "zero": "none needs to be attached"}

@@ -15,7 +15,7 @@ from seismass.files import write_table, written_whole
 from seismass.report.write import check_out
 
 if TYPE_CHECKING:
-    from seismass.assess.result import Assessment
+    from seismass.assessment.result import Assessment
 
 FIGURES: Final = ("effective_fraction", "drift", "slip")
 """Names of all figures; those of an earlier assessment that are not written again are removed."""

@@ -40,11 +40,11 @@ class Assessment:
         Effective fractions of the goods present, by friction: "real" as stated, "real_mu_low" and "real_mu_high" at its
         bounds. Empty without goods.
     storeys : polars.DataFrame
-        Drift, limit and stability coefficient by model and storey; see `seismass.assess.tables.storey_table`.
+        Drift, limit and stability coefficient by model and storey; see `seismass.assessment.tables.storey_table`.
     slip : polars.DataFrame
-        Slip demand by friction and floor; see `seismass.assess.tables.slip_table`.
+        Slip demand by friction and floor; see `seismass.assessment.tables.slip_table`.
     runs : polars.DataFrame
-        Peaks of every run by storey; see `seismass.assess.models.solve_models`.
+        Peaks of every run by storey; see `seismass.assessment.models.solve_models`.
     collapses : dict of str to int
         Collapsed runs of each model.
     scaling : ScalingResult or None

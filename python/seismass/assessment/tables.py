@@ -8,7 +8,7 @@ import numpy as np
 import polars as pl
 
 from seismass._values import FloatArray
-from seismass.assess.models import REALS, friction_factors
+from seismass.assessment.models import REALS, friction_factors
 from seismass.own_building import OwnBuilding
 from seismass.scene import Scene
 from seismass.units import STANDARD_GRAVITY

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import polars as pl
 
-from seismass.assess.models import ADVISED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW, REALS
+from seismass.assessment.models import ADVISED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW, REALS
 from seismass.effective_mass import EffectiveMass
 from seismass.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
 from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, THETA_THRESHOLD, OwnBuilding
@@ -51,10 +51,8 @@ def advice_of(
     reals = [name for name in REALS if name in effective]
     collapsed = _collapses(collapses, reals, motions)
     lines += collapsed
-    if any(not effective[name].value >= 0.0 for name in reals):
-        lines.append(
-            "No share has a value where the building collapses under half of the motions: strengthen it first."
-        )
+    if collapsed:
+        lines.append("A share that fits drifts says nothing of collapse: strengthen the building before it is used.")
     share = advised * building.present_share
     lines.append(
         f"Attach {advised:.2f} of the goods present ({share:.2f} of the design live load) as mass; keep their whole "
@@ -106,18 +104,22 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
         return ["Heights are not known: drifts are in millimetres, without P-Delta and without a limit."]
     of = storeys.filter(pl.col("model").is_in(list(models)))
     lines = []
-    above = of.filter(pl.col("mean").is_null() | (pl.col("mean_over_limit") > 1.0))
+    missing = of.filter(pl.col("mean").is_null())["model"].unique(maintain_order=True).to_list()
     worst = of.drop_nulls("mean").sort("mean", descending=True)
     limit = 100.0 * building.drift_limit
+    if missing:
+        listed = ", ".join(NAMES[model] for model in missing)
+        lines.append(
+            f"The limit of {limit:g} % is not met where runs collapse ({listed}): drift and stability have no mean."
+        )
     if worst.height:
         row = worst.row(0, named=True)
         verdict = "above" if row["mean_over_limit"] > 1.0 else "within"
+        without = " of the others" if missing else ""
         lines.append(
-            f"The mean drift ratio is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
+            f"The mean drift ratio{without} is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
             f"(storey {row['storey']}, {NAMES[row['model']]}; motions above the limit: {row['motions_above_limit']})."
         )
-    elif above.height:
-        lines.append(f"No mean drift ratio exists beside the limit of {limit:g} %: runs collapsed.")
     stable = of.drop_nulls("theta").sort("theta", descending=True)
     if stable.height:
         row = stable.row(0, named=True)
@@ -183,7 +185,7 @@ def remarks_of(
     for name, result in effective.items():
         label = "" if name == REAL else f"{NAMES[name]}: "
         # What storeys the share does not cover is advice, of the share that is advised.
-        once = [remark for remark in result.remarks if not remark.startswith("storey ")]
+        once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
         found += [label + remark for remark in once if name == REAL or " motions are few" not in remark]
     if building.code.status not in ("verified", "as stated"):
         found.append(f"the fraction of {building.code.code} is {building.code.status}: check it in the code")

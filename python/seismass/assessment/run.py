@@ -14,10 +14,10 @@ import numpy as np
 
 from seismass import _kernel
 from seismass._values import as_number, brief, refusal
-from seismass.assess.advice import advice_of, assumptions_of, remarks_of
-from seismass.assess.models import compared_models, friction_factors, solve_models
-from seismass.assess.result import SCHEMA_VERSION, Assessment
-from seismass.assess.tables import collapses_of, slip_table, storey_table
+from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
+from seismass.assessment.models import compared_models, friction_factors, solve_models
+from seismass.assessment.result import SCHEMA_VERSION, Assessment
+from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.building_file import read_building
 from seismass.codes import CodeFraction
 from seismass.effective_mass import EffectiveMass, effective_mass
