@@ -240,6 +240,15 @@ def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
     assert [done for done, _ in calls] == sorted(done for done, _ in calls)
 
 
+def test_what_is_unlikely_is_remarked_on() -> None:
+    """Goods of 6 kPa on a floor of 0.05 kPa, and a limit in per cent."""
+    wrong = tables(building={"dead_load_kpa": 0.05, "drift_limit": 2.0, "p_delta": False})
+    remarks = sm.assess(wrong, mu_factors=(1, 1), resamples=2).remarks
+    assert any("the goods present weigh 48 times the building" in remark for remark in remarks)
+    assert "the drift limit is 2 of the height: limits are ratios, not per cent" in remarks
+    assert len(set(remarks)) == len(remarks)
+
+
 def test_wrong_arguments_are_refused() -> None:
     no_site = tables()
     del no_site["site"]

@@ -18,6 +18,10 @@ from seismass.spectra import TargetSpectrum
 
 SHORT: Final = 1.05
 """A storey whose goods-slide drift is more than so many times the model's is not covered by it."""
+MOST_GOODS: Final = 5.0
+"""Weight of the goods present over that of the building; what is above is remarked on."""
+LARGEST_LIMIT: Final = 0.1
+"""Limit of the drift ratio, likewise."""
 NAMES: Final = {
     REAL: "goods slide",
     REAL_LOW: "goods slide, low mu",
@@ -176,6 +180,13 @@ def remarks_of(
 ) -> tuple[str, ...]:
     """Return what is unlikely about the input and what to know about the numbers, each sentence once."""
     found = [*scene_remarks(real), *motion_remarks(motions)]
+    heavy = float(building.goods.sum() / building.mass.sum())
+    if heavy > MOST_GOODS:
+        found.append(
+            f"the goods present weigh {heavy:.3g} times the building: are both loads in the units of their keys?"
+        )
+    if building.drift_limit > LARGEST_LIMIT:
+        found.append(f"the drift limit is {building.drift_limit:g} of the height: limits are ratios, not per cent")
     if target is not None:
         found += target_remarks(target)
     if scaling is not None:
