@@ -10,6 +10,7 @@ import polars as pl
 
 from seismass._values import FloatArray, as_count, as_number, brief, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption
+from seismass.plausibility import scaling_remarks
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 
 
@@ -58,6 +59,11 @@ class ScalingResult:
                 "factor": self.factors,
             }
         )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What is unlikely about the factors and the mean spectrum, as sentences; empty as a rule."""
+        return scaling_remarks(self)
 
     def spectrum_table(self) -> pl.DataFrame:
         """Return one row per period: target and mean scaled pseudo-acceleration (m/s2) and their ratio."""

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass._values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
 from seismass.errors import InvalidScene
+from seismass.plausibility import scene_remarks
 from seismass.units import STANDARD_GRAVITY
 
 MAX_STOREYS: Final = 1000
@@ -565,6 +566,11 @@ class Scene(Value):
     def geometric_stiffness(self) -> FloatArray:
         """P/h of each storey (N/m), the weight of the blocks included, shape (storeys,); zero without P-Delta."""
         return self._kernel.geometric_stiffness
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What is unlikely about the building and its blocks, as sentences; found when asked for, empty as a rule."""
+        return scene_remarks(self)
 
     def _arguments(self) -> dict[str, Any]:
         return {

@@ -1,0 +1,91 @@
+"""Remarks on inputs that are valid but unlikely. The limits are those of the specification of the remarks."""
+
+import numpy as np
+import pytest
+
+import seismass as sm
+from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
+from seismass.units import STANDARD_GRAVITY as G
+
+
+def scene(mu=0.4, **building):
+    arguments = {"mass": [1e5, 1e5], "stiffness": 1e8, "yield_shear": 4e5, "heights": 3.5} | building
+    return sm.Scene(sm.Building(**arguments), [sm.Block(floor, mass=5e4, mu=mu) for floor in (1, 2)])
+
+
+def test_usual_inputs_have_no_remark():
+    usual = scene(gravity_load=1e6)
+    assert scene_remarks(usual) == usual.remarks == ()
+    assert scene_remarks(sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.3)])) == ()
+    suite = sm.builtin_suite()
+    target = sm.TargetSpectrum.asce7()
+    assert motion_remarks(suite) == target_remarks(target) == ()
+    scaling = sm.scale_asce7_10(suite, target)
+    # The built-in suite is made for this target: all factors are within 0.2 to 5.
+    assert ((scaling.factors > 0.2) & (scaling.factors < 5.0)).all()
+    assert scaling.remarks == scaling_remarks(scaling) == ()
+
+
+W = 2e5 * G
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({"mu": 1.5}, None),
+        ({"mu": 1.6}, "mu_s of block 1 is 1.6, above 1.5 (and 1 more)"),
+        ({"heights": [3.5, 20.0]}, None),
+        ({"heights": [3.5, 21.0]}, "height of storey 2 is 21 m, above 20 m:"),
+        ({"yield_shear": 4.99 * W}, None),
+        ({"yield_shear": [6.0 * W, 4e5]}, "V_y of storey 1 is 6 of the weight W"),
+        ({"yield_shear": np.inf}, None),
+        ({"yield_shear": 1.01e-4 * W}, None),
+        ({"yield_shear": [4e5, 5e-5 * W]}, "V_y of storey 2 is 5e-05 of the weight W"),
+        ({"gravity_load": [1e6, 1e3]}, "gravity load of floor 2 is 0.00102 of the weight of its mass:"),
+        ({"gravity_load": [1e6, 0.0]}, None),
+    ],
+)
+def test_scene_beyond_a_limit_has_a_remark(changes, expected):
+    remarks = scene(**changes).remarks
+    assert len(remarks) == (expected is not None), remarks
+    assert not remarks or remarks[0].startswith(expected)
+
+
+def test_first_period():
+    def remarks(period):
+        return sm.Scene(sm.Building.uniform(1, period)).remarks
+
+    assert remarks(9.99) == remarks(0.011) == ()
+    assert remarks(10.5)[0].startswith("first period is 10.5 s, above 10 s")
+    assert remarks(0.005)[0].startswith("first period is 0.005 s, below 0.01 s")
+
+
+def test_motions_are_counted_from_1_and_named():
+    calm, violent = sm.Motion([0.0, 4.9 * G], 0.01), sm.Motion([0.0, -5.1 * G], 0.01)
+    assert motion_remarks([calm, violent])[0].startswith("motion 2 has a PGA of 5.1 g, above 5 g")
+    assert motion_remarks(sm.Record([0.0, 6.0 * G], 0.01, name="RIO"))[0].startswith("motion 1, RIO, has a PGA of 6 g")
+
+
+def test_targets(tmp_path):
+    assert target_remarks(sm.TargetSpectrum.asce7(9.9, 5.0)) == ()
+    assert target_remarks(sm.TargetSpectrum.asce7(10.1, 5.0))[0].startswith("S_DS of the target spectrum is 10.1 g")
+    file = tmp_path / "hazard.csv"
+    file.write_text("0.1,11\n2.0,0.3\n")
+    assert target_remarks(sm.TargetSpectrum.from_csv(file))[0].startswith("largest Sa of the target spectrum is 11 g")
+
+
+def test_factors_and_mean_spectrum():
+    suite, target = sm.builtin_suite(), sm.TargetSpectrum.asce7()
+    factors = sm.scale_asce7_10(suite, target).factors
+    # A record a tenth as strong has ten times the factor.
+    weak = sm.Suite("weak", (suite[0].scaled(0.1), *suite[1:]))
+    remark = sm.scale_asce7_10(weak, target).remarks[0]
+    assert remark.startswith(f"scale factors are outside 0.2 to 5: {10 * factors[0]:.4g} of motion 1 (synthetic-1);")
+    # Sines have a narrow spectrum: where the mean touches the target elsewhere, it is far above it at their period.
+    time = np.arange(2000) * 0.01
+    sines = [sm.Motion(np.sin(2 * np.pi * time / period), 0.01) for period in (0.99, 1.0, 1.01)]
+    scaling = sm.scale_asce7_10(sines, target)
+    ratio = scaling.mean / scaling.target
+    assert ratio.max() > 2.0
+    at = scaling.periods[ratio.argmax()]
+    assert scaling.remarks[-1].startswith(f"mean scaled spectrum is {ratio.max():.3g} times the target at {at:.4g} s")
