@@ -40,6 +40,7 @@ def uncertainty_figure(result: LiveLoadUncertainty) -> Figure:
                 ha="center",
                 va="top",
                 fontsize=7.0,
+                bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.85},
             )
         upper.set_ylim(0.0, 1.0)
         upper.set_xlim(-0.01, 1.01)
