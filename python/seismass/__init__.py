@@ -12,6 +12,7 @@ from seismass.errors import (
     SimulationError,
 )
 from seismass.grid import Grid
+from seismass.long_table import long_table
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
@@ -47,6 +48,7 @@ __all__ = [
     "blocks_on_floors",
     "builtin_suite",
     "instruction_set",
+    "long_table",
     "read_record",
     "read_scene",
     "read_suite",

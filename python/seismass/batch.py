@@ -186,7 +186,7 @@ def write_many(
     absolute = str(target.absolute())
     if printable(absolute) != absolute:
         raise refusal(InvalidOption, "path", "batch", "in UTF-8, as Polars writes no other", brief(absolute))
-    if target.suffix.lower() != ".parquet":
+    if target.name and not target.is_dir() and target.suffix.lower() != ".parquet":
         requirement = "one with the suffix .parquet, as lists per storey fit no CSV (see long_table)"
         raise refusal(InvalidOption, "path", "batch", requirement, brief(str(target)))
     frames = stream_many(

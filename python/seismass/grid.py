@@ -23,7 +23,8 @@ Roof: TypeAlias = Literal["loaded", "bare"]
 MAX_SCENES: Final = 2**32 - 1
 """Most scenes of a grid: results number them by 32 bits."""
 _CHECKED_AT_ONCE: Final = 2**16
-_TABLE: Final = (*CHANGING, "mass_ratio", "attached", "sliding", "mu_s", "mu_k", "scale")
+GRID_COLUMNS: Final = (*CHANGING, "mass_ratio", "attached", "sliding", "mu_s", "mu_k", "scale")
+"""Columns that a grid may have beside its building and its motion, in the order of its table."""
 
 
 class Grid:
@@ -282,7 +283,7 @@ class Grid:
         lengths = {"building": len(index)}
         for axis, names in _AXES.items():
             given = {name: len(values[name]) for name in names if name in values}
-            lengths[axis] = max(given.values(), default=1)
+            lengths[axis] = next((length for length in given.values() if length > 1), 1)
             for name, length in given.items():
                 if length not in (1, lengths[axis]):
                     other = next(other for other in names if other != name)
@@ -358,7 +359,7 @@ class Grid:
             "storeys": pl.Series(storeys.astype(np.uint32)),
             "period": pl.Series(self._formed.periods_of(scenes, index)),
         }
-        for name in _TABLE:
+        for name in GRID_COLUMNS:
             if name in found or name not in self._columns:
                 continue
             values = self._columns[name].of(scenes)
@@ -474,6 +475,12 @@ class Grid:
             loaded = np.array(self.floors, dtype=np.int64) <= storeys[:, None] - self._roof_is_bare
             return np.where(loaded, values, 0.0)
         return np.broadcast_to(values, shape)
+
+    def _sliding(self, scenes: IndexArray) -> FloatArray:
+        """Live load that slides over floor mass, shape (scenes, blocks); 0 where there is no block."""
+        live_load = self._per_block("mass_ratio", scenes)
+        _, sliding = self._formed.shares_of(scenes)
+        return live_load if sliding is None else live_load * sliding[:, None]
 
     def _kernel_columns(self, scenes: IndexArray) -> _kernel.Columns:
         """Scenes as the kernel takes them."""
