@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_path, brief, printable, refusal
 from seismass.errors import InvalidMotion, InvalidOption, InvalidScene
-from seismass.files import written_whole
+from seismass.files import polars_writing, written_whole
 from seismass.forks import require_polars
 from seismass.grid import Grid
 from seismass.grid_columns import IndexArray
@@ -196,13 +196,15 @@ def write_many(
         parts = []
         for number, frame in enumerate(frames):
             parts.append(folder / f"{number}.parquet")
-            frame.write_parquet(parts[-1])
+            with polars_writing(target):
+                frame.write_parquet(parts[-1])
         # Small row groups, as each is held while it is copied.
-        pl.scan_parquet(parts, glob=False).sink_parquet(
-            temporary,
-            row_group_size=DEFAULT_CHUNK,
-            metadata={"seismass": _kernel.VERSION, "instructions": instruction_set()},
-        )
+        with polars_writing(target):
+            pl.scan_parquet(parts, glob=False).sink_parquet(
+                temporary,
+                row_group_size=DEFAULT_CHUNK,
+                metadata={"seismass": _kernel.VERSION, "instructions": instruction_set()},
+            )
 
 
 class _Options(TypedDict):

@@ -33,7 +33,7 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     ------
     OSError
         The path is a folder, or its folder is missing or cannot be written to: before anything is written, and under
-        the name that was given. Or the disk is full, also where Polars reports that in its own way.
+        the name that was given.
 
     Examples
     --------
@@ -57,12 +57,28 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
         yield temporary
         with reported_as(target):
             temporary.replace(target)
-    except BaseException as error:
+    except BaseException:
         temporary.unlink(missing_ok=True)
-        if isinstance(error, pl.exceptions.PolarsError) and (refused := _OS_ERROR.search(str(error))):
-            code = int(refused[1])
-            raise OSError(code, os.strerror(code), str(target)) from error
         raise
+
+
+@contextmanager
+def polars_writing(path: Path) -> Iterator[None]:
+    """Raise what Polars says where the system writes no more, as on a full disk, as the error of the system.
+
+    Raises
+    ------
+    OSError
+        Under the name `path`, with the reason of the system where Polars passes it on, else as an error of input or
+        output with what Polars says.
+    """
+    try:
+        yield
+    except pl.exceptions.PolarsError as error:
+        known = _OS_ERROR.search(str(error))
+        code = int(known[1]) if known else errno.EIO
+        reason = os.strerror(code) if known else f"{os.strerror(code)}: {error}"
+        raise OSError(code, reason, str(path)) from error
 
 
 def write_table(frame: pl.DataFrame, kind: Literal["parquet", "csv"], path: Path) -> None:
