@@ -169,7 +169,7 @@ class Grid:
         motion: ArrayLike | None = None,
         collapse_drift: float | None = None,
     ) -> None:
-        uniform, index = _given_buildings(building, storeys, period)
+        uniform, index, periods = _given_buildings(building, storeys, period)
         self._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
         if storeys is not None:
             if building_index is not None:
@@ -200,7 +200,7 @@ class Grid:
                 raise refusal(InvalidScene, given, "grid", requirement, f"{length} values")
         self._columns = {name: Column(column) for name, column in values.items()}
         self._indices = {name: Column(column) for name, column in indices.items()}
-        self._set_formed(damping)
+        self._set_formed(periods, damping)
         self._check(range(self._length))
 
     @classmethod
@@ -267,7 +267,7 @@ class Grid:
         [0.3, 0.3]
         """
         grid = cls.__new__(cls)
-        uniform, index = _given_buildings(building, storeys, period)
+        uniform, index, periods = _given_buildings(building, storeys, period)
         grid._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
         if storeys is None:
             index = np.arange(len(grid.buildings))
@@ -299,7 +299,7 @@ class Grid:
         axis_of = {name: axis for axis, names in _AXES.items() for name in names}
         grid._columns = {name: Column(column, each[axis_of[name]]) for name, column in values.items()}
         grid._indices = {"building": Column(index, each["building"])}
-        grid._set_formed(damping)
+        grid._set_formed(periods, damping)
         # Friction is judged by itself, all else with the first value of friction and scale.
         grid._check(range(0, total, each["attached"]))
         grid._check(range(0, each["attached"], each["friction"]))
@@ -405,13 +405,13 @@ class Grid:
             None if collapse_drift is None else as_number(collapse_drift, "collapse_drift", "grid", InvalidScene)
         )
 
-    def _set_formed(self, damping: Any) -> None:
+    def _set_formed(self, periods: FloatArray, damping: Any) -> None:
         """Keep what forms the buildings of scenes, of columns that are known by now."""
         if damping not in ATTACHED_DAMPING:
             raise refusal(InvalidScene, "damping", "grid", "same or ratio, of attached live load", brief(damping))
         names = (*CHANGING, "attached", "sliding")
         columns = {name: column for name, column in self._columns.items() if name in names}
-        self._formed = BuildingColumns(self.buildings, self.floors, columns, damping)
+        self._formed = BuildingColumns(self.buildings, periods, self.floors, columns, damping)
 
     def _block_values(self, mass_ratio: Any, mu: Any, mu_s: Any, mu_k: Any) -> dict[str, FloatArray]:
         """What blocks have, as tables of values by blocks; a width of one stands for all blocks."""
@@ -553,8 +553,8 @@ _AXES: Final = {
 """Axes of a product beside the building, and what each of them holds."""
 
 
-def _given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Building, ...], IndexArray]:
-    """The buildings of a grid, and which of them each value has where storeys and periods describe them."""
+def _given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Building, ...], IndexArray, FloatArray]:
+    """The buildings of a grid, which of them each value has where storeys and periods describe them, their periods."""
     if (building is None) == (storeys is None):
         got = "neither" if building is None else "both"
         raise refusal(InvalidScene, "building", "grid", "given either as building or as storeys", got)
@@ -562,7 +562,8 @@ def _given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Bu
         listed = (building,) if isinstance(building, Building) else building
         if not isinstance(listed, Sequence) or not listed or not all(isinstance(item, Building) for item in listed):
             raise refusal(InvalidScene, "building", "grid", "a Building or a list of Buildings", brief(building))
-        return tuple(listed), np.zeros(1, dtype=np.int64)
+        of_given = np.array([float(item.periods[0]) for item in listed])
+        return tuple(listed), np.zeros(1, dtype=np.int64), of_given
     if period is None:
         raise refusal(InvalidScene, "period", "grid", "given where storeys is", "none")
     heights = index_values(storeys, "storeys", InvalidScene, of="a list of such numbers") + 1
@@ -576,7 +577,7 @@ def _given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Bu
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
     buildings = tuple(Building.uniform(int(count), float(seconds)) for count, seconds in distinct[order])
-    return buildings, place[which.reshape(-1)]
+    return buildings, place[which.reshape(-1)], distinct[order, 1]
 
 
 def _as_given(name: str, mu: Any) -> str:

@@ -37,6 +37,8 @@ class BuildingColumns:
     ----------
     given : tuple of Building
         Buildings that the index of a scene chooses from.
+    periods : ndarray
+        First period of each (s), as given where they were made from it.
     floors : tuple of int
         Floor of each block, from 1.
     columns : dict of str to Column
@@ -46,6 +48,7 @@ class BuildingColumns:
     """
 
     given: tuple[Building, ...]
+    periods: FloatArray
     floors: tuple[int, ...]
     columns: dict[str, Column[np.float64]]
     damping: AttachedDamping
@@ -97,7 +100,7 @@ class BuildingColumns:
         """Return the first period of each building without live load (s)."""
         if "period" in self.columns:
             return self.columns["period"].of(scenes)
-        return np.array([float(building.periods[0]) for building in self.given])[index]
+        return self.periods[index]
 
     def _formed(self, scene: IndexArray, index: int, live_load: FloatArray) -> tuple[Building, FloatArray]:
         """The building of a scene, and the mass of each block's floor over that without attached live load."""
