@@ -64,7 +64,7 @@ def test_tables_have_a_row_per_building_model_motion_and_storey(full: StudyResul
 def test_rows_are_what_the_kernel_gives_for_the_scene_built_by_hand(full: StudyResult) -> None:
     suite = sm.builtin_suite()
     factors = full.scaling.factors
-    bare = sm.Building.uniform(3, 0.47)
+    bare = sm.Building.uniform(3, 0.47, mass=1.0)
     share = np.array([0.25 * 1.5, 0.25 * 1.5, 0.0])
     design = full.designs.filter(occupancy="storage", storeys=3, R=4.0, alpha=1.5).sort("storey")
     strength = design["yield_shear_over_weight"].to_numpy() * bare.weight

@@ -30,6 +30,7 @@ from seismass.errors import (
 )
 from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
+from seismass.long_table import long_table
 from seismass.own_building import OwnBuilding
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.scaling import ScalingResult, scale_asce7_10
@@ -87,6 +88,7 @@ __all__ = [
     "instruction_set",
     "live_load_uncertainty",
     "lognormal",
+    "long_table",
     "read_building",
     "read_record",
     "read_scene",

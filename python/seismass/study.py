@@ -219,8 +219,9 @@ def study_buildings(
 ) -> Iterator[StudyBuilding]:
     """Yield the buildings of the grid, designed for a pseudo-acceleration spectrum (m/s2 at periods in s).
 
-    Floor masses are 1 kg: drifts do not depend on them. Strengths come from the model that the standard prescribes,
-    the building with the share lambda alpha of its floor mass attached to every floor but the roof.
+    Floor masses are 1 kg, stated so that strengths may be forces: drifts do not depend on them. Strengths come from the
+    model that the standard prescribes, the building with the share lambda alpha of its floor mass attached to every
+    floor but the roof.
     """
     analyses: dict[tuple[int, float, float], SpectrumAnalysis] = {}
     grid = product(
@@ -231,6 +232,7 @@ def study_buildings(
         bare = Building.uniform(
             storeys,
             period,
+            mass=1.0,
             overstrength=parameters.overstrength,
             second_slope=parameters.second_slope,
             third_slope=parameters.third_slope,
@@ -307,8 +309,8 @@ def run_study(
     buildings = list(study_buildings(chosen, design_spectrum))
     motions = [record.scaled(factor).motion for record, factor in zip(suite, scaling.factors, strict=True)]
     runs = [(building.scenes[model], motion) for building in buildings for model in MODELS for motion in motions]
-    scene_numbers = {scene: number for number, scene in enumerate(dict.fromkeys(scene for scene, _ in runs))}
-    motion_numbers = {motion: number for number, motion in enumerate(dict.fromkeys(motions))}
+    scene_numbers = {scene: number for number, scene in enumerate(dict.fromkeys(scene for scene, _ in runs), start=1)}
+    motion_numbers = {motion: number for number, motion in enumerate(dict.fromkeys(motions), start=1)}
     pairs = [(scene_numbers[scene], motion_numbers[motion]) for scene, motion in runs]
     distinct = {pair: number for number, pair in enumerate(dict.fromkeys(pairs))}
     table = simulate_many(
