@@ -2,6 +2,7 @@
 
 from seismass import _kernel
 from seismass.batch import simulate_many, stream_many, write_many
+from seismass.codes import CodeFraction, code_fraction, code_table
 from seismass.errors import (
     InvalidMotion,
     InvalidOption,
@@ -11,6 +12,7 @@ from seismass.errors import (
     SeismassError,
     SimulationError,
 )
+from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.scaling import ScalingResult, scale_asce7_10
@@ -26,6 +28,8 @@ __all__ = [
     "STANDARD_GRAVITY",
     "Block",
     "Building",
+    "CodeFraction",
+    "FrictionPair",
     "Grid",
     "InvalidMotion",
     "InvalidOption",
@@ -46,6 +50,10 @@ __all__ = [
     "__version__",
     "blocks_on_floors",
     "builtin_suite",
+    "code_fraction",
+    "code_table",
+    "friction_pair",
+    "friction_table",
     "instruction_set",
     "read_record",
     "read_scene",
