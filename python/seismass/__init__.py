@@ -3,6 +3,7 @@
 from seismass import _kernel
 from seismass.batch import simulate_many, stream_many, write_many
 from seismass.codes import CodeFraction, code_fraction, code_table
+from seismass.effective_mass import EffectiveMass, attached_scene, effective_mass, effective_mass_of_design
 from seismass.errors import (
     InvalidMotion,
     InvalidOption,
@@ -29,6 +30,7 @@ __all__ = [
     "Block",
     "Building",
     "CodeFraction",
+    "EffectiveMass",
     "FrictionPair",
     "Grid",
     "InvalidMotion",
@@ -48,10 +50,13 @@ __all__ = [
     "Suite",
     "TargetSpectrum",
     "__version__",
+    "attached_scene",
     "blocks_on_floors",
     "builtin_suite",
     "code_fraction",
     "code_table",
+    "effective_mass",
+    "effective_mass_of_design",
     "friction_pair",
     "friction_table",
     "instruction_set",

@@ -163,7 +163,7 @@ def _scatter(row: dict[str, Any]) -> list[str]:
     lines = [
         f"    by mass, by sliding     {_percent(row['mass_percent'])} (attached over code), "
         f"{_percent(row['sliding_percent'])} (real over attached)",
-        f"    motion by motion        median {_percent(median)}, 16 to 84 % of them {_percent(low)} to {_percent(high)}",
+        f"    motion by motion        median {_percent(median)}, 16 to 84 %: {_percent(low)} to {_percent(high)}",
     ]
     if row["leave_one_out_record"] is not None:
         lines.append(

@@ -80,7 +80,7 @@ FRACTION_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     "estimate": ("1", "min(1, eta^2): best estimate of the effective fraction, in closed form"),
     "conservative": ("1", "min(1, eta): its conservative estimate"),
     "effective": ("1", "effective fraction lambda_eff; null without `--effective` and where a run collapsed"),
-    "kind": ("", "stuck, root, multiple, zero or one, as `seismass.effective_mass` has it"),
+    "kind": ("", "stuck, root, multiple, zero, one or collapsed, as `seismass.effective_mass` has it"),
     "low": ("1", "lower end of the bootstrap interval of the effective fraction over the motions"),
     "high": ("1", "its upper end"),
     "excess": ("1", "real over attached model less 1, of the largest mean drift, where kind is one"),

@@ -11,7 +11,7 @@ import polars as pl
 from seismass._values import FloatArray
 from seismass.effective_mass import EffectiveMass, effective_mass
 from seismass.scene import Scene
-from seismass.simulate import Motion
+from seismass.records import Record
 from seismass.study.buildings import MODELS, StudyBuilding
 from seismass.study.columns import FRACTION_COLUMNS
 from seismass.study.parameters import StudyParameters
@@ -47,7 +47,7 @@ def fractions_table(
     }
     found = [None if effective is None else effective[building.scenes["real"]] for building in buildings]
     columns |= {
-        "effective": [None if one is None else one.value for one in found],
+        "effective": [np.nan if one is None else one.value for one in found],
         "kind": [None if one is None else one.kind for one in found],
         "low": [None if one is None or one.interval is None else one.interval[0] for one in found],
         "high": [None if one is None or one.interval is None else one.interval[1] for one in found],
@@ -62,7 +62,7 @@ def _attached_mass(scene: Scene) -> float:
 
 def effective_fractions(
     buildings: list[StudyBuilding],
-    motions: list[Motion],
+    records: list[Record],
     parameters: StudyParameters,
     *,
     threads: int | None = None,
@@ -71,13 +71,13 @@ def effective_fractions(
     """Return the effective fraction of each distinct building with its goods.
 
     The attached models have the damping that the study's have: the real building's matrix, or with
-    `damping_base="own"` the ratio in the modes of each.
+    `damping_base="own"` the ratio in the modes of each. Records are scaled; those of one event are resampled together.
     """
     scenes = list(dict.fromkeys(building.scenes["real"] for building in buildings))
     damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
     found = {}
     for number, scene in enumerate(scenes, start=1):
-        found[scene] = effective_mass(scene, motions, damping=damping, threads=threads)
+        found[scene] = effective_mass(scene, records, damping=damping, threads=threads)
         if progress is not None:
             progress(number, len(scenes))
     return found

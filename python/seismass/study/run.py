@@ -109,12 +109,13 @@ def run_study(
 
     spectrum = _spectrum(suite, target, scaling, chosen.damping, threads)
     buildings = list(study_buildings(chosen, design_spectrum))
-    motions = [record.scaled(factor).motion for record, factor in zip(suite, scaling.factors, strict=True)]
+    records = [record.scaled(factor) for record, factor in zip(suite, scaling.factors, strict=True)]
+    motions = [record.motion for record in records]
     distinct, run_of, table = _solve(buildings, motions, threads, progress)
     names = display_names(suite)
     responses = responses_table(buildings, names, table, run_of)
     fractions = (
-        effective_fractions(buildings, motions, chosen, threads=threads, progress=progress) if effective else None
+        effective_fractions(buildings, records, chosen, threads=threads, progress=progress) if effective else None
     )
     status = table["status"].value_counts()
     counts = dict(zip(status["status"], status["count"], strict=True))

@@ -1,0 +1,213 @@
+"""The effective fraction of a building's live load: for a given building, and for a rule that designs it.
+
+Definition: the smallest share of the live load which, attached as mass to the building with its stiffness, strength,
+damping matrix and gravity load unchanged, gives a mean over the motions of the largest storey drift not below that of
+the building with sliding goods, there and at every larger share up to 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from seismass._values import as_count, as_number, brief, refusal
+from seismass.effective_mass.curve import Statistic, check_fractions, check_statistic
+from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
+from seismass.effective_mass.result import EffectiveMass
+from seismass.effective_mass.runs import Peaks, Progress, Stages, named_motions, solve
+from seismass.effective_mass.search import Options, Search
+from seismass.errors import InvalidOption, InvalidScene
+from seismass.scene import Block, Building, Scene
+from seismass.simulate import MotionLike
+
+
+def effective_mass(
+    scene: Scene,
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    statistic: Statistic = "mean",
+    damping: ModelDamping = SAME_DAMPING,
+    fractions: ArrayLike | None = None,
+    confidence: float = 0.90,
+    resamples: int = 2000,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> EffectiveMass:
+    """Return the share of a building's live load that acts as mass under a suite of motions.
+
+    Parameters
+    ----------
+    scene : Scene
+        The building with its goods as blocks.
+    motions : Motion, Record or iterable of them
+        The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together.
+    statistic : {"mean", "median"}
+        What is taken of the largest drifts over the motions. With the median a collapsed run counts as infinite drift;
+        with the mean one collapse of the real building leaves no value.
+    damping : {"same", "ratio"}
+        Damping of the models, see `attached_scene`.
+    fractions : array_like, optional
+        Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.01, ..., 1.
+    confidence : float, default 0.90
+        Probability of the bootstrap interval.
+    resamples : int, default 2000
+        Bootstrap resamples; they need no runs.
+    seed : int, default 0
+        Seed of the resamples.
+    threads : int, optional
+        Number of threads; default all cores. The result does not depend on it.
+    progress : callable, optional
+        Called with (runs done, runs in all) while the models are solved.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption
+        An argument is not what it must be, or the building has no goods on its floors.
+    SimulationError
+        A run could not be carried to its end.
+    KeyboardInterrupt
+        Ctrl-C was pressed.
+
+    Notes
+    -----
+    Largest storey drift: drift ratio where the building has heights, else drift. Model and real building are solved
+    exactly at every share of the grid; each sign change is refined on the exact model. A drift falls with added mass
+    where the longer period meets a valley of the spectra, so that there may be several roots: the largest counts.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
+    >>> scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2))
+    >>> result = sm.effective_mass(scene, [record.scaled(2.0) for record in sm.builtin_suite()])
+    >>> result.kind
+    'root'
+    """
+    checked = check_loaded(scene)
+    named = named_motions(motions, "effective mass")
+    options = _options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
+    stages = Stages(options.progress, (1 + len(options.fractions)) * len(named))
+    real = solve([checked], named, threads=threads, progress=stages.next(len(named)))
+    models = [attached(checked, share, options.damping) for share in options.fractions]
+    model = solve(models, named, threads=threads, progress=stages.next(len(models) * len(named)))
+
+    def at(share: float) -> tuple[Peaks, Peaks]:
+        return real, solve([attached(checked, share, options.damping)], named, threads=threads)
+
+    return Search(named, options, at, lambda _: checked).answer(real, model, {"question": "given building"})
+
+
+def effective_mass_of_design(
+    design: Callable[[float], Building],
+    blocks: Iterable[Block],
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    statistic: Statistic = "mean",
+    damping: ModelDamping = SAME_DAMPING,
+    fractions: ArrayLike | None = None,
+    confidence: float = 0.90,
+    resamples: int = 2000,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> EffectiveMass:
+    """Return the share that a code would have to prescribe, where it sets the strength of the building too.
+
+    The consistent share solves real(V_y(share)) = model(share, V_y(share)): `design` is asked for the building at every
+    share, which is solved with sliding goods and with that share attached.
+
+    Parameters
+    ----------
+    design : callable
+        Takes a share from 0 to 1, returns the Building designed with it; floor masses without goods.
+    blocks : iterable of Block
+        The goods, the same for every design.
+    motions, statistic, damping, fractions, confidence, resamples, seed, threads, progress
+        As for `effective_mass`.
+
+    Returns
+    -------
+    EffectiveMass
+        With the drifts of the real building in `curve` changing with the share. `kind` "stuck": no goods slide in the
+        building designed with share 1.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption, SimulationError, KeyboardInterrupt
+        As for `effective_mass`.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> def design(share):
+    ...     strength = [0.2 + 0.13 * share, 0.16 + 0.11 * share, 0.1 + 0.04 * share]
+    ...     return sm.Building.uniform(3, 0.47, yield_shear_over_weight=strength)
+    >>> goods = sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2)
+    >>> suite = [record.scaled(2.0) for record in sm.builtin_suite()]
+    >>> 0.0 <= sm.effective_mass_of_design(design, goods, suite).value <= 1.0
+    True
+    """
+    if not callable(design):
+        requirement = "a callable that takes a share and returns a Building"
+        raise refusal(InvalidOption, "design", "effective mass", requirement, brief(design))
+    goods = tuple(blocks)
+    named = named_motions(motions, "effective mass")
+    options = _options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
+
+    def designed(share: float) -> Scene:
+        building = design(share)
+        if not isinstance(building, Building):
+            raise refusal(InvalidScene, "design", "effective mass", "a Building", brief(building))
+        return check_loaded(Scene(building, goods))
+
+    stages = Stages(options.progress, 2 * len(options.fractions) * len(named))
+    shares = [float(share) for share in options.fractions]
+    scenes = [designed(share) for share in shares]
+    if len({scene.storeys for scene in scenes}) > 1:
+        requirement = "a Building of the same number of storeys for every share"
+        raise refusal(InvalidScene, "design", "effective mass", requirement, "different ones")
+    runs = len(scenes) * len(named)
+    real = solve(scenes, named, threads=threads, progress=stages.next(runs))
+    models = [attached(scene, share, options.damping) for scene, share in zip(scenes, shares, strict=True)]
+    model = solve(models, named, threads=threads, progress=stages.next(runs))
+
+    def at(share: float) -> tuple[Peaks, Peaks]:
+        scene = designed(share)
+        both = (
+            solve([scene], named, threads=threads),
+            solve([attached(scene, share, options.damping)], named, threads=threads),
+        )
+        return both
+
+    return Search(named, options, at, designed).answer(real, model, {"question": "design rule"})
+
+
+def _options(
+    statistic: Any,
+    damping: Any,
+    fractions: Any,
+    confidence: Any,
+    resamples: Any,
+    seed: Any,
+    threads: Any,
+    progress: Any,
+) -> Options:
+    owner = "effective mass"
+    probability = as_number(confidence, "confidence", owner, InvalidOption)
+    if not 0.0 < probability < 1.0:
+        raise refusal(InvalidOption, "confidence", owner, "above 0 and below 1", f"{probability:g}")
+    if progress is not None and not callable(progress):
+        raise refusal(InvalidOption, "progress", owner, "a callable of two numbers", brief(progress))
+    return Options(
+        statistic=check_statistic(statistic, owner),
+        damping=check_damping(damping, owner),
+        fractions=check_fractions(fractions, owner),
+        confidence=probability,
+        resamples=as_count(resamples, "resamples", owner, InvalidOption, least=1),
+        seed=as_count(seed, "seed", owner, InvalidOption),
+        threads=None if threads is None else as_count(threads, "threads", owner, InvalidOption, least=1),
+        progress=progress,
+    )

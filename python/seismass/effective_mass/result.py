@@ -1,0 +1,206 @@
+"""What `effective_mass` gives back: the share, how it came about, its scatter, and the tables behind it."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import polars as pl
+
+from seismass._values import as_path
+from seismass.effective_mass.curve import Kind
+from seismass.errors import InvalidOption
+from seismass.files import write_table, written_whole
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from matplotlib.figure import Figure
+
+SCHEMA_VERSION: Final = 1
+"""Version of the tables and of the JSON of an effective mass."""
+
+KIND_TEXTS: Final[dict[Kind, str]] = {
+    "stuck": "no goods slide under any motion, so that all of them act as mass",
+    "root": "one share gives the drift of the real building",
+    "multiple": "several shares give the drift of the real building, the largest counts",
+    "zero": "no share drifts less than the real building, so that none needs to be attached",
+    "one": "even with all goods attached the model drifts less than the real building",
+    "collapsed": "the real building collapses under so many motions that its drift has no such statistic",
+}
+"""What each kind means."""
+
+
+@dataclass(frozen=True, eq=False)
+class EffectiveMass:
+    """The effective fraction of the live load of a building under a suite of motions.
+
+    Attributes
+    ----------
+    value : float
+        The smallest share of the live load which, attached as mass, gives a statistic over the motions of the largest
+        storey drift not below that of the building with sliding goods, there and at every larger share up to 1. NaN
+        where `kind` is "collapsed".
+    kind : {"stuck", "root", "multiple", "zero", "one", "collapsed"}
+        "stuck": no goods slide, the value is exactly 1. "root", "multiple": the model crosses the real drift once or
+        several times, the value is the largest crossing. "zero": the model nowhere drifts less, the value is 0 (also
+        where all goods are without friction). "one": the model drifts less even at 1, the value is 1 and
+        `excess` says by how much. "collapsed": the statistic of the real building is infinite.
+    roots : tuple of float
+        All crossings on [0, 1].
+    interval : tuple of float or None
+        Percentile bootstrap interval over the records, real and model drawn together; None with one earthquake alone
+        or without a value. It is a little too narrow: a 90 % interval covers 80 to 92 %.
+    confidence : float
+        Probability that the interval is made for.
+    statistic : {"mean", "median"}
+        What is taken over the motions.
+    real, model : float
+        Statistic of the largest drift of the real building, and of the model at `value`: m, or drift ratio where the
+        building has heights (`unit`).
+    unit : {"m", "ratio"}
+        Unit of drifts.
+    excess : float
+        real / model - 1: by how much the real building drifts more than the model at `value`; zero but for rounding
+        where the value is a root.
+    eta : float
+        mu_k over `base_shear_coefficient`, mu_k averaged over the goods by mass.
+    base_shear_coefficient : float
+        C1: mean over the motions of the peak base shear of the fully attached model, over the weight of building and
+        goods.
+    estimate, conservative : float
+        Closed-form estimates without any simulation of sliding: min(1, eta^2) and min(1, eta).
+    curve : polars.DataFrame
+        One row per share and storey (0: the largest over the storeys of each run): fraction, storey, model_drift,
+        real_drift, ratio (real over model), ratio_low and ratio_high (its bootstrap interval, for storey 0).
+    storeys : polars.DataFrame
+        One row per storey: storey, real, model, model_at_0, model_at_1, ratio, ratio_at_0, ratio_at_1, and
+        envelope_ratio, real over the larger of `model` and `model_at_0`.
+    records : polars.DataFrame
+        One row per motion: motion, record, event, slips (whether goods slide), collapsed, real_drift, kind,
+        first_root, last_root (null where there is none), by interpolation on the grid of shares.
+    collapses : dict of str to int
+        Number of collapsed runs of the real building ("real") and of the model at `value` ("model"), at 0
+        ("model_at_0") and at 1 ("model_at_1").
+    remarks : tuple of str
+        What a user must know beside the numbers.
+    metadata : dict
+        Schema and package version, digest of the inputs, seed, conventions, counts.
+    """
+
+    value: float
+    kind: Kind
+    roots: tuple[float, ...]
+    interval: tuple[float, float] | None
+    confidence: float
+    statistic: str
+    real: float
+    model: float
+    unit: str
+    excess: float
+    eta: float
+    base_shear_coefficient: float
+    estimate: float
+    conservative: float
+    curve: pl.DataFrame = field(repr=False)
+    storeys: pl.DataFrame = field(repr=False)
+    records: pl.DataFrame = field(repr=False)
+    collapses: dict[str, int] = field(repr=False)
+    remarks: tuple[str, ...] = field(repr=False)
+    metadata: dict[str, Any] = field(repr=False)
+
+    @property
+    def text(self) -> str:
+        """The answer in a few lines, its scatter and the estimates beside it."""
+        scatter = (
+            "no interval"
+            if self.interval is None
+            else f"{100.0 * self.confidence:g} % interval over the records {self.interval[0]:.2f} to "
+            f"{self.interval[1]:.2f}"
+        )
+        scale, unit = (1e3, "mm") if self.unit == "m" else (1e2, "% of the height")
+        lines = [
+            f"effective fraction  {self.value:.3f} ({scatter})",
+            f"                    {self.kind}: {KIND_TEXTS[self.kind]}",
+            f"largest drift       {self.statistic} of {self.records.height} motions: real {scale * self.real:.4g}, "
+            f"model {scale * self.model:.4g} {unit}",
+            f"estimates           eta = mu_k/C1 = {self.eta:.3f} (C1 = {self.base_shear_coefficient:.4f}): "
+            f"min(1, eta^2) = {self.estimate:.3f}, conservative min(1, eta) = {self.conservative:.3f}",
+        ]
+        return "\n".join([*lines, *(f"remark              {remark}" for remark in self.remarks)])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything but the curve as plain values; null for what is no finite number."""
+        names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]
+        names += ["eta", "base_shear_coefficient", "estimate", "conservative", "collapses", "remarks"]
+        document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
+        document |= {"storeys": self.storeys.to_dicts(), "records": self.records.to_dicts(), "metadata": self.metadata}
+        finite: dict[str, Any] = finite_values(document)
+        return finite
+
+    def to_json(self) -> str:
+        """Return `to_dict` as JSON."""
+        return json.dumps(self.to_dict(), indent=2, allow_nan=False)
+
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """Return the tables by name: curve, storeys, records."""
+        return {"curve": self.curve, "storeys": self.storeys, "records": self.records}
+
+    def plot(self, codes: Mapping[str, float] | None = None) -> Figure:
+        """Return the figure of real over model drift against the share attached, with its bootstrap band.
+
+        Parameters
+        ----------
+        codes : mapping of str to float, optional
+            Shares of codes to mark, by name; by default those of four codes for storage.
+        """
+        from seismass.report.effective_figures import curve_figure
+
+        return curve_figure(self, codes)
+
+    def plot_storeys(self) -> Figure:
+        """Return the figure of real over model drift by storey: at 0, at the effective fraction, at 1, the envelope."""
+        from seismass.report.effective_figures import storeys_figure
+
+        return storeys_figure(self)
+
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write the tables (Parquet and CSV), effective_mass.json and both figures (PNG and SVG) to a folder.
+
+        Raises
+        ------
+        OSError
+            A file cannot be written.
+        """
+        from seismass.report.figures import save_figure
+
+        out = as_path(folder, "effective mass", InvalidOption)
+        out.mkdir(parents=True, exist_ok=True)
+        files = []
+        for name, table in self.tables().items():
+            for kind in ("parquet", "csv"):
+                files.append(out / f"{name}.{kind}")
+                with written_whole(files[-1]) as temporary:
+                    write_table(table, kind, temporary)
+        files.append(out / "effective_mass.json")
+        with written_whole(files[-1]) as temporary:
+            temporary.write_text(self.to_json() + "\n", encoding="utf-8")
+        for name, figure in (("curve", self.plot()), ("storeys", self.plot_storeys())):
+            for form in ("png", "svg"):
+                files.append(out / f"{name}.{form}")
+                with written_whole(files[-1]) as temporary:
+                    save_figure(figure, form, temporary)
+        return files
+
+
+def finite_values(value: Any) -> Any:
+    """Return nested values with null in place of infinities and NaN, which JSON has not."""
+    if isinstance(value, dict):
+        return {key: finite_values(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite_values(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

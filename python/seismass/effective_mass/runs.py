@@ -1,0 +1,177 @@
+"""Peaks of several scenes of one building under all motions, as arrays; a collapsed run has infinite drift."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seismass import _kernel
+from seismass._values import FloatArray, brief, refusal
+from seismass.errors import InvalidMotion, SimulationError
+from seismass.scene import Scene
+from seismass.simulate import HasMotion, Motion, as_motion
+
+Progress: TypeAlias = Callable[[int, int], object]
+"""Called with (runs done, runs in all)."""
+
+_STATUS = _kernel.Batch.status_names()
+
+
+@dataclass(frozen=True, slots=True)
+class NamedMotions:
+    """Motions with what their sources call them.
+
+    Attributes
+    ----------
+    motions : list of Motion
+        The motions, as the kernel takes them.
+    names : list of str
+        Name of each record; "motion 3" where it has none.
+    events : list of str
+        Earthquake of each record; empty where it is not known, and of a synthetic motion.
+    """
+
+    motions: list[Motion]
+    names: list[str]
+    events: list[str]
+
+    def __len__(self) -> int:
+        return len(self.motions)
+
+    @property
+    def cluster_of(self) -> NDArray[np.int64]:
+        """Number of the earthquake of each motion, from 0; one of its own where it is not known."""
+        names = [event or number for number, event in enumerate(self.events)]
+        numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
+        return np.array([numbers[name] for name in names])
+
+    @property
+    def clusters(self) -> int:
+        """Number of different earthquakes."""
+        return int(self.cluster_of.max()) + 1
+
+
+def named_motions(motions: Any, owner: str) -> NamedMotions:
+    """Return motions given as one, or as a list of Motions or Records."""
+    given = [motions] if isinstance(motions, Motion | HasMotion) else motions
+    if not isinstance(given, Iterable):
+        raise refusal(InvalidMotion, "motions", owner, "a list of Motions or Records", brief(motions))
+    listed = list(given)
+    if not listed:
+        raise refusal(InvalidMotion, "motions", owner, "at least one Motion or Record", "none")
+    return NamedMotions(
+        [as_motion(motion, f"motion {number}", owner) for number, motion in enumerate(listed, start=1)],
+        [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(listed, start=1)],
+        ["" if getattr(motion, "synthetic", False) else str(getattr(motion, "event", "")) for motion in listed],
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Peaks:
+    """Peaks of scenes under motions.
+
+    Attributes
+    ----------
+    drift : ndarray, shape (scenes, motions, storeys)
+        Peak drift (m), or drift ratio where heights are known; infinite in a run that collapsed.
+    base_shear : ndarray, shape (scenes, motions)
+        Peak shear of storey 1 (N), until the collapse where there is one.
+    slides : ndarray of bool, shape (scenes, motions)
+        Whether a block on a floor slid.
+    collapsed : ndarray of bool, shape (scenes, motions)
+        Whether the run collapsed.
+    """
+
+    drift: FloatArray
+    base_shear: FloatArray
+    slides: NDArray[np.bool_]
+    collapsed: NDArray[np.bool_]
+
+    @property
+    def scenes(self) -> int:
+        """Number of scenes."""
+        return len(self.drift)
+
+    def one(self, index: int) -> Peaks:
+        """Return the peaks of one scene."""
+        part = slice(index, index + 1 or None)
+        return Peaks(self.drift[part], self.base_shear[part], self.slides[part], self.collapsed[part])
+
+    @property
+    def largest(self) -> FloatArray:
+        """Largest drift over the storeys, shape (scenes, motions)."""
+        largest: FloatArray = self.drift.max(axis=2)
+        return largest
+
+
+def solve(
+    scenes: Sequence[Scene], motions: NamedMotions, *, threads: int | None = None, progress: Progress | None = None
+) -> Peaks:
+    """Solve scenes of equal number of storeys under all motions.
+
+    Raises
+    ------
+    SimulationError
+        A run could not be carried to its end.
+    KeyboardInterrupt
+        Ctrl-C was pressed.
+    """
+    count, storeys = len(motions), scenes[0].storeys
+    runs = np.stack(np.divmod(np.arange(len(scenes) * count), count), axis=1)
+    batch = _kernel.simulate_many(
+        [scene._kernel for scene in scenes],
+        [motion._kernel for motion in motions.motions],
+        runs,
+        peaks_only=True,
+        threads=threads,
+        progress=progress,
+    )
+    for run, reason in batch.failures:
+        name = motions.names[run % count]
+        raise SimulationError(f"run under motion {run % count + 1} ({name}) must reach its end; got: {reason}")
+    shape = (len(scenes), count)
+    collapsed = (batch.status == _STATUS.index("collapsed")).reshape(shape)
+    drift = batch.peak_drift.reshape(*shape, storeys)
+    heights = None if scenes[0].building is None else scenes[0].building.heights
+    if heights is not None:
+        drift = drift / heights
+    return Peaks(
+        drift=np.where(collapsed[:, :, None], np.inf, drift),
+        base_shear=batch.peak_storey_shear.reshape(*shape, storeys)[:, :, 0],
+        slides=_slides(scenes, batch, count),
+        collapsed=collapsed,
+    )
+
+
+def _slides(scenes: Sequence[Scene], batch: _kernel.Batch, count: int) -> NDArray[np.bool_]:
+    """Whether a block that stands on a floor of the building slid, by scene and motion."""
+    slid = batch.peak_slip > 0.0
+    slides = np.zeros((len(scenes), count), dtype=np.bool_)
+    first = 0
+    for number, scene in enumerate(scenes):
+        on_floor = np.array(scene.block_floor, dtype=np.int64) > 0
+        blocks = len(on_floor)
+        if blocks:
+            own = slid[first : first + count * blocks].reshape(count, blocks)
+            slides[number] = own[:, on_floor].any(axis=1)
+        first += count * blocks
+    return slides
+
+
+class Stages:
+    """Progress of several batches as progress of one whole."""
+
+    def __init__(self, progress: Progress | None, total: int) -> None:
+        self._progress = progress
+        self._total = total
+        self._done = 0
+
+    def next(self, runs: int) -> Progress | None:
+        """Return the progress of the next batch, of so many runs."""
+        first, self._done = self._done, self._done + runs
+        progress, total = self._progress, self._total
+        return None if progress is None else lambda done, _: progress(min(first + done, total), total)

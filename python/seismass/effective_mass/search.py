@@ -1,0 +1,221 @@
+"""From drifts at shares on a grid to the effective fraction: kind, refined roots, interval, and the tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seismass import _kernel
+from seismass._values import FloatArray
+from seismass.effective_mass.curve import (
+    Kind,
+    Statistic,
+    crossings,
+    interpolated,
+    is_below,
+    kind_of,
+    over_records,
+    refined_root,
+    resampled,
+)
+from seismass.effective_mass.models import ModelDamping, attached, building_of, friction, full_weight
+from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
+from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
+from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
+from seismass.scene import Scene
+from seismass.simulate import instruction_set
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How a fraction is sought, checked once."""
+
+    statistic: Statistic
+    damping: ModelDamping
+    fractions: FloatArray
+    confidence: float
+    resamples: int
+    seed: int
+    threads: int | None
+    progress: Progress | None
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """Everything that is needed to go from drifts at the shares of a grid to the answer.
+
+    Attributes
+    ----------
+    motions : NamedMotions
+        The suite.
+    options : Options
+        How the fraction is sought.
+    at : callable
+        Takes a share, returns the peaks of the real building and of the model there, one scene each.
+    scene_at : callable
+        Takes a share, returns the scene with sliding goods.
+    """
+
+    motions: NamedMotions
+    options: Options
+    at: Callable[[float], tuple[Peaks, Peaks]]
+    scene_at: Callable[[float], Scene]
+
+    def answer(self, real: Peaks, model: Peaks, about: dict[str, Any]) -> EffectiveMass:
+        """Return the effective fraction; `real` has one scene, or one per share."""
+        options, shares = self.options, self.options.fractions
+        kind = self._kind(real, model)
+        brackets = [] if kind in ("collapsed", "stuck") else crossings(shares, *self._statistics(model, real))
+        difference = _Difference(self, real, model)
+        roots = [refined_root(difference, bracket) for bracket in brackets]
+        value = {"collapsed": float("nan"), "zero": 0.0}.get(kind, 1.0)
+        if kind in ("root", "multiple"):
+            value = roots[-1]
+        place = 1.0 if np.isnan(value) else value
+        real_there, model_there = self._peaks_at(place, real, model)
+        scene = self.scene_at(place)
+        coefficient = self._base_shear_coefficient(scene, real, model)
+        eta = friction(scene) / coefficient
+        real_drift, model_drift = (
+            float(over_records(peaks.largest[0], options.statistic)) for peaks in (real_there, model_there)
+        )
+        with np.errstate(invalid="ignore"):
+            excess = float(np.float64(real_drift) / model_drift - 1.0)
+        storeys = storey_table(real_there, model_there, model, options.statistic)
+        collapses = {
+            "real": int(real_there.collapsed.sum()),
+            "model": int(model_there.collapsed.sum()),
+            "model_at_0": int(model.collapsed[0].sum()),
+            "model_at_1": int(model.collapsed[-1].sum()),
+        }
+        interval, band = self._scatter(kind, real, model)
+        return EffectiveMass(
+            value=value,
+            kind=kind,
+            roots=tuple(roots),
+            interval=interval,
+            confidence=options.confidence,
+            statistic=options.statistic,
+            real=real_drift,
+            model=model_drift,
+            unit="m" if building_of(scene).heights is None else "ratio",
+            excess=excess,
+            eta=eta,
+            base_shear_coefficient=coefficient,
+            estimate=min(1.0, eta**2),
+            conservative=min(1.0, eta),
+            curve=curve_table(shares, real, model, band, options.statistic),
+            storeys=storeys,
+            records=record_table(self.motions, shares, real, model),
+            collapses=collapses,
+            remarks=remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
+            metadata=self._metadata(scene, about, difference.evaluations),
+        )
+
+    def _statistics(self, model: Peaks, real: Peaks) -> tuple[FloatArray, FloatArray]:
+        """Statistic of the largest drift of the model and of the real building at every share."""
+        model_drift, real_drift = (over_records(peaks.largest, self.options.statistic) for peaks in (model, real))
+        return model_drift, np.broadcast_to(real_drift, model_drift.shape)
+
+    def _kind(self, real: Peaks, model: Peaks) -> Kind:
+        model_drift, real_drift = self._statistics(model, real)
+        if not np.isfinite(real_drift).all():
+            return "collapsed"
+        if not real.slides[-1].any():
+            return "stuck"
+        if friction(self.scene_at(1.0)) == 0.0:  # the real building is the bare one, whatever the curve does
+            return "zero"
+        return kind_of(is_below(model_drift, real_drift))
+
+    def _peaks_at(self, share: float, real: Peaks, model: Peaks) -> tuple[Peaks, Peaks]:
+        """Peaks of the real building and of the model at a share, from the grid where it is one of its shares."""
+        on_grid = np.flatnonzero(self.options.fractions == share)
+        if not len(on_grid):
+            return self.at(share)
+        index = int(on_grid[0])
+        return real.one(index if real.scenes > 1 else 0), model.one(index)
+
+    def _base_shear_coefficient(self, scene: Scene, real: Peaks, model: Peaks) -> float:
+        """C1 of the building of `scene`: mean peak base shear with all goods attached, over the full weight."""
+        full = model.one(-1)
+        if real.scenes > 1:  # the strength depends on the share
+            full = solve([attached(scene, 1.0, self.options.damping)], self.motions, threads=self.options.threads)
+        return float(full.base_shear.mean()) / full_weight(scene)
+
+    def _scatter(self, kind: Kind, real: Peaks, model: Peaks) -> tuple[tuple[float, float] | None, FloatArray | None]:
+        """Bootstrap interval of the fraction, and of real over model drift at every share, shape (2, shares)."""
+        options = self.options
+        if kind == "collapsed" or self.motions.clusters < 2:
+            return None, None
+        model_drift, real_drift = resampled(
+            model.largest,
+            real.largest,
+            statistic=options.statistic,
+            cluster_of=self.motions.cluster_of,
+            resamples=options.resamples,
+            seed=options.seed,
+        )
+        tail = 50.0 * (1.0 - options.confidence)
+        values = interpolated(options.fractions, model_drift, real_drift)
+        if kind == "stuck":
+            values = np.ones(1)
+        elif friction(self.scene_at(1.0)) == 0.0:
+            values = np.zeros(1)
+        low, high = np.percentile(values, [tail, 100.0 - tail])
+        with np.errstate(invalid="ignore"):
+            band = np.percentile(real_drift / model_drift, [tail, 100.0 - tail], axis=0)
+        return (float(low), float(high)), band
+
+    def _metadata(self, scene: Scene, about: dict[str, Any], evaluations: int) -> dict[str, Any]:
+        options, building = self.options, building_of(scene)
+        chosen = {
+            **about,
+            "statistic": options.statistic,
+            "damping": options.damping,
+            "shares": options.fractions.tolist(),
+            "confidence": options.confidence,
+            "resamples": options.resamples,
+            "seed": options.seed,
+        }
+        return {
+            "schema_version": SCHEMA_VERSION,
+            "package_version": _kernel.VERSION,
+            "instructions": instruction_set(),
+            "inputs_sha256": inputs_digest(scene, self.motions, chosen),
+            **chosen,
+            "second_slope": building.second_slope.tolist(),
+            "third_slope": building.third_slope.tolist(),
+            "overstrength": building.overstrength.tolist(),
+            "p_delta": bool(scene.geometric_stiffness.any()),
+            "motions": len(self.motions),
+            "clusters": self.motions.clusters,
+            "shares_beside_the_grid": evaluations,
+        }
+
+
+class _Difference:
+    """(model - real) / real at a share, solved exactly; shares of the grid are known already."""
+
+    def __init__(self, search: Search, real: Peaks, model: Peaks) -> None:
+        self._search = search
+        self._known: dict[float, float] = {}
+        model_drift, real_drift = search._statistics(model, real)
+        if np.isfinite(real_drift).all() and (real_drift > 0.0).all():
+            differences = (model_drift - real_drift) / real_drift
+            self._known = dict(zip(search.options.fractions.tolist(), differences.tolist(), strict=True))
+        self._on_grid = len(self._known)
+
+    @property
+    def evaluations(self) -> int:
+        """Number of shares that were solved beside those of the grid."""
+        return len(self._known) - self._on_grid
+
+    def __call__(self, share: float) -> float:
+        if share not in self._known:
+            statistic = self._search.options.statistic
+            real, model = (float(over_records(peaks.largest[0], statistic)) for peaks in self._search.at(share))
+            self._known[share] = (model - real) / real
+        return self._known[share]
