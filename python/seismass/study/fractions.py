@@ -10,8 +10,8 @@ import polars as pl
 
 from seismass._values import FloatArray
 from seismass.effective_mass import EffectiveMass, effective_mass
-from seismass.scene import Scene
 from seismass.records import Record
+from seismass.scene import Scene
 from seismass.study.buildings import MODELS, StudyBuilding
 from seismass.study.columns import FRACTION_COLUMNS
 from seismass.study.parameters import StudyParameters
