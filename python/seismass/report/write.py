@@ -93,7 +93,8 @@ def write_study(
         text = json.dumps(document, indent=2) + "\n"
         writers[file] = partial(Path.write_text, data=text, encoding="utf-8")
     if figures:
-        from seismass.report.figures import save_figure, study_figures
+        from seismass.report.figures import save_figure
+        from seismass.report.study_figures import study_figures
 
         for name, figure in study_figures(result).items():
             writers[f"{name}.png"] = partial(save_figure, figure, "png")
