@@ -188,16 +188,16 @@ def _first_storey_tables(rows: list[dict[str, Any]]) -> list[str]:
         ("lambda, estimate", "estimate", _share),
         *([("lambda_eff", "effective", _share)] if effective else []),
     ]
-    width = max(8 * len(alphas), 19) + 2
+    width = max(7 * len(alphas), 19) + 2
     lines = [
         "  first storeys, mean " + "".join(f"{title:>{width}}" for title, *_ in shown),
-        "    alpha             " + "".join(f"{''.join(f'{a:>8g}' for a in alphas):>{width}}" for _ in shown),
+        "    alpha             " + "".join(f"{''.join(f'{a:>7g}' for a in alphas):>{width}}" for _ in shown),
     ]
     for factor in sorted({row["R"] for row in rows}):
         cells = []
         for _, name, form in shown:
             values = [at.get((factor, alpha), {}).get(name) for alpha in alphas]
-            texts = [f"{form(value):>8}" for value in values]
+            texts = [f"{form(value):>7}" for value in values]
             cells.append(f"{''.join(texts):>{width}}")
         lines.append(f"    {f'R = {factor:g}':18}" + "".join(cells))
     return lines

@@ -120,9 +120,11 @@ SENSITIVITY_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     "occupancy": KEY_COLUMNS["occupancy"],
     "mu": KEY_COLUMNS["mu"],
     "largest_percent": ("%", "largest underestimation of a first storey"),
-    "heavy_percent": ("%", "mean underestimation of first storeys at the largest R and alpha"),
+    "least_R_percent": ("%", "mean underestimation of first storeys at the smallest R and the largest alpha"),
+    "most_R_percent": ("%", "mean underestimation of first storeys at the largest R and alpha"),
     "mass_percent": ("%", "attached over code model, less 1, of the same storeys: what the rest of the mass does"),
     "sliding_percent": ("%", "real over attached model, less 1, of the same storeys: what sliding does"),
+    "collapses": ("", "collapsed runs of all models; a number that needs one of them is null"),
 }
 
 TABLES: Final[dict[str, tuple[str, dict[str, tuple[str, str]]]]] = {

@@ -12,13 +12,15 @@ import polars as pl
 from seismass.design import Combination
 from seismass.records import Suite
 from seismass.spectra import TargetSpectrum
+from seismass.study.buildings import MODELS
 from seismass.study.columns import SENSITIVITY_COLUMNS
 from seismass.study.parameters import DampingBase, StudyParameters
 from seismass.study.run import StudyResult, run_study
-from seismass.study.tables import drifts_of
+from seismass.study.tables import Drifts, drifts_of
 
 AS_IS: Final = "as it is"
 """The first choice: the study with its own parameters."""
+DAMPING_BASE: Final = "damping base"
 
 SECOND_SLOPES: Final = (0.0, 0.02, 0.1, 0.2)
 OVERSTRENGTHS: Final = (1.0, 1.5, 3.0)
@@ -71,19 +73,32 @@ def study_sensitivity(
     chosen = StudyParameters() if parameters is None else parameters
     changes = list(_changes(chosen, target))
     as_is = run_study(suite, target, chosen, threads=threads)
-    rows = list(_rows(AS_IS, "", as_is, np.mean))
+    own = drifts_of(as_is.responses, len(suite))
+    rows = _rows(AS_IS, "", as_is, own, np.mean)
+    of_base: dict[str, Drifts] = {chosen.damping_base: own}
     for number, (choice, setting, changed, spectrum) in enumerate(changes, start=1):
         if progress is not None:
             progress(number, len(changes) + 1)
-        rows += _rows(choice, setting, run_study(suite, spectrum, changed, threads=threads), np.mean)
-    rows += _rows("statistic", "median", as_is, np.median)
-    rows += _rows("statistic", "geometric mean", as_is, _geometric_mean)
+        result = run_study(suite, spectrum, changed, threads=threads)
+        drifts = drifts_of(result.responses, len(suite))
+        rows += _rows(choice, setting, result, drifts, np.mean)
+        if choice == DAMPING_BASE:
+            of_base[changed.damping_base] = drifts
+            if len(of_base) == len(get_args(DampingBase)):
+                mixed = {**of_base["loaded"], "code": of_base["own"]["code"]}
+                rows += _rows(DAMPING_BASE, "loaded, of the code model its own", as_is, mixed, np.mean)
+    rows += _rows("statistic", "median", as_is, own, np.median)
+    rows += _rows("statistic", "geometric mean", as_is, own, _geometric_mean)
     for left_out in _heaviest(as_is):
         name = as_is.metadata["suite"]["motions"][left_out]["record"]
-        rows += _rows("one record left out", name, as_is, np.mean, left_out)
+        kept: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in own.items()}
+        rows += _rows("one record left out", name, as_is, kept, np.mean)
     if progress is not None:
         progress(len(changes) + 1, len(changes) + 1)
-    return Sensitivity(pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row"), as_is.metadata)
+    table = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
+        pl.col("collapses").cast(pl.UInt32)
+    )
+    return Sensitivity(table, as_is.metadata)
 
 
 def _changes(
@@ -105,7 +120,7 @@ def _changes(
     yield "combination", other.upper(), replace(chosen, combination=other), target
     for base in get_args(DampingBase):
         if base != chosen.damping_base:
-            yield "damping base", base, replace(chosen, damping_base=base), target
+            yield DAMPING_BASE, base, replace(chosen, damping_base=base), target
     if not chosen.p_delta:
         yield "P-Delta", f"storeys of {chosen.height:g} m", replace(chosen, p_delta=True), target
     for power in TILTS:
@@ -130,22 +145,28 @@ def _geometric_mean(values: Any, axis: int) -> Any:
 
 
 def _rows(
-    choice: str, setting: str, result: StudyResult, statistic: Callable[..., Any], left_out: int | None = None
+    choice: str, setting: str, result: StudyResult, drifts: Drifts, statistic: Callable[..., Any]
 ) -> list[tuple[Any, ...]]:
-    """Headline numbers of the first storeys by a statistic over the records."""
-    motions = result.scaling.factors.size
-    drifts = drifts_of(result.responses, motions)
-    kept = [motion for motion in range(motions) if motion != left_out]
-    real, code, attached = (statistic(values[:, kept], axis=1) for values in drifts.values())
+    """Headline numbers of the first storeys by a statistic over the records; null where one is not finite."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        frame = result.summary.select("occupancy", "mu", "R", "alpha", "storey").with_columns(
-            pl.Series("missed", 100.0 * (real / code - 1.0)),
-            pl.Series("mass", 100.0 * (attached / code - 1.0)),
-            pl.Series("sliding", 100.0 * (real / attached - 1.0)),
-        )
+        real, code, attached = (statistic(drifts[model], axis=1) for model in MODELS)
+        compared = {
+            "missed": 100.0 * (real / code - 1.0),
+            "mass": 100.0 * (attached / code - 1.0),
+            "sliding": 100.0 * (real / attached - 1.0),
+        }
+    collapses = sum(np.isinf(values).sum(axis=1) for values in drifts.values())
+    frame = result.summary.select("occupancy", "mu", "R", "alpha", "storey").with_columns(
+        **{name: pl.Series(np.where(np.isfinite(values), values, np.nan)) for name, values in compared.items()},
+        collapses=pl.Series(collapses),
+    )
     rows = []
     for (occupancy, mu), first in frame.filter(storey=1).group_by("occupancy", "mu", maintain_order=True):
-        heavy = first.filter(R=first["R"].max(), alpha=first["alpha"].max())
-        values = [first["missed"].max(), *(heavy[name].mean() for name in ("missed", "mass", "sliding"))]
-        rows.append((choice, setting, occupancy, mu, *values))
+        # NaN of one building is NaN of the mean and of the largest: no number is of fewer buildings.
+        heavy = first.filter(alpha=first["alpha"].max())
+        least, most = heavy.filter(R=first["R"].min()), heavy.filter(R=first["R"].max())
+        largest = np.max(first["missed"].to_numpy())
+        values = [largest, least["missed"].mean(), *(most[name].mean() for name in compared)]
+        known = [value if value is not None and np.isfinite(value) else None for value in values]
+        rows.append((choice, setting, occupancy, mu, *known, first["collapses"].sum()))
     return rows
