@@ -30,7 +30,7 @@ def sensitivity_text(table: pl.DataFrame) -> str:
         "largest: of all first storeys. R least, R most: mean of those with the largest alpha, at the smallest and\n"
         "the largest R. mass, sliding: what the last one is made of, attached over code and real over attached."
     )
-    if table["collapses"].any():
+    if (table["collapses"] > 0).any():
         notes += "\n-: runs collapsed, and there is no mean."
     return "\n".join([*blocks, notes])
 

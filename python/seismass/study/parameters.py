@@ -142,9 +142,9 @@ class StudyParameters:
         return tuple((row[0], row[1], row[-1]) for row in self.occupancies or ())
 
     @property
-    def code_name(self) -> str:
-        """Name of the code, or "code" where the fractions are not its own."""
-        return code_fraction(self.code, "storage").code if self.fractions == _of_code(self.code) else "code"
+    def follows_code(self) -> bool:
+        """Whether the occupancies have the fractions of `code`."""
+        return self.fractions == _of_code(self.code)
 
     def _listed(self, name: str) -> tuple[Any, ...]:
         values = getattr(self, name)

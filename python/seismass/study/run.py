@@ -132,14 +132,7 @@ def run_study(
             "instructions": instruction_set(),
             "inputs_sha256": _digest(suite, target, chosen),
             "parameters": asdict(chosen),
-            "code": {
-                "id": chosen.code,
-                "name": chosen.code_name,
-                "fractions": {
-                    name: {"fraction": row.fraction, "clause": row.clause, "status": row.status}
-                    for name, row in code_fractions(chosen.code).items()
-                },
-            },
+            "code": _code_metadata(chosen),
             "target": {"label": target.label, **target.parameters},
             "suite": _suite_metadata(suite, names, scaling),
             "remarks": _remarks(buildings, motions, target, scaling),
@@ -179,6 +172,20 @@ def _remarks(
     scenes = dict.fromkeys(building.scenes["real"] for building in buildings)
     found = [*target_remarks(target), *scaling_remarks(scaling), *motion_remarks(motions)]
     return list(dict.fromkeys([*found, *(remark for scene in scenes for remark in scene_remarks(scene))]))
+
+
+def _code_metadata(chosen: StudyParameters) -> dict[str, Any]:
+    """Code with its fractions; no code where the occupancies have fractions of their own."""
+    if not chosen.follows_code:
+        return {"id": None, "name": "code", "fractions": {}}
+    rows = code_fractions(chosen.code)
+    return {
+        "id": chosen.code,
+        "name": rows["storage"].code,
+        "fractions": {
+            name: {"fraction": row.fraction, "clause": row.clause, "status": row.status} for name, row in rows.items()
+        },
+    }
 
 
 def _suite_metadata(suite: Suite, names: list[str], scaling: ScalingResult) -> dict[str, Any]:
