@@ -45,8 +45,8 @@ def add_parser(subparsers: Any) -> None:
     parser = subparsers.add_parser(
         "study",
         help="the parametric study: drift with sliding live load against a code's rule",
-        description="Run the parametric study of the paper: 72 buildings, each with sliding blocks, by a code's rule and "
-        "with all of the blocks attached, under motions scaled to a target spectrum. Writes tables and figures.",
+        description="Run the parametric study of the paper: 72 buildings, each with sliding blocks, by a code's rule "
+        "and with all of the blocks attached, under motions scaled to a target spectrum. Writes tables and figures.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

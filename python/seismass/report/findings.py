@@ -118,6 +118,9 @@ def findings_text(entries: list[dict[str, Any]]) -> str:
             shares += f" in the design, {analysis:g} % in the analysis"
         friction = f", mu = {entry['mu']:g}" if several else ""
         lines.append(f"{entry['occupancy']}{friction} ({entry['code']}: {shares})")
+        if any(entry["collapses"].values()):
+            counts = ", ".join(f"{model} {count}" for model, count in entry["collapses"].items())
+            lines.append(f"  collapsed runs            {counts}")
         if entry["largest"] is None:
             lines.append("  no storey has a result")
             continue
@@ -132,9 +135,6 @@ def findings_text(entries: list[dict[str, Any]]) -> str:
             f"  grows with R              {_growth_text(growth, 'R')}",
             *_first_storey_tables(entry["first_storey"]),
         ]
-        if any(entry["collapses"].values()):
-            counts = ", ".join(f"{model} {count}" for model, count in entry["collapses"].items())
-            lines.append(f"  collapsed runs            {counts}")
         if entry["storeys_without_result"]:
             lines.append(
                 f"  without a mean            {entry['storeys_without_result']} storeys: a run collapsed or failed"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -43,7 +43,7 @@ class StudyParameters:
     occupancies : tuple of (str, float) or (str, float, float), or None
         Name, no two the same, with the fraction lambda of the block mass that the code counts. Two fractions are that
         of the design, which sets the strength, and that of the analysis, the mass of the code model; one is both. None
-        (default): storage and commercial buildings with the fractions of `code`. They are kept with both fractions.
+        (default): storage and commercial buildings with the fractions of `code`.
     code : str
         Code whose fractions are compared, an identifier of `seismass.codes`.
     mu : tuple of float
@@ -139,7 +139,9 @@ class StudyParameters:
     @property
     def fractions(self) -> tuple[tuple[str, float, float], ...]:
         """Each occupancy with the lambda of the design and that of the analysis."""
-        return tuple((row[0], row[1], row[-1]) for row in self.occupancies or ())
+        if self.occupancies is None:
+            return _of_code(self.code)
+        return tuple((row[0], row[1], row[-1]) for row in self.occupancies)
 
     @property
     def follows_code(self) -> bool:
@@ -167,10 +169,14 @@ class StudyParameters:
                 raise refusal(InvalidOption, name, "study", f"a tuple of {of}", f"{brief(item)} in it")
         return self._listed(name)
 
-    def _occupancies(self) -> tuple[tuple[str, float, float], ...]:
-        of_code = _of_code(self.code)
+    def content(self) -> dict[str, Any]:
+        """Return all parameters by name, the occupancies with the fractions of design and analysis."""
+        return {**asdict(self), "occupancies": self.fractions}
+
+    def _occupancies(self) -> tuple[tuple[str, float, float], ...] | None:
+        _of_code(self.code)
         if self.occupancies is None:
-            return of_code
+            return None
         rows = []
         for name, *fractions in self._tuples("occupancies", _OCCUPANCY, (2, 3)):
             if not isinstance(name, str):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from itertools import chain, count
 from typing import Any, Final
 
@@ -131,7 +131,7 @@ def run_study(
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
             "inputs_sha256": _digest(suite, target, chosen),
-            "parameters": asdict(chosen),
+            "parameters": chosen.content(),
             "code": _code_metadata(chosen),
             "target": {"label": target.label, **target.parameters},
             "suite": _suite_metadata(suite, names, scaling),
@@ -248,7 +248,7 @@ def _spectrum(
 def _digest(suite: Suite, target: TargetSpectrum, parameters: StudyParameters) -> str:
     """SHA-256 of everything that the numbers depend on: samples, target, parameters."""
     digest = hashlib.sha256()
-    digest.update(json.dumps([SCHEMA_VERSION, target.parameters, asdict(parameters)], sort_keys=True).encode())
+    digest.update(json.dumps([SCHEMA_VERSION, target.parameters, parameters.content()], sort_keys=True).encode())
     for record in suite:
         digest.update(np.float64(record.dt).tobytes())
         digest.update(np.ascontiguousarray(record.acceleration, dtype="<f8").tobytes())
