@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -103,3 +104,16 @@ def test_contacts_that_are_none_are_refused_with_close_ones() -> None:
     for factors in ((1.5, 0.67), (0.0, 1.5), (0.67, float("inf")), (1.0,), "ab"):
         with pytest.raises(sm.InvalidOption, match=r"mu_factors of friction pair must be two factors, .*; got"):
             sm.friction_table(factors)  # type: ignore[arg-type]
+
+
+def test_the_page_has_every_row() -> None:
+    page = (Path(__file__).parents[1] / "docs" / "codes.md").read_text(encoding="utf-8")
+    for row in sm.code_table().iter_rows(named=True):
+        ranged = row["low"] < row["high"]
+        fraction = f"{row['low']:g} to {row['high']:g}" if ranged else f"{row['fraction']:g}"
+        cells = (f"`{row['code_id']}`", row["code"], row["use"], fraction, row["clause"], row["status"], row["note"])
+        assert f"| {' | '.join(cells)} |\n" in page
+    for row in sm.friction_table().iter_rows(named=True):
+        numbers = (f"{row['mu_s']:g}", f"{row['mu_k']:.4g}")
+        cells = (f"`{row['pair_id']}`", row["contact"], *numbers, row["source"], row["kind"])
+        assert f"| {' | '.join(cells)} |\n" in page

@@ -1,10 +1,21 @@
 """How much of a building's live load acts as mass in an earthquake: exact sliding-block shear-building simulation."""
 
 from seismass import _kernel
+from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
+from seismass.building_file import read_building
 from seismass.codes import CodeFraction, code_fraction, code_table
-from seismass.effective_mass import EffectiveMass, attached_scene, effective_mass, effective_mass_of_design
+from seismass.effective_mass import (
+    EffectiveMass,
+    EffectiveMassMap,
+    EffectiveMassParameters,
+    attached_scene,
+    effective_mass,
+    effective_mass_map,
+    effective_mass_of_design,
+)
 from seismass.errors import (
+    InvalidBuildingFile,
     InvalidMotion,
     InvalidOption,
     InvalidScene,
@@ -15,6 +26,7 @@ from seismass.errors import (
 )
 from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
+from seismass.own_building import OwnBuilding
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
@@ -27,17 +39,22 @@ __version__ = _kernel.VERSION
 
 __all__ = [
     "STANDARD_GRAVITY",
+    "Assessment",
     "Block",
     "Building",
     "CodeFraction",
     "EffectiveMass",
+    "EffectiveMassMap",
+    "EffectiveMassParameters",
     "FrictionPair",
     "Grid",
+    "InvalidBuildingFile",
     "InvalidMotion",
     "InvalidOption",
     "InvalidScene",
     "InvalidSceneFile",
     "Motion",
+    "OwnBuilding",
     "Rayleigh",
     "Record",
     "RecordFormatError",
@@ -50,16 +67,19 @@ __all__ = [
     "Suite",
     "TargetSpectrum",
     "__version__",
+    "assess",
     "attached_scene",
     "blocks_on_floors",
     "builtin_suite",
     "code_fraction",
     "code_table",
     "effective_mass",
+    "effective_mass_map",
     "effective_mass_of_design",
     "friction_pair",
     "friction_table",
     "instruction_set",
+    "read_building",
     "read_record",
     "read_scene",
     "read_suite",

@@ -30,5 +30,9 @@ class InvalidSceneFile(SeismassError, ValueError):
     """A scene file with an unknown, missing or contradicting key, or that is not TOML or JSON."""
 
 
+class InvalidBuildingFile(SeismassError, ValueError):
+    """A building file with an unknown, missing or contradicting key, or that is not TOML or JSON."""
+
+
 class SimulationError(SeismassError, RuntimeError):
     """A run that could not be carried to its end; carries the time and the storey or block concerned in its message."""

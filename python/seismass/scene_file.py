@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
-import json
 import os
-import tomllib
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, NoReturn
+from typing import Any, Final
 
 import numpy as np
 
 from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
 from seismass.errors import InvalidMotion, InvalidScene, InvalidSceneFile
+from seismass.input_table import Table, load_table
 from seismass.records import Record, read_record
 from seismass.scene import MAX_STOREYS, Block, Building, Rayleigh, Scene, as_fraction_of_weight
 from seismass.simulate import Motion
@@ -124,7 +121,7 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     Scene(ground only, 1 block)
     """
     source = as_path(path, "scene file", InvalidSceneFile)
-    top = _Table(_load(source), "", source.name)
+    top = load_table(source, "scene file", InvalidSceneFile)
     top.known(KEYS[""])
     if "motion" not in top.values:
         top.refuse("motion", "given", "nothing")
@@ -152,113 +149,7 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     return SceneFile(scene, motion, duration, name, note, source, records)
 
 
-def _load(source: Path) -> dict[str, Any]:
-    """The file as tables and lists, whatever its format."""
-    suffix = source.suffix.lower()
-    if suffix not in (".toml", ".json"):
-        raise refusal(InvalidSceneFile, "suffix", f"scene file {source.name}", ".toml or .json", brief(suffix))
-    try:
-        text = source.read_bytes().decode("utf-8-sig")
-        loaded = tomllib.loads(text) if suffix == ".toml" else json.loads(text, object_pairs_hook=_without_repeats)
-    except OSError as error:
-        raise InvalidSceneFile(
-            f"scene file must be a file that can be read; got {source} ({error.strerror or error})"
-        ) from error
-    except (ValueError, RecursionError) as error:
-        form = suffix[1:].upper()
-        raise refusal(InvalidSceneFile, "content", source.name, f"valid {form}", str(error)) from error
-    except _RepeatedKey as error:
-        raise refusal(InvalidSceneFile, str(error), source.name, "given once", "it twice") from None
-    if not isinstance(loaded, dict):
-        raise refusal(InvalidSceneFile, "content", source.name, "a table of keys", brief(loaded))
-    return loaded
-
-
-class _RepeatedKey(Exception):
-    """A key that a JSON object has twice, of which Python would keep the last."""
-
-
-def _without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    table = dict(pairs)
-    if len(table) < len(pairs):
-        keys = [key for key, _ in pairs]
-        raise _RepeatedKey(next(key for key in keys if keys.count(key) > 1))
-    return table
-
-
-class _Table:
-    """A table of the file, with its place in it for messages. Null stands for an absent key, but for `nullable`."""
-
-    def __init__(self, given: dict[str, Any], place: str, file: str, nullable: Iterable[str] = ()) -> None:
-        kept = set(nullable)
-        self.values = {key: value for key, value in given.items() if value is not None or key in kept}
-        self._all_keys = tuple(given)
-        self._place = place
-        self._file = file
-
-    def key(self, key: str) -> str:
-        """Where a key stands: building.damping.ratio."""
-        return f"{self._place}.{key}" if self._place else key
-
-    def refuse(self, key: str, requirement: str, got: str) -> NoReturn:
-        raise refusal(InvalidSceneFile, self.key(key), self._file, requirement, got)
-
-    def known(self, keys: tuple[str, ...]) -> None:
-        """Refuse every other key."""
-        for key in self._all_keys:
-            if key not in keys:
-                close = difflib.get_close_matches(key, keys, n=1)
-                hint = f" (did you mean {self.key(close[0])}?)" if close else ""
-                self.refuse(key, f"one of the keys {', '.join(keys)}{hint}", "an unknown key")
-
-    def excluded(self, key: str, *others: str) -> None:
-        """Refuse a key beside others that say the same."""
-        for other in others:
-            if key in self.values and other in self.values:
-                self.refuse(key, f"left out where {self.key(other)} is given", "both")
-
-    def empty(self, where: str) -> None:
-        """Refuse every key."""
-        for key, value in self.values.items():
-            self.refuse(key, f"left out where {where}", brief(value))
-
-    def needed(self, *keys: str) -> None:
-        """Refuse a table in which none of the keys is."""
-        if not any(key in self.values for key in keys):
-            self.refuse(keys[0], "given" + "".join(f", or {self.key(key)}" for key in keys[1:]), "nothing")
-
-    def table(self, key: str, nullable: Iterable[str] = ()) -> _Table:
-        value = self.values[key]
-        if not isinstance(value, dict):
-            self.refuse(key, "a table of keys", brief(value))
-        return _Table(value, self.key(key), self._file, nullable)
-
-    def tables(self, key: str) -> list[_Table]:
-        value = self.values.get(key, [])
-        if not isinstance(value, list):
-            self.refuse(key, "a list of tables", brief(value))
-        tables = []
-        for number, item in enumerate(value, start=1):
-            if not isinstance(item, dict):
-                self.refuse(f"{key}[{number}]", "a table of keys", brief(item))
-            tables.append(_Table(item, self.key(f"{key}[{number}]"), self._file))
-        return tables
-
-    def text(self, key: str) -> str:
-        value = self.values.get(key, "")
-        if not isinstance(value, str) or "\0" in value:
-            self.refuse(key, "text", brief(value))
-        return value
-
-    def per_storey(self, key: str) -> FloatArray | None:
-        value = self.values.get(key)
-        return None if value is None else as_array(value, self.key(key), self._file, InvalidScene, or_number=True)
-
-    def number(self, key: str, default: float) -> float:
-        return as_number(self.values.get(key, default), self.key(key), self._file, InvalidSceneFile)
-
-
-def _building(table: _Table) -> Building:
+def _building(table: Table) -> Building:
     table.known(KEYS["building"])
     table.excluded("yield_shear_over_weight", "yield_shear")
     table.excluded("geometric_stiffness", "gravity_load")
@@ -296,7 +187,7 @@ def _building(table: _Table) -> Building:
     return building.replace(yield_shear=as_fraction_of_weight(over_weight, building.storeys) * building.weight)
 
 
-def _storeys(table: _Table, over_weight: Any, springs: dict[str, Any]) -> int | None:
+def _storeys(table: Table, over_weight: Any, springs: dict[str, Any]) -> int | None:
     """Number of storeys as stated, or that of the strengths over the weight where nothing else is a list."""
     listed = any(isinstance(table.values[key], list) for key in ("mass", "stiffness"))
     if "storeys" in table.values:
@@ -315,7 +206,7 @@ def _yield_shear(value: Any) -> Any:
     return [np.inf if item is None else item for item in value] if isinstance(value, list) else value
 
 
-def _damping(building: _Table) -> float | Rayleigh | FloatArray:
+def _damping(building: Table) -> float | Rayleigh | FloatArray:
     if not isinstance(building.values["damping"], dict):
         return as_number(building.values["damping"], "damping", "building", InvalidScene)
     table = building.table("damping")
@@ -331,7 +222,7 @@ def _damping(building: _Table) -> float | Rayleigh | FloatArray:
     return Rayleigh(ratio, table.values["modes"]) if kind == "rayleigh" else ratio
 
 
-def _block(table: _Table, number: int) -> Block:
+def _block(table: Table, number: int) -> Block:
     table.known(KEYS["blocks"])
     table.needed("floor")
     table.needed("mass", "mass_ratio")
@@ -346,7 +237,7 @@ def _block(table: _Table, number: int) -> Block:
     return Block(floor, **values)
 
 
-def _motions(top: _Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:
+def _motions(top: Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:
     """Horizontal and vertical samples, both ending with the shorter."""
     samples, dt, record = _samples(top.table("motion"), folder)
     records = () if record is None else (record,)
@@ -360,7 +251,7 @@ def _motions(top: _Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:
     return Motion(samples[:shared], dt, vertical[:shared]), records
 
 
-def _samples(table: _Table, folder: Path) -> tuple[FloatArray, float, Record | None]:
+def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | None]:
     """Acceleration (m/s2) and time step (s) after scaling, and the record they come from, if any."""
     table.known(KEYS["motion"])
     table.needed("file", "acceleration")

@@ -1,7 +1,16 @@
 """The effective fraction of live load: the share of a building's goods that acts as mass in an earthquake."""
 
 from seismass.effective_mass.answer import effective_mass, effective_mass_of_design
+from seismass.effective_mass.design_map import EffectiveMassMap, EffectiveMassParameters, effective_mass_map
 from seismass.effective_mass.models import attached_scene
 from seismass.effective_mass.result import EffectiveMass
 
-__all__ = ["EffectiveMass", "attached_scene", "effective_mass", "effective_mass_of_design"]
+__all__ = [
+    "EffectiveMass",
+    "EffectiveMassMap",
+    "EffectiveMassParameters",
+    "attached_scene",
+    "effective_mass",
+    "effective_mass_map",
+    "effective_mass_of_design",
+]

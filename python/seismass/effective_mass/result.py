@@ -14,7 +14,6 @@ import polars as pl
 from seismass._values import as_path
 from seismass.effective_mass.curve import Kind
 from seismass.errors import InvalidOption
-from seismass.files import write_table, written_whole
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -176,25 +175,14 @@ class EffectiveMass:
         OSError
             A file cannot be written.
         """
-        from seismass.report.figures import save_figure
+        from seismass.report.folder import write_folder
 
-        out = as_path(folder, "effective mass", InvalidOption)
-        out.mkdir(parents=True, exist_ok=True)
-        files = []
-        for name, table in self.tables().items():
-            for kind in ("parquet", "csv"):
-                files.append(out / f"{name}.{kind}")
-                with written_whole(files[-1]) as temporary:
-                    write_table(table, kind, temporary)
-        files.append(out / "effective_mass.json")
-        with written_whole(files[-1]) as temporary:
-            temporary.write_text(self.to_json() + "\n", encoding="utf-8")
-        for name, figure in (("curve", self.plot()), ("storeys", self.plot_storeys())):
-            for form in ("png", "svg"):
-                files.append(out / f"{name}.{form}")
-                with written_whole(files[-1]) as temporary:
-                    save_figure(figure, form, temporary)
-        return files
+        return write_folder(
+            as_path(folder, "effective mass", InvalidOption),
+            tables=self.tables(),
+            documents={"effective_mass.json": self.to_json() + "\n"},
+            figures={"curve": self.plot(), "storeys": self.plot_storeys()},
+        )
 
 
 def finite_values(value: Any) -> Any:

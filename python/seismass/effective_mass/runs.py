@@ -97,8 +97,12 @@ class Peaks:
         return len(self.drift)
 
     def one(self, index: int) -> Peaks:
-        """Return the peaks of one scene."""
-        part = slice(index, index + 1 or None)
+        """Return the peaks of one scene; a negative index counts from the last."""
+        return self.part(index % self.scenes, 1)
+
+    def part(self, first: int, count: int) -> Peaks:
+        """Return the peaks of `count` scenes from `first` on."""
+        part = slice(first, first + count)
         return Peaks(self.drift[part], self.base_shear[part], self.slides[part], self.collapsed[part])
 
     @property

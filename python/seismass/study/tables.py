@@ -19,6 +19,19 @@ from seismass.units import STANDARD_GRAVITY
 Drifts: TypeAlias = dict[Model, FloatArray]
 """Peak drifts (m) by model, shape (rows, motions): infinite where the run collapsed, NaN where it failed."""
 
+_PER_STOREY: Final = (
+    "peak_drift",
+    "peak_drift_time",
+    "peak_drift_ratio",
+    "residual_drift",
+    "peak_floor_acceleration",
+    "peak_storey_shear",
+    "peak_slip",
+    "residual_slip",
+    "slip_path",
+)
+"""Columns of a batch that are lists per storey, or per block."""
+
 _TYPES: Final[dict[str, Any]] = {
     "building": pl.UInt32,
     "storeys": pl.UInt32,
@@ -83,15 +96,16 @@ def responses_table(
             "run": np.array(run_of) + 1,
         }
     )
-    frame = pl.concat([frame, table[run_of].drop("motion", "scene")], how="horizontal")
+    frame = pl.concat([frame, table.select("status", "reason", *_PER_STOREY)[run_of]], how="horizontal")
     # Goods stand on every floor but the roof, so that blocks are numbered as the floors that carry them.
     return (
         frame.with_columns(pl.int_ranges(1, pl.col("storeys") + 1).alias("storey"))
         .explode("storey")
         .with_columns(
-            *(per_storey(name) for name in ("peak_drift", "peak_drift_time", "peak_drift_ratio", "residual_drift")),
-            *(per_storey(name) for name in ("peak_floor_acceleration", "peak_slip", "residual_slip", "slip_path")),
-            (per_storey("peak_storey_shear") / (STANDARD_GRAVITY * pl.col("storeys"))).alias("peak_shear_over_weight"),
+            *(per_storey(name) for name in _PER_STOREY),
+        )
+        .with_columns(
+            (pl.col("peak_storey_shear") / (STANDARD_GRAVITY * pl.col("storeys"))).alias("peak_shear_over_weight"),
         )
         .select(pl.col(name).cast(_TYPES.get(name, pl.Float64)) for name in RESPONSE_COLUMNS)
     )

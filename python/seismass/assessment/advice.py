@@ -1,0 +1,313 @@
+"""The sentences of an assessment: what to use in an analysis, what is unlikely, and everything that was assumed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Final
+
+import polars as pl
+
+from seismass.assessment.models import ADVISED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW, REALS
+from seismass.effective_mass import EffectiveMass
+from seismass.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
+from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, THETA_THRESHOLD, OwnBuilding
+from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
+from seismass.scaling import ScalingResult
+from seismass.scene import Scene
+from seismass.spectra import TargetSpectrum
+
+SHORT: Final = 1.05
+"""A storey whose goods-slide drift is more than so many times the model's is not covered by it."""
+MOST_GOODS: Final = 5.0
+"""Weight of the goods present over that of the building; what is above is remarked on."""
+LARGEST_LIMIT: Final = 0.1
+"""Limit of the drift ratio, likewise."""
+NAMES: Final = {
+    REAL: "goods slide",
+    REAL_LOW: "goods slide, low mu",
+    REAL_HIGH: "goods slide, high mu",
+    ADVISED: "advised",
+    CODE: "code",
+    "attached": "all attached",
+    BARE: "none attached",
+}
+"""What texts and figures call the models."""
+
+
+def advice_of(
+    building: OwnBuilding,
+    advised: float | None,
+    effective: dict[str, EffectiveMass],
+    storeys: pl.DataFrame,
+    slip: pl.DataFrame,
+    collapses: dict[str, int],
+    motions: int,
+) -> tuple[str, ...]:
+    """Return what to use in an analysis, and what the checks say, sentence by sentence."""
+    if advised is None:
+        return (
+            "There are no goods on the floors: the effective fraction has no meaning, and there is no live load to "
+            "attach.",
+            *_checks(building, storeys, (BARE,)),
+            *_collapses(collapses, (BARE,), motions),
+        )
+    lines = []
+    reals = [name for name in REALS if name in effective]
+    collapsed = _collapses(collapses, reals, motions)
+    lines += collapsed
+    if collapsed:
+        lines.append("A share that fits drifts says nothing of collapse: strengthen the building before it is used.")
+    share = advised * building.present_share
+    lines.append(
+        f"Attach {advised:.2f} of the goods present ({share:.2f} of the design live load) as mass; keep their whole "
+        "weight in P-Delta, and the damping of the building without goods."
+    )
+    lines += _envelope(storeys, reals)
+    lines += _checks(building, storeys, reals)
+    lines += _against_code(building, storeys, reals)
+    lines += _slip_advice(slip)
+    return tuple(lines)
+
+
+def _mean(storeys: pl.DataFrame, model: str) -> list[float | None]:
+    means: list[float | None] = storeys.filter(pl.col("model") == model)["mean"].to_list()
+    return means
+
+
+def _largest_ratio(storeys: pl.DataFrame, reals: Sequence[str], models: tuple[str, ...]) -> tuple[float, int] | None:
+    """Largest real mean over the largest mean of the models, over storeys and frictions, with its storey."""
+    found: list[tuple[float, int]] = []
+    covers = [_mean(storeys, model) for model in models]
+    for real in reals:
+        for number, (drift, *of) in enumerate(zip(_mean(storeys, real), *covers, strict=True), start=1):
+            known = [value for value in of if value is not None]
+            if drift is not None and len(known) == len(of) and max(known) > 0.0:
+                found.append((drift / max(known), number))
+    return max(found) if found else None
+
+
+def _envelope(storeys: pl.DataFrame, reals: Sequence[str]) -> list[str]:
+    alone, both = (_largest_ratio(storeys, reals, models) for models in ((ADVISED,), (ADVISED, BARE)))
+    if alone is None or both is None:
+        return []
+    if alone[0] <= SHORT:
+        return [
+            f"This one analysis covers every storey: the mean drift with sliding goods is at most {alone[0]:.2f} times "
+            f"its own (storey {alone[1]})."
+        ]
+    return [
+        f"Run a second analysis without goods and take the larger drift of each storey: with sliding goods storey "
+        f"{alone[1]} drifts {alone[0]:.2f} times the first analysis, and no storey more than {both[0]:.2f} times the "
+        f"larger of both."
+    ]
+
+
+def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[str]:
+    """Drift and stability of the models beside their limits."""
+    if building.heights is None:
+        return ["Heights are not known: drifts are in millimetres, without P-Delta and without a limit."]
+    of = storeys.filter(pl.col("model").is_in(list(models)))
+    lines = []
+    missing = of.filter(pl.col("mean").is_null())["model"].unique(maintain_order=True).to_list()
+    worst = of.drop_nulls("mean").sort("mean", descending=True)
+    limit = 100.0 * building.drift_limit
+    if missing:
+        listed = ", ".join(NAMES[model] for model in missing)
+        lines.append(
+            f"The limit of {limit:g} % is not met where runs collapse ({listed}): drift and stability have no mean."
+        )
+    if worst.height:
+        row = worst.row(0, named=True)
+        verdict = "above" if row["mean_over_limit"] > 1.0 else "within"
+        without = " of the others" if missing else ""
+        lines.append(
+            f"The mean drift ratio{without} is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
+            f"(storey {row['storey']}, {NAMES[row['model']]}; motions above the limit: {row['motions_above_limit']})."
+        )
+    stable = of.drop_nulls("theta").sort("theta", descending=True)
+    if stable.height:
+        row = stable.row(0, named=True)
+        verdict = "above" if row["theta"] > building.theta_limit else "within"
+        elastic = float(of["theta_elastic"].max())  # type: ignore[arg-type]
+        needed = "above" if elastic > THETA_THRESHOLD else "up to"
+        lines.append(
+            f"The stability coefficient P d/(V h) is {verdict} its limit of {building.theta_limit:g}: largest "
+            f"{row['theta']:.3f} (storey {row['storey']}, {NAMES[row['model']]}); its elastic value P/(k h) is at most "
+            f"{elastic:.3f}, {needed} the {THETA_THRESHOLD:g} below which ASCE 7-10 neglects P-Delta."
+        )
+    return lines
+
+
+def _collapses(collapses: dict[str, int], models: Any, motions: int) -> list[str]:
+    return [
+        f"The building collapses under {collapses[model]} of {motions} motions ({NAMES[model]})."
+        for model in models
+        if collapses.get(model)
+    ]
+
+
+def _against_code(building: OwnBuilding, storeys: pl.DataFrame, reals: Sequence[str]) -> list[str]:
+    worst = _largest_ratio(storeys, reals, (CODE,))
+    if worst is None:
+        return []
+    return [
+        f"With sliding goods storey {worst[1]} drifts {worst[0]:.2f} times the model with the code's "
+        f"{building.code.fraction:g} of the design live load, more than any other storey does."
+    ]
+
+
+def _slip_advice(slip: pl.DataFrame) -> list[str]:
+    known = slip.drop_nulls("peak_p84").sort("peak_p84", descending=True)
+    if not known.height:
+        return []
+    row = known.row(0, named=True)
+    if not row["peak_max"]:
+        return ["No goods slide under any motion."]
+    return [
+        f"Allow for {1e3 * row['peak_p84']:.0f} mm of slip each way on floor {row['floor']} (84 % of the motions, mu = "
+        f"{row['mu_s']:.3g}; largest {1e3 * row['peak_max']:.0f} mm): edges, aisles and neighbours."
+    ]
+
+
+def remarks_of(
+    building: OwnBuilding,
+    real: Scene,
+    motions: list[Any],
+    target: TargetSpectrum | None,
+    scaling: ScalingResult | None,
+    effective: dict[str, EffectiveMass],
+    suite: dict[str, Any],
+) -> tuple[str, ...]:
+    """Return what is unlikely about the input and what to know about the numbers, each sentence once."""
+    found = [*scene_remarks(real), *motion_remarks(motions)]
+    heavy = float(building.goods.sum() / building.mass.sum())
+    if heavy > MOST_GOODS:
+        found.append(
+            f"the goods present weigh {heavy:.3g} times the building: are both loads in the units of their keys?"
+        )
+    if building.drift_limit > LARGEST_LIMIT:
+        found.append(f"the drift limit is {building.drift_limit:g} of the height: limits are ratios, not per cent")
+    if target is not None:
+        found += target_remarks(target)
+    if scaling is not None:
+        found += scaling_remarks(scaling)
+    if suite["synthetic"] == len(suite["motions"]):
+        found.append("all motions are synthetic: give recordings of the site's hazard (--records) for a decision")
+    for name, result in effective.items():
+        label = "" if name == REAL else f"{NAMES[name]}: "
+        # What storeys the share does not cover is advice, of the share that is advised.
+        once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
+        found += [label + remark for remark in once if name == REAL or " motions are few" not in remark]
+    if building.code.status not in ("verified", "as stated"):
+        found.append(f"the fraction of {building.code.code} is {building.code.status}: check it in the code")
+    return tuple(dict.fromkeys(found))
+
+
+def assumptions_of(
+    building: OwnBuilding, target: TargetSpectrum | None, scaling: ScalingResult | None, suite: dict[str, Any]
+) -> tuple[str, ...]:
+    """Return everything that was assumed, sentence by sentence."""
+    return (
+        *_about_motions(building, target, scaling, suite),
+        *_about_structure(building),
+        *_about_limits(building),
+        *_about_goods(building),
+        _about_code(building),
+    )
+
+
+def _about_motions(
+    building: OwnBuilding, target: TargetSpectrum | None, scaling: ScalingResult | None, suite: dict[str, Any]
+) -> list[str]:
+    motions, synthetic = len(suite["motions"]), suite["synthetic"]
+    kind = "all synthetic" if synthetic == motions else f"{synthetic} synthetic" if synthetic else "recorded"
+    lines = [f"Motions: {suite['name']}, {motions}, {kind}; one direction, vertical where a motion has it."]
+    if target is not None:
+        lines.append(f"Site spectrum: {target.label}.")
+    if scaling is None:
+        return [*lines, "Motions are taken as they are."]
+    shortest, longest = scaling.periods[0], scaling.periods[-1]
+    period = shortest / 0.2
+    fits = abs(period / building.period(building.goods) - 1.0) < 1e-9
+    which = "first period with the goods present attached" if fits else "as asked for"
+    return [
+        *lines,
+        f"Scaling: ASCE/SEI 7-10, 16.1.3.1, mean not below the target from {shortest:.3g} to {longest:.3g} s, for "
+        f"T = {period:.3g} s ({which}).",
+    ]
+
+
+def _about_structure(building: OwnBuilding) -> list[str]:
+    lines = [
+        "Shear building: rigid floors, one degree of freedom per floor, trilinear storeys with Masing unloading, no "
+        "loss of strength but by P-Delta.",
+        f"Springs: Omega {_listed(building.overstrength)}, r2 {_listed(building.second_slope)}, "
+        f"r3 {_listed(building.third_slope)}.",
+    ]
+    if building.design is None:
+        lines.append("Strength: as stated.")
+    else:
+        rule = building.design
+        lines.append(
+            f"Strength: V_y = V_e/R with R = {rule.R:g}, response spectrum analysis ({rule.combination.upper()}) under "
+            f"the site spectrum, with {building.design_fraction:g} of the design live load as mass."
+        )
+    lines.append(
+        f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods; every model has that "
+        "matrix."
+    )
+    if building.gravity_load is not None:
+        return [*lines, "P-Delta: weight of floors and of all goods present, whatever share of their mass is attached."]
+    why = "heights are not known" if building.heights is None else "switched off"
+    return [*lines, f"P-Delta: none ({why})."]
+
+
+def _about_limits(building: OwnBuilding) -> list[str]:
+    if building.heights is None:
+        return []
+    drift = theta = "as stated"
+    if building.drift_limit == DEFAULT_DRIFT_LIMIT:
+        drift = "ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II"
+    if building.theta_limit == DEFAULT_THETA_LIMIT:
+        theta = "ASCE/SEI 7-10, 12.8.7, 0.5/(beta C_d) and at most 0.25"
+    return [
+        f"Limits: drift ratio {building.drift_limit:g} ({drift}), stability coefficient {building.theta_limit:g} "
+        f"({theta}); clauses from memory, unverified. Drifts are nonlinear: no C_d is applied; V is the spring force."
+    ]
+
+
+def _about_goods(building: OwnBuilding) -> list[str]:
+    loaded = building.goods > 0.0
+    if not loaded.any():
+        return []
+    low, high = building.mu_factors
+    pairs = [friction_pair(name) for name in dict.fromkeys(building.friction) if name]
+    contacts = ", ".join(f"{pair.pair_id} ({pair.source}; {pair.kind})" for pair in pairs) or "as stated"
+    lines = [
+        "Goods: rigid blocks that slide by Coulomb friction, one per floor; they do not rock, topple or strike.",
+        f"Friction: {contacts}; mu {_listed(building.mu_s[loaded])} static, {_listed(building.mu_k[loaded])} kinetic.",
+    ]
+    if (low, high) != (1.0, 1.0):
+        source = BOUNDS_SOURCE if (low, high) == BOUND_FACTORS else "as stated"
+        lines.append(f"Bounds of friction: {low:g} and {high:g} times mu ({source}); high for mass, low for slip.")
+    return [
+        *lines,
+        f"Goods present: {building.present_share:.3g} of the design live load of the whole building.",
+        "Effective fraction: smallest share with a mean largest drift not below that with sliding goods, there and at "
+        "every larger share; its interval resamples the motions and covers a little less than it says.",
+    ]
+
+
+def _about_code(building: OwnBuilding) -> str:
+    code = building.code
+    parts = [f"{code.code}, {code.use}" + " (none was stated)" * (not building.code_stated)]
+    parts[0] += f", {code.fraction:g} of the design live load"
+    if code.low < code.high:
+        parts[0] += f", the upper end of {code.low:g} to {code.high:g}"
+    parts += [part for part in (code.clause, code.status, code.note) if part]
+    return f"Code: {'; '.join(parts)}."
+
+
+def _listed(values: Any) -> str:
+    numbers = [f"{value:.4g}" for value in values]
+    return numbers[0] if len(set(numbers)) == 1 else " ".join(numbers)

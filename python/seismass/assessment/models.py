@@ -1,0 +1,136 @@
+"""The models that an assessment compares, and their runs as one table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, Final
+
+import numpy as np
+import polars as pl
+
+from seismass._values import FloatArray
+from seismass.batch import simulate_many
+from seismass.errors import SimulationError
+from seismass.own_building import OwnBuilding
+from seismass.scene import Scene
+from seismass.simulate import Motion
+from seismass.spectra import TargetSpectrum
+
+REAL: Final = "real"
+REAL_LOW: Final = "real_mu_low"
+REAL_HIGH: Final = "real_mu_high"
+REALS: Final = (REAL, REAL_LOW, REAL_HIGH)
+"""Models with goods that slide, by their friction: as stated, its lower and its upper bound."""
+ADVISED: Final = "advised"
+CODE: Final = "code"
+ATTACHED: Final = "attached"
+BARE: Final = "bare"
+
+
+def friction_factors(building: OwnBuilding) -> dict[str, float]:
+    """Return the factor of friction of each model with goods that slide; equal ones once."""
+    low, high = building.mu_factors
+    factors = {REAL: 1.0, REAL_LOW: low, REAL_HIGH: high}
+    return {name: factor for name, factor in factors.items() if name == REAL or factor != 1.0}
+
+
+def with_mass(scene: Scene, attached: FloatArray) -> Scene:
+    """Return a building with masses attached to its floors and no goods that slide.
+
+    Parameters
+    ----------
+    scene : Scene
+        Building and goods. Stiffness, strength, damping matrix and P/h stay those of the real building.
+    attached : ndarray, shape (storeys,)
+        Mass attached to each floor (kg).
+    """
+    building = scene.building
+    assert building is not None
+    changes: dict[str, Any] = {"mass": building.mass + attached, "damping": building.damping_matrix}
+    if scene.geometric_stiffness.any():
+        changes |= {"gravity_load": None, "geometric_stiffness": scene.geometric_stiffness}
+    return Scene(building.replace(**changes), collapse_drift=scene.collapse_drift, name=scene.name)
+
+
+def compared_models(building: OwnBuilding, target: TargetSpectrum | None, advised: float | None) -> dict[str, Scene]:
+    """Return the scenes that are compared, by name; without goods the bare building alone.
+
+    Parameters
+    ----------
+    building : OwnBuilding
+        The building.
+    target : TargetSpectrum or None
+        Site spectrum, for strengths of a design.
+    advised : float or None
+        Share of the goods present that the advised model has attached.
+    """
+    real = building.scene(target)
+    bare = with_mass(real, np.zeros(building.storeys))
+    if advised is None:
+        return {BARE: bare}
+    reals = {name: building.scene(target, mu_factor=factor) for name, factor in friction_factors(building).items()}
+    return {
+        **reals,
+        ADVISED: with_mass(real, advised * building.goods),
+        CODE: with_mass(real, building.code.fraction * building.live_load),
+        ATTACHED: with_mass(real, building.goods),
+        BARE: bare,
+    }
+
+
+def solve_models(
+    building: OwnBuilding,
+    scenes: dict[str, Scene],
+    motions: Sequence[Motion],
+    names: Sequence[str],
+    *,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> pl.DataFrame:
+    """Solve all models under all motions.
+
+    Returns
+    -------
+    polars.DataFrame
+        One row per model, motion and storey: model, motion, record, status, collapsed, storey, peak_drift (m),
+        peak_drift_ratio (null without heights), residual_drift (m), peak_storey_shear (N), peak_floor_acceleration
+        (m/s2), peak_slip, residual_slip and slip_path (m, of the goods of the floor; null where none slide).
+
+    Raises
+    ------
+    SimulationError
+        A run could not be carried to its end.
+    """
+    table = simulate_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
+    runs = table.to_dicts()
+    rows: list[dict[str, Any]] = []
+    for index, run in enumerate(runs):
+        model, motion = list(scenes)[index // len(motions)], index % len(motions)
+        if run["status"] == "failed":
+            raise SimulationError(f"run of model {model} under motion {motion + 1}, {names[motion]}: {run['reason']}")
+        block_of = {floor: number for number, floor in enumerate(scenes[model].block_floor)}
+        for storey in range(1, building.storeys + 1):
+            block = block_of.get(storey)
+            drift = run["peak_drift"][storey - 1]
+            rows.append(
+                {
+                    "model": model,
+                    "motion": motion + 1,
+                    "record": names[motion],
+                    "status": run["status"],
+                    "collapsed": run["status"] == "collapsed",
+                    "storey": storey,
+                    "peak_drift": drift,
+                    "peak_drift_ratio": None if building.heights is None else drift / building.heights[storey - 1],
+                    "residual_drift": run["residual_drift"][storey - 1],
+                    "peak_storey_shear": run["peak_storey_shear"][storey - 1],
+                    "peak_floor_acceleration": run["peak_floor_acceleration"][storey - 1],
+                    **{
+                        name: None if block is None else run[name][block]
+                        for name in ("peak_slip", "residual_slip", "slip_path")
+                    },
+                }
+            )
+    nullable = ("peak_drift_ratio", "peak_slip", "residual_slip", "slip_path")
+    schema: dict[str, Any] = {"motion": pl.UInt32, "storey": pl.UInt32, **dict.fromkeys(nullable, pl.Float64)}
+    return pl.DataFrame(rows, schema_overrides=schema)

@@ -1,0 +1,158 @@
+"""What an assessment gives back: the share to attach, tables by storey and floor, advice, and every assumption."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import polars as pl
+
+from seismass.effective_mass import EffectiveMass
+from seismass.effective_mass.result import finite_values
+from seismass.own_building import OwnBuilding
+from seismass.scaling import ScalingResult
+from seismass.spectra import TargetSpectrum
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SCHEMA_VERSION: Final = 1
+"""Version of the tables and of the JSON of an assessment."""
+
+
+@dataclass(frozen=True, eq=False)
+class Assessment:
+    """How much of a building's live load acts as mass, and how the building and its goods move.
+
+    Attributes
+    ----------
+    building : OwnBuilding
+        What was assessed.
+    target : TargetSpectrum or None
+        Site spectrum; None where motions were taken as they are and strengths were stated.
+    advised : float or None
+        Share of the goods present to attach as mass in an analysis: the largest of the effective fractions for friction
+        as stated and at its bounds, rounded up to 0.05. None without goods, or where no fraction has a value.
+    effective : dict of str to EffectiveMass
+        Effective fractions of the goods present, by friction: "real" as stated, "real_mu_low" and "real_mu_high" at its
+        bounds. Empty without goods.
+    storeys : polars.DataFrame
+        Drift, limit and stability coefficient by model and storey; see `seismass.assessment.tables.storey_table`.
+    slip : polars.DataFrame
+        Slip demand by friction and floor; see `seismass.assessment.tables.slip_table`.
+    runs : polars.DataFrame
+        Peaks of every run by storey; see `seismass.assessment.models.solve_models`.
+    collapses : dict of str to int
+        Collapsed runs of each model.
+    scaling : ScalingResult or None
+        Factors of the motions; None where they were taken as they are.
+    suite : dict
+        Name of the suite and names of its motions; how many are synthetic.
+    advice : tuple of str
+        What to use in an analysis.
+    remarks : tuple of str
+        What is unlikely about the input, and what to know about the numbers.
+    assumptions : tuple of str
+        Everything that was assumed.
+    metadata : dict
+        Schema and package version, digest of the inputs, seed, conventions.
+    """
+
+    building: OwnBuilding
+    target: TargetSpectrum | None
+    advised: float | None
+    effective: dict[str, EffectiveMass]
+    storeys: pl.DataFrame = field(repr=False)
+    slip: pl.DataFrame = field(repr=False)
+    runs: pl.DataFrame = field(repr=False)
+    collapses: dict[str, int]
+    scaling: ScalingResult | None = field(repr=False)
+    suite: dict[str, Any] = field(repr=False)
+    advice: tuple[str, ...] = field(repr=False)
+    remarks: tuple[str, ...] = field(repr=False)
+    assumptions: tuple[str, ...] = field(repr=False)
+    metadata: dict[str, Any] = field(repr=False)
+
+    @property
+    def advised_of_live_load(self) -> float | None:
+        """The advised mass over the design live load of the whole building, to compare with the fraction of a code."""
+        return None if self.advised is None else self.advised * self.building.present_share
+
+    def text(self) -> str:
+        """Return the page that `seismass building` prints, the answer first."""
+        from seismass.report.assess_text import assessment_text
+
+        return assessment_text(self)
+
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """Return the tables by name: storeys, slip, runs, and curve of the effective fraction, scaling if there are."""
+        tables = {"storeys": self.storeys, "slip": self.slip, "runs": self.runs}
+        curves = [
+            result.curve.select(pl.lit(model).alias("model"), pl.all()) for model, result in self.effective.items()
+        ]
+        if curves:
+            tables["curve"] = pl.concat(curves)
+        if self.scaling is not None:
+            tables["scaling"] = self.scaling.table()
+        return tables
+
+    def figures(self) -> dict[str, Figure]:
+        """Return the figures by name: effective_fraction, drift and slip; without goods the drift alone."""
+        from seismass.report.assess_figures import assessment_figures
+
+        return assessment_figures(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything but the runs as plain values in SI units; null for what is no finite number."""
+        building, code = self.building, self.building.code
+        document = {
+            "schema_version": SCHEMA_VERSION,
+            "name": building.name,
+            "note": building.note,
+            "answer": {
+                "advised_share_of_goods_present": self.advised,
+                "advised_share_of_design_live_load": self.advised_of_live_load,
+                "goods_present_over_design_live_load": building.present_share,
+                "code": {"id": code.code_id, "use": code.use, "fraction": code.fraction, "clause": code.clause}
+                | {"low": code.low, "high": code.high, "status": code.status, "note": code.note},
+            },
+            "effective": {model: result.to_dict() for model, result in self.effective.items()},
+            "storeys": self.storeys.to_dicts(),
+            "slip": self.slip.to_dicts(),
+            "collapses": self.collapses,
+            "suite": self.suite,
+            "target": None if self.target is None else {"label": self.target.label, **self.target.parameters},
+            "factors": None if self.scaling is None else self.scaling.factors.tolist(),
+            "advice": list(self.advice),
+            "remarks": list(self.remarks),
+            "assumptions": list(self.assumptions),
+            "metadata": self.metadata,
+        }
+        finite: dict[str, Any] = finite_values(document)
+        return finite
+
+    def to_json(self) -> str:
+        """Return `to_dict` as JSON."""
+        return json.dumps(self.to_dict(), indent=2, allow_nan=False)
+
+    def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
+        """Write text, tables (Parquet and CSV), assessment.json and figures (PNG and SVG) to a folder.
+
+        Returns
+        -------
+        list of Path
+            The files, in the order written.
+
+        Raises
+        ------
+        InvalidOption
+            The folder cannot be one.
+        OSError
+            A file cannot be written; then none is changed.
+        """
+        from seismass.report.assess_write import write_assessment
+
+        return write_assessment(self, folder, figures=figures)

@@ -1,0 +1,271 @@
+"""Runs an assessment: scaling, effective fractions at the bounds of friction, the models that are compared."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from typing import Any, Final
+
+import numpy as np
+
+from seismass import _kernel
+from seismass._values import as_number, brief, refusal
+from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
+from seismass.assessment.models import compared_models, friction_factors, solve_models
+from seismass.assessment.result import SCHEMA_VERSION, Assessment
+from seismass.assessment.tables import collapses_of, slip_table, storey_table
+from seismass.building_file import read_building
+from seismass.codes import CodeFraction
+from seismass.effective_mass import EffectiveMass, effective_mass
+from seismass.errors import InvalidMotion, InvalidOption
+from seismass.friction import bound_factors
+from seismass.own_building import OwnBuilding
+from seismass.records import Suite, builtin_suite
+from seismass.scaling import ScalingResult, scale_asce7_10
+from seismass.scene import Scene
+from seismass.simulate import instruction_set
+from seismass.spectra import TargetSpectrum
+
+ROUNDING_STEP: Final = 0.05
+"""An advised share is the next multiple of it."""
+FIXED_MODELS: Final = 4
+"""Models that every assessment with goods solves beside those with goods that slide."""
+SHARES: Final = 101
+"""Shares at which each effective fraction is looked for."""
+
+Progress = Callable[[int, int], object]
+
+
+def assess(
+    building: OwnBuilding | str | os.PathLike[str] | Mapping[str, Any],
+    motions: Suite | Iterable[Any] | None = None,
+    target: TargetSpectrum | None = None,
+    *,
+    code: CodeFraction | None = None,
+    mu_factors: tuple[float, float] | None = None,
+    scaling_period: float | None = None,
+    scale: bool = True,
+    confidence: float = 0.90,
+    resamples: int = 2000,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Assessment:
+    """Assess a building with its goods: the share of the live load to count as mass, drifts and slips.
+
+    Parameters
+    ----------
+    building : OwnBuilding, path-like or mapping
+        The building, or its file or tables as `read_building` takes them.
+    motions : Suite or iterable of Record or Motion, optional
+        Motions, unscaled; at least three. Default the built-in synthetic suite, in which nothing was recorded.
+    target : TargetSpectrum, optional
+        Site spectrum; default that of the building.
+    code : CodeFraction, optional
+        In place of the building's code, as `code_fraction` gives it.
+    mu_factors : tuple of float, optional
+        In place of the building's factors of friction for its lower and upper bound; (1, 1) leaves the bounds out.
+    scaling_period : float, optional
+        Period T (s) for which motions are scaled, from 0.2 T to 1.5 T; default that of the building file, else the
+        first period of the building with the goods present attached.
+    scale : bool
+        False takes the motions as they are.
+    confidence, resamples, seed
+        Of the bootstrap interval, as for `effective_mass`.
+    threads : int, optional
+        Number of threads; default all cores. The result does not depend on it.
+    progress : callable, optional
+        Called with (runs done, runs in all).
+
+    Raises
+    ------
+    InvalidBuildingFile, InvalidScene, InvalidMotion, InvalidOption, RecordFormatError
+        An argument is not what it must be; a building without a site spectrum among them.
+    SimulationError
+        A run could not be carried to its end.
+    KeyboardInterrupt
+        Ctrl-C was pressed.
+
+    Notes
+    -----
+    Models: goods that slide ("real", and "real_mu_low" and "real_mu_high" at the bounds of friction), the advised share
+    attached ("advised"), the code's fraction of the design live load attached ("code"), all goods present attached
+    ("attached"), none ("bare"). All have the stiffness, strength, damping matrix and gravity load of the real building.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> result = sm.assess({
+    ...     "site": {"sds_g": 1.0, "sd1_g": 0.6},
+    ...     "building": {"period_s": 0.4, "height_m": 4, "area_m2": 500, "dead_load_kpa": 5, "design": True, "R": 4},
+    ...     "goods": {"live_load_kpa": 6, "friction": "timber-on-steel"},
+    ...     "storeys": [{}, {"live_load_kpa": 0}],
+    ... }, resamples=100)
+    >>> result.storeys["model"].unique(maintain_order=True).to_list()
+    ['real', 'real_mu_low', 'real_mu_high', 'advised', 'code', 'attached', 'bare']
+    """
+    chosen = _building(building, code, mu_factors)
+    suite = _suite(builtin_suite() if motions is None else motions)
+    spectrum = chosen.site_spectrum(target) if scale or chosen.design is not None else None
+    scaling = _scaling(chosen, suite, spectrum, scaling_period, threads) if scale else None
+    factors = np.ones(len(suite)) if scaling is None else scaling.factors
+    scaled = [motion.scaled(float(factor)) for motion, factor in zip(suite, factors, strict=True)]
+    loaded = bool((chosen.goods > 0.0).any())
+    frictions = friction_factors(chosen) if loaded else {}
+    models = len(frictions) + FIXED_MODELS if loaded else 1
+    stages = _Stages(progress, (models + len(frictions) * (1 + SHARES)) * len(suite))
+    bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
+    effective = {
+        name: _effective(chosen.scene(spectrum, mu_factor=factor), scaled, bootstrap, threads, stages)
+        for name, factor in frictions.items()
+    }
+    advised = advised_share(list(effective.values())) if loaded else None
+    scenes = compared_models(chosen, spectrum, advised)
+    names = [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(suite, start=1)]
+    kernel_motions = [getattr(motion, "motion", motion) for motion in scaled]
+    runs = solve_models(
+        chosen, scenes, kernel_motions, names, threads=threads, progress=stages.next(models * len(suite))
+    )
+    real = chosen.scene(spectrum)
+    storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, runs), collapses_of(runs)
+    about = {
+        "name": suite.name if isinstance(suite, Suite) else "motions",
+        "motions": names,
+        "synthetic": sum(bool(getattr(motion, "synthetic", False)) for motion in suite),
+    }
+    return Assessment(
+        building=chosen,
+        target=spectrum,
+        advised=advised,
+        effective=effective,
+        storeys=storeys,
+        slip=slip,
+        runs=runs,
+        collapses=collapses,
+        scaling=scaling,
+        suite=about,
+        advice=advice_of(chosen, advised, effective, storeys, slip, collapses, len(suite)),
+        remarks=remarks_of(chosen, real, scaled, spectrum, scaling, effective, about),
+        assumptions=assumptions_of(chosen, spectrum, scaling, about),
+        metadata={
+            "schema_version": SCHEMA_VERSION,
+            "package_version": _kernel.VERSION,
+            "instructions": instruction_set(),
+            "inputs_sha256": _digest(chosen, scenes, spectrum, kernel_motions, bootstrap),
+            **bootstrap,
+            "damping": "matrix of the building without goods, in every model",
+            "p_delta": chosen.gravity_load is not None,
+            "motions": len(suite),
+        },
+    )
+
+
+def advised_share(results: list[EffectiveMass]) -> float:
+    """Return the largest effective fraction, rounded up to 0.05; 1 where one of them has no value."""
+    values = [result.value for result in results]
+    if not all(math.isfinite(value) for value in values):
+        return 1.0
+    # Roots are located to 1e-12, so that one at a multiple is not lifted to the next.
+    return min(1.0, round(ROUNDING_STEP * math.ceil(max(values) / ROUNDING_STEP - 1e-9), 2))
+
+
+def _building(given: Any, code: CodeFraction | None, mu_factors: tuple[float, float] | None) -> OwnBuilding:
+    building = given if isinstance(given, OwnBuilding) else read_building(given)
+    if code is not None:
+        if not isinstance(code, CodeFraction):
+            raise refusal(InvalidOption, "code", "assessment", "a CodeFraction, as code_fraction gives it", brief(code))
+        building = replace(building, code=code, code_stated=True)
+    if mu_factors is not None:
+        building = replace(building, mu_factors=bound_factors(mu_factors, "assessment"))
+    return building
+
+
+def _suite(motions: Any) -> Any:
+    """Motions as a sequence; each has samples and can be scaled."""
+    suite: Any = motions
+    if not isinstance(motions, Suite):
+        if hasattr(motions, "acceleration"):
+            motions = [motions]
+        try:
+            suite = list(motions)
+        except TypeError:
+            raise refusal(
+                InvalidMotion, "motions", "assessment", "a list of Records or Motions", brief(motions)
+            ) from None
+    if not len(suite):
+        raise refusal(InvalidMotion, "motions", "assessment", "at least one Record or Motion", "none")
+    for number, motion in enumerate(suite, start=1):
+        if not (hasattr(motion, "acceleration") and hasattr(motion, "scaled")):
+            raise refusal(InvalidMotion, f"motion {number}", "assessment", "a Record or Motion", brief(motion))
+    return suite
+
+
+def _scaling(
+    building: OwnBuilding, suite: Any, target: TargetSpectrum | None, period: float | None, threads: int | None
+) -> ScalingResult:
+    chosen = building.scaling_period if period is None else period
+    if chosen is None:
+        chosen = building.period(building.goods)
+    elif period is not None:
+        chosen = as_number(period, "scaling_period", "assessment", InvalidOption)
+    assert target is not None
+    return scale_asce7_10(suite, target, chosen, threads=threads)
+
+
+def _effective(
+    scene: Scene, motions: list[Any], bootstrap: dict[str, Any], threads: int | None, stages: _Stages
+) -> EffectiveMass:
+    """Effective fraction by the mean; by the median, where the real building collapses under some motion."""
+    runs = (1 + SHARES) * len(motions)
+    result = effective_mass(scene, motions, **bootstrap, threads=threads, progress=stages.next(runs))
+    if result.kind == "collapsed":
+        return effective_mass(scene, motions, **bootstrap, statistic="median", threads=threads)
+    return result
+
+
+class _Stages:
+    """Progress of several batches as progress of the whole."""
+
+    def __init__(self, progress: Progress | None, total: int) -> None:
+        self._progress, self._total, self._done = progress, total, 0
+
+    def next(self, runs: int) -> Progress | None:
+        """Return what the next batch of so many runs calls."""
+        progress, first, total = self._progress, self._done, self._total
+        self._done += runs
+        if progress is None:
+            return None
+        return lambda done, _: progress(min(first + done, total), total)
+
+
+def _digest(
+    building: OwnBuilding,
+    scenes: dict[str, Scene],
+    target: TargetSpectrum | None,
+    motions: list[Any],
+    bootstrap: dict[str, Any],
+) -> str:
+    """SHA-256 of everything that the numbers depend on."""
+    limits = [building.drift_limit, building.theta_limit, building.code.fraction, building.design_fraction]
+    described = [SCHEMA_VERSION, None if target is None else target.parameters, bootstrap, limits]
+    digest = hashlib.sha256(json.dumps(described, sort_keys=True).encode())
+    for name, scene in scenes.items():
+        structure = scene.building
+        assert structure is not None
+        digest.update(name.encode())
+        arrays: tuple[Any, ...] = (structure.mass, structure.stiffness, structure.yield_shear, structure.overstrength)
+        arrays += (structure.second_slope, structure.third_slope, structure.damping_matrix, scene.geometric_stiffness)
+        for array in (*arrays, structure.heights, scene.collapse_drift, scene.block_mass):
+            digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
+        digest.update(np.array([[block.mu_s, block.mu_k] for block in scene.blocks], dtype="<f8").tobytes())
+    for motion in motions:
+        digest.update(np.float64(motion.dt).tobytes())
+        digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())
+        if motion.vertical is not None:
+            digest.update(b"vertical")
+            digest.update(np.ascontiguousarray(motion.vertical, dtype="<f8").tobytes())
+    return digest.hexdigest()

@@ -1,0 +1,153 @@
+"""Tables of an assessment: drifts and stability by storey and model, slip by floor, collapses by model."""
+
+from __future__ import annotations
+
+from typing import Any, Final, Literal
+
+import numpy as np
+import polars as pl
+
+from seismass._values import FloatArray
+from seismass.assessment.models import REALS, friction_factors
+from seismass.own_building import OwnBuilding
+from seismass.scene import Scene
+from seismass.units import STANDARD_GRAVITY
+
+QUANTILES: Final = {"p16": 0.16, "median": 0.50, "p84": 0.84}
+"""Quantiles over the motions; 16 and 84 % are one standard deviation of a normal distribution from the median."""
+
+
+def statistics_of(values: FloatArray) -> dict[str, float | None]:
+    """Return mean, quantiles and largest value over the motions; what a collapsed run decides is null.
+
+    Parameters
+    ----------
+    values : ndarray, shape (motions,)
+        Infinite where the run collapsed.
+    """
+    collapsed = bool(np.isinf(values).any())
+    # Between a number and infinity nothing can be interpolated; then a quantile is the next larger value.
+    method: Literal["higher", "linear"] = "higher" if collapsed else "linear"
+    found = {"mean": float(values.mean())}
+    found |= {name: float(np.quantile(values, share, method=method)) for name, share in QUANTILES.items()}
+    found["max"] = float(values.max())
+    return {name: value if np.isfinite(value) else None for name, value in found.items()}
+
+
+def gravity_of_storeys(building: OwnBuilding, scene: Scene) -> FloatArray:
+    """Return the gravity load P above each storey (N), goods included, shape (storeys,)."""
+    if building.heights is not None and scene.geometric_stiffness.any():
+        return scene.geometric_stiffness * building.heights
+    return np.cumsum((STANDARD_GRAVITY * (building.mass + building.goods))[::-1])[::-1]
+
+
+def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.DataFrame:
+    """Return one row per model and storey.
+
+    Parameters
+    ----------
+    building : OwnBuilding
+        The building.
+    real : Scene
+        It with its goods.
+    runs : polars.DataFrame
+        Of `solve_models`.
+
+    Returns
+    -------
+    polars.DataFrame
+        model, storey, name; unit of the drifts ("ratio" of the height, or "m" without heights); mean, p16, median, p84
+        and max of the peak drift over the motions (null where a collapsed run decides it); limit, mean_over_limit and
+        motions_above_limit (null without heights); collapsed, the number of runs; mean_peak_shear (N); theta, P d/(V h)
+        with the mean peak drift d and the mean peak storey shear V; theta_elastic = P/(k h); theta_limit.
+    """
+    heights = building.heights
+    gravity, rows = gravity_of_storeys(building, real), []
+    column = "peak_drift" if heights is None else "peak_drift_ratio"
+    for model in runs["model"].unique(maintain_order=True):
+        for storey in range(1, building.storeys + 1):
+            of = runs.filter((pl.col("model") == model) & (pl.col("storey") == storey))
+            collapsed = of["collapsed"].to_numpy()
+            drift = np.where(collapsed, np.inf, of[column].to_numpy())
+            known = statistics_of(drift)
+            shear = None if collapsed.any() else float(of["peak_storey_shear"].to_numpy().mean())
+            mean, load = known["mean"], float(gravity[storey - 1])
+            elastic = None if heights is None else load / float(building.stiffness[storey - 1] * heights[storey - 1])
+            rows.append(
+                {
+                    "model": model,
+                    "storey": storey,
+                    "name": building.storey_names[storey - 1],
+                    "unit": "m" if heights is None else "ratio",
+                    **known,
+                    "limit": None if heights is None else building.drift_limit,
+                    "mean_over_limit": None if heights is None or mean is None else mean / building.drift_limit,
+                    "motions_above_limit": None if heights is None else int((drift > building.drift_limit).sum()),
+                    "collapsed": int(collapsed.sum()),
+                    "mean_peak_shear": shear,
+                    # With drift ratios the height is in the drift already.
+                    "theta": None if heights is None or mean is None or not shear else load * mean / shear,
+                    "theta_elastic": elastic,
+                    "theta_limit": None if heights is None else building.theta_limit,
+                }
+            )
+    numbers = ("mean", *QUANTILES, "max", "limit", "mean_over_limit", "mean_peak_shear", "theta", "theta_elastic")
+    schema: dict[str, Any] = {"storey": pl.UInt32, "motions_above_limit": pl.UInt32, "collapsed": pl.UInt32}
+    schema |= dict.fromkeys((*numbers, "theta_limit"), pl.Float64)
+    return pl.DataFrame(rows, schema_overrides=schema)
+
+
+def slip_table(building: OwnBuilding, runs: pl.DataFrame) -> pl.DataFrame:
+    """Return one row per friction and loaded floor.
+
+    Returns
+    -------
+    polars.DataFrame
+        model; friction ("as stated", "lower bound", "upper bound"); floor, name, contact, mu_s, mu_k; motions that
+        slide; mean, p16, median, p84 and max of the peak slip, and mean, median and p84 of the absolute residual slip
+        (m); collapsed, the number of runs, whose slips are those until then.
+    """
+    words = dict(zip(REALS, ("as stated", "lower bound", "upper bound"), strict=True))
+    rows = []
+    for model, factor in friction_factors(building).items():
+        for floor in np.flatnonzero(building.goods > 0.0) + 1:
+            of = runs.filter((pl.col("model") == model) & (pl.col("storey") == floor))
+            if of.height == 0:
+                continue
+            peak, residual = of["peak_slip"].to_numpy(), np.abs(of["residual_slip"].to_numpy())
+            left = statistics_of(residual)
+            rows.append(
+                {
+                    "model": model,
+                    "friction": words[model],
+                    "floor": int(floor),
+                    "name": building.storey_names[floor - 1],
+                    "contact": building.friction[floor - 1],
+                    "mu_s": factor * float(building.mu_s[floor - 1]),
+                    "mu_k": factor * float(building.mu_k[floor - 1]),
+                    "motions_that_slide": int((peak > 0.0).sum()),
+                    **{f"peak_{name}": value for name, value in statistics_of(peak).items()},
+                    **{f"residual_{name}": left[name] for name in ("mean", "median", "p84")},
+                    "collapsed": int(of["collapsed"].sum()),
+                }
+            )
+    numbers = [f"peak_{name}" for name in ("mean", *QUANTILES, "max")]
+    numbers += [f"residual_{name}" for name in ("mean", "median", "p84")]
+    texts = ("model", "friction", "name", "contact")
+    schema: dict[str, Any] = {
+        **dict.fromkeys(texts[:2], pl.String),
+        "floor": pl.UInt32,
+        **dict.fromkeys(texts[2:], pl.String),
+        **dict.fromkeys(("mu_s", "mu_k"), pl.Float64),
+        "motions_that_slide": pl.UInt32,
+        **dict.fromkeys(numbers, pl.Float64),
+        "collapsed": pl.UInt32,
+    }
+    return pl.DataFrame(rows, schema=schema)
+
+
+def collapses_of(runs: pl.DataFrame) -> dict[str, int]:
+    """Return the number of collapsed runs of each model."""
+    first = runs.filter(pl.col("storey") == 1)
+    counted = first.group_by("model", maintain_order=True).agg(pl.col("collapsed").sum())
+    return dict(counted.iter_rows())

@@ -1,0 +1,143 @@
+"""`seismass map`: the effective fraction over a grid of buildings, the chart against eta, and how rules do on it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seismass.commands.options import (
+    add_motion_options,
+    left_out,
+    read_motions,
+    read_target,
+    threads_option,
+    warn_left_out,
+)
+from seismass.commands.study import progress_bar
+
+if TYPE_CHECKING:
+    import polars as pl
+
+_EPILOG = """examples:
+  seismass map
+  seismass map --records my_records/ --target uniform_hazard.csv --out chart
+  seismass map --mu 0.2,0.4,0.6 --R 2,4,6 --alpha 1 --intensity 0.5,1,1.5,2
+
+exit codes: 0 done, 2 bad input"""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the subcommand to those of the `seismass` command."""
+    parser = subparsers.add_parser(
+        "map",
+        help="the effective fraction of live load for many buildings: chart and rules",
+        description="Solve 16 buildings x 4 loads x 7 strengths x 11 friction coefficients under a suite of motions, "
+        "find the effective fraction of live load of each, draw it against eta = mu_k/C1, and compare simple rules "
+        "and codes with it.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--out", type=Path, default=Path("map"), metavar="DIR", help="folder to write to (map)")
+    add_motion_options(parser)
+    grid = parser.add_argument_group("grid; lists are separated by commas")
+    grid.add_argument("--mu", type=numbers_option, metavar="LIST", help="friction coefficients (0.05 to 1.2)")
+    grid.add_argument("--R", type=numbers_option, metavar="LIST", help="response modification factors (1 to 8)")
+    grid.add_argument(
+        "--alpha", type=numbers_option, metavar="LIST", help="mass of goods over floor mass (0.25 to 1.5)"
+    )
+    grid.add_argument("--intensity", type=numbers_option, metavar="LIST", help="factors of the scaled motions (1)")
+    grid.add_argument("--design-fraction", type=float, metavar="L", help="share of live load in the design (0.25)")
+    grid.add_argument("--overstrength", type=float, metavar="OMEGA", help="Omega (2)")
+    grid.add_argument("--second-slope", type=float, metavar="R2", help="r2, an inference (0.05)")
+    output = parser.add_argument_group("running and output")
+    output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
+    output.add_argument("--json", action="store_true", help="print metadata, rules and scatter as JSON")
+    output.add_argument("--no-figures", action="store_true", help="write tables only")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Make the map, write its files and print how rules do; return the exit code."""
+    from seismass.effective_mass import EffectiveMassParameters, effective_mass_map
+    from seismass.report.folder import write_folder
+    from seismass.report.map_figures import map_figures
+    from seismass.report.write import check_out
+
+    started = time.perf_counter()
+    check_out(args.out)
+    given = {
+        "mus": args.mu,
+        "response_modification": args.R,
+        "mass_ratios": args.alpha,
+        "intensities": args.intensity,
+        "design_fraction": args.design_fraction,
+        "overstrength": args.overstrength,
+        "second_slope": args.second_slope,
+        "scaling_period": args.period,
+    }
+    parameters = EffectiveMassParameters(**{name: value for name, value in given.items() if value is not None})
+    target = read_target(args)
+    suite = read_motions(args)
+    result = effective_mass_map(suite, target, parameters, threads=args.jobs, progress=progress_bar())
+    rules, bins = result.rules(), result.by_eta()
+    document = {**result.metadata, "rules": rules.to_dicts(), "by_eta": bins.to_dicts()}
+    files = write_folder(
+        args.out,
+        tables={"map": result.table, "rules": rules, "by_eta": bins, "scaling": result.scaling.table()},
+        documents={"map.json": json.dumps(document, indent=2) + "\n"},
+        figures=None if args.no_figures else map_figures(result),
+    )
+    if args.json:
+        warn_left_out(suite)
+        print(json.dumps(document, indent=2))
+        return 0
+    sliding = int(result.table["slides"].sum())
+    print(f"suite    {suite.name}: {len(suite)} motions")
+    for line in left_out(suite):
+        print(f"         {line}")
+    print(f"target   {target.label}")
+    print(f"cases    {result.table.height}, goods slide in {sliding}; {result.metadata['runs']} runs\n")
+    print("\n".join(rules_text(rules)))
+    print()
+    print("\n".join(bins_text(bins)))
+    print(f"\n{len(files)} files in {args.out}, {time.perf_counter() - started:.1f} s")
+    return 0
+
+
+def rules_text(rules: pl.DataFrame) -> list[str]:
+    """Return the table of rules as lines."""
+    lines = [
+        "Largest drift of the model with the share of a rule, over that of the real building",
+        f"{'rule':30}{'mean':>7}{'log scatter':>13}{'5 to 95 %':>16}{'unsafe':>9}",
+    ]
+    for row in rules.iter_rows(named=True):
+        interval = f"{row['low']:.2f} to {row['high']:.2f}"
+        lines.append(
+            f"{row['rule']:30}{row['bias']:>7.3f}{row['log_scatter']:>13.3f}{interval:>16}{100 * row['unsafe']:>7.0f} %"
+        )
+    return [
+        *lines,
+        "mean: geometric; unsafe: share of cases in which the real building drifts more than 1.05 x the model",
+    ]
+
+
+def bins_text(bins: pl.DataFrame) -> list[str]:
+    """Return the scatter of the fraction in bins of eta as lines."""
+    lines = ["Effective fraction by eta = mu_k/C1", f"{'eta':14}{'cases':>7}{'16 %':>8}{'median':>9}{'84 %':>8}"]
+    for row in bins.iter_rows(named=True):
+        end = "and more" if row["eta_to"] is None else f"to {row['eta_to']:g}"
+        lines.append(
+            f"{row['eta_from']:<4g} {end:9}{row['cases']:>7}{row['p16']:>8.2f}{row['median']:>9.2f}{row['p84']:>8.2f}"
+        )
+    return lines
+
+
+def numbers_option(text: str) -> tuple[float, ...]:
+    """Return numbers separated by commas."""
+    try:
+        return tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be numbers separated by commas; got {text!r}") from None

@@ -1,0 +1,491 @@
+"""The effective fraction over a grid of buildings, loads, strengths and friction, and how simple rules do there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict, dataclass, field
+from itertools import pairwise
+from typing import Any, Final, Literal, TypeAlias, get_args
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from seismass import _kernel
+from seismass._values import FloatArray, as_count, as_number, brief, refusal
+from seismass.design import Combination, response_spectrum_analysis
+from seismass.effective_mass.curve import (
+    DEFAULT_FRACTIONS,
+    Kind,
+    interpolated,
+    is_below,
+    kind_of,
+    over_records,
+    resampled,
+)
+from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, full_weight
+from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
+from seismass.errors import InvalidMotion, InvalidOption
+from seismass.records import Suite
+from seismass.scaling import ScalingResult, scale_asce7_10
+from seismass.scene import (
+    DEFAULT_DAMPING,
+    DEFAULT_OVERSTRENGTH,
+    DEFAULT_SECOND_SLOPE,
+    DEFAULT_THIRD_SLOPE,
+    Building,
+    Scene,
+    blocks_on_floors,
+)
+from seismass.simulate import instruction_set
+from seismass.spectra import TargetSpectrum, mean_spectrum
+
+SCHEMA_VERSION: Final = 1
+"""Version of the tables and of the metadata of a map; see docs/effective_mass.md."""
+
+Roof: TypeAlias = Literal["bare", "loaded"]
+"""Whether the roof carries goods as the other floors do."""
+MapBuilding: TypeAlias = tuple[int, float, Roof]
+"""Number of storeys, first period of the bare building (s), and roof."""
+
+DEFAULT_BUILDINGS: Final[tuple[MapBuilding, ...]] = (
+    (1, 0.2, "loaded"),
+    (1, 0.4, "loaded"),
+    (1, 0.8, "loaded"),
+    (1, 1.6, "loaded"),
+    (2, 0.2, "bare"),
+    (2, 0.38, "bare"),
+    (2, 0.8, "bare"),
+    (3, 0.25, "bare"),
+    (3, 0.47, "bare"),
+    (3, 1.0, "bare"),
+    (3, 0.6, "loaded"),
+    (4, 0.3, "bare"),
+    (4, 0.57, "bare"),
+    (4, 1.2, "bare"),
+    (6, 0.6, "bare"),
+    (6, 1.2, "bare"),
+)
+
+RULES: Final[Mapping[str, Callable[[FloatArray], FloatArray]]] = {
+    "min(1, eta^2)": lambda eta: np.minimum(1.0, eta**2),
+    "min(1, eta)": lambda eta: np.minimum(1.0, eta),
+    "1 - exp(-(eta/0.751)^2.737)": lambda eta: -np.expm1(-((eta / 0.751) ** 2.737)),
+    "none, 0": lambda eta: np.zeros_like(eta),
+    "ASCE 61, 0.10": lambda eta: np.full_like(eta, 0.10),
+    "ASCE 7 storage, 0.25": lambda eta: np.full_like(eta, 0.25),
+    "IS 1893, 0.5": lambda eta: np.full_like(eta, 0.50),
+    "NBC and NZS 1170.5, 0.6": lambda eta: np.full_like(eta, 0.60),
+    "MH16.1 racks, 0.67": lambda eta: np.full_like(eta, 0.67),
+    "Eurocode 8, 0.8": lambda eta: np.full_like(eta, 0.80),
+    "all, 1": lambda eta: np.ones_like(eta),
+}
+"""Rules that are compared: a share of the live load from eta. The third was fitted to a map under 42 recordings."""
+
+UNSAFE: Final = 1.05
+"""A rule counts as unsafe for a case where the real building drifts more than so many times its model."""
+ETA_EDGES: Final = (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, np.inf)
+"""Edges of the bins of eta for which the scatter of the fraction is tabulated."""
+
+
+@dataclass(frozen=True)
+class EffectiveMassParameters:
+    """What a map varies and what it holds fixed.
+
+    Attributes
+    ----------
+    buildings : tuple of (int, float, {"bare", "loaded"})
+        Number of storeys, first period of the bare building (s), roof.
+    mass_ratios : tuple of float
+        Mass of the goods over that of their floor, alpha, the same on every loaded floor.
+    response_modification : tuple of float
+        R; V_y = V_e/R of the building designed with `design_fraction`. R = 1 is elastic unless `yield_at_r1`.
+    mus : tuple of float
+        Friction coefficients, static and kinetic.
+    intensities : tuple of float
+        Factors of the scaled motions, strengths unchanged. Intensity s with V_y and mu is exactly intensity 1 with
+        V_y/s and mu/s.
+    design_fraction : float
+        Share of the live load in the design of the strengths.
+    overstrength, second_slope, third_slope, damping
+        Of all buildings; the slopes are inferences.
+    scaling_period : float
+        Period (s) for which motions are scaled.
+    combination : {"srss", "cqc"}
+        Modal combination of the design.
+    yield_at_r1 : bool
+        Let R = 1 yield at V_e.
+    model_damping : {"same", "ratio"}
+        Damping of the models, see `attached_scene`.
+    confidence, resamples, seed
+        Of the bootstrap intervals.
+
+    Raises
+    ------
+    InvalidOption
+        A parameter is out of its range or of another kind.
+    """
+
+    buildings: tuple[MapBuilding, ...] = DEFAULT_BUILDINGS
+    mass_ratios: tuple[float, ...] = (0.25, 0.5, 1.0, 1.5)
+    response_modification: tuple[float, ...] = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
+    mus: tuple[float, ...] = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.2)
+    intensities: tuple[float, ...] = (1.0,)
+    design_fraction: float = 0.25
+    overstrength: float = DEFAULT_OVERSTRENGTH
+    second_slope: float = DEFAULT_SECOND_SLOPE
+    third_slope: float = DEFAULT_THIRD_SLOPE
+    damping: float = DEFAULT_DAMPING
+    scaling_period: float = 1.0
+    combination: Combination = "srss"
+    yield_at_r1: bool = False
+    model_damping: ModelDamping = SAME_DAMPING
+    confidence: float = 0.90
+    resamples: int = 500
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        """Judge the axes and keep numbers as Python's own; building, design and scaling judge the rest."""
+        owner = "effective mass map"
+        buildings = []
+        for building in _listed(self.buildings, "buildings"):
+            if not isinstance(building, tuple) or len(building) != 3 or building[2] not in get_args(Roof):
+                requirement = 'a tuple of (storeys, period, "bare" or "loaded")'
+                raise refusal(InvalidOption, "buildings", owner, requirement, f"{brief(building)} in it")
+            storeys = as_count(building[0], "storeys", owner, InvalidOption, least=1)
+            if storeys == 1 and building[2] == "bare":
+                raise refusal(InvalidOption, "roof", owner, "loaded where it is the only floor", "bare")
+            buildings.append((storeys, _number(building[1], "period", above=0.0), building[2]))
+        checked: dict[str, Any] = {"buildings": tuple(buildings)}
+        for name, least in (("mass_ratios", 0.0), ("response_modification", None), ("mus", 0.0), ("intensities", 0.0)):
+            values = _listed(getattr(self, name), name)
+            checked[name] = tuple(
+                _number(value, name, above=least) if least is not None else _number(value, name, least=1.0)
+                for value in values
+            )
+        for name, values in checked.items():
+            if len(set(values)) != len(values):
+                raise refusal(InvalidOption, name, owner, "a tuple of values, none twice", brief(values))
+        for name in ("design_fraction", "confidence"):
+            checked[name] = _number(getattr(self, name), name, least=0.0)
+            if checked[name] > 1.0:
+                raise refusal(InvalidOption, name, owner, "between 0 and 1", f"{checked[name]:g}")
+        for name in ("overstrength", "second_slope", "third_slope", "damping", "scaling_period"):
+            checked[name] = _number(getattr(self, name), name, least=0.0)
+        checked["resamples"] = as_count(self.resamples, "resamples", owner, InvalidOption, least=1)
+        checked["seed"] = as_count(self.seed, "seed", owner, InvalidOption)
+        check_damping(self.model_damping, owner)
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True, eq=False)
+class EffectiveMassMap:
+    """The effective fraction at every point of a grid.
+
+    Attributes
+    ----------
+    table : polars.DataFrame
+        One row per case: building (from 1), storeys, period, roof, R, alpha, intensity, mu; eta,
+        base_shear_coefficient; `slides` (under any motion); value, kind, low, high (bootstrap interval); real (mean
+        largest drift, m); ratio_at_0, ratio_at_0_25, ratio_at_1 (real over model); worst_storey_ratio,
+        worst_storey_ratio_at_1 and worst_storey_envelope_ratio, the largest over the storeys of real over model at the
+        value, at 1, and over the larger of the models at the value and at 0.
+    curve_of : ndarray of int, shape (cases,)
+        Row of `curves` of each case.
+    curves : ndarray, shape (curves, shares)
+        Mean largest drift of the model (m) at the shares of `fractions`; friction does not enter.
+    fractions : ndarray, shape (shares,)
+        Shares attached.
+    scaling : ScalingResult
+        Factors of the motions.
+    metadata : dict
+        Versions, parameters, target, motions.
+    """
+
+    table: pl.DataFrame
+    curve_of: NDArray[np.int64]
+    curves: FloatArray
+    fractions: FloatArray
+    scaling: ScalingResult
+    metadata: dict[str, Any] = field(repr=False)
+
+    def model_drift(self, shares: FloatArray) -> FloatArray:
+        """Return the mean largest drift of the model (m) of each case at its own share, interpolated on the grid."""
+        place = np.clip(np.searchsorted(self.fractions, shares, side="right") - 1, 0, len(self.fractions) - 2)
+        low, high = self.fractions[place], self.fractions[place + 1]
+        weight = (shares - low) / (high - low)
+        rows = self.curves[self.curve_of]
+        case = np.arange(len(rows))
+        drift: FloatArray = (1.0 - weight) * rows[case, place] + weight * rows[case, place + 1]
+        return drift
+
+    def rules(self, rules: Mapping[str, Callable[[FloatArray], FloatArray]] = RULES) -> pl.DataFrame:
+        """Return how the models of simple rules compare with the real drift, over all cases in which goods slide.
+
+        Parameters
+        ----------
+        rules : mapping of str to callable
+            Each takes eta, shape (cases,), and returns the share of the live load.
+
+        Returns
+        -------
+        polars.DataFrame
+            One row per rule: rule; cases; bias, the geometric mean of model over real drift; log_scatter, the standard
+            deviation of its logarithm; unsafe, the share of cases in which the real building drifts more than 1.05
+            times the model; low, high: 5 and 95 % of model over real.
+        """
+        slides = self.table["slides"].to_numpy()
+        eta, real = self.table["eta"].to_numpy(), self.table["real"].to_numpy()
+        rows = []
+        for name, rule in rules.items():
+            ratio = (self.model_drift(np.asarray(rule(eta), dtype=np.float64)) / real)[slides]
+            logarithm = np.log(ratio)
+            rows.append(
+                {
+                    "rule": name,
+                    "cases": len(ratio),
+                    "bias": float(np.exp(logarithm.mean())),
+                    "log_scatter": float(logarithm.std()),
+                    "unsafe": float(np.mean(1.0 / ratio > UNSAFE)),
+                    "low": float(np.percentile(ratio, 5.0)),
+                    "high": float(np.percentile(ratio, 95.0)),
+                }
+            )
+        return pl.DataFrame(rows)
+
+    def by_eta(self) -> pl.DataFrame:
+        """Return the scatter of the fraction in bins of eta, over all cases in which goods slide.
+
+        Returns
+        -------
+        polars.DataFrame
+            One row per bin: eta_from, eta_to (null: open), cases, p16, median, p84 of the fraction.
+        """
+        sliding = self.table.filter(pl.col("slides"))
+        eta, value = sliding["eta"].to_numpy(), sliding["value"].to_numpy()
+        rows = []
+        for low, high in pairwise(ETA_EDGES):
+            inside = value[(low <= eta) & (eta < high)]
+            if len(inside):
+                p16, median, p84 = np.percentile(inside, [16.0, 50.0, 84.0]).tolist()
+                upper = None if np.isinf(high) else high
+                rows.append(
+                    {"eta_from": low, "eta_to": upper, "cases": len(inside), "p16": p16, "median": median, "p84": p84}
+                )
+        return pl.DataFrame(rows, schema_overrides={"eta_to": pl.Float64})
+
+
+@dataclass(frozen=True, slots=True)
+class _Loaded:
+    """One building with one load and one strength: its scenes differ in friction alone."""
+
+    labels: dict[str, Any]
+    scenes: list[Scene]
+
+
+def effective_mass_map(
+    suite: Suite,
+    target: TargetSpectrum,
+    parameters: EffectiveMassParameters | None = None,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> EffectiveMassMap:
+    """Return the effective fraction of live load over a grid of buildings, loads, strengths, friction and intensity.
+
+    Parameters
+    ----------
+    suite : Suite
+        Motions, unscaled; they are scaled to the target by `scale_asce7_10`.
+    target : TargetSpectrum
+        Design spectrum.
+    parameters : EffectiveMassParameters, optional
+        The grid; default 16 buildings x 4 loads x 7 strengths x 11 friction coefficients.
+    threads : int, optional
+        Number of threads; default all cores. The map does not depend on it.
+    progress : callable, optional
+        Called with (runs done, runs in all).
+
+    Raises
+    ------
+    InvalidOption, InvalidMotion, InvalidScene
+        A parameter is out of its range, or the suite cannot be scaled.
+    KeyboardInterrupt
+        Ctrl-C was pressed.
+
+    Notes
+    -----
+    Definition as for `effective_mass`, with crossings by linear interpolation between shares 0.01 apart in place of
+    refined roots. Runs of models do not depend on friction and are shared.
+    """
+    chosen = EffectiveMassParameters() if parameters is None else parameters
+    if not isinstance(suite, Suite):
+        raise refusal(InvalidMotion, "suite", "effective mass map", "a Suite of records", brief(suite))
+    scaling = scale_asce7_10(suite, target, chosen.scaling_period, damping=chosen.damping, threads=threads)
+
+    def design_spectrum(periods: FloatArray) -> FloatArray:
+        return mean_spectrum(suite, scaling.factors, periods, chosen.damping, threads=threads)
+
+    buildings = [list(_loaded(chosen, number, design_spectrum)) for number in range(1, len(chosen.buildings) + 1)]
+    scaled = [record.scaled(factor) for record, factor in zip(suite, scaling.factors, strict=True)]
+    per_building = len(chosen.mass_ratios) * len(chosen.response_modification)
+    per_load = len(DEFAULT_FRACTIONS) + len(chosen.mus)
+    total = len(chosen.intensities) * len(buildings) * per_building * per_load * len(suite)
+    stages = Stages(progress, total)
+    rows: list[dict[str, Any]] = []
+    curves: list[FloatArray] = []
+    curve_of: list[int] = []
+    for intensity in chosen.intensities:
+        motions = named_motions([record.scaled(intensity) for record in scaled], "effective mass map")
+        for loads in buildings:
+            models = [
+                attached(load.scenes[0], share, chosen.model_damping) for load in loads for share in DEFAULT_FRACTIONS
+            ]
+            model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
+            scenes = [scene for load in loads for scene in load.scenes]
+            real = solve(scenes, motions, threads=threads, progress=stages.next(len(scenes) * len(motions)))
+            for number, load in enumerate(loads):
+                own = model.part(number * len(DEFAULT_FRACTIONS), len(DEFAULT_FRACTIONS))
+                sliding = real.part(number * len(chosen.mus), len(chosen.mus))
+                rows += _cases(load, {"intensity": intensity}, own, sliding, motions, chosen)
+                curve_of += [len(curves)] * len(chosen.mus)
+                curves.append(over_records(own.largest, "mean"))
+    return EffectiveMassMap(
+        table=pl.DataFrame(rows, schema_overrides={"building": pl.UInt32, "storeys": pl.UInt32}),
+        curve_of=np.array(curve_of, dtype=np.int64),
+        curves=np.array(curves),
+        fractions=DEFAULT_FRACTIONS,
+        scaling=scaling,
+        metadata={
+            "schema_version": SCHEMA_VERSION,
+            "package_version": _kernel.VERSION,
+            "instructions": instruction_set(),
+            "parameters": asdict(chosen),
+            "target": {"label": target.label, **target.parameters},
+            "suite": {"name": suite.name, "motions": list(scaling.names), "factors": scaling.factors.tolist()},
+            "runs": total,
+        },
+    )
+
+
+def _loaded(
+    chosen: EffectiveMassParameters, number: int, spectrum: Callable[[FloatArray], FloatArray]
+) -> Iterator[_Loaded]:
+    """Yield building `number`, counted from 1, with every load and strength."""
+    storeys, period, roof = chosen.buildings[number - 1]
+    bare = Building.uniform(
+        storeys,
+        period,
+        mass=1.0,
+        overstrength=chosen.overstrength,
+        second_slope=chosen.second_slope,
+        third_slope=chosen.third_slope,
+        damping=chosen.damping,
+    )
+    for alpha in chosen.mass_ratios:
+        ratios = np.full(storeys, alpha)
+        if roof == "bare":
+            ratios[-1] = 0.0
+        analysis = response_spectrum_analysis(
+            bare.mass + chosen.design_fraction * ratios,
+            bare.stiffness,
+            spectrum,
+            combination=chosen.combination,
+            damping=chosen.damping,
+        )
+        for reduction in chosen.response_modification:
+            elastic = reduction == 1.0 and not chosen.yield_at_r1
+            strength = np.full(storeys, np.inf) if elastic else analysis.storey_shear / reduction
+            building = bare.replace(yield_shear=strength)
+            labels = {"building": number, "storeys": storeys, "period": period, "roof": roof}
+            yield _Loaded(
+                {**labels, "R": reduction, "alpha": alpha},
+                [Scene(building, blocks_on_floors(ratios, mu)) for mu in chosen.mus],
+            )
+
+
+def _cases(
+    load: _Loaded,
+    more: dict[str, Any],
+    model: Peaks,
+    real: Peaks,
+    motions: NamedMotions,
+    chosen: EffectiveMassParameters,
+) -> list[dict[str, Any]]:
+    """One row per friction coefficient."""
+    shares, mus = DEFAULT_FRACTIONS, np.array(chosen.mus)
+    model_drift, real_drift = over_records(model.largest, "mean"), over_records(real.largest, "mean")
+    curves = np.broadcast_to(model_drift, (len(mus), len(shares)))
+    slides: NDArray[np.bool_] = np.asarray(real.slides.any(axis=1))
+    values = np.where(slides, interpolated(shares, curves, np.repeat(real_drift[:, None], len(shares), axis=1)), 1.0)
+    values[mus == 0.0] = 0.0
+    low, high = _intervals(model, real, slides, motions, chosen)
+    coefficient = float(model.base_shear[-1].mean()) / full_weight(load.scenes[0])
+    storeys_model, storeys_real = (over_records(np.moveaxis(peaks.drift, 1, -1), "mean") for peaks in (model, real))
+    rows = []
+    for case, mu in enumerate(chosen.mus):
+        below = is_below(model_drift, np.full_like(model_drift, real_drift[case]))
+        kind: Kind = "stuck" if not slides[case] else "zero" if mu == 0.0 else kind_of(below)
+        at_value = np.array([np.interp(values[case], shares, own) for own in storeys_model.T])
+        own_real = storeys_real[case]
+        rows.append(
+            {
+                **load.labels,
+                **more,
+                "mu": mu,
+                "eta": mu / coefficient,
+                "base_shear_coefficient": coefficient,
+                "slides": bool(slides[case]),
+                "value": float(values[case]),
+                "kind": kind,
+                "low": None if low is None else float(low[case]),
+                "high": None if high is None else float(high[case]),
+                "real": float(real_drift[case]),
+                "ratio_at_0": float(real_drift[case] / model_drift[0]),
+                "ratio_at_0_25": float(real_drift[case] / np.interp(0.25, shares, model_drift)),
+                "ratio_at_1": float(real_drift[case] / model_drift[-1]),
+                "worst_storey_ratio": float((own_real / at_value).max()),
+                "worst_storey_ratio_at_1": float((own_real / storeys_model[-1]).max()),
+                "worst_storey_envelope_ratio": float((own_real / np.maximum(at_value, storeys_model[0])).max()),
+            }
+        )
+    return rows
+
+
+def _intervals(
+    model: Peaks, real: Peaks, slides: NDArray[np.bool_], motions: NamedMotions, chosen: EffectiveMassParameters
+) -> tuple[FloatArray | None, FloatArray | None]:
+    """Bootstrap interval of each friction coefficient; the resampled models are shared."""
+    if motions.clusters < 2:
+        return None, None
+    both = np.concatenate([model.largest, real.largest])
+    drawn, _ = resampled(
+        both,
+        both[:1],
+        statistic="mean",
+        cluster_of=motions.cluster_of,
+        resamples=chosen.resamples,
+        seed=chosen.seed,
+    )
+    shares = model.scenes
+    tail = 50.0 * (1.0 - chosen.confidence)
+    ends = np.ones((2, real.scenes))
+    for case in np.flatnonzero(slides):
+        against = np.broadcast_to(drawn[:, shares + case, None], (len(drawn), shares))
+        ends[:, case] = np.percentile(interpolated(DEFAULT_FRACTIONS, drawn[:, :shares], against), [tail, 100.0 - tail])
+    return ends[0], ends[1]
+
+
+def _listed(values: Any, name: str) -> tuple[Any, ...]:
+    if not isinstance(values, tuple) or not values:
+        raise refusal(InvalidOption, name, "effective mass map", "a tuple of at least one value", brief(values))
+    return values
+
+
+def _number(value: Any, name: str, *, above: float | None = None, least: float | None = None) -> float:
+    number = as_number(value, name, "effective mass map", InvalidOption)
+    if not np.isfinite(number) or (above is not None and number <= above) or (least is not None and number < least):
+        requirement = f"above {above:g}" if above is not None else f"at least {least:g}"
+        raise refusal(InvalidOption, name, "effective mass map", requirement, f"{number:g}")
+    return number

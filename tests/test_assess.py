@@ -1,0 +1,356 @@
+"""Assessments: their numbers against single runs and closed forms, what they advise, and the command around them."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import polars as pl
+import pytest
+from matplotlib.figure import Figure
+
+import seismass as sm
+from seismass.assessment.models import with_mass
+from seismass.assessment.run import advised_share
+from seismass.assessment.tables import statistics_of
+from seismass.building_file import example_file
+from seismass.cli import main
+
+G = 9.80665
+MODELS = ["real", "real_mu_low", "real_mu_high", "advised", "code", "attached", "bare"]
+
+
+def tables(**changes: dict[str, Any]) -> dict[str, Any]:
+    """Two storeys with goods on the first, that slide under the built-in suite; tables changed as told."""
+    building: dict[str, Any] = {
+        "site": {"sds_g": 1.0, "sd1_g": 0.6},
+        "building": {
+            "period_s": 0.4,
+            "height_m": 4.0,
+            "area_m2": 500.0,
+            "dead_load_kpa": 5.0,
+            "design": True,
+            "R": 3.0,
+        },
+        "goods": {"live_load_kpa": 6.0, "occupied": 0.8, "mu": 0.2},
+        "storeys": [{}, {"live_load_kpa": 0.0}],
+    }
+    for table, values in changes.items():
+        merged = {**building.get(table, {}), **values}
+        building[table] = {key: value for key, value in merged.items() if value is not None}
+    return building
+
+
+@pytest.fixture(scope="module")
+def small() -> sm.Assessment:
+    return sm.assess(tables(), resamples=200)
+
+
+@pytest.fixture(scope="module")
+def warehouse() -> sm.Assessment:
+    return sm.assess(example_file(), resamples=200)
+
+
+def mean_of(result: sm.Assessment, model: str, column: str = "mean") -> list[Any]:
+    return result.storeys.filter(model=model)[column].to_list()
+
+
+def test_drifts_and_slips_are_those_of_single_runs(small: sm.Assessment) -> None:
+    """Each run again by `simulate`, with the models built here from the definition."""
+    assert small.scaling is not None
+    building = sm.read_building(tables())
+    scene = building.scene()
+    assert scene.building is not None
+    motions = [r.scaled(f).motion for r, f in zip(sm.builtin_suite(), small.scaling.factors, strict=True)]
+    real = [sm.simulate(scene, motion) for motion in motions]
+    ratios = np.array([response.peak_drift / 4.0 for response in real])
+    np.testing.assert_allclose(mean_of(small, "real"), ratios.mean(axis=0), rtol=1e-12)
+    np.testing.assert_allclose(mean_of(small, "real", "p84"), np.quantile(ratios, 0.84, axis=0), rtol=1e-12)
+    slip = np.array([response.peak_slip[0] for response in real])
+    row = small.slip.filter(model="real").row(0, named=True)
+    assert row["peak_mean"] == pytest.approx(slip.mean(), rel=1e-12)
+    assert row["peak_max"] == slip.max()
+    # The code counts a quarter of the design live load, of which 0.8 is present.
+    mass = scene.building.mass + 0.25 * np.array([3.0e6 / G, 0.0])
+    code = sm.Building(
+        mass,
+        scene.building.stiffness,
+        yield_shear=scene.building.yield_shear,
+        damping=scene.building.damping_matrix,
+        geometric_stiffness=scene.geometric_stiffness,
+    )
+    drifts = np.array([sm.simulate(sm.Scene(code), motion).peak_drift / 4.0 for motion in motions])
+    np.testing.assert_allclose(mean_of(small, "code"), drifts.mean(axis=0), rtol=1e-12)
+
+
+def test_the_effective_fraction_is_that_of_the_scene(small: sm.Assessment) -> None:
+    assert small.scaling is not None
+    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite(), small.scaling.factors, strict=True)]
+    for model, factor in (("real", 1.0), ("real_mu_low", 0.67), ("real_mu_high", 1.5)):
+        alone = sm.effective_mass(sm.read_building(tables()).scene(mu_factor=factor), motions, resamples=200)
+        assert small.effective[model].value == alone.value
+        assert small.effective[model].interval == alone.interval
+    largest = small.runs.filter(model="attached").group_by("motion").agg(pl.col("peak_drift_ratio").max())
+    curve = small.effective["real"].curve.filter(storey=0, fraction=1.0)
+    assert largest["peak_drift_ratio"].mean() == pytest.approx(curve["model_drift"].item(), rel=1e-12)
+
+
+def test_attached_models_are_those_of_the_effective_fraction() -> None:
+    scene = sm.read_building(tables()).scene()
+    goods = np.array([0.8 * 3.0e6 / G, 0.0])
+    ours, theirs = with_mass(scene, 0.4 * goods), sm.attached_scene(scene, 0.4)
+    motion = sm.builtin_suite()[0].motion
+    np.testing.assert_allclose(sm.simulate(ours, motion).peak_drift, sm.simulate(theirs, motion).peak_drift, rtol=1e-12)
+
+
+def test_motions_are_scaled_for_the_period_with_goods(small: sm.Assessment) -> None:
+    building = sm.read_building(tables())
+    scaling = sm.scale_asce7_10(sm.builtin_suite(), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods))
+    assert small.scaling is not None
+    np.testing.assert_array_equal(small.scaling.factors, scaling.factors)
+    other = sm.assess(tables(), scaling_period=0.7, mu_factors=(1, 1), resamples=2)
+    assert other.scaling is not None
+    assert other.scaling.periods[0] == pytest.approx(0.14, rel=1e-12)
+    assert list(other.effective) == ["real"]
+    as_they_are = sm.assess(tables(), scale=False, mu_factors=(1, 1), resamples=2)
+    assert as_they_are.scaling is None
+    assert "Motions are taken as they are." in as_they_are.assumptions
+
+
+def test_stability_coefficients_are_load_times_drift_over_shear_times_height(small: sm.Assessment) -> None:
+    """P = 5000 kN of floors and 2400 kN of goods on storey 1, 2500 kN on storey 2; the elastic value is P/(k h)."""
+    building = sm.read_building(tables())
+    for storey, load in ((1, 7.4e6), (2, 2.5e6)):
+        rows = small.runs.filter(model="real", storey=storey)
+        drift, shear = rows["peak_drift"].to_numpy().mean(), rows["peak_storey_shear"].to_numpy().mean()
+        row = small.storeys.filter(model="real", storey=storey).row(0, named=True)
+        assert row["theta"] == pytest.approx(load * drift / (shear * 4.0), rel=1e-12)
+        assert row["theta_elastic"] == pytest.approx(load / (building.stiffness[storey - 1] * 4.0), rel=1e-12)
+
+
+def test_the_share_advised_covers_every_friction(warehouse: sm.Assessment) -> None:
+    values = [result.value for result in warehouse.effective.values()]
+    assert warehouse.advised is not None
+    assert max(values) <= warehouse.advised < max(values) + 0.05
+    assert warehouse.advised_of_live_load == pytest.approx(0.8 * warehouse.advised, rel=1e-12)
+    # By the definition a larger share is never short: the largest drift of each friction is covered.
+    advised = warehouse.effective["real_mu_high"].curve.filter(storey=0, fraction=warehouse.advised)
+    assert advised["ratio"].item() <= 1.0
+    assert warehouse.storeys["model"].unique(maintain_order=True).to_list() == MODELS
+
+
+@pytest.mark.parametrize(
+    ("values", "share"),
+    [([0.5], 0.5), ([0.5 + 1e-13], 0.5), ([0.501, 0.2], 0.55), ([0.0], 0.0), ([math.nan, 0.1], 1.0)],
+)
+def test_shares_are_rounded_up_to_a_twentieth(values: list[float], share: float) -> None:
+    class Known:
+        def __init__(self, value: float) -> None:
+            self.value = value
+
+    assert advised_share([Known(value) for value in values]) == share  # type: ignore[list-item,misc]
+
+
+def test_friction_that_holds_the_goods_gives_all_of_them() -> None:
+    """mu = 50: nothing slides, real and attached are one, and the share is exactly 1."""
+    result = sm.assess(tables(goods={"mu": 50.0}), resamples=20)
+    assert {effective.kind for effective in result.effective.values()} == {"stuck"}
+    assert result.advised == 1.0
+    np.testing.assert_allclose(mean_of(result, "real"), mean_of(result, "attached"), rtol=1e-12)
+    assert "No goods slide under any motion." in result.advice
+    assert any("mu_s of block 1 is 50, above 1.5" in remark for remark in result.remarks)
+
+
+def test_goods_without_friction_add_no_mass() -> None:
+    result = sm.assess(tables(goods={"mu": 0.0}), resamples=20)
+    assert result.advised == 0.0
+    np.testing.assert_allclose(mean_of(result, "real"), mean_of(result, "bare"), rtol=1e-12)
+
+
+def test_without_goods_the_answer_says_so(tmp_path: Path) -> None:
+    result = sm.assess(tables(goods={"live_load_kpa": 0.0, "mu": None}))
+    assert result.advised is None
+    assert result.effective == {}
+    assert result.storeys["model"].unique().to_list() == ["bare"]
+    assert "ANSWER    no goods on the floors" in result.text()
+    names = {path.name for path in result.write(tmp_path)}
+    assert {"drift.png", "storeys.csv", "assessment.json"} <= names
+    assert "effective_fraction.png" not in names
+    assert json.loads(result.to_json())["answer"]["advised_share_of_goods_present"] is None
+
+
+def test_without_heights_drifts_are_in_millimetres() -> None:
+    result = sm.assess(tables(building={"height_m": None}), resamples=20)
+    assert result.storeys["unit"].unique().to_list() == ["m"]
+    assert result.storeys["limit"].null_count() == result.storeys.height
+    assert "Peak storey drift, mm" in result.text()
+    assert "Stability coefficient" not in result.text()
+    assert any(line == "P-Delta: none (heights are not known)." for line in result.assumptions)
+
+
+def test_collapses_are_counted_and_leave_no_mean() -> None:
+    """A collapse ratio below most drifts: means are null, the answer is by the median or all goods."""
+    result = sm.assess(tables(building={"collapse_drift_ratio": 0.009}), resamples=20)
+    collapsed = result.collapses["real"]
+    assert collapsed > 0
+    assert mean_of(result, "real", "collapsed")[0] == collapsed
+    assert mean_of(result, "real")[0] is None
+    assert mean_of(result, "real", "theta")[0] is None
+    assert f"The building collapses under {collapsed} of 7 motions (goods slide)." in result.advice
+    assert f"goods slide {collapsed}" in result.text()
+    json.loads(result.to_json())
+
+
+def test_what_a_collapsed_run_decides_is_null() -> None:
+    """Of 1, 2, 3 and infinity: the median by the next larger value is 3, the 84 % one infinite."""
+    known = statistics_of(np.array([1.0, 2.0, 3.0, np.inf]))
+    assert known == {"mean": None, "p16": 2.0, "median": 3.0, "p84": None, "max": None}
+    known = statistics_of(np.array([1.0, 2.0, 3.0, 4.0]))
+    assert known["median"] == 2.5
+    assert known["mean"] == 2.5
+
+
+def test_occupancy_that_differs_keeps_the_codes_mass() -> None:
+    """The code counts design live load; that half of it is away on a floor changes the goods alone."""
+    result = sm.assess({**tables(), "storeys": [{"occupied": 0.5}, {"occupied": 1.0}]}, mu_factors=(1, 1), resamples=20)
+    assert result.building.present_share == pytest.approx(0.75, rel=1e-12)
+    assert result.advised is not None
+    assert result.advised_of_live_load == pytest.approx(0.75 * result.advised, rel=1e-12)
+
+
+def test_another_code_changes_the_design_too() -> None:
+    one = sm.assess(tables(), mu_factors=(1, 1), resamples=2)
+    other = sm.assess(tables(), code=sm.code_fraction("nbc"), mu_factors=(1, 1), resamples=2)
+    strengths = [result.building.structure().yield_shear[0] for result in (one, other)]
+    assert strengths[1] > strengths[0]
+    assert any("NBC of Canada, storage, 0.6 of the design live load" in line for line in other.assumptions)
+    assert any("second-hand: check it in the code" in remark for remark in other.remarks)
+
+
+def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
+    calls: list[tuple[int, int]] = []
+    one = sm.assess(tables(), resamples=20, threads=1, progress=lambda done, total: calls.append((done, total)))
+    two = sm.assess(tables(), resamples=20, threads=2)
+    assert one.to_dict() == two.to_dict()
+    # Seven models, and 102 for each of three frictions, under seven motions.
+    assert calls[-1] == ((7 + 3 * 102) * 7, (7 + 3 * 102) * 7)
+    assert [done for done, _ in calls] == sorted(done for done, _ in calls)
+
+
+def test_what_is_unlikely_is_remarked_on() -> None:
+    """Goods of 6 kPa on a floor of 0.05 kPa, and a limit in per cent."""
+    wrong = tables(building={"dead_load_kpa": 0.05, "drift_limit": 2.0, "p_delta": False})
+    remarks = sm.assess(wrong, mu_factors=(1, 1), resamples=2).remarks
+    assert any("the goods present weigh 48 times the building" in remark for remark in remarks)
+    assert "the drift limit is 2 of the height: limits are ratios, not per cent" in remarks
+    assert len(set(remarks)) == len(remarks)
+
+
+def test_wrong_arguments_are_refused() -> None:
+    no_site = tables()
+    del no_site["site"]
+    with pytest.raises(sm.InvalidOption, match=r"target of building building must be given: \[site\]"):
+        sm.assess(no_site)
+    with pytest.raises(sm.InvalidMotion, match="motions of assessment must be a list of Records or Motions; got 3"):
+        sm.assess(tables(), 3)  # type: ignore[arg-type]
+    with pytest.raises(sm.InvalidMotion, match="motion 1 of assessment must be a Record or Motion; got 3"):
+        sm.assess(tables(), [3])
+    with pytest.raises(sm.InvalidMotion, match="motions of assessment must be at least one Record or Motion; got none"):
+        sm.assess(tables(), [])
+    with pytest.raises(sm.InvalidOption, match="code of assessment must be a CodeFraction"):
+        sm.assess(tables(), code="ec8")  # type: ignore[arg-type]
+    with pytest.raises(sm.InvalidOption, match="scaling_period of assessment must be a number"):
+        sm.assess(tables(), scaling_period="1")  # type: ignore[arg-type]
+    with pytest.raises(sm.InvalidScene, match="P/h"):
+        sm.assess(tables(building={"gravity_load_kn": 1e9}))
+    target = sm.TargetSpectrum.asce7(1.0, 0.6)
+    assert sm.assess(no_site, target=target, mu_factors=(1, 1), resamples=2).target is target
+
+
+def test_files_are_written_whole_and_old_ones_removed(small: sm.Assessment, tmp_path: Path) -> None:
+    files = small.write(tmp_path / "out")
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == sorted(path.name for path in files)
+    assert pl.read_parquet(tmp_path / "out" / "runs.parquet").equals(small.runs)
+    assert (tmp_path / "out" / "assessment.txt").read_text(encoding="utf-8") == small.text() + "\n"
+    small.write(tmp_path / "out", figures=False)
+    assert not list((tmp_path / "out").glob("*.png"))
+    (tmp_path / "file").write_text("")
+    with pytest.raises(sm.InvalidOption, match="must be a folder that can be written to"):
+        small.write(tmp_path / "file")
+
+
+def test_figures_have_what_they_should(warehouse: sm.Assessment) -> None:
+    figures = warehouse.figures()
+    assert list(figures) == ["effective_fraction", "drift", "slip"]
+    for figure in figures.values():
+        assert isinstance(figure, Figure)
+    texts = [text.get_text() for text in figures["effective_fraction"].legends[0].get_texts()]
+    assert any("0.25 of the design live load" in text for text in texts)
+    assert any(text.startswith("advised") for text in texts)
+    axes = figures["drift"].axes[0]
+    assert axes.get_xlim()[1] > 2.0  # the limit of 2 % is in sight
+
+
+def test_the_page_says_the_answer_first(warehouse: sm.Assessment) -> None:
+    lines = warehouse.text().splitlines()
+    assert lines[3].startswith(f"ANSWER    use lambda = {warehouse.advised:.2f} of the goods present")
+    assert all(len(line) <= 120 for line in lines)
+    for heading in ("Peak storey drift", "Stability coefficient", "Slip of the goods", "In an analysis", "Assumptions"):
+        assert any(line.startswith(heading) for line in lines)
+
+
+def test_command_prints_page_and_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["building", "--example"]) == 0
+    file = tmp_path / "warehouse.toml"
+    file.write_text(capsys.readouterr().out, encoding="utf-8")
+    assert file.read_text(encoding="utf-8") == example_file().read_text(encoding="utf-8")
+    out = str(tmp_path / "out")
+    assert main(["building", str(file), "--out", out, "--no-figures", "--mu-factors", "1", "1"]) == 0
+    page = capsys.readouterr().out
+    assert "ANSWER    use lambda" in page
+    assert page.rstrip().splitlines()[-1].startswith("12 files in ")
+    options = ["--json", "--no-figures", "--sds", "0.8", "--sd1", "0.5", "--code", "nbc", "--period", "0.6"]
+    assert main(["building", str(file), "--out", out, *options]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["answer"]["code"]["fraction"] == 0.6
+    assert document["target"]["sds_g"] == 0.8
+    assert document["assumptions"]
+
+
+def test_command_lists_codes_and_frictions(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["building", "--codes"]) == 0
+    assert "from memory, unverified" in capsys.readouterr().out
+    assert main(["building", "--frictions"]) == 0
+    assert "timber-on-steel " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["none.toml"], "building file must be a file that can be read"),
+        ([str(example_file()), "--tl", "3"], "must be given by --sds and --sd1 together; got --tl alone"),
+        ([str(example_file()), "--sds", "1"], "must be given by --sds and --sd1 together; got --sds alone"),
+        ([str(example_file()), "--code", "ec9"], "did you mean ec8?"),
+        ([str(example_file()), "--use", "storage"], "--use of building must be left out where --code is not given"),
+        ([str(example_file()), "--mu-factors", "2", "3"], "mu_factors of assessment must be two factors"),
+    ],
+)
+def test_command_refuses_bad_input(
+    options: list[str], message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["building", *options, "--out", str(tmp_path / "out")]) == 2
+    assert message in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_command_takes_recordings(shared: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    records = shared / "records" / "fema_p695_far_field"
+    options = ["--records", str(records), "--out", str(tmp_path), "--no-figures", "--json"]
+    assert main(["building", str(example_file()), *options]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["suite"]["synthetic"] == 0
+    assert not any("synthetic" in remark for remark in document["remarks"])
+    assert 0.0 < document["effective"]["real"]["value"] < document["answer"]["advised_share_of_goods_present"] <= 1.0

@@ -1,0 +1,297 @@
+"""Building files: units, defaults, designs, and what is refused with which words."""
+
+from __future__ import annotations
+
+import copy
+import json
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import seismass as sm
+from seismass.building_file import KEYS, example_file
+from seismass.own_building import DesignRule
+
+G = 9.80665
+
+
+def given(**changes: dict[str, Any]) -> dict[str, Any]:
+    """Two storeys with goods on the first; tables changed as told, a key with the value None left out."""
+    tables: dict[str, Any] = {
+        "site": {"sds_g": 1.0, "sd1_g": 0.6},
+        "building": {
+            "stiffness_kn_per_m": 2.0e5,
+            "height_m": 4.0,
+            "area_m2": 500.0,
+            "dead_load_kpa": 5.0,
+            "yield_shear_kn": 900.0,
+        },
+        "goods": {"live_load_kpa": 6.0, "friction": "timber-on-steel"},
+        "storeys": [{}, {"live_load_kpa": 0.0}],
+    }
+    for table, values in changes.items():
+        if isinstance(values, dict):
+            tables[table] = {k: v for k, v in {**tables.get(table, {}), **values}.items() if v is not None}
+        else:
+            tables[table] = values
+    return tables
+
+
+def test_units_are_those_of_the_keys() -> None:
+    """5 kPa on 500 m2 are 2500 kN, by hand; kN/m and kN are thousands of N/m and N."""
+    building = sm.read_building(given(goods={"occupied": 0.7}))
+    np.testing.assert_allclose(building.mass, [2.5e6 / G, 2.5e6 / G], rtol=1e-15)
+    np.testing.assert_allclose(building.live_load, [3.0e6 / G, 0.0], rtol=1e-15)
+    np.testing.assert_allclose(building.goods, [2.1e6 / G, 0.0], rtol=1e-15)
+    np.testing.assert_array_equal(building.stiffness, [2.0e8, 2.0e8])
+    assert building.yield_shear is not None
+    np.testing.assert_array_equal(building.yield_shear, [9.0e5, 9.0e5])
+    assert building.gravity_load is not None
+    np.testing.assert_allclose(building.gravity_load, [2.5e6, 2.5e6], rtol=1e-15)
+    assert (building.mu_s.tolist(), building.mu_k.tolist()) == ([0.4, 0.0], [0.3, 0.0])  # the contact of the table
+    scene = building.scene()
+    # P of storey 1: both floors and the goods present; of storey 2: the roof.
+    np.testing.assert_allclose(scene.geometric_stiffness * 4.0, [5.0e6 + 2.1e6, 2.5e6], rtol=1e-12)
+
+
+def test_the_same_building_in_other_units_is_the_same_scene() -> None:
+    weight = 2 * 2.5e6
+    other = given(
+        building={
+            "stiffness_kn_per_m": None,
+            "stiffness_n_per_m": 2.0e8,
+            "dead_load_kpa": None,
+            "mass_kg": 2.5e6 / G,
+            "yield_shear_kn": None,
+            "yield_shear_over_weight": 9.0e5 / weight,
+        },
+        goods={"live_load_kpa": None, "live_load_kg": 3.0e6 / G, "friction": None, "mu_s": 0.4, "mu_k": 0.3},
+    )
+    one, two = sm.read_building(given()).scene(), sm.read_building(other).scene()
+    assert one.building is not None
+    assert two.building is not None
+    for name in ("mass", "stiffness", "yield_shear", "heights", "gravity_load"):
+        np.testing.assert_allclose(getattr(one.building, name), getattr(two.building, name), rtol=1e-14)
+    np.testing.assert_allclose(one.block_mass, two.block_mass, rtol=1e-14)
+
+
+def test_a_storey_replaces_the_default_in_any_of_its_units() -> None:
+    building = sm.read_building(
+        given(storeys=[{"mass_kg": 1000.0, "yield_shear_n": 5.0}, {"live_load_kg": 7.0, "mu": 0.9, "occupied": 0.5}])
+    )
+    assert building.mass[0] == 1000.0
+    assert building.yield_shear is not None
+    assert building.yield_shear.tolist() == [5.0, 9.0e5]
+    assert building.goods[1] == 3.5
+    assert building.mu_s.tolist() == [0.4, 0.9]
+    assert building.friction == ("timber-on-steel", "")
+
+
+def test_a_period_scales_relative_stiffnesses() -> None:
+    building = sm.read_building(
+        given(
+            building={"stiffness_kn_per_m": None, "period_s": 0.5}, storeys=[{"relative_stiffness": 2.0}, {"mu": 0.3}]
+        )
+    )
+    assert building.stiffness[0] == pytest.approx(2.0 * building.stiffness[1], rel=1e-14)
+    # The kernel finds the periods of the building in its own way.
+    assert building.structure().periods[0] == pytest.approx(0.5, rel=1e-12)
+
+
+def test_a_design_divides_the_elastic_shears_by_r() -> None:
+    """One storey: V_e = m A, with m the floor and the code's share, and A of the plateau, S_DS g."""
+    tables = given(
+        building={"yield_shear_kn": None, "design": True, "R": 4.0, "stiffness_kn_per_m": None, "period_s": 0.3},
+        storeys=[{}],
+    )
+    building = sm.read_building(tables)
+    assert building.design == DesignRule(4.0, None, "srss")
+    assert building.design_fraction == 0.25
+    mass = 2.5e6 / G + 0.25 * 3.0e6 / G
+    # 0.3 s times the root of 1.3 lies between 0.2 S_D1/S_DS = 0.12 s and 0.6 s.
+    assert building.structure().yield_shear[0] == pytest.approx(mass * G / 4.0, rel=1e-12)
+    tables["building"]["design_fraction"] = 0.0
+    assert sm.read_building(tables).structure().yield_shear[0] == pytest.approx(2.5e6 / 4.0, rel=1e-12)
+    tables["building"] |= {"design_fraction": 1.0}
+    tables["code"] = {"id": "nbc"}
+    assert sm.read_building(tables).structure().yield_shear[0] == pytest.approx(5.5e6 / 4.0, rel=1e-12)
+
+
+def test_without_heights_there_is_no_p_delta_and_no_limit() -> None:
+    building = sm.read_building(given(building={"height_m": None}))
+    assert building.heights is None
+    assert building.gravity_load is None
+    assert not building.scene().geometric_stiffness.any()
+    assert sm.read_building(given(building={"p_delta": False})).gravity_load is None
+    stated = sm.read_building(given(building={"gravity_load_kn": 4000.0})).gravity_load
+    assert stated is not None
+    np.testing.assert_allclose(stated, 4.0e6, rtol=1e-15)
+
+
+def test_floors_without_goods_need_no_friction() -> None:
+    building = sm.read_building(given(goods={"friction": None}, storeys=[{"live_load_kpa": 0}, {"occupied": 0.0}]))
+    assert not building.goods.any()
+    assert building.scene().blocks == ()
+    assert building.present_share == 0.0
+
+
+def test_the_example_is_read_and_names_every_key() -> None:
+    """A user who starts from it finds each key, in a line or in a comment."""
+    text = example_file().read_text(encoding="utf-8")
+    building = sm.read_building(example_file())
+    assert building.storeys == 4
+    assert building.period() == pytest.approx(0.57, rel=1e-12)
+    assert building.goods[3] == 0.0
+    for table in KEYS.values():
+        for key in table:
+            assert re.search(rf"\b{key}\b", text), key
+
+
+def test_json_and_toml_are_the_same_file(tmp_path: Path) -> None:
+    tables = tomllib.loads(example_file().read_text(encoding="utf-8"))
+    (tmp_path / "warehouse.json").write_text(json.dumps(tables), encoding="utf-8")
+    one, two = sm.read_building(example_file()), sm.read_building(tmp_path / "warehouse.json")
+    assert one.scene() == two.scene()
+
+
+def test_the_spectrum_of_a_file_is_beside_it(tmp_path: Path) -> None:
+    tables = given()
+    tables["site"] = {"spectrum_csv": "site.csv"}
+    (tmp_path / "site.csv").write_text("period,Sa\n0.05,0.5\n5,0.5\n")
+    (tmp_path / "b.json").write_text(json.dumps(tables))
+    target = sm.read_building(tmp_path / "b.json").site_spectrum()
+    assert target([1.0])[0] == pytest.approx(0.5 * G, rel=1e-12)
+
+
+def test_tables_given_are_not_changed() -> None:
+    tables = given()
+    before = copy.deepcopy(tables)
+    sm.read_building(tables)
+    assert tables == before
+
+
+WRONG: list[tuple[dict[str, Any], str]] = [
+    ({"building": {"stiffness": 2e5}}, r"building.stiffness of building must be one of the keys .* \(did you mean "),
+    ({"building": {"yield_shear": 9e5}}, r"\(did you mean building.yield_shear_"),
+    ({"building": {"height": 4}}, r"\(did you mean building.height_m\?\); got an unknown key"),
+    ({"building": {"area": 4}}, r"\(did you mean building.area_m2\?\)"),
+    ({"building": {"dead_load": 4}}, r"\(did you mean building.dead_load_kpa\?\)"),
+    ({"building": {"live_load_kpa": 4}}, "building.live_load_kpa of building must be one of the keys"),
+    ({"goods": {"live_load": 4}}, r"\(did you mean goods.live_load_k"),
+    ({"site": {"sds": 1.0}}, r"\(did you mean site.sds_g\?\)"),
+    ({"Building": {}}, r"\(did you mean building\?\)"),
+    ({"storeys": []}, "storeys of building must be a table per storey, storey 1 first; got none"),
+    ({"storeys": 4}, "storeys of building must be a list of tables; got 4"),
+    ({"storeys": [{"periods": 1}, {}]}, r"storeys\[1\].periods of building must be one of the keys"),
+    ({"building": {"dead_load_kpa": -5}}, "building.dead_load_kpa of building must be a positive number; got -5"),
+    ({"building": {"dead_load_kpa": "5"}}, "building.dead_load_kpa of building must be a number; got '5'"),
+    ({"building": {"dead_load_kpa": None}}, r"storeys\[1\].dead_load_kpa of building must be given, or mass_kg, here"),
+    ({"building": {"area_m2": None}}, r"storeys\[1\].area_m2 of building must be given, or building.area_m2 for all"),
+    ({"building": {"mass_kg": 5}}, "building.dead_load_kpa of building must be left out where building.mass_kg is"),
+    ({"building": {"height_m": 0}}, "building.height_m of building must be a positive number; got 0"),
+    (
+        {"building": {"height_m": None}, "storeys": [{"height_m": 4}, {}]},
+        r"storeys\[2\].height_m of building must be given",
+    ),
+    ({"building": {"height_m": None, "p_delta": True}}, "height_m of building must be given where building.p_delta is"),
+    ({"building": {"p_delta": "yes"}}, "building.p_delta of building must be true or false; got 'yes'"),
+    ({"building": {"period_s": 0.5}}, "stiffness_kn_per_m of building must be left out where building.period_s is"),
+    ({"building": {"stiffness_kn_per_m": None}}, "given, or stiffness_n_per_m, or building.period_s for the whole"),
+    (
+        {"building": {"relative_stiffness": 2}},
+        "relative_stiffness of building must be left out where building.period_s",
+    ),
+    ({"building": {"yield_shear_kn": None}}, "given, or yield_shear_n, or yield_shear_over_weight, or building.design"),
+    ({"building": {"yield_shear_kn": -9}}, r"building.yield_shear_kn of building must be positive \(inf"),
+    ({"building": {"design": True}}, "building.yield_shear_kn of building must be left out where building.design is"),
+    ({"building": {"design": True, "yield_shear_kn": None}}, "building.R of building must be given; got nothing"),
+    (
+        {"building": {"design": True, "yield_shear_kn": None, "R": 0.5}},
+        "building.R of building must be finite and at least 1; got 0.5",
+    ),
+    ({"building": {"R": 4}}, "building.R of building must be left out where building.design is not true; got given"),
+    (
+        {"building": {"design": True, "yield_shear_kn": None, "R": 4, "combination": "abs"}},
+        "building.combination of building must be one of srss, cqc; got 'abs'",
+    ),
+    ({"building": {"damping": 5}}, "building.damping of building must be from 0 to 1; got 5"),
+    ({"building": {"overstrength": 0.5}}, "overstrength of building must be finite and at least 1; got 0.5"),
+    ({"building": {"drift_limit": -1}}, "building.drift_limit of building must be a positive number; got -1"),
+    (
+        {"goods": {"friction": "wood-on-steel"}},
+        r"goods.friction of building must be one of .*did you mean timber-on-st",
+    ),
+    (
+        {"goods": {"friction": None}},
+        r"storeys\[1\].friction of building must be given, or mu, or mu_s, here or in goods",
+    ),
+    ({"goods": {"mu": 0.3}}, "goods.friction of building must be left out where goods.mu is given; got both"),
+    ({"goods": {"friction": None, "mu": -0.3}}, "goods.mu of building must be finite and not negative; got -0.3"),
+    (
+        {"goods": {"friction": None, "mu_s": 0.3, "mu_k": 0.4}},
+        "goods.mu_k of building must be from 0 to goods.mu_s = 0.3; got 0.4",
+    ),
+    ({"goods": {"mu_k": 0.4}}, "goods.mu_k of building must be left out where goods.friction is given; got both"),
+    ({"goods": {"occupied": 70}}, "goods.occupied of building must be from 0 to 1; got 70"),
+    ({"goods": {"live_load_kpa": -1}}, "goods.live_load_kpa of building must be finite and not negative; got -1"),
+    ({"goods": {"live_load_kg": 1}}, "goods.live_load_kpa of building must be left out where goods.live_load_kg is"),
+    (
+        {"goods": {"mu_factors": [1.5, 0.67]}},
+        r"goods.mu_factors of building must be two factors, .*; got \[1.5, 0.67\]",
+    ),
+    ({"site": {"sd1_g": None}}, "site.sd1_g of building must be given, or site.spectrum_csv for the whole spectrum"),
+    ({"site": {"sds_g": -1}}, "site.sds_g of building must be a positive number; got -1"),
+    ({"site": {"tl_s": 0.1}}, "site.tl_s of building must be at least T_S = S_D1/S_DS = 0.6 s; got 0.1"),
+    ({"site": {"spectrum_csv": "a.csv"}}, "site.sds_g of building must be left out where site.spectrum_csv is given"),
+    ({"code": {"id": "asce"}}, "code.id of building must be one of asce7-10, .*; got 'asce'"),
+    ({"code": {"id": "aashto", "use": "ordinary"}}, "code.use of building must be storage; got 'ordinary'"),
+    ({"code": {"fraction": 25}}, "code.fraction of building must be from 0 to 1; got 25"),
+    ({"code": {"fraction": 0.3, "id": "ec8"}}, "code.id of building must be left out where code.fraction is given"),
+    ({"building": {"collapse_drift_ratio": 0}}, "collapse_drift_ratio of building must be a positive number; got 0"),
+]
+
+
+@pytest.mark.parametrize(("changes", "message"), WRONG, ids=range(len(WRONG)))
+def test_wrong_files_are_refused(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(sm.InvalidBuildingFile, match=message):
+        sm.read_building(given(**changes))
+
+
+def test_files_that_cannot_be_read_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(sm.InvalidBuildingFile, match=r"building file must be a file that can be read; got .*none.toml"):
+        sm.read_building(tmp_path / "none.toml")
+    with pytest.raises(
+        sm.InvalidBuildingFile, match=r"suffix of building file a.txt must be .toml or .json; got '.txt'"
+    ):
+        sm.read_building(tmp_path / "a.txt")
+    (tmp_path / "a.toml").write_text("[building\n")
+    with pytest.raises(sm.InvalidBuildingFile, match=r"content of a.toml must be valid TOML; got"):
+        sm.read_building(tmp_path / "a.toml")
+
+
+def test_a_design_without_a_site_asks_for_one() -> None:
+    tables = given(building={"yield_shear_kn": None, "design": True, "R": 4.0})
+    del tables["site"]
+    with pytest.raises(sm.InvalidOption, match=r"target of building building must be given: \[site\] in the file"):
+        sm.read_building(tables).scene()
+
+
+PAGE = (Path(__file__).parents[1] / "docs" / "building_file.md").read_text(encoding="utf-8")
+
+
+def test_the_page_names_every_key() -> None:
+    for table, keys in KEYS.items():
+        for key in keys:
+            assert re.search(rf"`(?:{table}\.)?{key}`", PAGE), (table, key)
+
+
+def test_the_file_of_the_page_is_read(tmp_path: Path) -> None:
+    (text,) = re.findall(r"^```toml\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+    (tmp_path / "warehouse.toml").write_text(text)
+    building = sm.read_building(tmp_path / "warehouse.toml")
+    assert building.storeys == 2
+    assert building.goods[0] == pytest.approx(0.8 * 7.2 * 1200.0 * 1e3 / G, rel=1e-14)
