@@ -18,7 +18,7 @@ export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 	test-aarch64
 
 study: build
-	$(VENV)/bin/seismass study --out out/study
+	$(VENV)/bin/seismass study --effective --sensitivity --out out/study
 
 test: lint docs test-wheel test-rust test-python
 

@@ -3,6 +3,8 @@
 import itertools
 import json
 import re
+import statistics
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +14,11 @@ import pytest
 import seismass as sm
 from seismass import cli
 from seismass.report import write
-from seismass.report.figures import study_figures, suite_caption
+from seismass.report.figures import suite_caption
 from seismass.report.findings import findings, findings_text
+from seismass.report.study_figures import study_figures
 from seismass.spectra import mean_spectrum
-from seismass.study import StudyParameters, StudyResult, _display_names, run_study
+from seismass.study import StudyParameters, StudyResult, display_names, run_study
 
 TARGET = sm.TargetSpectrum.asce7()
 SMALL = StudyParameters(buildings=((2, 0.38), (3, 0.47)), response_modification=(1.0, 4.0), mass_ratios=(1.0,))
@@ -33,29 +36,32 @@ def small() -> StudyResult:
 
 def test_equal_runs_are_solved_once(full: StudyResult) -> None:
     counts = full.metadata["counts"]
-    # 72 buildings x 2 models x 7 motions; 63 + 36 + 12 different scenes.
-    assert (counts["buildings"], counts["analyses"], counts["distinct"]) == (72, 1008, 777)
-    assert counts["completed"] == 777
-    assert full.responses["run"].n_unique() == 777
+    # 72 buildings x 3 models x 7 motions. Different scenes: real and attached 9 elastic ones (storeys, alpha) each,
+    # which storage and commercial share, and 54 that yield (x R, x occupancy); code 9 + 27 storage, 3 + 9 commercial.
+    assert (counts["buildings"], counts["analyses"], counts["distinct"]) == (72, 1512, 7 * (63 + 63 + 48))
+    assert counts["completed"] == 1218
+    assert full.responses["run"].unique().sort().to_list() == list(range(1, 1219))
 
 
-def test_yielding_at_r1_makes_840_distinct_runs() -> None:
+def test_yielding_at_r1_makes_buildings_of_two_occupancies_differ() -> None:
     counts = run_study(sm.builtin_suite(), TARGET, StudyParameters(yield_at_r1=True)).metadata["counts"]
-    assert (counts["analyses"], counts["distinct"]) == (1008, 840)
+    # 72 real, 72 attached, 36 code models of storage and 12 of commercial buildings.
+    assert (counts["analyses"], counts["distinct"]) == (1512, 7 * (72 + 72 + 48))
 
 
 def test_two_equal_motions_count_once() -> None:
     records = list(sm.builtin_suite())
     suite = sm.Suite("twice", (*records[:2], records[0], records[0]))
     counts = run_study(suite, TARGET, SMALL).metadata["counts"]
-    # Of 8 buildings the real scenes are 2 (R = 1) + 4, the ASCE scenes 4 + 4; 2 of 4 motions differ.
-    assert (counts["analyses"], counts["distinct"]) == (8 * 2 * 4, 14 * 2)
+    # Of 8 buildings the real and attached scenes are 2 (R = 1) + 4, the code scenes 4 + 4; 2 of 4 motions differ.
+    assert (counts["analyses"], counts["distinct"]) == (8 * 3 * 4, (6 + 6 + 8) * 2)
 
 
 def test_tables_have_a_row_per_building_model_motion_and_storey(full: StudyResult) -> None:
     storeys = 24 * (2 + 3 + 4)
-    assert full.responses.height == storeys * 2 * 7
+    assert full.responses.height == storeys * 3 * 7
     assert full.summary.height == full.designs.height == storeys
+    assert full.fractions.height == 72
     keys = ["building", "model", "motion", "storey"]
     assert full.responses.select(keys).is_duplicated().sum() == 0
     assert full.responses.select(pl.col("peak_drift").is_finite().all()).item()
@@ -70,9 +76,11 @@ def test_rows_are_what_the_kernel_gives_for_the_scene_built_by_hand(full: StudyR
     strength = design["yield_shear_over_weight"].to_numpy() * bare.weight
     ratios = [1.5, 1.5, 0.0]
     yielding = bare.replace(yield_shear=strength, overstrength=2.0, second_slope=0.05, third_slope=0.0, damping=0.05)
+    matrix = bare.damping_matrix  # of the bare building, for all models
     scenes = {
         "real": sm.Scene(yielding, sm.blocks_on_floors(ratios, 0.4)),
-        "asce": sm.Scene(yielding.replace(mass=bare.mass + share)),
+        "code": sm.Scene(yielding.replace(mass=bare.mass + share, damping=matrix)),
+        "attached": sm.Scene(yielding.replace(mass=bare.mass + ratios, damping=matrix)),
     }
     for model, scene in scenes.items():
         rows = full.responses.filter(occupancy="storage", storeys=3, R=4.0, alpha=1.5, model=model, motion=2)
@@ -102,37 +110,68 @@ def test_strength_is_the_elastic_shear_over_r(full: StudyResult) -> None:
     assert row["design_mass_ratio"].to_list() == [1.375, 1.375, 1.375, 1.0]
 
 
-def test_commercial_asce_model_does_not_depend_on_alpha(full: StudyResult) -> None:
+def test_commercial_code_model_does_not_depend_on_alpha(full: StudyResult) -> None:
     rows = full.summary.filter(occupancy="commercial").group_by("storeys", "R", "storey")
-    assert rows.agg(pl.col("mean_peak_drift_asce").n_unique())["mean_peak_drift_asce"].max() == 1
+    assert rows.agg(pl.col("mean_peak_drift_code").n_unique())["mean_peak_drift_code"].max() == 1
 
 
 def test_summary_holds_means_over_motions_and_their_ratio(full: StudyResult) -> None:
     row = full.summary.filter(occupancy="commercial", storeys=2, R=6.0, alpha=0.5, storey=1).row(0, named=True)
     rows = full.responses.filter(occupancy="commercial", storeys=2, R=6.0, alpha=0.5, storey=1)
-    real, asce = (rows.filter(model=model)["peak_drift"].to_numpy().mean() for model in ("real", "asce"))
+    models = [rows.filter(model=model).sort("motion") for model in ("real", "code", "attached")]
+    drifts = [frame["peak_drift"].to_numpy() for frame in models]
+    real, code, attached = (values.mean() for values in drifts)
     assert row["mean_peak_drift_real"] == pytest.approx(real, rel=1e-14)
-    assert row["mean_peak_drift_asce"] == pytest.approx(asce, rel=1e-14)
-    assert row["underestimation_percent"] == pytest.approx(100.0 * (real - asce) / asce, rel=1e-12)
+    assert row["mean_peak_drift_code"] == pytest.approx(code, rel=1e-14)
+    assert row["mean_peak_drift_attached"] == pytest.approx(attached, rel=1e-14)
+    assert row["underestimation_percent"] == pytest.approx(100.0 * (real - code) / code, rel=1e-12)
+    assert row["ratio"] == pytest.approx(row["ratio_mass"] * row["ratio_sliding"], rel=1e-14)
+    assert (row["ratio_mass"], row["ratio_sliding"]) == pytest.approx((attached / code, real / attached), rel=1e-14)
     assert row["motions"] == 7
+    # Scatter, by numpy's and the standard library's own functions.
+    each = 100.0 * (drifts[0] / drifts[1] - 1.0)
+    for name, share in (("median", 0.5), ("p16", 0.16), ("p84", 0.84)):
+        assert row[f"{name}_peak_drift_real"] == pytest.approx(np.quantile(drifts[0], share), rel=1e-12)
+        assert row[f"{name}_underestimation_percent"] == pytest.approx(np.quantile(each, share), rel=1e-12)
+    geometric = [statistics.geometric_mean(values) for values in drifts]
+    assert row["geometric_mean_peak_drift_attached"] == pytest.approx(geometric[2], rel=1e-12)
+    expected = 100.0 * (geometric[0] / geometric[1] - 1.0)
+    assert row["geometric_mean_underestimation_percent"] == pytest.approx(expected, rel=1e-10)
+    assert row["mean_peak_drift_ratio_real"] == pytest.approx(real / 3.5, rel=1e-14)
+    # One motion left out, each in turn.
+    without = [
+        100.0 * (np.delete(drifts[0], motion).mean() / np.delete(drifts[1], motion).mean() - 1.0) for motion in range(7)
+    ]
+    most = int(np.argmax(np.abs(np.array(without) - row["underestimation_percent"])))
+    assert row["leave_one_out_motion"] == most + 1
+    assert row["leave_one_out_record"] == models[0]["record"][most]
+    assert row["leave_one_out_percent"] == pytest.approx(without[most], rel=1e-10)
 
 
 def test_no_friction_is_the_commercial_rule() -> None:
-    """mu = 0: the blocks are not there for the building, so real and ASCE model with lambda = 0 agree."""
+    """mu = 0: the blocks are not there for the building, so real and code model with lambda = 0 agree."""
     result = run_study(
-        sm.builtin_suite(), TARGET, StudyParameters(buildings=((2, 0.38),), occupancies=(("commercial", 0.0),), mu=0.0)
+        sm.builtin_suite(),
+        TARGET,
+        StudyParameters(buildings=((2, 0.38),), occupancies=(("commercial", 0.0),), mu=(0.0,)),
     )
     np.testing.assert_allclose(result.summary["underestimation_percent"], 0.0, atol=1e-9)
 
 
 def test_lambda_of_one_is_the_real_model_where_nothing_slides() -> None:
-    """mu too large to slide and lambda = 1: both models carry the whole block, damping aside, which alpha changes."""
+    """mu too large to slide and lambda = 1: all models carry the whole block, and have the same C but for their own."""
     chosen = StudyParameters(
-        buildings=((2, 0.38),), occupancies=(("all", 1.0),), mass_ratios=(1e-6,), mu=1e3, response_modification=(2.0,)
+        buildings=((2, 0.38),), occupancies=(("all", 1.0),), mass_ratios=(1.0,), mu=(1e3,), response_modification=(2.0,)
     )
-    result = run_study(sm.builtin_suite(), TARGET, chosen)
-    np.testing.assert_allclose(result.summary["ratio"], 1.0, atol=1e-4)
-    assert result.summary["mean_peak_slip"].drop_nulls().to_list() == [0.0]
+    for base in ("bare", "loaded"):
+        result = run_study(sm.builtin_suite(), TARGET, replace(chosen, damping_base=base))
+        # Masses, stiffness and C are the same numbers up to rounding of C.
+        np.testing.assert_allclose(result.summary["ratio_sliding"], 1.0, atol=1e-12)
+        assert result.summary["ratio_mass"].to_list() == [1.0, 1.0]
+        assert result.summary["mean_peak_slip"].drop_nulls().to_list() == [0.0]
+    own = run_study(sm.builtin_suite(), TARGET, replace(chosen, damping_base="own"))
+    # C of the heavier models is larger: the real building drifts more than the same building glued.
+    assert (own.summary["ratio_sliding"] > 1.001).all()
 
 
 def test_threads_change_no_digit(small: StudyResult) -> None:
@@ -157,7 +196,7 @@ def test_digest_depends_on_motions_target_and_parameters(small: StudyResult) -> 
 
 
 def test_a_failed_run_gives_no_mean(small: StudyResult, monkeypatch: pytest.MonkeyPatch) -> None:
-    from seismass import study
+    from seismass.study import run as study
 
     def failing(*args, **kwargs) -> pl.DataFrame:
         table = sm.simulate_many(*args, **kwargs)
@@ -171,13 +210,32 @@ def test_a_failed_run_gives_no_mean(small: StudyResult, monkeypatch: pytest.Monk
     monkeypatch.setattr(study, "simulate_many", failing)
     result = run_study(sm.builtin_suite(), TARGET, SMALL)
     assert result.metadata["counts"]["failed"] == 1
-    # Run 0 is the elastic real model under motion 1, which storage and commercial share.
+    # Run 1 is the elastic real model under motion 1, which storage and commercial share.
     missing = result.summary.filter(pl.col("ratio").is_null())
+    assert missing["median_peak_drift_real"].null_count() == missing.height == 4
+    assert missing["mean_peak_drift_code"].null_count() == 0
     assert missing.select("occupancy", "R", "storeys").unique().sort("occupancy").rows() == [
         ("commercial", 1.0, 2),
         ("storage", 1.0, 2),
     ]
-    assert findings(result.summary)[0]["storeys_without_result"] == 2
+    assert findings(result.summary, result.fractions)[0]["storeys_without_result"] == 2
+
+
+def as_tables(rows: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataFrame]:
+    """Summary and fractions of one occupancy with these underestimations, and nothing else in them that matters."""
+    statistics = ("ratio_mass", "ratio_sliding", "leave_one_out_percent")
+    scatter = [f"{name}_underestimation_percent" for name in ("median", "p16", "p84")]
+    summary = rows.with_columns(
+        pl.lit("storage").alias("occupancy"),
+        pl.lit(0.4).alias("mu"),
+        pl.lit("a record").alias("leave_one_out_record"),
+        pl.int_range(1, pl.len() + 1).alias("building"),
+        *(pl.lit(0.25).alias(f"lambda_{use}") for use in ("design", "analysis")),
+        *(pl.lit(1.5).alias(name) for name in (*statistics, *scatter)),
+        *(pl.lit(0).alias(f"collapses_{model}") for model in ("real", "code", "attached")),
+    )
+    numbers = dict.fromkeys(("eta", "estimate", "conservative", "effective"), pl.lit(0.5))
+    return summary, summary.select("building", **numbers)
 
 
 def test_findings_are_counted_from_the_summary() -> None:
@@ -193,11 +251,8 @@ def test_findings_are_counted_from_the_summary() -> None:
         (2, 4.0, 1.0, 2, -50.0),
     ]
     names = ["storeys", "R", "alpha", "storey", "underestimation_percent"]
-    summary = pl.DataFrame(rows, schema=names, orient="row").with_columns(
-        pl.lit("storage").alias("occupancy"), pl.lit(0.25).alias("lambda"), pl.lit(0.38).alias("period")
-    )
-    (entry,) = findings(summary)
-    assert (entry["storeys_compared"], entry["asce_gives_more"], entry["asce_gives_more_top"]) == (8, 3, 3)
+    (entry,) = findings(*as_tables(pl.DataFrame(rows, schema=names, orient="row").with_columns(period=0.38)))
+    assert (entry["storeys_compared"], entry["code_gives_more"], entry["code_gives_more_top"]) == (8, 3, 3)
     assert entry["largest"]["underestimation_percent"] == 30.0
     assert entry["smallest"]["underestimation_percent"] == -50.0
     assert entry["growth"] == {
@@ -210,32 +265,32 @@ def test_findings_are_counted_from_the_summary() -> None:
 
 
 def test_rounding_is_no_finding() -> None:
-    """mu = 0: real and commercial ASCE model are one building, and its drifts agree to rounding."""
-    chosen = StudyParameters(buildings=((2, 0.38),), occupancies=(("commercial", 0.0),), mu=0.0)
-    summary = run_study(sm.builtin_suite(), TARGET, chosen).summary
-    assert (summary["underestimation_percent"] != 0.0).any()
-    (entry,) = findings(summary)
-    assert (entry["asce_gives_more"], entry["growth"]["alpha"]["grows"], entry["growth"]["R"]["grows"]) == (0, 0, 0)
+    """mu = 0: real and commercial code model are one building, and its drifts agree to rounding."""
+    chosen = StudyParameters(buildings=((2, 0.38),), occupancies=(("commercial", 0.0),), mu=(0.0,))
+    result = run_study(sm.builtin_suite(), TARGET, chosen)
+    assert (result.summary["underestimation_percent"] != 0.0).any()
+    (entry,) = findings(result.summary, result.fractions)
+    assert (entry["code_gives_more"], entry["growth"]["alpha"]["grows"], entry["growth"]["R"]["grows"]) == (0, 0, 0)
 
 
-def one_storey(values: dict[tuple[float, float], float | None]) -> pl.DataFrame:
-    """Summary of one-storey buildings: underestimation (%) by period and alpha."""
-    rows = [("all", 1.0, 1, period, 2.0, alpha, 1, value) for (period, alpha), value in values.items()]
-    names = ["occupancy", "lambda", "storeys", "period", "R", "alpha", "storey", "underestimation_percent"]
-    return pl.DataFrame(rows, schema=names, orient="row")
+def one_storey(values: dict[tuple[float, float], float | None]) -> tuple[pl.DataFrame, pl.DataFrame]:
+    """Tables of one-storey buildings: underestimation (%) by period and alpha."""
+    rows = [(1, period, 2.0, alpha, 1, value) for (period, alpha), value in values.items()]
+    names = ["storeys", "period", "R", "alpha", "storey", "underestimation_percent"]
+    return as_tables(pl.DataFrame(rows, schema=names, orient="row"))
 
 
 def test_growth_is_counted_within_each_building() -> None:
     """Two buildings that differ in their period alone: 2 steps of alpha each, the second one's downwards."""
     up = {(0.47, alpha): value for alpha, value in zip((0.5, 1.0, 1.5), (10.0, 20.0, 30.0), strict=True)}
     down = {(0.8, alpha): value for alpha, value in zip((0.5, 1.0, 1.5), (35.0, 25.0, 15.0), strict=True)}
-    (entry,) = findings(one_storey(up | down))
+    (entry,) = findings(*one_storey(up | down))
     assert entry["growth"]["alpha"] == {"pairs": 4, "grows": 2}
 
 
 @pytest.mark.parametrize("missing", [None, np.nan, np.inf])
 def test_growth_is_not_counted_over_a_gap(missing: float | None) -> None:
-    (entry,) = findings(one_storey({(0.47, 0.5): 10.0, (0.47, 1.0): missing, (0.47, 1.5): 30.0}))
+    (entry,) = findings(*one_storey({(0.47, 0.5): 10.0, (0.47, 1.0): missing, (0.47, 1.5): 30.0}))
     assert (entry["storeys_compared"], entry["storeys_without_result"]) == (2, 1)
     assert entry["growth"]["alpha"] == entry["growth"]["alpha_first_storey"] == {"pairs": 0, "grows": 0}
 
@@ -243,9 +298,17 @@ def test_growth_is_not_counted_over_a_gap(missing: float | None) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"mu": -0.1}, "mu of study must be zero or positive; got -0.1"),
-        ({"mu": np.nan}, "mu of study must be zero or positive; got nan"),
-        ({"mu": "0.4"}, "mu of study must be a number; got '0.4'"),
+        ({"mu": (-0.1,)}, "mu of study must be zero or positive; got -0.1"),
+        ({"mu": (np.nan,)}, "mu of study must be zero or positive; got nan"),
+        ({"mu": ("0.4",)}, "mu of study must be a number; got '0.4'"),
+        ({"mu": 0.4}, "mu of study must be a tuple of at least one value, none twice; got 0.4"),
+        ({"mu": (0.4, 0.4)}, "mu of study must be a tuple of at least one value, none twice; got (0.4, 0.4)"),
+        ({"damping_base": "none"}, "damping_base of study must be bare, loaded or own; got 'none'"),
+        ({"height": 0.0}, "height of study must be a positive number; got 0"),
+        ({"p_delta": 1}, "p_delta of study must be True or False; got 1"),
+        ({"collapse_drift_ratio": -1.0}, "collapse_drift_ratio of study must be a positive number; got -1"),
+        ({"code": "asce"}, "id of code must be one of asce7-10,"),
+        ({"occupancies": (("a", 0.25, 1.5),)}, "lambda of study must be between 0 and 1; got 1.5"),
         ({"overstrength": 0.9}, "overstrength of study must be a number of at least 1; got 0.9"),
         ({"overstrength": np.inf}, "overstrength of study must be a number of at least 1; got inf"),
         ({"second_slope": 1.1}, "second_slope of study must be between 0 and 1; got 1.1"),
@@ -266,10 +329,13 @@ def test_growth_is_not_counted_over_a_gap(missing: float | None) -> None:
             "occupancies of study must be a tuple of at least one value, none twice; got (('a', 0.25), ('a', 0.0))",
         ),
         ({"occupancies": ((1, 0.5),)}, "occupancy name of study must be a string; got 1"),
-        ({"occupancies": ("ab",)}, "occupancies of study must be a tuple of pairs (name, lambda); got 'ab' in it"),
-        ({"buildings": ((3,),)}, "buildings of study must be a tuple of pairs (storeys, period); got (3,) in it"),
-        ({"buildings": (3,)}, "buildings of study must be a tuple of pairs (storeys, period); got 3 in it"),
-        ({"buildings": ([3, 0.4],)}, "buildings of study must be a tuple of pairs (storeys, period); got [3, 0.4]"),
+        (
+            {"occupancies": ("ab",)},
+            "occupancies of study must be a tuple of (name, lambda) or (name, lambda of the design, lambda of",
+        ),
+        ({"buildings": ((3,),)}, "buildings of study must be a tuple of (storeys, period); got (3,) in it"),
+        ({"buildings": (3,)}, "buildings of study must be a tuple of (storeys, period); got 3 in it"),
+        ({"buildings": ([3, 0.4],)}, "buildings of study must be a tuple of (storeys, period); got [3, 0.4]"),
         ({"buildings": ((3, 0.4), (3, 0.4))}, "buildings of study must be a tuple of at least one value, none twice"),
         ({"mass_ratios": ([1.0],)}, "mass_ratios of study must be a number; got [1.0]"),
         ({"yield_at_r1": "no"}, "yield_at_r1 of study must be True or False; got 'no'"),
@@ -301,7 +367,7 @@ def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -
         assert pl.read_parquet(out / f"{name}.parquet").equals(table)
         assert pl.read_csv(out / f"{name}.csv").height == table.height
     document = json.loads((out / "study.json").read_text())
-    assert document["schema_version"] == 1
+    assert document["schema_version"] == 2
     assert document["package_version"] == sm.__version__
     assert document["parameters"]["second_slope"] == 0.05
     assert document["instructions"] == sm.instruction_set()
@@ -352,7 +418,7 @@ def test_figures_of_an_earlier_study_do_not_stay(
 )
 def test_names_of_motions_differ(labels: list[tuple[str, str, str]], names: list[str]) -> None:
     suite = sm.Suite("x", tuple(sm.Record([0.0], 0.01, name, event, station) for event, station, name in labels))
-    shown = _display_names(suite)
+    shown = display_names(suite)
     assert shown[: len(names)] == names
     assert len(set(shown)) == len(suite)
 
@@ -399,7 +465,9 @@ def test_figures_tell_every_alpha_and_r_apart() -> None:
     assert list(figures) == ["spectrum", "underestimation", "drift_R2", "drift_R2.0000001"]
     assert all(write.FIGURE_FILE.fullmatch(f"{name}.png") for name in figures)
     (axes,) = figures["underestimation"].axes
+    # Rings are the attached model, two for each alpha.
     points = [line for line in axes.lines if line.get_marker() not in ("_", "None", "")]
+    points = [line for line in points if line.get_markerfacecolor() != "none"]
     assert len({(line.get_color(), line.get_marker()) for line in points}) == len(points) == 5
     places = np.sort(np.concatenate([line.get_xdata() for line in points]))
     np.testing.assert_allclose(np.diff(places), [*[0.16] * 4, 0.36, *[0.16] * 4])
@@ -407,7 +475,7 @@ def test_figures_tell_every_alpha_and_r_apart() -> None:
 
 def test_schema_of_the_tables_is_documented(small: StudyResult) -> None:
     text = (Path(__file__).parents[1] / "docs" / "study_schema.md").read_text()
-    for table in (small.responses, small.summary, small.designs, small.scaling.table()):
+    for table in (small.responses, small.summary, small.fractions, small.designs, small.scaling.table()):
         for column in table.columns:
             assert f"`{column}`" in text, column
 
@@ -442,8 +510,9 @@ def command(*arguments: object) -> int:
 def test_command_writes_tables_and_says_what_they_say(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert command("study", "--out", tmp_path / "out", "--no-figures", "--jobs", 1) == 0
     text = capsys.readouterr()
-    assert "1008 analyses, 777 distinct" in text.out
-    assert "ASCE model gives more" in text.out
+    assert "1512 analyses, 1218 distinct" in text.out
+    assert "code model gives more" in text.out
+    assert "code     ASCE/SEI 7-10, storage: 0.25 of the live load (12.7.2, item 1, verified)" in text.out
     assert text.err == ""
     assert (tmp_path / "out" / "summary.csv").is_file()
     assert not list((tmp_path / "out").glob("*.png"))
@@ -466,7 +535,7 @@ def test_command_prints_json_and_takes_options(tmp_path: Path, capsys: pytest.Ca
     ]
     assert command("study", "--out", tmp_path / "out", "--no-figures", "--yield-at-R1", "--json", *arguments) == 0
     document = json.loads(capsys.readouterr().out)
-    assert document["counts"]["distinct"] == 840
+    assert document["counts"]["distinct"] == 7 * (72 + 72 + 48)
     assert document["parameters"]["second_slope"] == 0.1
     assert document["parameters"]["combination"] == "cqc"
     assert document["scaling"]["periods"] == pytest.approx([0.16, 1.2, 100])
@@ -513,7 +582,8 @@ def test_bad_input_is_one_line_and_exit_code_2(
         (["scale", "--period", "inf"], "argument --period: must be a positive number; got 'inf'"),
         (["scale", "--sds", "0"], "argument --sds: must be a positive number; got '0'"),
         (["scale", "--tl", "long"], "argument --tl: must be a positive number; got 'long'"),
-        (["study", "--mu", "x"], "argument --mu: invalid float value: 'x'"),
+        (["study", "--mu", "0.1,x"], "argument --mu: must be numbers separated by commas; got '0.1,x'"),
+        (["study", "--occupancy", "a"], "argument --occupancy: must be NAME:LAMBDA or NAME:LAMBDA:LAMBDA; got 'a'"),
         (["nothing"], "invalid choice: 'nothing'"),
         ([], "the following arguments are required: COMMAND"),
     ],
@@ -540,7 +610,7 @@ def test_interrupt_exits_with_130_and_writes_nothing(
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("seismass.study.simulate_many", interrupted)
+    monkeypatch.setattr("seismass.study.run.simulate_many", interrupted)
     assert command("study", "--out", tmp_path / "out") == 130
     assert "interrupted" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []

@@ -27,7 +27,8 @@ BLOCK: Final = re.compile(r"(<!-- findings -->\n```text\n).*?(```\n<!-- end of f
 
 def readme(shared: Path) -> str:
     """The README with the findings of a study on the recordings in `shared`."""
-    text = findings_text(findings(run_study(read_suite(shared / SUITE), TargetSpectrum.asce7()).summary)).strip("\n")
+    result = run_study(read_suite(shared / SUITE), TargetSpectrum.asce7())
+    text = findings_text(findings(result.summary, result.fractions, result.metadata["code"]["name"])).strip("\n")
     page = (ROOT / "README.md").read_text(encoding="utf-8")
     return BLOCK.sub(lambda match: f"{match[1]}{text}\n{match[2]}", page)
 

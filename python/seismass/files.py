@@ -81,10 +81,29 @@ def polars_writing(path: Path) -> Iterator[None]:
         raise OSError(code, reason, str(path)) from error
 
 
-def write_table(frame: pl.DataFrame, kind: Literal["parquet", "csv"], path: Path) -> None:
-    """Write a frame to a file of any name; Polars itself opens none that is not UTF-8."""
+def write_table(
+    frame: pl.DataFrame, kind: Literal["parquet", "csv"], path: Path, *, metadata: dict[str, str] | None = None
+) -> None:
+    """Write a frame to a file of any name; Polars itself opens none that is not UTF-8.
+
+    Parameters
+    ----------
+    frame : polars.DataFrame
+        The table.
+    kind : {"parquet", "csv"}
+        Format of the file.
+    path : Path
+        The file.
+    metadata : dict of str to str, optional
+        Key-value metadata of a Parquet file, for `polars.read_parquet_metadata`; a CSV has no place for it.
+
+    Raises
+    ------
+    OSError
+        The file cannot be written.
+    """
     with path.open("wb") as file:
         if kind == "csv":
             frame.write_csv(file)
         else:
-            frame.write_parquet(file)
+            frame.write_parquet(file, metadata=metadata)

@@ -243,6 +243,34 @@ class TargetSpectrum:
         }
         return cls(printable(source.stem), parameters, float(periods[0]), float(periods[-1]))
 
+    def tilted(self, power: float) -> TargetSpectrum:
+        """Return the spectrum times (T/1 s)^power: another shape with the same ordinate at 1 s.
+
+        Parameters
+        ----------
+        power : float
+            Positive: more at periods above 1 s, less below.
+
+        Raises
+        ------
+        InvalidOption
+            The power is not a finite number.
+
+        Examples
+        --------
+        >>> import seismass as sm
+        >>> target = sm.TargetSpectrum.asce7(sds_g=1.0, sd1_g=0.6).tilted(-1.0)
+        >>> (target([0.5, 1.0, 2.0]) / 9.80665).round(6).tolist()
+        [2.0, 0.6, 0.15]
+        """
+        added = as_number(power, "power", "target spectrum", InvalidOption)
+        if not np.isfinite(added):
+            raise refusal(InvalidOption, "power", "target spectrum", "a finite number", f"{added:g}")
+        total = self.parameters.get("tilt", 0.0) + added
+        return TargetSpectrum(
+            f"{self.label}, times (T/1 s)^{added:g}", {**self.parameters, "tilt": total}, self.shortest, self.longest
+        )
+
     def __call__(self, periods: ArrayLike) -> FloatArray:
         """Return Sa (m/s2) at periods (s), of the same shape.
 
@@ -258,6 +286,11 @@ class TargetSpectrum:
             wrong = np.atleast_1d(at)[~np.atleast_1d(inside)][0]
             requirement = f"from {self.shortest:g} s {upper}, the range of {self.label}"
             raise refusal(InvalidOption, "period", "target spectrum", requirement, f"{wrong:g}")
+        tilt = self.parameters.get("tilt", 0.0)
+        ordinates = self._untilted(at)
+        return ordinates if tilt == 0.0 else ordinates * at**tilt
+
+    def _untilted(self, at: FloatArray) -> FloatArray:
         if self.parameters["shape"] == "csv":
             log_periods, log_ordinates = np.log(self.parameters["period"]), np.log(self.parameters["sa_g"])
             return cast(FloatArray, STANDARD_GRAVITY * np.exp(np.interp(np.log(at), log_periods, log_ordinates)))

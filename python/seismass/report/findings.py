@@ -1,4 +1,4 @@
-"""What the summary of a study says about the paper's claim, computed from the table and from nothing else.
+"""What the summary of a study says about the paper's claim, computed from its tables and from nothing else.
 
 The claim (section 5): the standard underestimates drift, by more the larger alpha and R are, and by up to 100 %.
 """
@@ -7,50 +7,77 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+import numpy as np
 import polars as pl
 
 ROUNDING: Final = 1e-7
 """Underestimations (%) that differ by less are the same: drifts agree to 1e-9 of themselves."""
 
 _STOREY = ["occupancy", "storeys", "period", "storey"]
+_PLACE: Final = [
+    "underestimation_percent",
+    "storeys",
+    "period",
+    "R",
+    "alpha",
+    "storey",
+    "median_underestimation_percent",
+    "p16_underestimation_percent",
+    "p84_underestimation_percent",
+    "leave_one_out_percent",
+    "leave_one_out_record",
+]
 
 
-def findings(summary: pl.DataFrame) -> list[dict[str, Any]]:
-    """Return one entry per occupancy, in the order of the summary.
+def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code") -> list[dict[str, Any]]:
+    """Return one entry per occupancy and friction coefficient, in the order of the summary.
 
     Parameters
     ----------
-    summary : polars.DataFrame
-        `StudyResult.summary`; storeys of buildings with a failed run are left out and counted.
+    summary, fractions : polars.DataFrame
+        `StudyResult.summary` and `StudyResult.fractions`; storeys without a mean, because a run failed or collapsed,
+        are left out and counted.
+    code : str
+        Name of the code.
 
     Returns
     -------
     list of dict
-        occupancy, lambda; `storeys_compared` and `storeys_without_result`; `asce_gives_more`, the number of storeys
-        where the ASCE model drifts more, and `asce_gives_more_top`, how many of them are top storeys; `largest` and
-        `smallest` underestimation (%), each with its storeys, R, alpha and storey; `growth` with alpha and with R: of
-        all pairs of storeys with results that differ by one step of it alone, how many there are and in how many
-        the underestimation grows, for all storeys and for first storeys; `first_storey`, the mean over the buildings of
-        the first storey's underestimation (%) for each R and alpha.
+        occupancy, mu, code, lambda_design, lambda_analysis; `storeys_compared` and `storeys_without_result`, and
+        `collapses` by model; `code_gives_more`, the number of storeys where the code model drifts more, and
+        `code_gives_more_top`, how many of them are top storeys; `largest` and `smallest` underestimation (%), each with
+        its place, how much of it is mass and how much sliding (%), its scatter over the motions, and what remains
+        without the motion that changes it most; `growth` with alpha and with R: of all pairs of storeys with results
+        that differ by one step of it alone, how many there are and in how many the underestimation grows, for all
+        storeys and for first storeys; `first_storey`, for each R and alpha the mean over the buildings of the first
+        storey's underestimation, of what mass and what sliding does (%), and of eta and the two estimates.
     """
     entries = []
-    for (occupancy,), rows in summary.group_by("occupancy", maintain_order=True):
+    keys = ["building", "eta", "estimate", "conservative", "effective"]
+    joined = summary.join(fractions.select(keys), on="building", how="left", maintain_order="left").with_columns(
+        mass_percent=100.0 * (pl.col("ratio_mass") - 1.0), sliding_percent=100.0 * (pl.col("ratio_sliding") - 1.0)
+    )
+    for (occupancy, mu), rows in joined.group_by("occupancy", "mu", maintain_order=True):
         has_result = pl.col("underestimation_percent").is_finite()
         known = rows.filter(has_result)
         below = known.filter(pl.col("underestimation_percent") < -ROUNDING)
         ranked = known.sort("underestimation_percent", descending=True)
-        place = ["underestimation_percent", "storeys", "R", "alpha", "storey"]
+        place = [*_PLACE, "mass_percent", "sliding_percent"]
         first = rows.filter(pl.col("storey") == 1)
         entries.append(
             {
                 "occupancy": occupancy,
-                "lambda": rows["lambda"][0],
+                "mu": mu,
+                "code": code,
+                "lambda_design": rows["lambda_design"][0],
+                "lambda_analysis": rows["lambda_analysis"][0],
                 "storeys_compared": known.height,
                 "storeys_without_result": rows.height - known.height,
-                "asce_gives_more": below.height,
-                "asce_gives_more_top": below.filter(pl.col("storey") == pl.col("storeys")).height,
-                "largest": ranked.select(place).row(0, named=True) if known.height else None,
-                "smallest": ranked.select(place).row(-1, named=True) if known.height else None,
+                "collapses": {model: int(first[f"collapses_{model}"].sum()) for model in ("real", "code", "attached")},
+                "code_gives_more": below.height,
+                "code_gives_more_top": below.filter(pl.col("storey") == pl.col("storeys")).height,
+                "largest": _finite(ranked.select(place).row(0, named=True)) if known.height else None,
+                "smallest": _finite(ranked.select(place).row(-1, named=True)) if known.height else None,
                 "growth": {
                     "alpha": _growth(rows, "alpha", "R"),
                     "R": _growth(rows, "R", "alpha"),
@@ -59,12 +86,17 @@ def findings(summary: pl.DataFrame) -> list[dict[str, Any]]:
                 },
                 "first_storey": first.filter(has_result)
                 .group_by("R", "alpha")
-                .agg(pl.col("underestimation_percent").mean())
+                .agg(pl.col("underestimation_percent", "mass_percent", "sliding_percent", *keys[1:]).mean())
                 .sort("R", "alpha")
                 .to_dicts(),
             }
         )
     return entries
+
+
+def _finite(row: dict[str, Any]) -> dict[str, Any]:
+    """The row with null for what is no finite number, which JSON does not have."""
+    return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in row.items()}
 
 
 def _growth(rows: pl.DataFrame, varied: str, fixed: str) -> dict[str, int]:
@@ -78,31 +110,66 @@ def _growth(rows: pl.DataFrame, varied: str, fixed: str) -> dict[str, int]:
 def findings_text(entries: list[dict[str, Any]]) -> str:
     """Return the findings as a few lines to read."""
     lines = []
+    several = len({entry["mu"] for entry in entries}) > 1
     for entry in entries:
-        lines.append(f"{entry['occupancy']} (ASCE model with {100.0 * entry['lambda']:g} % of the live load)")
+        design, analysis = (100.0 * entry[f"lambda_{use}"] for use in ("design", "analysis"))
+        shares = f"{design:g} % of the live load"
+        if design != analysis:
+            shares += f" in the design, {analysis:g} % in the analysis"
+        friction = f", mu = {entry['mu']:g}" if several else ""
+        lines.append(f"{entry['occupancy']}{friction} ({entry['code']}: {shares})")
+        if any(entry["collapses"].values()):
+            counts = ", ".join(f"{model} {count}" for model, count in entry["collapses"].items())
+            lines.append(f"  collapsed runs            {counts}")
         if entry["largest"] is None:
             lines.append("  no storey has a result")
             continue
-        count, more, top = (entry[key] for key in ("storeys_compared", "asce_gives_more", "asce_gives_more_top"))
+        count, more, top = (entry[key] for key in ("storeys_compared", "code_gives_more", "code_gives_more_top"))
         growth = entry["growth"]
         lines += [
             f"  largest underestimation   {_place(entry['largest'])}",
+            *_scatter(entry["largest"]),
             f"  smallest                  {_place(entry['smallest'])}",
-            f"  ASCE model gives more     in {more} of {count} storeys, {top} of them top storeys",
+            f"  code model gives more     in {more} of {count} storeys, {top} of them top storeys",
             f"  grows with alpha          {_growth_text(growth, 'alpha')}",
             f"  grows with R              {_growth_text(growth, 'R')}",
-            *_first_storey_table(entry["first_storey"]),
+            *_first_storey_tables(entry["first_storey"]),
         ]
         if entry["storeys_without_result"]:
-            lines.append(f"  without a result          {entry['storeys_without_result']} storeys: a run failed")
+            lines.append(
+                f"  without a mean            {entry['storeys_without_result']} storeys: a run collapsed or failed"
+            )
     return "\n".join(lines)
 
 
 def _place(row: dict[str, Any]) -> str:
     return (
-        f"{row['underestimation_percent']:+.0f} % (storey {row['storey']} of {row['storeys']}, R = {row['R']:g}, "
+        f"{_percent(row['underestimation_percent'])} (storey {row['storey']} of {row['storeys']}, R = {row['R']:g}, "
         f"alpha = {row['alpha']:g})"
     )
+
+
+def _percent(value: float | None) -> str:
+    return "-" if value is None else f"{round(value):+d} %".replace("+0 %", "0 %")
+
+
+def _share(value: float | None) -> str:
+    return "-" if value is None else f"{value:.2f}"
+
+
+def _scatter(row: dict[str, Any]) -> list[str]:
+    """What the largest is made of, and how it scatters."""
+    median, low, high = (row[f"{name}_underestimation_percent"] for name in ("median", "p16", "p84"))
+    lines = [
+        f"    by mass, by sliding     {_percent(row['mass_percent'])} (attached over code), "
+        f"{_percent(row['sliding_percent'])} (real over attached)",
+        f"    motion by motion        median {_percent(median)}, 16 to 84 %: {_percent(low)} to {_percent(high)}",
+    ]
+    if row["leave_one_out_record"] is not None:
+        lines.append(
+            f"    without one motion      {_percent(row['leave_one_out_percent'])} ({row['leave_one_out_record']})"
+        )
+    return lines
 
 
 def _growth_text(growth: dict[str, dict[str, int]], varied: str) -> str:
@@ -110,12 +177,27 @@ def _growth_text(growth: dict[str, dict[str, int]], varied: str) -> str:
     return f"in {every['grows']} of {every['pairs']} steps, first storeys {first['grows']} of {first['pairs']}"
 
 
-def _first_storey_table(rows: list[dict[str, Any]]) -> list[str]:
+def _first_storey_tables(rows: list[dict[str, Any]]) -> list[str]:
+    """Underestimation, real over attached, and estimate of lambda side by side, a row for each R."""
     alphas = sorted({row["alpha"] for row in rows})
-    value = {(row["R"], row["alpha"]): row["underestimation_percent"] for row in rows}
-    lines = ["  first storeys, mean       " + "".join(f"{f'alpha {alpha:g}':>11}" for alpha in alphas)]
+    at = {(row["R"], row["alpha"]): row for row in rows}
+    effective = any(row["effective"] is not None for row in rows)
+    shown = [
+        ("real over code", "underestimation_percent", _percent),
+        ("real over attached", "sliding_percent", _percent),
+        ("lambda, estimate", "estimate", _share),
+        *([("lambda_eff", "effective", _share)] if effective else []),
+    ]
+    width = max(7 * len(alphas), 19) + 2
+    lines = [
+        "  first storeys, mean " + "".join(f"{title:>{width}}" for title, *_ in shown),
+        "    alpha             " + "".join(f"{''.join(f'{a:>7g}' for a in alphas):>{width}}" for _ in shown),
+    ]
     for factor in sorted({row["R"] for row in rows}):
-        cells = [value.get((factor, alpha)) for alpha in alphas]
-        texts = ["-" if cell is None else f"{cell:+.0f} %" for cell in cells]
-        lines.append(f"    {f'R = {factor:g}':24}" + "".join(f"{text:>11}" for text in texts))
+        cells = []
+        for _, name, form in shown:
+            values = [at.get((factor, alpha), {}).get(name) for alpha in alphas]
+            texts = [f"{form(value):>7}" for value in values]
+            cells.append(f"{''.join(texts):>{width}}")
+        lines.append(f"    {f'R = {factor:g}':18}" + "".join(cells))
     return lines

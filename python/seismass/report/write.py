@@ -11,12 +11,18 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
+import polars as pl
+
 from seismass.errors import InvalidOption
 from seismass.files import write_table, written_whole
 from seismass.report.findings import findings
-from seismass.study import StudyResult
+from seismass.study import Sensitivity, StudyResult
+from seismass.study.columns import TABLES, units_of
 
-FIGURE_FILE: Final = re.compile(r"(?:spectrum|underestimation|drift_R[\d.]+(?:e\+\d+)?)\.(?:png|svg)")
+_NUMBER: Final = r"[\d.]+(?:e[+-]\d+)?"
+FIGURE_FILE: Final = re.compile(
+    rf"(?:spectrum|effective|underestimation(?:_mu{_NUMBER})?|drift_R{_NUMBER}(?:_mu{_NUMBER})?)\.(?:png|svg)"
+)
 """Names of the files of a study's figures; another file of a folder is not touched."""
 
 
@@ -31,7 +37,7 @@ def study_metadata(result: StudyResult) -> dict[str, Any]:
             "periods": [scaling.periods[0], scaling.periods[-1], len(scaling.periods)],
             "governing_period": scaling.governing_period,
         },
-        "findings": findings(result.summary),
+        "findings": findings(result.summary, result.fractions, result.metadata["code"]["name"]),
     }
 
 
@@ -48,10 +54,13 @@ def check_out(out: Path) -> None:
         raise InvalidOption(f"out of study must be a folder that can be written to; got {out}")
 
 
-def write_study(result: StudyResult, out: Path, *, figures: bool = True) -> list[Path]:
+def write_study(
+    result: StudyResult, out: Path, *, figures: bool = True, sensitivity: Sensitivity | None = None
+) -> list[Path]:
     """Write tables (Parquet and CSV), metadata (JSON) and figures (PNG and SVG) of a study to a folder.
 
-    Figures of an earlier study that are not written again are removed.
+    Every Parquet file carries what the numbers depend on, and the unit of each column; tables.json says the same of the
+    CSV files. Figures and a sensitivity table of an earlier study that are not written again are removed.
 
     Returns
     -------
@@ -63,21 +72,29 @@ def write_study(result: StudyResult, out: Path, *, figures: bool = True) -> list
     OSError
         A file cannot be written; then none is changed.
     """
-    writers: dict[str, Callable[[Path], object]] = {}
     tables = {
         "responses": result.responses,
         "summary": result.summary,
+        "fractions": result.fractions,
         "designs": result.designs,
         "spectrum": result.spectrum,
         "scaling": result.scaling.table(),
+        **({} if sensitivity is None else {"sensitivity": sensitivity.table}),
     }
+    writers: dict[str, Callable[[Path], object]] = {}
     for name, table in tables.items():
-        writers[f"{name}.parquet"] = partial(write_table, table, "parquet")
+        metadata = table_metadata(result.metadata, name, table)
+        writers[f"{name}.parquet"] = partial(write_table, table, "parquet", metadata=metadata)
         writers[f"{name}.csv"] = partial(write_table, table, "csv")
-    text = json.dumps(study_metadata(result), indent=2) + "\n"
-    writers["study.json"] = partial(Path.write_text, data=text, encoding="utf-8")
+    for file, document in (
+        ("tables.json", _tables_document(result.metadata, tables)),
+        ("study.json", study_metadata(result)),
+    ):
+        text = json.dumps(document, indent=2) + "\n"
+        writers[file] = partial(Path.write_text, data=text, encoding="utf-8")
     if figures:
-        from seismass.report.figures import save_figure, study_figures
+        from seismass.report.figures import save_figure
+        from seismass.report.study_figures import study_figures
 
         for name, figure in study_figures(result).items():
             writers[f"{name}.png"] = partial(save_figure, figure, "png")
@@ -86,7 +103,39 @@ def write_study(result: StudyResult, out: Path, *, figures: bool = True) -> list
     with ExitStack() as stack:
         for name, write in writers.items():
             write(stack.enter_context(written_whole(out / name)))
-    for file in list(out.iterdir()):
-        if FIGURE_FILE.fullmatch(file.name) and file.name not in writers and file.is_file():
-            file.unlink()
+    for path in list(out.iterdir()):
+        ours = FIGURE_FILE.fullmatch(path.name) or path.name in ("sensitivity.parquet", "sensitivity.csv")
+        if ours and path.name not in writers and path.is_file():
+            path.unlink()
     return [out / name for name in writers]
+
+
+def made_from(metadata: dict[str, Any]) -> dict[str, Any]:
+    """Return what the numbers of every table of a study depend on: versions, digest, parameters, code and target."""
+    names = ("schema_version", "package_version", "instructions", "inputs_sha256", "parameters", "code", "target")
+    return {name: metadata[name] for name in names}
+
+
+def table_metadata(metadata: dict[str, Any], name: str, table: pl.DataFrame) -> dict[str, str]:
+    """Return the key-value metadata of the Parquet file of a table, each value a JSON text.
+
+    Keys are `seismass.` with what `made_from` gives, `table`, and `units`: the unit of each column.
+    """
+    content = {**made_from(metadata), "table": name, "units": units_of(name, table.columns)}
+    return {f"seismass.{key}": json.dumps(value) for key, value in content.items()}
+
+
+def _tables_document(metadata: dict[str, Any], tables: dict[str, pl.DataFrame]) -> dict[str, Any]:
+    """What tables.json says: of each table its rows, and of each column its unit and meaning."""
+    described = {}
+    for name, table in tables.items():
+        rows, columns = TABLES[name]
+        units = units_of(name, table.columns)
+        described[name] = {
+            "rows": rows,
+            "columns": {
+                column: {"unit": units[column], "meaning": columns.get(column, columns.get("motion_*", ("", "")))[1]}
+                for column in table.columns
+            },
+        }
+    return {**made_from(metadata), "tables": described}

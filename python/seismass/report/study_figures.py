@@ -1,0 +1,78 @@
+"""All figures of a study by name, and that of its effective fractions against eta."""
+
+from __future__ import annotations
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+
+from seismass.report.drift_figures import drift_figure
+from seismass.report.figures import BLUE, GREEN, GREY, STYLE, VERMILION, labels_of, spectrum_figure, suite_caption
+from seismass.report.underestimation_figure import underestimation_figure
+from seismass.study import StudyResult
+
+MARKERS = ("o", "s", "D", "^", "v", "P", "X")
+
+
+def study_figures(result: StudyResult) -> dict[str, Figure]:
+    """Return the figures of a study by name.
+
+    `spectrum`; `underestimation` and `drift_R...` for each R, with several friction coefficients for each of them with
+    `_mu...` behind the name; `effective` where the effective fractions were computed.
+    """
+    frictions, factors = labels_of(result.summary["mu"]), labels_of(result.summary["R"])
+    with mpl.rc_context(STYLE):
+        figures = {"spectrum": spectrum_figure(result)}
+        if result.fractions["effective"].null_count() < result.fractions.height:
+            figures["effective"] = effective_figure(result)
+        for mu, name in frictions.items():
+            behind = f"_mu{name}" if len(frictions) > 1 else ""
+            figures[f"underestimation{behind}"] = underestimation_figure(result, mu)
+            for factor, label in factors.items():
+                figures[f"drift_R{label}{behind}"] = drift_figure(result, factor, mu)
+        for figure in figures.values():
+            # Lay out once, not again for every file.
+            figure.draw_without_rendering()
+            figure.set_layout_engine("none")
+    return figures
+
+
+def effective_figure(result: StudyResult) -> Figure:
+    """Effective fraction of each building against eta, with its interval, both estimates and the shares of the code."""
+    table = result.fractions.drop_nulls("effective")
+    figure = Figure(figsize=(6.4, 4.6), layout="constrained")
+    axes = figure.add_subplot()
+    colours = (VERMILION, BLUE, GREEN, "#CC79A7", "#E69F00", "#56B4E9")
+    for position, (factor, label) in enumerate(labels_of(table["R"]).items()):
+        here = table.filter(R=factor).unique(["eta", "effective"], maintain_order=True)
+        eta, value = here["eta"].to_numpy(), here["effective"].to_numpy()
+        colour = colours[position % len(colours)]
+        axes.vlines(eta, here["low"].to_numpy(), here["high"].to_numpy(), color=colour, linewidth=0.7, alpha=0.5)
+        axes.plot(
+            eta,
+            value,
+            color=colour,
+            linestyle="",
+            marker=MARKERS[position % len(MARKERS)],
+            markersize=4.5,
+            markerfacecolor="white" if position % 2 else colour,
+            label=f"R = {label}",
+        )
+    end = 1.05 * max(1.2, float(table["eta"].filter(table["eta"].is_finite()).max() or 0.0))  # type: ignore[arg-type]
+    eta = np.linspace(0.0, end, 400)
+    axes.plot(eta, np.minimum(1.0, eta**2), color="#222222", linewidth=1.8, label=r"min(1, $\eta^2$)")
+    rule = np.minimum(1.0, eta)
+    axes.plot(eta, rule, color="#222222", linewidth=1.4, linestyle=(0, (5, 2)), label=r"min(1, $\eta$), conservative")
+    shares = result.summary.select("occupancy", "lambda_analysis").unique(maintain_order=True).rows()
+    for occupancy, share in shares:
+        axes.axhline(share, color=GREY, linewidth=1.0, linestyle=(0, (1, 2)))
+        text = f"{result.metadata['code']['name']}, {occupancy}".replace("$", r"\$")
+        axes.annotate(text, (end, share), xytext=(-3, 3), textcoords="offset points", ha="right", fontsize=7.5)
+    axes.set_xlim(0.0, end)
+    axes.set_ylim(-0.03, 1.06)
+    axes.set_xlabel(r"$\eta$ = friction coefficient over base shear coefficient of the attached model")
+    axes.set_ylabel("effective fraction of the live load")
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    figure.legend(loc="outside upper center", ncols=3, frameon=False)
+    figure.supxlabel(suite_caption(result, inches=6.4), fontsize=7.5)
+    return figure

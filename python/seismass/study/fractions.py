@@ -1,0 +1,83 @@
+"""How much of the live load each building of a study should count: eta, its two estimates, and lambda_eff itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+import polars as pl
+
+from seismass._values import FloatArray
+from seismass.effective_mass import EffectiveMass, effective_mass
+from seismass.records import Record
+from seismass.scene import Scene
+from seismass.study.buildings import MODELS, StudyBuilding
+from seismass.study.columns import FRACTION_COLUMNS
+from seismass.study.parameters import StudyParameters
+from seismass.study.tables import key_columns, typed
+from seismass.units import STANDARD_GRAVITY
+
+
+def fractions_table(
+    buildings: list[StudyBuilding],
+    table: pl.DataFrame,
+    run_of: list[int],
+    effective: dict[Scene, EffectiveMass] | None,
+) -> pl.DataFrame:
+    """One row per building: C1, eta, min(1, eta^2), min(1, eta), and lambda_eff where it was computed.
+
+    C1 is the mean over the motions of the peak base shear of the fully attached model over the weight of building and
+    goods; null, with all that follows from it, where a run of that model collapsed or failed.
+    """
+    runs = np.array(run_of).reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
+    completed = (table["status"] == "completed").to_numpy()[runs].all(axis=1)
+    shear = table["peak_base_shear"].to_numpy()[runs].mean(axis=1)
+    weight = STANDARD_GRAVITY * np.array([_attached_mass(building.scenes["attached"]) for building in buildings])
+    coefficient = np.where(completed, shear / weight, np.nan)
+    mu = np.array([building.labels["mu"] for building in buildings])
+    with np.errstate(divide="ignore"):
+        eta: FloatArray = mu / coefficient
+    columns: dict[str, Any] = {
+        **key_columns(buildings),
+        "base_shear_coefficient": coefficient,
+        "eta": eta,
+        "estimate": np.minimum(1.0, eta**2),
+        "conservative": np.minimum(1.0, eta),
+    }
+    found = [None if effective is None else effective[building.scenes["real"]] for building in buildings]
+    columns |= {
+        "effective": [np.nan if one is None else one.value for one in found],
+        "kind": [None if one is None else one.kind for one in found],
+        "low": [None if one is None or one.interval is None else one.interval[0] for one in found],
+        "high": [None if one is None or one.interval is None else one.interval[1] for one in found],
+        "excess": [None if one is None or one.kind != "one" else one.excess for one in found],
+    }
+    return typed(columns, list(FRACTION_COLUMNS))
+
+
+def _attached_mass(scene: Scene) -> float:
+    return 0.0 if scene.building is None else float(scene.building.mass.sum())
+
+
+def effective_fractions(
+    buildings: list[StudyBuilding],
+    records: list[Record],
+    parameters: StudyParameters,
+    *,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> dict[Scene, EffectiveMass]:
+    """Return the effective fraction of each distinct building with its goods.
+
+    The attached models have the damping that the study's have: the real building's matrix, or with
+    `damping_base="own"` the ratio in the modes of each. Records are scaled; those of one event are resampled together.
+    """
+    scenes = list(dict.fromkeys(building.scenes["real"] for building in buildings))
+    damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
+    found = {}
+    for number, scene in enumerate(scenes, start=1):
+        found[scene] = effective_mass(scene, records, damping=damping, threads=threads)
+        if progress is not None:
+            progress(number, len(scenes))
+    return found

@@ -1,0 +1,258 @@
+"""Running a parametric study: scaling, design, one batch of all models, the tables and what they were made from."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import chain, count
+from typing import Any, Final
+
+import numpy as np
+import polars as pl
+
+from seismass import _kernel
+from seismass._values import FloatArray, brief, printable, refusal
+from seismass.batch import simulate_many
+from seismass.errors import InvalidMotion
+from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
+from seismass.records import Suite
+from seismass.scaling import ScalingResult, scale_asce7_10
+from seismass.simulate import Motion, instruction_set
+from seismass.spectra import TargetSpectrum, mean_spectrum, response_spectrum
+from seismass.study.buildings import MODELS, StudyBuilding, study_buildings
+from seismass.study.fractions import effective_fractions, fractions_table
+from seismass.study.parameters import StudyParameters, code_fractions
+from seismass.study.tables import designs_table, responses_table, summary_table
+
+SCHEMA_VERSION: Final = 2
+"""Version of the tables and of the metadata that a study gives back; see docs/study_schema.md."""
+
+SPECTRUM_RANGE: Final = (0.05, 3.0)
+SPECTRUM_POINTS: Final = 200
+"""Periods (s) at which the spectra are tabulated for the figure, and those of the scaling; nothing is interpolated."""
+
+
+@dataclass(frozen=True, eq=False)
+class StudyResult:
+    """Tables of a study; their columns are described in docs/study_schema.md.
+
+    Attributes
+    ----------
+    responses : polars.DataFrame
+        One row per building, model, motion and storey.
+    summary : polars.DataFrame
+        One row per building and storey: drift of each model over the motions with its scatter, the underestimation, how
+        much of it is due to mass and how much to sliding, and how much one motion carries.
+    fractions : polars.DataFrame
+        One row per building: eta, the two estimates of the effective fraction, and the fraction itself on request.
+    designs : polars.DataFrame
+        One row per building and storey: masses, V_e, V_y, periods.
+    spectrum : polars.DataFrame
+        Target, mean scaled and scaled spectra.
+    scaling : ScalingResult
+        Factors of the motions.
+    metadata : dict
+        Versions, digest of the inputs, parameters, motions, counts, remarks.
+    """
+
+    responses: pl.DataFrame
+    summary: pl.DataFrame
+    fractions: pl.DataFrame
+    designs: pl.DataFrame
+    spectrum: pl.DataFrame
+    scaling: ScalingResult
+    metadata: dict[str, Any] = field(repr=False)
+
+
+def run_study(
+    suite: Suite,
+    target: TargetSpectrum,
+    parameters: StudyParameters | None = None,
+    *,
+    effective: bool = False,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> StudyResult:
+    """Run the parametric study.
+
+    Parameters
+    ----------
+    suite : Suite
+        Motions, unscaled; they are scaled to the target by `scale_asce7_10`.
+    target : TargetSpectrum
+        Design spectrum.
+    parameters : StudyParameters, optional
+        The grid; default the paper's.
+    effective : bool, default False
+        Compute the effective fraction of each building too, with its interval: a hundred times as many runs.
+    threads : int, optional
+        Number of threads; default all cores. The tables do not depend on it.
+    progress : callable, optional
+        Called with (analyses done, distinct analyses), then, with `effective`, with (buildings done, distinct ones).
+
+    Raises
+    ------
+    InvalidOption, InvalidMotion
+        A parameter is out of its range, or the suite cannot be scaled.
+    KeyboardInterrupt
+        Ctrl-C was pressed.
+    """
+    chosen = StudyParameters() if parameters is None else parameters
+    if not isinstance(suite, Suite):
+        raise refusal(InvalidMotion, "suite", "study", "a Suite of records", brief(suite))
+    scaling = scale_asce7_10(suite, target, chosen.scaling_period, damping=chosen.damping, threads=threads)
+
+    def design_spectrum(periods: FloatArray) -> FloatArray:
+        return mean_spectrum(suite, scaling.factors, periods, chosen.damping, threads=threads)
+
+    spectrum = _spectrum(suite, target, scaling, chosen.damping, threads)
+    buildings = list(study_buildings(chosen, design_spectrum))
+    records = [record.scaled(factor) for record, factor in zip(suite, scaling.factors, strict=True)]
+    motions = [record.motion for record in records]
+    distinct, run_of, table = _solve(buildings, motions, threads, progress)
+    names = display_names(suite)
+    responses = responses_table(buildings, names, table, run_of)
+    fractions = (
+        effective_fractions(buildings, records, chosen, threads=threads, progress=progress) if effective else None
+    )
+    status = table["status"].value_counts()
+    counts = dict(zip(status["status"], status["count"], strict=True))
+    return StudyResult(
+        responses=responses,
+        summary=summary_table(buildings, responses, names, chosen),
+        fractions=fractions_table(buildings, table, run_of, fractions),
+        designs=designs_table(buildings, chosen),
+        spectrum=spectrum,
+        scaling=scaling,
+        metadata={
+            "schema_version": SCHEMA_VERSION,
+            "package_version": _kernel.VERSION,
+            "instructions": instruction_set(),
+            "inputs_sha256": _digest(suite, target, chosen),
+            "parameters": chosen.content(),
+            "code": _code_metadata(chosen),
+            "target": {"label": target.label, **target.parameters},
+            "suite": _suite_metadata(suite, names, scaling),
+            "remarks": _remarks(buildings, motions, target, scaling),
+            "counts": {
+                "buildings": len(buildings),
+                "analyses": len(run_of),
+                "distinct": distinct,
+                "completed": counts.get("completed", 0),
+                "collapsed": counts.get("collapsed", 0),
+                "failed": counts.get("failed", 0),
+            },
+        },
+    )
+
+
+def _solve(
+    buildings: list[StudyBuilding],
+    motions: list[Motion],
+    threads: int | None,
+    progress: Callable[[int, int], object] | None,
+) -> tuple[int, list[int], pl.DataFrame]:
+    """Number of distinct runs, the row of each analysis among them, and the rows."""
+    scenes = [building.scenes[model] for building in buildings for model in MODELS]
+    scene_numbers = {scene: number for number, scene in enumerate(dict.fromkeys(scenes))}
+    motion_numbers = {motion: number for number, motion in enumerate(dict.fromkeys(motions))}
+    of_motion = np.array([motion_numbers[motion] for motion in motions])
+    of_scene = np.array([scene_numbers[scene] for scene in scenes])
+    table = simulate_many(list(scene_numbers), list(motion_numbers), threads=threads, progress=progress)
+    run_of = (of_scene[:, None] * len(motion_numbers) + of_motion[None, :]).ravel()
+    return len(table), run_of.tolist(), table
+
+
+def _remarks(
+    buildings: list[StudyBuilding], motions: list[Motion], target: TargetSpectrum, scaling: ScalingResult
+) -> list[str]:
+    """What is unlikely about the inputs, each remark once."""
+    scenes = dict.fromkeys(building.scenes["real"] for building in buildings)
+    found = [*target_remarks(target), *scaling_remarks(scaling), *motion_remarks(motions)]
+    return list(dict.fromkeys([*found, *(remark for scene in scenes for remark in scene_remarks(scene))]))
+
+
+def _code_metadata(chosen: StudyParameters) -> dict[str, Any]:
+    """Code with its fractions; no code where the occupancies have fractions of their own."""
+    if not chosen.follows_code:
+        return {"id": None, "name": "code", "fractions": {}}
+    rows = code_fractions(chosen.code)
+    return {
+        "id": chosen.code,
+        "name": rows["storage"].code,
+        "fractions": {
+            name: {"fraction": row.fraction, "clause": row.clause, "status": row.status} for name, row in rows.items()
+        },
+    }
+
+
+def _suite_metadata(suite: Suite, names: list[str], scaling: ScalingResult) -> dict[str, Any]:
+    return {
+        "name": suite.name,
+        "synthetic": sum(record.synthetic for record in suite),
+        "motions": [
+            {
+                "motion": number,
+                "record": name,
+                "file": None if record.source is None else printable(record.source.name),
+                "synthetic": record.synthetic,
+                "samples": record.samples,
+                "dt": record.dt,
+                "pga_g": record.pga_g,
+                "factor": float(factor),
+                "remarks": list(record.remarks),
+            }
+            for number, (record, name, factor) in enumerate(zip(suite, names, scaling.factors, strict=True), start=1)
+        ],
+    }
+
+
+def motions_text(suite: dict[str, Any]) -> str:
+    """Return how many motions a study has, and of which kind, from the `suite` of its metadata."""
+    motions, synthetic = len(suite["motions"]), suite["synthetic"]
+    if synthetic == motions:
+        return f"{motions} synthetic motions"
+    kinds = f", {synthetic} synthetic and {motions - synthetic} recorded" if synthetic else ""
+    return f"{motions} motions{kinds}"
+
+
+def display_names(suite: Suite) -> list[str]:
+    """Return event and station of each recording where known, else its name; unique, repeats numbered from 2."""
+    names: list[str] = []
+    for number, record in enumerate(suite, start=1):
+        place = [] if record.synthetic else [part for part in (record.event, record.station) if part]
+        name = ", ".join(place) or record.name or f"motion {number}"
+        if name in names and place and record.name:
+            name = f"{name} ({record.name})"
+        numbered = (f"{name} ({repeat})" for repeat in count(2))
+        names.append(next(unused for unused in chain([name], numbered) if unused not in names))
+    return names
+
+
+def _spectrum(
+    suite: Suite, target: TargetSpectrum, scaling: ScalingResult, damping: float, threads: int | None
+) -> pl.DataFrame:
+    """Spectra over the usual periods and those of the scaling, as far as target and motions have them."""
+    shortest = max(
+        min(SPECTRUM_RANGE[0], scaling.periods[0]), target.shortest, 1e-3 * max(record.dt for record in suite)
+    )
+    longest = min(max(SPECTRUM_RANGE[1], scaling.periods[-1]), target.longest)
+    periods = np.geomspace(shortest, longest, SPECTRUM_POINTS)
+    scaled = scaling.factors[:, None] * response_spectrum(suite, periods, damping, threads=threads)
+    motions = {f"motion_{number}": row for number, row in enumerate(scaled, start=1)}
+    return pl.DataFrame({"period": periods, "target": target(periods), "mean": scaled.mean(axis=0), **motions})
+
+
+def _digest(suite: Suite, target: TargetSpectrum, parameters: StudyParameters) -> str:
+    """SHA-256 of everything that the numbers depend on: samples, target, parameters."""
+    digest = hashlib.sha256()
+    digest.update(json.dumps([SCHEMA_VERSION, target.parameters, parameters.content()], sort_keys=True).encode())
+    for record in suite:
+        digest.update(np.float64(record.dt).tobytes())
+        digest.update(np.ascontiguousarray(record.acceleration, dtype="<f8").tobytes())
+        if record.vertical is not None:
+            digest.update(b"vertical")
+            digest.update(np.ascontiguousarray(record.vertical, dtype="<f8").tobytes())
+    return digest.hexdigest()

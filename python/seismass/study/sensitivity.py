@@ -1,0 +1,172 @@
+"""What the choices that the paper does not state do to the study's headline numbers, one choice at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any, Final, get_args
+
+import numpy as np
+import polars as pl
+
+from seismass.design import Combination
+from seismass.records import Suite
+from seismass.spectra import TargetSpectrum
+from seismass.study.buildings import MODELS
+from seismass.study.columns import SENSITIVITY_COLUMNS
+from seismass.study.parameters import DampingBase, StudyParameters
+from seismass.study.run import StudyResult, run_study
+from seismass.study.tables import Drifts, drifts_of
+
+AS_IS: Final = "as it is"
+"""The first choice: the study with its own parameters."""
+DAMPING_BASE: Final = "damping base"
+
+SECOND_SLOPES: Final = (0.0, 0.02, 0.1, 0.2)
+OVERSTRENGTHS: Final = (1.0, 1.5, 3.0)
+TILTS: Final = (-0.3, 0.3)
+"""Powers of the period (s) by which the target is multiplied: less and more demand at long periods, equal at 1 s."""
+SCALING_PERIODS: Final = (0.5, 1.5)
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivity:
+    """Headline numbers of a study under one changed choice at a time.
+
+    Attributes
+    ----------
+    table : polars.DataFrame
+        One row per setting, occupancy and friction coefficient; columns in docs/study_schema.md.
+    metadata : dict
+        Metadata of the study as it is.
+    """
+
+    table: pl.DataFrame
+    metadata: dict[str, Any] = field(repr=False)
+
+
+def study_sensitivity(
+    suite: Suite,
+    target: TargetSpectrum,
+    parameters: StudyParameters | None = None,
+    *,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Sensitivity:
+    """Run the study again with each choice changed alone, from springs and damping to the statistic over records.
+
+    The statistic and the records left out change no run: the drifts are those of the study as it is, and with a record
+    left out the factors of the others stay.
+
+    Parameters
+    ----------
+    suite, target, parameters, threads
+        As for `run_study`.
+    progress : callable, optional
+        Called with (studies done, studies in all).
+
+    Raises
+    ------
+    InvalidOption, InvalidMotion, KeyboardInterrupt
+        As for `run_study`.
+    """
+    chosen = StudyParameters() if parameters is None else parameters
+    changes = list(_changes(chosen, target))
+    as_is = run_study(suite, target, chosen, threads=threads)
+    own = drifts_of(as_is.responses, len(suite))
+    rows = _rows(AS_IS, "", as_is, own, np.mean)
+    of_base: dict[str, Drifts] = {chosen.damping_base: own}
+    for number, (choice, setting, changed, spectrum) in enumerate(changes, start=1):
+        if progress is not None:
+            progress(number, len(changes) + 1)
+        result = run_study(suite, spectrum, changed, threads=threads)
+        drifts = drifts_of(result.responses, len(suite))
+        rows += _rows(choice, setting, result, drifts, np.mean)
+        if choice == DAMPING_BASE:
+            of_base[changed.damping_base] = drifts
+            if len(of_base) == len(get_args(DampingBase)):
+                mixed = {**of_base["loaded"], "code": of_base["own"]["code"]}
+                rows += _rows(DAMPING_BASE, "loaded, of the code model its own", as_is, mixed, np.mean)
+    rows += _rows("statistic", "median", as_is, own, np.median)
+    rows += _rows("statistic", "geometric mean", as_is, own, _geometric_mean)
+    for left_out in _heaviest(as_is):
+        name = as_is.metadata["suite"]["motions"][left_out]["record"]
+        kept: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in own.items()}
+        rows += _rows("one record left out", name, as_is, kept, np.mean)
+    if progress is not None:
+        progress(len(changes) + 1, len(changes) + 1)
+    table = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
+        pl.col("collapses").cast(pl.UInt32)
+    )
+    return Sensitivity(table, as_is.metadata)
+
+
+def _changes(
+    chosen: StudyParameters, target: TargetSpectrum
+) -> Iterator[tuple[str, str, StudyParameters, TargetSpectrum]]:
+    """Choice, setting, parameters and target; settings that are the study's own are left out."""
+    for slope in SECOND_SLOPES:
+        if slope != chosen.second_slope:
+            third = min(chosen.third_slope, slope)
+            yield "r2", f"{slope:g}", replace(chosen, second_slope=slope, third_slope=third), target
+    if chosen.third_slope != chosen.second_slope:
+        yield "r3", f"{chosen.second_slope:g}, as r2", replace(chosen, third_slope=chosen.second_slope), target
+    for factor in OVERSTRENGTHS:
+        if factor != chosen.overstrength:
+            yield "Omega", f"{factor:g}", replace(chosen, overstrength=factor), target
+    at_r1 = not chosen.yield_at_r1
+    yield "R = 1", "yields at V_e" if at_r1 else "elastic", replace(chosen, yield_at_r1=at_r1), target
+    other: Combination = "cqc" if chosen.combination == "srss" else "srss"
+    yield "combination", other.upper(), replace(chosen, combination=other), target
+    for base in get_args(DampingBase):
+        if base != chosen.damping_base:
+            yield DAMPING_BASE, base, replace(chosen, damping_base=base), target
+    if not chosen.p_delta:
+        yield "P-Delta", f"storeys of {chosen.height:g} m", replace(chosen, p_delta=True), target
+    for power in TILTS:
+        yield "target shape", f"times (T/1 s)^{power:g}", chosen, target.tilted(power)
+    for period in SCALING_PERIODS:
+        if period != chosen.scaling_period:
+            yield "scaling period", f"{period:g} s", replace(chosen, scaling_period=period), target
+
+
+def _heaviest(result: StudyResult) -> list[int]:
+    """Indices of the records that change the largest first-storey underestimation of an occupancy most."""
+    first = result.summary.filter(storey=1).drop_nulls("leave_one_out_motion")
+    rows = first.sort("underestimation_percent", descending=True).unique(
+        ["occupancy", "mu"], keep="first", maintain_order=True
+    )
+    return [int(number) - 1 for number in rows["leave_one_out_motion"].unique(maintain_order=True)]
+
+
+def _geometric_mean(values: Any, axis: int) -> Any:
+    with np.errstate(divide="ignore"):
+        return np.exp(np.log(values).mean(axis=axis))
+
+
+def _rows(
+    choice: str, setting: str, result: StudyResult, drifts: Drifts, statistic: Callable[..., Any]
+) -> list[tuple[Any, ...]]:
+    """Headline numbers of the first storeys by a statistic over the records; null where one is not finite."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        real, code, attached = (statistic(drifts[model], axis=1) for model in MODELS)
+        compared = {
+            "missed": 100.0 * (real / code - 1.0),
+            "mass": 100.0 * (attached / code - 1.0),
+            "sliding": 100.0 * (real / attached - 1.0),
+        }
+    collapses = sum(np.isinf(values).sum(axis=1) for values in drifts.values())
+    frame = result.summary.select("occupancy", "mu", "R", "alpha", "storey").with_columns(
+        **{name: pl.Series(np.where(np.isfinite(values), values, np.nan)) for name, values in compared.items()},
+        collapses=pl.Series(collapses),
+    )
+    rows = []
+    for (occupancy, mu), first in frame.filter(storey=1).group_by("occupancy", "mu", maintain_order=True):
+        # NaN of one building is NaN of the mean and of the largest: no number is of fewer buildings.
+        heavy = first.filter(alpha=first["alpha"].max())
+        least, most = heavy.filter(R=first["R"].min()), heavy.filter(R=first["R"].max())
+        largest = np.max(first["missed"].to_numpy())
+        values = [largest, least["missed"].mean(), *(most[name].mean() for name in compared)]
+        known = [value if value is not None and np.isfinite(value) else None for value in values]
+        rows.append((choice, setting, occupancy, mu, *known, first["collapses"].sum()))
+    return rows

@@ -1,0 +1,253 @@
+"""The tables of a study from the rows of its batch: responses, summary with its scatter, and designs."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from seismass._values import FloatArray
+from seismass.study.buildings import KEYS, MODELS, Model, StudyBuilding
+from seismass.study.columns import DESIGN_COLUMNS, RESPONSE_COLUMNS, SUMMARY_COLUMNS
+from seismass.study.parameters import StudyParameters
+from seismass.units import STANDARD_GRAVITY
+
+Drifts: TypeAlias = dict[Model, FloatArray]
+"""Peak drifts (m) by model, shape (rows, motions): infinite where the run collapsed, NaN where it failed."""
+
+_PER_STOREY: Final = (
+    "peak_drift",
+    "peak_drift_time",
+    "peak_drift_ratio",
+    "residual_drift",
+    "peak_floor_acceleration",
+    "peak_storey_shear",
+    "peak_slip",
+    "residual_slip",
+    "slip_path",
+)
+"""Columns of a batch that are lists per storey, or per block."""
+
+_TYPES: Final[dict[str, Any]] = {
+    "building": pl.UInt32,
+    "storeys": pl.UInt32,
+    "storey": pl.UInt32,
+    "motion": pl.UInt32,
+    "motions": pl.UInt32,
+    "run": pl.UInt32,
+    "leave_one_out_motion": pl.UInt32,
+    **{f"collapses_{model}": pl.UInt32 for model in MODELS},
+    **dict.fromkeys(("occupancy", "model", "record", "status", "reason", "leave_one_out_record", "kind"), pl.String),
+}
+
+
+def typed(columns: dict[str, Any], names: Sequence[str]) -> pl.DataFrame:
+    """Return columns as a frame, in the order of `names`; numbers are doubles unless they count, NaN is null."""
+    schema = {name: _TYPES.get(name, pl.Float64) for name in names}
+    doubles = [name for name, kind in schema.items() if kind == pl.Float64]
+    return pl.DataFrame({name: columns[name] for name in names}, schema=schema).with_columns(
+        pl.col(doubles).fill_nan(None)
+    )
+
+
+def key_columns(buildings: list[StudyBuilding], repeats: NDArray[np.int64] | None = None) -> dict[str, Any]:
+    """Return the key columns, each building's as often as `repeats` says (once)."""
+    times = 1 if repeats is None else repeats
+    return {
+        key: np.repeat(np.array([building.labels[key] for building in buildings], dtype=object), times).tolist()
+        for key in KEYS
+    }
+
+
+def responses_table(
+    buildings: list[StudyBuilding], names: list[str], table: pl.DataFrame, run_of: list[int]
+) -> pl.DataFrame:
+    """One row per building, model, motion and storey.
+
+    Parameters
+    ----------
+    buildings : list of StudyBuilding
+        The buildings.
+    names : list of str
+        What the motions are called.
+    table : polars.DataFrame
+        Rows of `simulate_many`, one per distinct run.
+    run_of : list of int
+        Row of `table` of each analysis: building by building, model by model, motion by motion.
+    """
+    per_building = len(MODELS) * len(names)
+    repeats = np.full(len(buildings), per_building)
+    motions = np.tile(np.arange(1, len(names) + 1), len(buildings) * len(MODELS))
+    storey = pl.col("storey") - 1
+
+    def per_storey(name: str) -> pl.Expr:
+        return pl.col(name).list.get(storey, null_on_oob=True)
+
+    frame = pl.DataFrame(
+        {
+            **key_columns(buildings, repeats),
+            "model": np.tile(np.repeat(np.array(MODELS, dtype=object), len(names)), len(buildings)).tolist(),
+            "motion": motions,
+            "record": np.array(names, dtype=object)[motions - 1].tolist(),
+            "run": np.array(run_of) + 1,
+        }
+    )
+    frame = pl.concat([frame, table.select("status", "reason", *_PER_STOREY)[run_of]], how="horizontal")
+    # Goods stand on every floor but the roof, so that blocks are numbered as the floors that carry them.
+    return (
+        frame.with_columns(pl.int_ranges(1, pl.col("storeys") + 1).alias("storey"))
+        .explode("storey")
+        .with_columns(
+            *(per_storey(name) for name in _PER_STOREY),
+        )
+        .with_columns(
+            (pl.col("peak_storey_shear") / (STANDARD_GRAVITY * pl.col("storeys"))).alias("peak_shear_over_weight"),
+        )
+        .select(pl.col(name).cast(_TYPES.get(name, pl.Float64)) for name in RESPONSE_COLUMNS)
+    )
+
+
+def drifts_of(responses: pl.DataFrame, motions: int) -> Drifts:
+    """Return the peak drifts of a table of responses, one row per building and storey, as the summary has them."""
+    found: Drifts = {}
+    value = pl.when(pl.col("status") == "collapsed").then(np.inf).otherwise("peak_drift").fill_null(np.nan)
+    ordered = responses.sort("building", "storey", "motion", maintain_order=True)
+    for model in MODELS:
+        rows = ordered.filter(pl.col("model") == model).select(value.alias("drift"))["drift"]
+        found[model] = rows.to_numpy().reshape(-1, motions)
+    return found
+
+
+def summary_table(
+    buildings: list[StudyBuilding], responses: pl.DataFrame, names: list[str], parameters: StudyParameters
+) -> pl.DataFrame:
+    """One row per building and storey: means, scatter, and what one record carries.
+
+    Where a run failed, statistics of its model are null; where one collapsed, means are null too, while medians and
+    percentiles count its drift as infinite.
+    """
+    drifts = drifts_of(responses, len(names))
+    storeys = np.array([building.labels["storeys"] for building in buildings])
+    columns: dict[str, Any] = {
+        **key_columns(buildings, storeys),
+        "storey": np.concatenate([np.arange(1, count + 1) for count in storeys]),
+        "motions": np.full(storeys.sum(), len(names)),
+    }
+    for model, values in drifts.items():
+        means = _mean(values)
+        columns |= {
+            f"mean_peak_drift_{model}": means,
+            f"geometric_mean_peak_drift_{model}": _geometric_mean(values),
+            f"median_peak_drift_{model}": quantile(values, 0.5),
+            f"p16_peak_drift_{model}": quantile(values, 0.16),
+            f"p84_peak_drift_{model}": quantile(values, 0.84),
+            f"mean_peak_drift_ratio_{model}": means / parameters.height,
+            f"collapses_{model}": np.isinf(values).sum(axis=1),
+        }
+    slips = (
+        responses.filter(model="real")
+        .sort("building", "storey", "motion", maintain_order=True)["peak_slip"]
+        .to_numpy()
+        .reshape(-1, len(names))
+    )
+    columns["mean_peak_slip"] = np.where(np.isfinite(drifts["real"]).all(axis=1), slips.mean(axis=1), np.nan)
+    columns |= _comparison(drifts, names)
+    return typed(columns, list(SUMMARY_COLUMNS))
+
+
+def _comparison(drifts: Drifts, names: list[str]) -> dict[str, Any]:
+    """The models against each other."""
+    real, code = drifts["real"], drifts["code"]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        means = {model: _mean(values) for model, values in drifts.items()}
+        ratio = means["real"] / means["code"]
+        each = 100.0 * (real / code - 1.0)
+        found: dict[str, Any] = {
+            "ratio": ratio,
+            "ratio_mass": means["attached"] / means["code"],
+            "ratio_sliding": means["real"] / means["attached"],
+            "underestimation_percent": 100.0 * (ratio - 1.0),
+            "geometric_mean_underestimation_percent": 100.0 * (_geometric_mean(real) / _geometric_mean(code) - 1.0),
+            "median_underestimation_percent": quantile(each, 0.5),
+            "p16_underestimation_percent": quantile(each, 0.16),
+            "p84_underestimation_percent": quantile(each, 0.84),
+        }
+        without = 100.0 * ((_sum(real) - real) / (_sum(code) - code) - 1.0)
+    change = np.abs(without - found["underestimation_percent"][:, None])
+    known = np.isfinite(change).all(axis=1) & (len(names) > 1)
+    most = np.argmax(np.where(known[:, None], change, 0.0), axis=1)
+    found |= {
+        "leave_one_out_percent": np.where(known, without[np.arange(len(without)), most], np.nan),
+        "leave_one_out_motion": [int(number) + 1 if there else None for number, there in zip(most, known, strict=True)],
+        "leave_one_out_record": [names[number] if there else None for number, there in zip(most, known, strict=True)],
+    }
+    return found
+
+
+def _sum(values: FloatArray) -> FloatArray:
+    total: FloatArray = values.sum(axis=1, keepdims=True)
+    return total
+
+
+def _mean(values: FloatArray) -> FloatArray:
+    """Mean over the motions; NaN where one has no finite value."""
+    return np.where(np.isfinite(values).all(axis=1), values.mean(axis=1), np.nan)
+
+
+def _geometric_mean(values: FloatArray) -> FloatArray:
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mean = np.exp(np.log(values).mean(axis=1))
+    return np.where(np.isfinite(values).all(axis=1), mean, np.nan)
+
+
+def quantile(values: FloatArray, share: float) -> FloatArray:
+    """Return the quantile of each row, linear between order statistics; infinite values are larger than all others.
+
+    Parameters
+    ----------
+    values : ndarray, shape (rows, motions)
+        Values; a row with NaN has the quantile NaN.
+    share : float
+        Share of the values below, from 0 to 1.
+    """
+    ordered = np.sort(values, axis=1)
+    place = share * (values.shape[1] - 1)
+    low, high = int(np.floor(place)), int(np.ceil(place))
+    below, above = ordered[:, low], ordered[:, high]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        between = below + (place - low) * (above - below)
+    found = np.where(np.isfinite(above), between, above)
+    return np.where(np.isnan(values).any(axis=1), np.nan, found if high > low else below)
+
+
+def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -> pl.DataFrame:
+    """One row per building and storey: masses, V_e, V_y, periods, P-Delta."""
+    storeys = np.array([building.labels["storeys"] for building in buildings])
+    weight = np.repeat(STANDARD_GRAVITY * storeys, storeys)
+
+    def stacked(values: list[FloatArray]) -> FloatArray:
+        return np.concatenate(values)
+
+    code = [building.scenes["code"] for building in buildings]
+    real = [building.scenes["real"] for building in buildings]
+    strength = stacked([building.yield_shear for building in buildings]) / weight
+    columns: dict[str, Any] = {
+        **key_columns(buildings, storeys),
+        "storey": stacked([np.arange(1, count + 1) for count in storeys]),
+        "design_mass_ratio": stacked([building.design_mass for building in buildings]),
+        "analysis_mass_ratio": stacked([scene.building.mass for scene in code if scene.building is not None]),
+        "height": np.full(storeys.sum(), parameters.height),
+        "geometric_stiffness_ratio": stacked(
+            [scene.geometric_stiffness / scene.building.stiffness for scene in real if scene.building is not None]
+        ),
+        "design_period": stacked([building.analysis.modes.periods for building in buildings]),
+        "spectral_acceleration": stacked([building.analysis.ordinates for building in buildings]),
+        "elastic_shear_over_weight": stacked([building.analysis.storey_shear for building in buildings]) / weight,
+        "yield_shear_over_weight": np.where(np.isfinite(strength), strength, np.nan),
+    }
+    return typed(columns, list(DESIGN_COLUMNS))
