@@ -8,6 +8,10 @@ from pathlib import Path
 
 import polars as pl
 
+from seismass.effective_mass import effective_mass_map
+from seismass.records import builtin_suite
+from seismass.spectra import TargetSpectrum
+
 ROOT = Path(__file__).parents[1]
 
 
@@ -95,3 +99,48 @@ def test_readme_says_of_the_leapfrog_what_the_page_of_errors_does() -> None:
     assert "that can still be up to about 1.6 times as fast as the exact run" in readme
     factors = [float(factor) for factor in re.findall(r"by leapfrog, by up to a factor of ([\d.]+):", page)]
     assert 1.4 < max(factors) < 1.8
+
+
+def test_readme_table_of_rules_is_that_of_the_page() -> None:
+    """Every row of the README's table stands in docs/effective_mass.md, in the table of 42 components."""
+    page = (ROOT / "docs" / "effective_mass.md").read_text(encoding="utf-8")
+    block = page.partition("<!-- far_field -->")[2].partition("<!-- end of far_field -->")[0]
+    printed = {line[:30].strip(): line[30:].split() for line in block.splitlines()}
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    table = text.partition("| rule | mean |")[2].partition("\n\n")[0]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()[2:]]
+    assert len(rows) == 7
+    for rule, mean, interval, unsafe in rows:
+        numbers = printed[rule]
+        assert [mean, interval, unsafe] == [numbers[0], " ".join(numbers[2:5]), " ".join(numbers[5:])]
+    assert "goods slide in 3698" in block
+    assert "3698 of 4928 cases" in text
+
+
+def test_tables_of_the_builtin_suite_are_current() -> None:
+    """The map of the built-in suite as the page has it; other suites take minutes."""
+    module = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))
+    page = module["PAGE"].read_text(encoding="utf-8")
+    result = effective_mass_map(builtin_suite(), TargetSpectrum.asce7())
+    assert module["with_tables"](page, "builtin", result) == page
+    rules = result.rules()
+    # effective_fraction of the specification, section 3, column B7: bias, log scatter, share unsafe.
+    for rule, bias, scatter, unsafe in (
+        ("min(1, eta^2)", 1.015, 0.095, 0.16),
+        ("min(1, eta)", 1.077, 0.107, 0.01),
+        ("ASCE 7 storage, 0.25", 0.925, 0.236, 0.55),
+        ("none, 0", 0.800, 0.281, 0.70),
+        ("Eurocode 8, 0.8", 1.161, 0.242, 0.17),
+        ("all, 1", 1.238, 0.255, 0.00),
+    ):
+        row = rules.row(by_predicate=pl.col("rule") == rule, named=True)
+        assert abs(row["bias"] - bias) < 1e-3
+        assert abs(row["log_scatter"] - scatter) < 1e-3
+        assert abs(row["unsafe"] - unsafe) < 1e-2
+
+
+def test_readme_answer_for_the_warehouse_is_current() -> None:
+    module = runpy.run_path(str(ROOT / "tools" / "readme_answer.py"))
+    readme = module["readme"]()
+    assert (ROOT / "README.md").read_text(encoding="utf-8") == readme
+    assert "ANSWER" in readme
