@@ -27,6 +27,7 @@ bench: build $(BENCH_VENV)/made
 ifeq ($(filter-out --quick,$(BENCH_OPTIONS)),)
 	$(BENCH_VENV)/bin/python benchmarks/study.py $(BENCH_OPTIONS)
 	$(BENCH_VENV)/bin/python benchmarks/performance.py $(BENCH_OPTIONS)
+	$(PYTHON) benchmarks/effective_mass.py --map
 endif
 	$(BENCH_VENV)/bin/python benchmarks/work_precision.py $(BENCH_OPTIONS)
 
