@@ -93,8 +93,8 @@ def _write(result: StudyResult, folder: Path, *, figures: bool) -> None:
 
 def simulate_all(runs: list[Run], threads: int) -> Any:
     """Run the batch as the study does."""
-    scenes = {scene: number for number, scene in enumerate(dict.fromkeys(scene for scene, _ in runs))}
-    motions = {motion: number for number, motion in enumerate(dict.fromkeys(motion for _, motion in runs))}
+    scenes = {scene: number for number, scene in enumerate(dict.fromkeys(scene for scene, _ in runs), start=1)}
+    motions = {motion: number for number, motion in enumerate(dict.fromkeys(motion for _, motion in runs), start=1)}
     pairs = [(scenes[scene], motions[motion]) for scene, motion in runs]
     return sm.simulate_many(list(scenes), list(motions), pairs=pairs, threads=threads)
 

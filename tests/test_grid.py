@@ -43,11 +43,11 @@ def aligned() -> sm.Grid:
     rows = 60
     ratio = draw.choice([0.0, 0.5, 1.2], (rows, 4))
     floors = [1, 2, 2, 3]
-    building = draw.integers(0, 2, rows)
-    ratio[building == 0, 3] = 0.0
+    building = draw.integers(1, 3, rows)
+    ratio[building == 1, 3] = 0.0
     static = draw.uniform(0.1, 0.5, (rows, 4))
     kinetic = static * draw.uniform(0.5, 1.0, (rows, 1))
-    scale, motion = draw.choice([0.5, 1.0, -1.7], rows), draw.integers(0, 2, rows)
+    scale, motion = draw.choice([0.5, 1.0, -1.7], rows), draw.integers(1, 3, rows)
     for column in (ratio, building, static, kinetic, scale, motion):
         column[40:50] = column[:10]
     return sm.Grid(
@@ -85,7 +85,7 @@ def test_rows_are_the_runs_of_their_scenes_to_the_bit() -> None:
         sm.simulate_many(grid, MOTIONS).iter_rows(named=True), columns.iter_rows(named=True), strict=True
     ):
         assert (row["scene"], row["motion"]) == (given["scene"], given["motion"])
-        motion = MOTIONS[given["motion"]].scaled(given["scale"])
+        motion = MOTIONS[given["motion"] - 1].scaled(given["scale"])
         assert_row_is_the_run(row, sm.simulate(grid.scene(given["scene"]), motion))
         slid += row["slips"]
     assert slid > 100
@@ -101,7 +101,7 @@ def test_threads_and_chunks_change_no_bit() -> None:
 
 
 def test_scenes_that_are_objects_stream_too() -> None:
-    scenes, pairs = [aligned().scene(number) for number in range(5)], [(4, 0), (1, 1), (4, 1), (4, 0)]
+    scenes, pairs = [aligned().scene(number) for number in range(1, 6)], [(5, 1), (2, 2), (5, 2), (5, 1)]
     whole = sm.simulate_many(scenes, MOTIONS, pairs=pairs)
     assert_frame_equal(pl.concat(sm.stream_many(scenes, MOTIONS, pairs=pairs, chunk=3)), whole, check_exact=True)
     assert_frame_equal(
@@ -112,32 +112,35 @@ def test_scenes_that_are_objects_stream_too() -> None:
 def test_a_product_is_every_combination_the_last_axis_changing_fastest() -> None:
     ratios, friction, scales = [0.5, 1.0], [0.1, 0.2, 0.3], [0.5, 1.0]
     grid = sm.Grid.product([BUILDING, LOADED], mass_ratio=ratios, mu=friction, scale=scales)
-    combinations = list(product((0, 1), ratios, friction, scales))
+    combinations = list(product((1, 2), ratios, friction, scales))
     assert len(grid) == len(combinations) == 24
     table = grid.table()
     assert table.select("building", "mass_ratio", "mu_s", "scale").rows() == combinations
     assert table["mu_k"].to_list() == table["mu_s"].to_list()
-    assert_frame_equal(grid.table(5, 9), table[5:9])
+    assert_frame_equal(grid.table(6, 9), table[5:9])
+    assert grid.table(24)["scene"].to_list() == [24]
+    assert len(grid.table(25)) == len(grid.table(9, 8)) == 0
     # Common values stand for a block on every floor that the building has.
-    assert grid.scene(0) == sm.Scene(BUILDING, sm.blocks_on_floors([0.5, 0.5], 0.1))
-    assert grid.scene(23) == sm.Scene(LOADED, sm.blocks_on_floors([1.0, 1.0, 1.0], 0.3))
+    assert grid.scene(1) == sm.Scene(BUILDING, sm.blocks_on_floors([0.5, 0.5], 0.1))
+    assert grid.scene(24) == sm.Scene(LOADED, sm.blocks_on_floors([1.0, 1.0, 1.0], 0.3))
     results = sm.simulate_many(grid, MOTIONS)
-    assert results.select("scene", "motion").rows() == list(product(range(24), (0, 1)))
+    assert results.select("scene", "motion").rows() == list(product(range(1, 25), (1, 2)))
     for number in (0, 17, 47):
         building, ratio, mu, scale = combinations[number // 2]
         buildings = (BUILDING, LOADED)
-        scene = sm.Scene(buildings[building], sm.blocks_on_floors([ratio] * buildings[building].storeys, mu))
+        chosen = buildings[building - 1]
+        scene = sm.Scene(chosen, sm.blocks_on_floors([ratio] * chosen.storeys, mu))
         assert_row_is_the_run(results.row(number, named=True), sm.simulate(scene, MOTIONS[number % 2].scaled(scale)))
 
 
 def test_values_per_block_and_static_with_kinetic_friction_are_one_axis() -> None:
     grid = sm.Grid.product(BUILDING, mass_ratio=[[1.0, 0.5], [0.0, 1.0]], mu_s=[0.3, 0.4], mu_k=[0.2, 0.3])
     assert len(grid) == 4
-    assert grid.scene(1).blocks == (
+    assert grid.scene(2).blocks == (
         sm.Block(1, mass_ratio=1.0, mu_s=0.4, mu_k=0.3),
         sm.Block(2, mass_ratio=0.5, mu_s=0.4, mu_k=0.3),
     )
-    assert grid.scene(2).blocks == (sm.Block(2, mass_ratio=1.0, mu_s=0.3, mu_k=0.2),)
+    assert grid.scene(3).blocks == (sm.Block(2, mass_ratio=1.0, mu_s=0.3, mu_k=0.2),)
     assert grid.table()["mass_ratio"].to_list() == [[1.0, 0.5], [1.0, 0.5], [0.0, 1.0], [0.0, 1.0]]
     results = sm.simulate_many(grid, shaking())
     assert [len(slips) for slips in results["peak_slip"]] == [2, 2, 1, 1]
@@ -321,13 +324,13 @@ REFUSED: list[Refused] = [
     ("floors of no block", lambda: sm.Grid(BUILDING, floors=[1]), sm.InvalidScene,
      r"floors of grid must be left out where mass_ratio is; got \[1\]"),
     ("missing floor", lambda: sm.Grid(BUILDING, floors=[3], mass_ratio=1.0, mu=0.1), sm.InvalidScene,
-     "floor of block 1 of scene 0 must be a floor of the building, 1 to 2, or 0 for the ground; got 3"),
+     "floor of block 1 of scene 1 must be a floor of the building, 1 to 2, or 0 for the ground; got 3"),
     ("ground", lambda: sm.Grid(BUILDING, floors=[0], mass_ratio=1.0, mu=0.1), sm.InvalidScene,
-     "floor of block 1 of scene 0 must be a floor of the building, as its mass is a ratio; got 0"),
+     "floors of grid must be a whole number counted from 1, or a list of them; got 0 as value 1"),
     ("half a floor", lambda: sm.Grid(BUILDING, floors=[0.5], mass_ratio=1.0, mu=0.1), sm.InvalidScene,
-     r"floors of grid must be a whole number from 0, or a list of them; got \[0.5\]"),
+     r"floors of grid must be a whole number counted from 1, or a list of them; got \[0.5\]"),
     ("negative ratio", lambda: sm.Grid(BUILDING, mass_ratio=[1, 1, -1], mu=0.1), sm.InvalidScene,
-     "mass_ratio of block 1 of scene 2 must be a positive number, or 0 for no block; got -1"),
+     "mass_ratio of block 1 of scene 3 must be a positive number, or 0 for no block; got -1"),
     ("ratio of text", lambda: sm.Grid(BUILDING, mass_ratio="heavy", mu=0.1), sm.InvalidScene,
      "mass_ratio of grid must be a number or a list of numbers; got 'heavy'"),
     ("no values", lambda: sm.Grid(BUILDING, mass_ratio=[], mu=0.1), sm.InvalidScene,
@@ -337,27 +340,33 @@ REFUSED: list[Refused] = [
     ("three per two blocks", lambda: sm.Grid(BUILDING, mass_ratio=[[1, 1, 1]], mu=0.1), sm.InvalidScene,
      "mass_ratio of grid must be a list with one value per scene, or a table with one column per block, 2; got"),
     ("kinetic above static", lambda: sm.Grid.product(BUILDING, mass_ratio=[0.5, 1], mu_s=[0.2, 0.3], mu_k=[0.1, 0.4]),
-     sm.InvalidScene, "mu_k of block 1 of scene 1 must be at most mu_s = 0.3; got 0.4"),
+     sm.InvalidScene, "mu_k of block 1 of scene 2 must be at most mu_s = 0.3; got 0.4"),
     ("unequal friction axis", lambda: sm.Grid.product(BUILDING, mass_ratio=1, mu_s=[0.2, 0.3], mu_k=[0.1] * 3),
      sm.InvalidScene, "mu_k of grid must be one value, or as many as mu_s has, 2; got 3 values"),
     ("too heavy", lambda: sm.Grid.product(LOADED, mass_ratio=[1, 1e6], mu=[0.1, 0.2], scale=[1, 2]), sm.InvalidScene,
-     "geometric stiffness P/h of storey 1 of scene 4 must be below its stiffness .*; got"),
+     "geometric stiffness P/h of storey 1 of scene 5 must be below its stiffness .*; got"),
     ("too many", lambda: sm.Grid.product(BUILDING, mass_ratio=[1] * 2000, mu=[0.1] * 2000, scale=[1] * 2000),
      sm.InvalidOption, f"scenes of grid must be at most {MAX_RUNS}; got 8000000000"),
     ("which building", lambda: sm.Grid([BUILDING, LOADED], scale=[1, 2]), sm.InvalidScene,
      "building_index of grid must be given where there are several buildings; got none"),
-    ("missing building", lambda: sm.Grid([BUILDING, LOADED], building_index=[0, 2]), sm.InvalidScene,
-     "building_index of grid must be an index of a building, 0 to 1; got 2 at scene 1"),
+    ("missing building", lambda: sm.Grid([BUILDING, LOADED], building_index=[1, 3]), sm.InvalidScene,
+     "building_index of grid must be the number of a building, counted from 1 to 2; got 3 as value 2"),
     ("infinite factor", lambda: sm.Grid(BUILDING, scale=[1, np.inf]), sm.InvalidMotion,
-     "scale of grid must be a finite number; got inf at index 1"),
-    ("negative motion", lambda: sm.Grid(BUILDING, motion=[0, -1]), sm.InvalidOption,
-     "motion of grid must be a whole number from 0, or a list of them; got -1 at index 1"),
-    ("missing motion", lambda: sm.stream_many(sm.Grid(BUILDING, motion=[0, 1]), QUIET), sm.InvalidOption,
-     "motion of grid must be an index of a motion, below their number, 1; got 1 at scene 1"),
+     "scale of grid must be a finite number; got inf as value 2"),
+    ("motion zero", lambda: sm.Grid(BUILDING, motion=[1, 0]), sm.InvalidOption,
+     "motion of grid must be a whole number counted from 1, or a list of them; got 0 as value 2"),
+    ("missing motion", lambda: sm.stream_many(sm.Grid(BUILDING, motion=[1, 2]), QUIET), sm.InvalidOption,
+     "motion of grid must be the number of a motion, counted from 1 to 1; got 2 as value 2"),
     ("collapse at no drift", lambda: sm.Grid(BUILDING, collapse_drift=0.0), sm.InvalidScene,
-     "collapse_drift of storey 1 of scene 0 must be a positive number; got 0"),
-    ("missing scene", lambda: sm.Grid(BUILDING).scene(1), sm.InvalidOption,
-     "number of grid must be that of a scene, 0 to 0; got 1"),
+     "collapse_drift of storey 1 of scene 1 must be a positive number; got 0"),
+    ("missing scene", lambda: sm.Grid(BUILDING).scene(2), sm.InvalidOption,
+     "number of grid must be that of a scene, counted from 1 to 1; got 2"),
+    ("scene zero", lambda: sm.Grid(BUILDING).scene(0), sm.InvalidOption,
+     "number of grid must be a whole number of at least 1; got 0"),
+    ("pair zero", lambda: sm.simulate_many(sm.Scene(BUILDING), QUIET, pairs=[(1, 1), (0, 1)]), sm.InvalidOption,
+     "pairs of batch must be the number of a scene, counted from 1 to 1; got 0 in pair 2"),
+    ("building of two", lambda: sm.Grid(BUILDING, storeys=2, period=0.3), sm.InvalidScene,
+     "building of grid must be given either as building or as storeys; got both"),
     ("pairs of a grid", lambda: sm.simulate_many(sm.Grid(BUILDING), QUIET, pairs=[(0, 0)]), sm.InvalidOption,
      r"pairs of batch must be left out with a Grid, which has a column of motions; got \[\(0, 0\)\]"),
     ("chunks of nothing", lambda: sm.stream_many(sm.Grid(BUILDING), QUIET, chunk=0), sm.InvalidOption,

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from seismass.errors import InvalidMotion
+from seismass.commands.options import left_out
+from seismass.errors import InvalidMotion, RecordFormatError
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.records.numbers import is_cut_off, split_touching
 from seismass.units import STANDARD_GRAVITY, stated_unit, unknown_unit
@@ -303,20 +304,38 @@ def test_directory_takes_horizontals_and_lists_the_rest(tmp_path: Path) -> None:
     horizontal = ["b/RSN2_B_STA000.AT2", "a_STA090.at2", "b/c/RIVERSIDE-E.At2", "RSN6_I-ELC180-hor1.AT2"]
     by_name = ["a_STA-UP.AT2", "a_STAUP.AT2", "a_HECVER.at2", "b/1059-V.AT2", "b/ERZ-UP__copy.AT2", "b/X_VERT.AT2"]
     by_header = {"6.AT2": "UP", "7.AT2": "VER", "8.AT2": "VERTICAL COMP", "9.AT2": "V", "10.AT2": "up (CDMG STATION 1)"}
-    for name in (*horizontal, *by_name, *by_header, "notes.txt"):
+    others = {
+        "notes.txt": "not read: .txt files are read by name or from a list, where their units can be given",
+        "b/RSN2_B_STA000.VT2": "not read: .VT2 files hold velocities",
+        "b/RSN2_B_STA000.dt2": "not read: .dt2 files hold displacements",
+        "README": "not read: files without a suffix are read by name or from a list, where their units can be given",
+    }
+    for name in (*horizontal, *by_name, *by_header, *others, ".hidden.AT2", ".git/config"):
         file = tmp_path / name
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(at2(title=f"Quake, 1/1/2000, Town, {by_header.get(name, '90')}"))
     suite = read_suite(tmp_path)
     taken = [record.source.relative_to(tmp_path).as_posix() for record in suite if record.source]
     assert taken == sorted(horizontal)
-    assert sorted(item.file.relative_to(tmp_path).as_posix() for item in suite.excluded) == sorted(
-        [*by_name, *by_header]
-    )
-    assert all("vertical component by its" in item.reason for item in suite.excluded)
+    reasons = {item.file.relative_to(tmp_path).as_posix(): item.reason for item in suite.excluded}
+    assert list(reasons) == sorted([*by_name, *by_header, *others])
+    assert {name: reasons[name] for name in others} == others
+    assert all("vertical component by its" in reasons[name] for name in (*by_name, *by_header))
     table = suite.table()
     assert table["taken"].sum() == len(horizontal) == len(suite)
-    assert table.height == len(horizontal) + len(by_name) + len(by_header)
+    assert table.height == len(horizontal) + len(by_name) + len(by_header) + len(others)
+    lines = left_out(suite)
+    # More than eight files are counted by reason; vertical components are one reason by name and one by header.
+    assert "left out 5 files, 10.AT2 and others: vertical component by its header" in lines
+    assert "left out 1 file, b/RSN2_B_STA000.VT2".replace("b/", "") + ": not read: .VT2 files hold velocities" in lines
+    assert len(lines) == 6
+    assert sum(int(line.split()[2]) for line in lines) == len(suite.excluded)
+
+
+def test_directory_without_at2_files_says_what_is_there(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("0.1\n0.2\n")
+    with pytest.raises(RecordFormatError, match=r"got 0 \.AT2 files, 0 of them vertical and 1 files of other kinds"):
+        read_suite(tmp_path)
 
 
 def test_list_of_files_keeps_order_and_labels(tmp_path: Path) -> None:
@@ -331,6 +350,23 @@ def test_list_of_files_keeps_order_and_labels(tmp_path: Path) -> None:
     assert [record.name for record in suite] == ["b", "a"]
     assert [record.station for record in suite] == ["Here", "Town"]
     assert (suite[0].dt, suite[0].pga, suite[1].remarks) == (0.02, 0.2, ("a substitute",))
+
+
+def test_a_scale_of_a_list_is_applied_and_other_columns_are_named(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("0.1\n-0.2\n")
+    (tmp_path / "list.csv").write_text("number,file,dt,unit,scale,magnitude,Vs30\n1,a.txt,0.02,m/s2,1.5,7.1,300\n")
+    suite = read_suite(tmp_path / "list.csv")
+    assert suite[0].acceleration.tolist() == [0.1 * 1.5, -0.2 * 1.5]
+    assert suite[0].remarks == ("scaled by 1.5 as listed",)
+    assert suite.remarks == ("columns of list.csv that are not used: magnitude, Vs30",)
+    assert left_out(suite) == list(suite.remarks)
+    (tmp_path / "list.csv").write_text("file,dt,unit,scale\na.txt,0.02,m/s2,\n")
+    plain = read_suite(tmp_path / "list.csv")
+    assert (plain[0].pga, plain[0].remarks, plain.remarks) == (0.2, (), ())
+    for cell in ("nan", "inf", "twice"):
+        (tmp_path / "list.csv").write_text(f"file,dt,unit,scale\na.txt,0.02,m/s2,{cell}\n")
+        with pytest.raises(RecordFormatError, match=r"scale of list\.csv, row 1, must be a"):
+            read_suite(tmp_path / "list.csv")
 
 
 def test_list_says_that_a_name_is_not_of_a_vertical(tmp_path: Path) -> None:
@@ -366,8 +402,10 @@ def test_recordings(shared: Path, file: str, dt: float, points: int, pga_g: floa
 def test_all_recordings_are_a_suite(shared: Path) -> None:
     suite = read_suite(shared / "records")
     files = [file for file in (shared / "records").rglob("*.AT2") if file.is_file()]
-    assert len(suite) + len(suite.excluded) == len(files)
-    assert len(suite.excluded) == 6  # one vertical for each of the paper's records 1 to 6
+    vertical = [item for item in suite.excluded if item.reason.startswith("vertical component")]
+    assert len(suite) + len(vertical) == len(files)
+    assert len(vertical) == 6  # one vertical for each of the paper's records 1 to 6
+    assert all(item in vertical or item.reason.startswith("not read: ") for item in suite.excluded)
     assert not any(record.synthetic for record in suite)
 
 

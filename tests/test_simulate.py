@@ -188,7 +188,7 @@ def test_histories_of_random_scenes_hold_together() -> None:
         random = np.random.default_rng(seed)
         count = int(random.choice([0, 1, 2, 3, 4, 5, 8, 9, 13, 17]))
         blocks = random_blocks(random, count)
-        building = storeys(count) if count else None
+        building = storeys(count, mass=1.0) if count else None
         limit = float(random.uniform(0.005, 0.05)) if count and random.random() < 0.15 else None
         motion = shaking(seed, int(random.integers(3, 400)), float(random.uniform(0.5, 9.0)))
         if random.random() < 0.25:
@@ -222,10 +222,11 @@ def test_a_batch_is_one_row_per_run_in_the_order_asked_for() -> None:
     scenes = [scene(3), sm.Scene(storeys(2, heights=3.0)), scene(4), sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)])]
     motions = [shaking(seed) for seed in (1, 2)]
     table = sm.simulate_many(scenes, motions)
-    assert table["scene"].to_list() == [0, 0, 1, 1, 2, 2, 3, 3]
-    assert table["motion"].to_list() == [0, 1] * 4
+    assert table["scene"].to_list() == [1, 1, 2, 2, 3, 3, 4, 4]
+    assert table["motion"].to_list() == [1, 2] * 4
+    assert table["record"].to_list() == ["motion 1", "motion 2"] * 4
     for row in table.iter_rows(named=True):
-        alone = sm.simulate(scenes[row["scene"]], motions[row["motion"]])
+        alone = sm.simulate(scenes[row["scene"] - 1], motions[row["motion"] - 1])
         for name in (
             "peak_drift", "peak_drift_time", "residual_drift", "peak_floor_acceleration", "peak_storey_shear",
             "peak_slip", "peak_slip_time", "residual_slip", "slip_path",
@@ -244,12 +245,12 @@ def test_a_batch_is_one_row_per_run_in_the_order_asked_for() -> None:
 
 def test_pairs_threads_and_equal_runs_change_no_bit() -> None:
     scenes, motions = [scene(3), scene(2)], [shaking(1), shaking(2)]
-    pairs = [(1, 0), (0, 1), (1, 0), (0, 0)]
+    pairs = [(2, 1), (1, 2), (2, 1), (1, 1)]
     one = sm.simulate_many(scenes, motions, pairs=pairs, threads=1)
     assert one.select("scene", "motion").rows() == pairs
     assert_frame_equal(one, sm.simulate_many(scenes, motions, pairs=np.array(pairs), threads=3), check_exact=True)
     by_product = sm.simulate_many(scenes, motions)
-    assert one["peak_drift"].to_list() == [by_product["peak_drift"][2 * s + m].to_list() for s, m in pairs]
+    assert one["peak_drift"].to_list() == [by_product["peak_drift"][2 * (s - 1) + m - 1].to_list() for s, m in pairs]
 
 
 def test_collapse_in_a_batch() -> None:

@@ -9,10 +9,14 @@ from seismass.effective_mass import (
     EffectiveMass,
     EffectiveMassMap,
     EffectiveMassParameters,
+    LiveLoadUncertainty,
     attached_scene,
+    beta,
     effective_mass,
     effective_mass_map,
     effective_mass_of_design,
+    live_load_uncertainty,
+    lognormal,
 )
 from seismass.errors import (
     InvalidBuildingFile,
@@ -26,6 +30,7 @@ from seismass.errors import (
 )
 from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
+from seismass.long_table import long_table
 from seismass.own_building import OwnBuilding
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.scaling import ScalingResult, scale_asce7_10
@@ -53,6 +58,7 @@ __all__ = [
     "InvalidOption",
     "InvalidScene",
     "InvalidSceneFile",
+    "LiveLoadUncertainty",
     "Motion",
     "OwnBuilding",
     "Rayleigh",
@@ -69,6 +75,7 @@ __all__ = [
     "__version__",
     "assess",
     "attached_scene",
+    "beta",
     "blocks_on_floors",
     "builtin_suite",
     "code_fraction",
@@ -79,6 +86,9 @@ __all__ = [
     "friction_pair",
     "friction_table",
     "instruction_set",
+    "live_load_uncertainty",
+    "lognormal",
+    "long_table",
     "read_building",
     "read_record",
     "read_scene",

@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, Final, Protocol, TypeAlias, TypedDict
 
 import numpy as np
@@ -16,10 +14,13 @@ from numpy.typing import ArrayLike, NDArray
 from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_path, brief, printable, refusal
 from seismass.errors import InvalidMotion, InvalidOption, InvalidScene
-from seismass.files import written_whole
-from seismass.grid import Grid, IndexArray
+from seismass.files import polars_writing, written_whole
+from seismass.forks import require_polars
+from seismass.grid import Grid
+from seismass.grid_columns import IndexArray
 from seismass.scene import Scene
-from seismass.simulate import HasMotion, Motion, MotionLike, as_motion, instruction_set
+from seismass.simulate import HasMotion, Motion, MotionLike, as_motion, instruction_set, motion_names
+from seismass.temporary import temporary_folder
 
 DEFAULT_CHUNK: Final = 8192
 """Runs solved at once: enough to share propagators and to keep threads busy, in some tens of megabytes."""
@@ -50,8 +51,9 @@ def simulate_many(
     motions : Motion, Record or iterable of them
         The motions.
     pairs : array_like of int, shape (runs, 2), optional
-        Rows of (index of scene, index of motion), from 0. By default every scene under every motion, the motion
-        changing fastest. Equal runs are solved once. A grid has a column of motions instead.
+        Rows of (number of scene, number of motion), both counted from 1, as the table counts them. By default every
+        scene under every motion, the motion changing fastest. Equal runs are solved once. A grid has a column of
+        motions instead.
     peaks_only : bool, default False
         A run may end once no peak can be beaten any more, with the same peaks; residuals are then null.
     threads : int, optional
@@ -62,21 +64,25 @@ def simulate_many(
     Returns
     -------
     polars.DataFrame
-        One row per run, in the order asked for: `scene`, `motion` (indices); `status` ("completed", "collapsed",
-        "failed"), `reason` (of a failure, else null), `end_time` (s), `collapsed_storey` (from 1, or null); lists
-        per storey `peak_drift`, `peak_drift_time`, `peak_drift_ratio` (null without heights), `residual_drift`,
-        `peak_floor_acceleration`, `peak_storey_shear`; `peak_base_shear`; lists per block `peak_slip`,
-        `peak_slip_time`, `residual_slip`, `slip_path`; numbers of `events`, `yields`, `slips`. SI units.
+        One row per run, in the order asked for: `scene`, `motion` (numbers, counted from 1 as given); `record` (name of
+        the motion, "motion 3" where it has none); `status` ("completed", "collapsed", "failed"), `reason` (of a
+        failure, else null), `end_time` (s), `collapsed_storey` (from 1, or null); lists per storey `peak_drift`,
+        `peak_drift_time`, `peak_drift_ratio` (null without heights), `residual_drift`, `peak_floor_acceleration`,
+        `peak_storey_shear`; `peak_base_shear`; lists per block `peak_slip`, `peak_slip_time`, `residual_slip`,
+        `slip_path`; numbers of `events`, `yields`, `slips`. SI units.
 
     Raises
     ------
     InvalidScene, InvalidMotion, InvalidOption
         An argument is not what it must be. A run that fails raises nothing: it is a row with a reason.
+    SimulationError
+        The process was forked from one in which Polars had been used: its tables cannot be made there.
     KeyboardInterrupt
         Ctrl-C was pressed; the batch stops at once.
 
     See Also
     --------
+    long_table : One row per run and storey.
     stream_many : The same rows in frames of bounded size.
     write_many : The same rows as a Parquet file.
 
@@ -127,6 +133,8 @@ def stream_many(
     ------
     InvalidScene, InvalidMotion, InvalidOption
         An argument is not what it must be.
+    SimulationError
+        As for `simulate_many`.
     KeyboardInterrupt
         Ctrl-C was pressed; the chunk stops at once.
 
@@ -163,35 +171,40 @@ def write_many(
     Parameters
     ----------
     path : path-like
-        The file to write; its folder must exist.
+        The file to write, with the suffix .parquet; its folder must exist.
     scenes, motions, pairs, chunk, peaks_only, threads, progress
         As for `stream_many`.
 
     Raises
     ------
-    InvalidScene, InvalidMotion, InvalidOption, KeyboardInterrupt
-        As for `stream_many`.
+    InvalidScene, InvalidMotion, InvalidOption, SimulationError, KeyboardInterrupt
+        As for `stream_many`; InvalidOption also where the path has another suffix.
     OSError
-        The file cannot be written.
+        The file cannot be written: its folder is missing or closed to this user, or the disk is full.
     """
     target = as_path(path, "batch", InvalidOption)
     absolute = str(target.absolute())
     if printable(absolute) != absolute:
         raise refusal(InvalidOption, "path", "batch", "in UTF-8, as Polars writes no other", brief(absolute))
+    if target.name and not target.is_dir() and target.suffix.lower() != ".parquet":
+        requirement = "one with the suffix .parquet, as lists per storey fit no CSV (see long_table)"
+        raise refusal(InvalidOption, "path", "batch", requirement, brief(str(target)))
     frames = stream_many(
         scenes, motions, pairs=pairs, chunk=chunk, peaks_only=peaks_only, threads=threads, progress=progress
     )
-    with written_whole(target) as temporary, TemporaryDirectory(dir=target.parent, prefix=".seismass-") as folder:
+    with written_whole(target) as temporary, temporary_folder(target.parent) as folder:
         parts = []
         for number, frame in enumerate(frames):
-            parts.append(Path(folder, f"{number}.parquet"))
-            frame.write_parquet(parts[-1])
+            parts.append(folder / f"{number}.parquet")
+            with polars_writing(target):
+                frame.write_parquet(parts[-1])
         # Small row groups, as each is held while it is copied.
-        pl.scan_parquet(parts, glob=False).sink_parquet(
-            temporary,
-            row_group_size=DEFAULT_CHUNK,
-            metadata={"seismass": _kernel.VERSION, "instructions": instruction_set()},
-        )
+        with polars_writing(target):
+            pl.scan_parquet(parts, glob=False).sink_parquet(
+                temporary,
+                row_group_size=DEFAULT_CHUNK,
+                metadata={"seismass": _kernel.VERSION, "instructions": instruction_set()},
+            )
 
 
 class _Options(TypedDict):
@@ -234,17 +247,19 @@ def _since(first: int, total: int, progress: Progress | None) -> Progress | None
 
 
 def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
+    require_polars("simulate")
     given = [motions] if isinstance(motions, Motion | HasMotion) else list(_iterated(motions))
     if isinstance(scenes, Grid):
         if pairs is not None:
             requirement = "left out with a Grid, which has a column of motions"
             raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs))
-        batch: _Batch = _GridBatch(scenes, _motions(given))
+        batch: _Batch = _GridBatch(scenes, _motions(given), motion_names(given))
         scenes._check_motions(len(given))
     else:
         listed = _listed_scenes(scenes)
         chosen = _motions(given)
-        batch = _SceneBatch(listed, chosen, None if pairs is None else _pairs(pairs, len(listed), len(chosen)))
+        wanted = None if pairs is None else _pairs(pairs, len(listed), len(chosen))
+        batch = _SceneBatch(listed, chosen, motion_names(given), wanted)
     if batch.total > MAX_RUNS:
         raise refusal(InvalidOption, "runs", "batch", f"at most {MAX_RUNS}", str(batch.total))
     return batch
@@ -256,6 +271,7 @@ class _SceneBatch:
 
     scenes: list[Scene]
     motions: list[Motion]
+    names: list[str]
     pairs: IndexArray | None
 
     @property
@@ -280,7 +296,7 @@ class _SceneBatch:
             progress=progress,
         )
         heights = [_heights_of(each) for each in chosen]
-        return _table(batch, rows[:, 0], rows[:, 1], _heights(heights, scene, batch.storeys))
+        return _table(batch, rows[:, 0], rows[:, 1], self.names, _heights(heights, scene, batch.storeys))
 
 
 @dataclass(frozen=True, slots=True)
@@ -289,6 +305,7 @@ class _GridBatch:
 
     grid: Grid
     motions: list[Motion]
+    names: list[str]
 
     @property
     def total(self) -> int:
@@ -306,7 +323,8 @@ class _GridBatch:
             progress=progress,
         )
         heights = [building.heights for building in self.grid.buildings]
-        return _table(batch, scene, motion, _heights(heights, self.grid._building_of(scene), batch.storeys))
+        of_scene = _heights(heights, self.grid._building_of(scene), batch.storeys)
+        return _table(batch, scene, motion, self.names, of_scene)
 
 
 def _iterated(values: Any) -> Iterable[Any]:
@@ -316,22 +334,22 @@ def _iterated(values: Any) -> Iterable[Any]:
 
 
 def _motions(given: list[Any]) -> list[Motion]:
-    return [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(given)]
+    return [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(given, start=1)]
 
 
 def _listed_scenes(scenes: Any) -> list[Scene]:
     if not isinstance(scenes, Scene | Iterable):
         raise refusal(InvalidScene, "scenes", "batch", "a list of Scenes", brief(scenes))
     listed = [scenes] if isinstance(scenes, Scene) else list(scenes)
-    for number, scene in enumerate(listed):
+    for number, scene in enumerate(listed, start=1):
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"scene {number}", "batch", "a Scene", brief(scene))
     return listed
 
 
 def _pairs(pairs: ArrayLike, scenes: int, motions: int) -> IndexArray:
-    """Runs as rows of (scene, motion)."""
-    requirement = "rows of (index of scene, index of motion)"
+    """Runs as rows of (index of scene, index of motion), from rows that count from 1."""
+    requirement = "rows of (number of scene, number of motion)"
     try:
         rows = np.asarray(pairs)
     except ValueError:
@@ -341,15 +359,17 @@ def _pairs(pairs: ArrayLike, scenes: int, motions: int) -> IndexArray:
     if rows.dtype.kind not in "iu" or rows.ndim != 2 or rows.shape[1] != 2:
         raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs))
     for column, (name, size) in enumerate((("scene", scenes), ("motion", motions))):
-        wrong = np.flatnonzero((rows[:, column] < 0) | (rows[:, column] >= size))
+        wrong = np.flatnonzero((rows[:, column] < 1) | (rows[:, column] > size))
         if len(wrong):
-            limits = f"an index of a {name}, 0 to {size - 1}"
-            got = f"{rows[wrong[0], column]} in pair {wrong[0]}"
+            limits = f"the number of a {name}, counted from 1 to {size}"
+            got = f"{rows[wrong[0], column]} in pair {wrong[0] + 1}"
             raise refusal(InvalidOption, "pairs", "batch", limits, got)
-    return np.ascontiguousarray(rows, dtype=np.int64)
+    return np.ascontiguousarray(rows, dtype=np.int64) - 1
 
 
-def _table(batch: _kernel.Batch, scene: IndexArray, motion: IndexArray, heights: FloatArray) -> pl.DataFrame:
+def _table(
+    batch: _kernel.Batch, scene: IndexArray, motion: IndexArray, names: list[str], heights: FloatArray
+) -> pl.DataFrame:
     """The flat columns of a batch as a frame, without a Python object per run; `heights` as `peak_drift`."""
     failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
     storeys, blocks = batch.storeys, batch.blocks
@@ -373,8 +393,9 @@ def _table(batch: _kernel.Batch, scene: IndexArray, motion: IndexArray, heights:
         pl.DataFrame(
             {
                 "run": np.arange(len(scene), dtype=np.uint32),
-                "scene": scene.astype(np.uint32),
-                "motion": motion.astype(np.uint32),
+                "scene": (scene + 1).astype(np.uint32),
+                "motion": (motion + 1).astype(np.uint32),
+                "record": pl.Series(names, dtype=pl.String).gather(motion),
                 "status": pl.Series(_kernel.Batch.status_names(), dtype=pl.String).gather(batch.status),
                 "end_time": pl.Series(batch.end_time).fill_nan(None),
                 "collapsed_storey": pl.Series(batch.collapsed_storey).replace(0, None),
@@ -402,6 +423,7 @@ def _table(batch: _kernel.Batch, scene: IndexArray, motion: IndexArray, heights:
 _COLUMNS: Final = (
     "scene",
     "motion",
+    "record",
     "status",
     "reason",
     "end_time",

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal
-from uuid import uuid4
 
 import polars as pl
+
+from seismass.temporary import reported_as, temporary_path
+
+_OS_ERROR = re.compile(r"\(os error (\d+)\)")
+"""What Polars' own errors say of one of the system."""
 
 
 @contextmanager
 def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Give a temporary path to write to, which replaces `path` at the end, or is removed when an error is raised.
+
+    What killed runs have left in the folder is removed first.
 
     Parameters
     ----------
@@ -25,7 +32,8 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     Raises
     ------
     OSError
-        The path is a folder, or its folder is missing or cannot be written to; before anything is written.
+        The path is a folder, or its folder is missing or cannot be written to: before anything is written, and under
+        the name that was given.
 
     Examples
     --------
@@ -41,15 +49,36 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     if not target.name or target.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(target))
     # A name of its own, as one made of the target's could be too long.
-    temporary = target.with_name(f".seismass-{uuid4().hex}.part")
+    temporary = temporary_path(target.parent)
     # Fails here, with the system's reason, where the folder is missing or cannot be written.
-    temporary.open("xb").close()
+    with reported_as(target):
+        temporary.open("xb").close()
     try:
         yield temporary
-        temporary.replace(target)
+        with reported_as(target):
+            temporary.replace(target)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+@contextmanager
+def polars_writing(path: Path) -> Iterator[None]:
+    """Raise what Polars says where the system writes no more, as on a full disk, as the error of the system.
+
+    Raises
+    ------
+    OSError
+        Under the name `path`, with the reason of the system where Polars passes it on, else as an error of input or
+        output with what Polars says.
+    """
+    try:
+        yield
+    except pl.exceptions.PolarsError as error:
+        known = _OS_ERROR.search(str(error))
+        code = int(known[1]) if known else errno.EIO
+        reason = os.strerror(code) if known else f"{os.strerror(code)}: {error}"
+        raise OSError(code, reason, str(path)) from error
 
 
 def write_table(

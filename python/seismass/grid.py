@@ -3,56 +3,69 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, Final, Generic, Self, TypeVar
+from typing import Any, Final, Literal, Self, TypeAlias, get_args
 
 import numpy as np
 import polars as pl
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_array, as_count, as_number, brief, refusal
-from seismass.errors import InvalidMotion, InvalidOption, InvalidScene, SeismassError
+from seismass._values import FloatArray, as_count, as_number, brief, refusal
+from seismass.errors import InvalidOption, InvalidScene
+from seismass.forks import require_polars
+from seismass.grid_buildings import ATTACHED_DAMPING, CHANGING, AttachedDamping, BuildingColumns
+from seismass.grid_columns import Column, IndexArray, block_table, index_values, number_values, strength_table
 from seismass.scene import Block, Building, Scene
 
-IndexArray = NDArray[np.int64]
-_T = TypeVar("_T", np.int64, np.float64)
+Roof: TypeAlias = Literal["loaded", "bare"]
+"""Whether the uppermost floor of a building carries blocks."""
 
 MAX_SCENES: Final = 2**32 - 1
 """Most scenes of a grid: results number them by 32 bits."""
 _CHECKED_AT_ONCE: Final = 2**16
-
-
-@dataclass(frozen=True, slots=True)
-class _Column(Generic[_T]):
-    """Values that scenes take in turn, each for `each` scenes before the next; a table has one row per value."""
-
-    values: NDArray[_T]
-    each: int = 1
-
-    def of(self, scenes: IndexArray) -> NDArray[_T]:
-        """Return the value of each scene."""
-        found: NDArray[_T] = self.values[scenes // self.each % len(self.values)]
-        return found
+GRID_COLUMNS: Final = (*CHANGING, "mass_ratio", "attached", "sliding", "mu_s", "mu_k", "scale")
+"""Columns that a grid may have beside its building and its motion, in the order of its table."""
 
 
 class Grid:
     """Scenes that differ in building, blocks and intensity, described by columns: a million need no million objects.
 
-    A column is one value for all scenes, a list with one value per scene, or, for what blocks have, a table of scenes
-    by blocks (a table of one row holds for all scenes). All scenes start at rest. `Grid.product` makes every
-    combination of values instead.
+    A column is one value for all scenes, a list with one value per scene, or, for what blocks or storeys have, a table
+    of scenes by blocks or storeys (a table of one row holds for all scenes). All scenes start at rest. `Grid.product`
+    makes every combination of values instead. Scenes, buildings, motions, floors and blocks are counted from 1.
 
     Parameters
     ----------
-    building : Building or sequence of Building
-        The building of all scenes, or those that `building_index` chooses from.
+    building : Building or sequence of Building, optional
+        The building of all scenes, or those that `building_index` chooses from. Either it or `storeys` is needed.
+    storeys : array_like of int, optional
+        Number of storeys of each scene's building: `Building.uniform` with the first period that `period` gives.
+    period : array_like, optional
+        First period (s) of the building without live load. A building that is given has its stiffnesses, and a damping
+        matrix, changed to have it.
     building_index : array_like of int, optional
-        Index of the building of each scene, from 0; needed where there are several.
+        Number of the building of each scene, from 1; needed where several are given.
+    strength : array_like, optional
+        Factor of the V_y of each scene's building: 1/R where buildings are given with their elastic demand V_e.
+    yield_shear_over_weight : array_like, optional
+        V_y of each scene over the weight of its building without live load, instead of `strength`: one value for all
+        storeys, or a row per scene, whose length is its number of storeys.
+    overstrength, second_slope : array_like, optional
+        Omega and r2 of all storeys of each scene.
     floors : array_like of int, optional
         Floor of each block, counted from 1; several blocks may share one. By default a block on every floor.
+    roof : {"loaded", "bare"}, default "loaded"
+        "bare": no block on the uppermost floor of each scene's own building, which floors that are given cannot tell.
     mass_ratio : array_like, optional
-        Block mass over floor mass; 0: the scene has no such block. No scene has blocks where it is left out.
+        Live load over floor mass; 0: the scene has no such block. No scene has blocks where it is left out.
+    attached : array_like, optional
+        Share of the live load, 0 to 1, that is attached to its floor as mass; 0 by default.
+    sliding : array_like, optional
+        Share of the live load, 0 to 1, that is a block; what is not attached by default. A code's model, which counts a
+        quarter of the load and lets nothing slide, has `attached=0.25, sliding=0`.
+    damping : {"same", "ratio"}, default "same"
+        Where live load is attached: the damping matrix of the building without it, or that which the building's damping
+        ratio gives with it.
     mu : array_like, optional
         Friction coefficient, static and kinetic. Where there are blocks, either it or `mu_s` is needed.
     mu_s, mu_k : array_like, optional
@@ -60,7 +73,7 @@ class Grid:
     scale : array_like, optional
         Factor of the motion of each scene, both components; 1 by default.
     motion : array_like of int, optional
-        Index of the motion of each scene, from 0, which then has one run. By default each scene is run under every
+        Number of the motion of each scene, from 1, which then has one run. By default each scene is run under every
         motion.
     collapse_drift : float, optional
         Drift (m) at which any storey of any scene counts as collapsed.
@@ -68,18 +81,23 @@ class Grid:
     Attributes
     ----------
     buildings : tuple of Building
-        The buildings.
+        The buildings as given, or one for each number of storeys and period.
     floors : tuple of int
         Floor of each block.
 
     Raises
     ------
     InvalidScene
-        Columns differ in length, or a row describes no valid scene; the message names the first one, from 0.
+        Columns differ in length, or a row describes no valid scene; the message names the first one, from 1.
     InvalidMotion
         A factor is not a finite number.
     InvalidOption
-        An index of a motion is negative, or there are too many scenes.
+        A number of a motion is below 1, or there are too many scenes.
+
+    Notes
+    -----
+    With P-Delta from gravity loads, the weight of the whole live load is there, whatever share of it counts as mass or
+    slides. A `geometric_stiffness` stays as given.
 
     Examples
     --------
@@ -88,26 +106,62 @@ class Grid:
     >>> grid = sm.Grid(building, mass_ratio=[0.5, 0.5, 1.0], mu=[0.2, 0.3, 0.3], scale=2.0)
     >>> len(grid)
     3
-    >>> grid.scene(2).blocks
+    >>> grid.scene(3).blocks
     (Block(floor=1, mass_ratio=1, mu=0.3), Block(floor=2, mass_ratio=1, mu=0.3))
+
+    Bare roofs of two, three and four storeys, with sliding goods and as a code has them:
+
+    >>> grid = sm.Grid.product(
+    ...     storeys=[2, 3, 4],
+    ...     period=[0.38, 0.47, 0.57],
+    ...     roof="bare",
+    ...     mass_ratio=[0.5, 1.0, 1.5],
+    ...     attached=[0.0, 0.25],
+    ...     sliding=[1.0, 0.0],
+    ...     mu=0.4,
+    ... )
+    >>> len(grid), len(grid.scene(18).blocks), grid.scene(18).building.mass.tolist()
+    (18, 0, [1.375, 1.375, 1.375, 1.0])
     """
 
-    __slots__ = ("_columns", "_everywhere", "_indices", "_length", "buildings", "collapse_drift", "floors")
+    __slots__ = (
+        "_columns",
+        "_everywhere",
+        "_formed",
+        "_indices",
+        "_length",
+        "_roof_is_bare",
+        "buildings",
+        "collapse_drift",
+        "floors",
+    )
     buildings: tuple[Building, ...]
     floors: tuple[int, ...]
     collapse_drift: float | None
     _length: int
-    _columns: dict[str, _Column[np.float64]]
-    _indices: dict[str, _Column[np.int64]]
+    _columns: dict[str, Column[np.float64]]
+    _indices: dict[str, Column[np.int64]]
+    _formed: BuildingColumns
     _everywhere: bool
+    _roof_is_bare: bool
 
     def __init__(
         self,
-        building: Building | Sequence[Building],
+        building: Building | Sequence[Building] | None = None,
         *,
+        storeys: ArrayLike | None = None,
+        period: ArrayLike | None = None,
         building_index: ArrayLike | None = None,
+        strength: ArrayLike | None = None,
+        yield_shear_over_weight: ArrayLike | None = None,
+        overstrength: ArrayLike | None = None,
+        second_slope: ArrayLike | None = None,
         floors: ArrayLike | None = None,
+        roof: Roof = "loaded",
         mass_ratio: ArrayLike | None = None,
+        attached: ArrayLike | None = None,
+        sliding: ArrayLike | None = None,
+        damping: AttachedDamping = "same",
         mu: ArrayLike | None = None,
         mu_s: ArrayLike | None = None,
         mu_k: ArrayLike | None = None,
@@ -115,30 +169,57 @@ class Grid:
         motion: ArrayLike | None = None,
         collapse_drift: float | None = None,
     ) -> None:
-        self._set_common(building, floors, mass_ratio, collapse_drift)
-        if building_index is None and len(self.buildings) > 1:
+        uniform, index, periods = _given_buildings(building, storeys, period)
+        self._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
+        if storeys is not None:
+            if building_index is not None:
+                raise refusal(InvalidScene, "building_index", "grid", "left out where storeys is given", "both")
+            period = None
+        elif building_index is None and len(self.buildings) > 1:
             raise refusal(InvalidScene, "building_index", "grid", "given where there are several buildings", "none")
-        values = self._block_values(mass_ratio, mu, mu_s, mu_k) | _scale_values(scale)
-        indices = {"building": _index_values(building_index, "building_index", InvalidScene)}
+        else:
+            index = index_values(building_index, "building_index", InvalidScene)
+        values = self._block_values(mass_ratio, mu, mu_s, mu_k)
+        values |= self._changing_values(
+            period=period,
+            strength=strength,
+            yield_shear_over_weight=yield_shear_over_weight,
+            overstrength=overstrength,
+            second_slope=second_slope,
+        )
+        values |= self._share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
+        indices = {"building": index}
         if motion is not None:
-            indices["motion"] = _index_values(motion, "motion", InvalidOption)
+            indices["motion"] = index_values(motion, "motion", InvalidOption)
         lengths = {name: len(column) for name, column in (*values.items(), *indices.items())}
         self._length = max(lengths.values())
         for name, length in lengths.items():
             if length not in (1, self._length):
                 requirement = f"one value, or as many as the longest column has, {self._length}"
-                raise refusal(InvalidScene, _as_given(name, mu), "grid", requirement, f"{length} values")
-        self._columns = {name: _Column(column) for name, column in values.items()}
-        self._indices = {name: _Column(column) for name, column in indices.items()}
+                given = "storeys" if name == "building" and storeys is not None else _as_given(name, mu)
+                raise refusal(InvalidScene, given, "grid", requirement, f"{length} values")
+        self._columns = {name: Column(column) for name, column in values.items()}
+        self._indices = {name: Column(column) for name, column in indices.items()}
+        self._set_formed(periods, damping)
         self._check(range(self._length))
 
     @classmethod
     def product(
         cls,
-        building: Building | Sequence[Building],
+        building: Building | Sequence[Building] | None = None,
         *,
+        storeys: ArrayLike | None = None,
+        period: ArrayLike | None = None,
+        strength: ArrayLike | None = None,
+        yield_shear_over_weight: ArrayLike | None = None,
+        overstrength: ArrayLike | None = None,
+        second_slope: ArrayLike | None = None,
         floors: ArrayLike | None = None,
+        roof: Roof = "loaded",
         mass_ratio: ArrayLike | None = None,
+        attached: ArrayLike | None = None,
+        sliding: ArrayLike | None = None,
+        damping: AttachedDamping = "same",
         mu: ArrayLike | None = None,
         mu_s: ArrayLike | None = None,
         mu_k: ArrayLike | None = None,
@@ -147,18 +228,27 @@ class Grid:
     ) -> Self:
         """Return every combination of the values of each axis, of which only the axes are held.
 
-        The axes are building, mass ratio, friction and scale, the last changing fastest: scenes that follow each other
-        share propagators. `mu_s` and `mu_k` are one axis.
+        The axes are building, period, strength, overstrength, second slope, mass ratio, attached share, friction and
+        scale, the last changing fastest: scenes that follow each other share propagators. Together they are one axis:
+        `storeys` with `period`, `attached` with `sliding`, `mu_s` with `mu_k`.
 
         Parameters
         ----------
-        building : Building or sequence of Building
+        building : Building or sequence of Building, optional
             The buildings.
+        storeys, period : array_like, optional
+            Numbers of storeys with the first period of each (s); or periods for every building.
+        strength, overstrength, second_slope : array_like, optional
+            Values, each for all storeys.
+        yield_shear_over_weight : array_like, optional
+            Values for all storeys, or rows with one value per storey.
         mass_ratio, mu, mu_s, mu_k : array_like, optional
             One value, a list of values that all blocks share, or a table of values by blocks.
+        attached, sliding : array_like, optional
+            Shares of the live load.
         scale : array_like, optional
             Factors of the motion.
-        floors, collapse_drift
+        floors, roof, damping, collapse_drift
             As for `Grid`.
 
         Raises
@@ -173,54 +263,68 @@ class Grid:
         >>> grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=[0.2, 0.3, 0.4], scale=[0.5, 1.0, 2.0])
         >>> len(grid)
         18
-        >>> grid.table(3, 5)["mu_s"].to_list()
+        >>> grid.table(4, 5)["mu_s"].to_list()
         [0.3, 0.3]
         """
         grid = cls.__new__(cls)
-        grid._set_common(building, floors, mass_ratio, collapse_drift)
-        values = grid._block_values(mass_ratio, mu, mu_s, mu_k) | _scale_values(scale)
-        friction = [len(values[name]) for name in ("mu_s", "mu_k") if name in values]
-        if len(set(friction) - {1}) > 1:
-            requirement = f"one value, or as many as mu_s has, {friction[0]}"
-            raise refusal(InvalidScene, "mu_k", "grid", requirement, f"{friction[1]} values")
-        lengths = {
-            "building": len(grid.buildings),
-            "mass_ratio": len(values.get("mass_ratio", (0,))),
-            "friction": max(friction, default=1),
-            "scale": len(values.get("scale", (0,))),
-        }
-        each, length = {}, 1
+        uniform, index, periods = _given_buildings(building, storeys, period)
+        grid._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
+        if storeys is None:
+            index = np.arange(len(grid.buildings))
+        values = grid._block_values(mass_ratio, mu, mu_s, mu_k)
+        values |= grid._changing_values(
+            period=None if storeys is not None else period,
+            strength=strength,
+            yield_shear_over_weight=yield_shear_over_weight,
+            overstrength=overstrength,
+            second_slope=second_slope,
+        )
+        values |= grid._share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
+        lengths = {"building": len(index)}
+        for axis, names in _AXES.items():
+            given = {name: len(values[name]) for name in names if name in values}
+            lengths[axis] = next((length for length in given.values() if length > 1), 1)
+            for name, length in given.items():
+                if length not in (1, lengths[axis]):
+                    other = next(other for other in names if other != name)
+                    requirement = f"one value, or as many as {other} has, {lengths[axis]}"
+                    raise refusal(InvalidScene, _as_given(name, mu), "grid", requirement, f"{length} values")
+        each, total = {}, 1
         for axis in reversed(lengths):
-            each[axis] = length
-            length *= lengths[axis]
-        if length > MAX_SCENES:
-            raise refusal(InvalidOption, "scenes", "grid", f"at most {MAX_SCENES}", f"{length}")
-        grid._length = length
-        axes = {"mu_s": "friction", "mu_k": "friction"}
-        grid._columns = {name: _Column(column, each[axes.get(name, name)]) for name, column in values.items()}
-        grid._indices = {"building": _Column(np.arange(len(grid.buildings)), each["building"])}
-        # Masses are judged with buildings, friction by itself: scenes with the first value of the other axes will do.
-        grid._check(range(0, length, each["mass_ratio"]))
-        grid._check(range(0, each["mass_ratio"], each["friction"]))
+            each[axis] = total
+            total *= lengths[axis]
+        if total > MAX_SCENES:
+            raise refusal(InvalidOption, "scenes", "grid", f"at most {MAX_SCENES}", f"{total}")
+        grid._length = total
+        axis_of = {name: axis for axis, names in _AXES.items() for name in names}
+        grid._columns = {name: Column(column, each[axis_of[name]]) for name, column in values.items()}
+        grid._indices = {"building": Column(index, each["building"])}
+        grid._set_formed(periods, damping)
+        # Friction is judged by itself, all else with the first value of friction and scale.
+        grid._check(range(0, total, each["attached"]))
+        grid._check(range(0, each["attached"], each["friction"]))
         return grid
 
     def __len__(self) -> int:
         return self._length
 
     def scene(self, number: int) -> Scene:
-        """Return one scene, counted from 0, as an object; its factor and its motion are in `table`.
+        """Return one scene, counted from 1, as an object; its factor and its motion are in `table`.
 
         Raises
         ------
         InvalidOption
             There is no such scene.
         """
-        index = as_count(number, "number", "grid", InvalidOption)
+        index = as_count(number, "number", "grid", InvalidOption, least=1) - 1
         if index >= self._length:
-            raise refusal(InvalidOption, "number", "grid", f"that of a scene, 0 to {self._length - 1}", str(index))
+            limits = f"that of a scene, counted from 1 to {self._length}"
+            raise refusal(InvalidOption, "number", "grid", limits, str(number))
         scenes = np.array([index])
-        building = self.buildings[int(self._building_of(scenes)[0])]
-        ratio, static, kinetic = (self._per_block(name, scenes)[0].tolist() for name in ("mass_ratio", "mu_s", "mu_k"))
+        formed = self._formed.of(scenes, self._building_of(scenes), self._per_block("mass_ratio", scenes))
+        building = formed.buildings[int(formed.which[0])]
+        ratio = formed.mass_ratio[0].tolist()
+        static, kinetic = (self._per_block(name, scenes)[0].tolist() for name in ("mu_s", "mu_k"))
         blocks = [
             Block(floor, mass_ratio=ratio[j], mu_s=static[j], mu_k=kinetic[j])
             for j, floor in enumerate(self.floors)
@@ -228,30 +332,46 @@ class Grid:
         ]
         return Scene(building, blocks, collapse_drift=self.collapse_drift)
 
-    def table(self, first: int = 0, last: int | None = None) -> pl.DataFrame:
-        """Return the columns of the scenes from `first` to before `last` (default: to the end) as a frame.
+    def table(self, first: int = 1, last: int | None = None) -> pl.DataFrame:
+        """Return the columns of the scenes from `first` to `last`, both included (default: all), as a frame.
 
-        It has the number of the scene as `scene`, by which results are joined, the index of the `building`, and of
-        `mass_ratio`, `mu_s`, `mu_k`, `scale` and `motion` those that were given; lists where blocks differ.
+        It has the number of the scene as `scene`, by which results are joined, the number of the `building`, its
+        `storeys` and `period` (s, without live load), and of `strength`, `yield_shear_over_weight`, `overstrength`,
+        `second_slope`, `mass_ratio`, `attached`, `sliding`, `mu_s`, `mu_k`, `scale` and `motion` those that were given;
+        lists where storeys or blocks differ.
 
         Raises
         ------
         InvalidOption
-            A number is negative or not whole.
+            A number is below 1 or not whole.
+        SimulationError
+            The process was forked from one in which Polars had been used.
         """
+        require_polars("table")
         end = self._length if last is None else as_count(last, "last", "grid", InvalidOption)
-        scenes = np.arange(as_count(first, "first", "grid", InvalidOption), min(end, self._length))
-        found: dict[str, pl.Series] = {"scene": pl.Series(scenes.astype(np.uint32))}
-        for name, index in self._indices.items():
-            found[name] = pl.Series(index.of(scenes).astype(np.uint32))
-        for name, column in self._columns.items():
-            values = column.of(scenes)
+        begin = as_count(first, "first", "grid", InvalidOption, least=1) - 1
+        scenes = np.arange(begin, max(begin, min(end, self._length)))
+        index = self._building_of(scenes)
+        storeys = np.array([building.storeys for building in self.buildings])[index]
+        found: dict[str, pl.Series] = {
+            "scene": pl.Series((scenes + 1).astype(np.uint32)),
+            "building": pl.Series((index + 1).astype(np.uint32)),
+            "storeys": pl.Series(storeys.astype(np.uint32)),
+            "period": pl.Series(self._formed.periods_of(scenes, index)),
+        }
+        for name in GRID_COLUMNS:
+            if name in found or name not in self._columns:
+                continue
+            values = self._columns[name].of(scenes)
             if values.ndim == 1 or values.shape[1] == 1:
                 found[name] = pl.Series(values.reshape(-1))
             else:
-                found[name] = pl.Series(values, dtype=pl.Array(pl.Float64, values.shape[1])).arr.to_list()
-        order = ("scene", "building", "mass_ratio", "mu_s", "mu_k", "scale", "motion")
-        return pl.DataFrame({name: found[name] for name in order if name in found})
+                lists = pl.Series(values, dtype=pl.Array(pl.Float64, values.shape[1])).arr.to_list()
+                unused = np.isnan(values).any()
+                found[name] = lists.list.eval(pl.element().filter(pl.element().is_not_nan())) if unused else lists
+        if "motion" in self._indices:
+            found["motion"] = pl.Series((self._indices["motion"].of(scenes) + 1).astype(np.uint32))
+        return pl.DataFrame(found)
 
     def __repr__(self) -> str:
         def counted(number: int, noun: str) -> str:
@@ -262,23 +382,36 @@ class Grid:
         of = f"{counted(len(self.buildings), 'building')}, {counted(len(self.floors), 'block')} each"
         return f"Grid({counted(self._length, 'scene')}, {of}{columns})"
 
-    def _set_common(self, building: Any, floors: Any, mass_ratio: Any, collapse_drift: Any) -> None:
-        listed = (building,) if isinstance(building, Building) else building
-        if not isinstance(listed, Sequence) or not listed or not all(isinstance(item, Building) for item in listed):
-            raise refusal(InvalidScene, "building", "grid", "a Building or a list of Buildings", brief(building))
-        self.buildings = tuple(listed)
+    def _set_common(
+        self, buildings: tuple[Building, ...], floors: Any, roof: Any, mass_ratio: Any, collapse_drift: Any
+    ) -> None:
+        self.buildings = buildings
         self._everywhere = floors is None
+        if roof not in get_args(Roof):
+            raise refusal(InvalidScene, "roof", "grid", "loaded or bare", brief(roof))
+        self._roof_is_bare = roof == "bare"
+        if self._roof_is_bare and floors is not None:
+            raise refusal(InvalidScene, "roof", "grid", "left out where floors is given", brief(roof))
         if mass_ratio is None:
             if floors is not None:
                 raise refusal(InvalidScene, "floors", "grid", "left out where mass_ratio is", brief(floors))
             self.floors = ()
         elif floors is None:
-            self.floors = tuple(range(1, max(item.storeys for item in self.buildings) + 1))
+            highest = max(item.storeys for item in self.buildings)
+            self.floors = tuple(range(1, highest + 1 - self._roof_is_bare))
         else:
-            self.floors = tuple(_index_values(floors, "floors", InvalidScene).tolist())
+            self.floors = tuple((index_values(floors, "floors", InvalidScene) + 1).tolist())
         self.collapse_drift = (
             None if collapse_drift is None else as_number(collapse_drift, "collapse_drift", "grid", InvalidScene)
         )
+
+    def _set_formed(self, periods: FloatArray, damping: Any) -> None:
+        """Keep what forms the buildings of scenes, of columns that are known by now."""
+        if damping not in ATTACHED_DAMPING:
+            raise refusal(InvalidScene, "damping", "grid", "same or ratio, of attached live load", brief(damping))
+        names = (*CHANGING, "attached", "sliding")
+        columns = {name: column for name, column in self._columns.items() if name in names}
+        self._formed = BuildingColumns(self.buildings, periods, self.floors, columns, damping)
 
     def _block_values(self, mass_ratio: Any, mu: Any, mu_s: Any, mu_k: Any) -> dict[str, FloatArray]:
         """What blocks have, as tables of values by blocks; a width of one stands for all blocks."""
@@ -293,27 +426,42 @@ class Grid:
         static = mu if mu_s is None else mu_s
         if static is None:
             raise refusal(InvalidScene, "mu", "grid", "given, or mu_s", "neither")
+        blocks = len(self.floors)
         values = {
-            "mass_ratio": self._block_table(mass_ratio, "mass_ratio"),
-            "mu_s": self._block_table(static, "mu" if mu_s is None else "mu_s"),
+            "mass_ratio": block_table(mass_ratio, "mass_ratio", blocks),
+            "mu_s": block_table(static, "mu" if mu_s is None else "mu_s", blocks),
         }
-        values["mu_k"] = values["mu_s"] if mu_k is None else self._block_table(mu_k, "mu_k")
+        values["mu_k"] = values["mu_s"] if mu_k is None else block_table(mu_k, "mu_k", blocks)
         return values
 
-    def _block_table(self, value: Any, name: str) -> FloatArray:
-        try:
-            dimensions = 2 if np.ndim(value) == 2 else 1
-        except ValueError:
-            dimensions = 1
-        array = as_array(value, name, "grid", InvalidScene, dimensions=dimensions, or_number=True)
-        table = array if array.ndim == 2 else array.reshape(-1, 1)
-        if not len(table):
-            raise refusal(InvalidScene, name, "grid", "at least one value", "none")
-        blocks = len(self.floors)
-        if table.shape[1] not in (1, blocks):
-            requirement = f"a list with one value per scene, or a table with one column per block, {blocks}"
-            raise refusal(InvalidScene, name, "grid", requirement, f"a table of {table.shape[1]} columns")
-        return table
+    def _changing_values(self, *, yield_shear_over_weight: Any, **numbers: Any) -> dict[str, FloatArray]:
+        """What changes buildings."""
+        values = number_values(numbers)
+        if yield_shear_over_weight is not None:
+            if "strength" in values:
+                raise refusal(
+                    InvalidScene, "strength", "grid", "left out where yield_shear_over_weight is given", "both"
+                )
+            values["yield_shear_over_weight"] = strength_table(yield_shear_over_weight)
+        if "strength" in values and all(np.isinf(building.yield_shear).all() for building in self.buildings):
+            requirement = "left out where buildings are elastic (yield_shear_over_weight makes them yield)"
+            raise refusal(InvalidScene, "strength", "grid", requirement, brief(numbers["strength"]))
+        return values
+
+    def _share_values(self, attached: Any, sliding: Any, mass_ratio: Any) -> dict[str, FloatArray]:
+        """Shares of the live load, of which no more than all is there."""
+        for name, value in (("attached", attached), ("sliding", sliding)):
+            if value is not None and mass_ratio is None:
+                raise refusal(InvalidScene, name, "grid", "left out where mass_ratio is", brief(value))
+        values = number_values({"attached": attached, "sliding": sliding})
+        lengths = {len(column) for column in values.values()} - {1}
+        if len(values) == 2 and len(lengths) < 2:
+            both = values["attached"] + values["sliding"]
+            wrong = np.flatnonzero(both > 1.0 + 1e-12)
+            if len(wrong):
+                got = f"{both[wrong[0]]:g} together as value {wrong[0] + 1}"
+                raise refusal(InvalidScene, "attached and sliding", "grid", "shares of at most 1 together", got)
+        return values
 
     def _per_block(self, name: str, scenes: IndexArray) -> FloatArray:
         """A property of the blocks of scenes, shape (scenes, blocks)."""
@@ -321,19 +469,30 @@ class Grid:
         if name not in self._columns:
             return np.zeros(shape)
         values = self._columns[name].of(scenes)
-        if name == "mass_ratio" and self._everywhere and values.shape[1] == 1:
-            # A block on every floor of the scene's own building.
+        if name == "mass_ratio" and self._everywhere and (values.shape[1] == 1 or self._roof_is_bare):
+            # A block on every floor of the scene's own building, the roof perhaps left out.
             storeys = np.array([building.storeys for building in self.buildings])[self._building_of(scenes)]
-            return np.where(np.array(self.floors) <= storeys[:, None], values, 0.0)
+            loaded = np.array(self.floors, dtype=np.int64) <= storeys[:, None] - self._roof_is_bare
+            return np.where(loaded, values, 0.0)
         return np.broadcast_to(values, shape)
+
+    def _sliding(self, scenes: IndexArray) -> FloatArray:
+        """Live load that slides over floor mass, shape (scenes, blocks); 0 where there is no block."""
+        live_load = self._per_block("mass_ratio", scenes)
+        _, sliding = self._formed.shares_of(scenes)
+        return live_load if sliding is None else live_load * sliding[:, None]
 
     def _kernel_columns(self, scenes: IndexArray) -> _kernel.Columns:
         """Scenes as the kernel takes them."""
+        live_load = self._per_block("mass_ratio", scenes)
+        formed = self._formed.of(scenes, self._building_of(scenes), live_load)
         return _kernel.Columns(
-            [building._kernel for building in self.buildings],
+            [building._kernel for building in formed.buildings],
             self.floors,
-            self._building_of(scenes),
-            *(self._per_block(name, scenes) for name in ("mass_ratio", "mu_s", "mu_k")),
+            formed.which,
+            formed.mass_ratio,
+            self._per_block("mu_s", scenes),
+            self._per_block("mu_k", scenes),
             collapse_drift=self.collapse_drift,
         )
 
@@ -360,20 +519,20 @@ class Grid:
         index = self._indices["motion"].values
         wrong = np.flatnonzero(index >= motions)
         if len(wrong):
-            limits = f"an index of a motion, below their number, {motions}"
-            raise refusal(InvalidOption, "motion", "grid", limits, f"{index[wrong[0]]} at scene {wrong[0]}")
+            limits = f"the number of a motion, counted from 1 to {motions}"
+            raise refusal(InvalidOption, "motion", "grid", limits, f"{index[wrong[0]] + 1} as value {wrong[0] + 1}")
 
     def _check(self, numbers: range) -> None:
         """Let the kernel judge scenes by their numbers."""
         index = self._indices["building"]
         wrong = np.flatnonzero(index.values >= len(self.buildings))
         if len(wrong):
-            limits = f"an index of a building, 0 to {len(self.buildings) - 1}"
-            got = f"{index.values[wrong[0]]} at scene {wrong[0]}"
+            limits = f"the number of a building, counted from 1 to {len(self.buildings)}"
+            got = f"{index.values[wrong[0]] + 1} as value {wrong[0] + 1}"
             raise refusal(InvalidScene, "building_index", "grid", limits, got)
         for part in _parts(numbers):
             scenes = np.arange(part.start, part.stop, part.step)
-            self._kernel_columns(scenes).check(scenes)
+            self._kernel_columns(scenes).check(scenes + 1)
 
 
 def _parts(numbers: range) -> Iterator[range]:
@@ -381,38 +540,47 @@ def _parts(numbers: range) -> Iterator[range]:
         yield numbers[first : first + _CHECKED_AT_ONCE]
 
 
+_AXES: Final = {
+    "period": ("period",),
+    "strength": ("strength", "yield_shear_over_weight"),
+    "overstrength": ("overstrength",),
+    "second_slope": ("second_slope",),
+    "mass_ratio": ("mass_ratio",),
+    "attached": ("attached", "sliding"),
+    "friction": ("mu_s", "mu_k"),
+    "scale": ("scale",),
+}
+"""Axes of a product beside the building, and what each of them holds."""
+
+
+def _given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Building, ...], IndexArray, FloatArray]:
+    """The buildings of a grid, which of them each value has where storeys and periods describe them, their periods."""
+    if (building is None) == (storeys is None):
+        got = "neither" if building is None else "both"
+        raise refusal(InvalidScene, "building", "grid", "given either as building or as storeys", got)
+    if storeys is None:
+        listed = (building,) if isinstance(building, Building) else building
+        if not isinstance(listed, Sequence) or not listed or not all(isinstance(item, Building) for item in listed):
+            raise refusal(InvalidScene, "building", "grid", "a Building or a list of Buildings", brief(building))
+        of_given = np.array([float(item.periods[0]) for item in listed])
+        return tuple(listed), np.zeros(1, dtype=np.int64), of_given
+    if period is None:
+        raise refusal(InvalidScene, "period", "grid", "given where storeys is", "none")
+    heights = index_values(storeys, "storeys", InvalidScene, of="a list of such numbers") + 1
+    periods = number_values({"period": period})["period"]
+    if len(heights) != len(periods) and 1 not in (len(heights), len(periods)):
+        requirement = f"one value, or as many as storeys has, {len(heights)}"
+        raise refusal(InvalidScene, "period", "grid", requirement, f"{len(periods)} values")
+    pairs = np.column_stack(np.broadcast_arrays(heights, periods))
+    distinct, first, which = np.unique(pairs, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # buildings are numbered as they are listed
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    buildings = tuple(Building.uniform(int(count), float(seconds)) for count, seconds in distinct[order])
+    return buildings, place[which.reshape(-1)], distinct[order, 1]
+
+
 def _as_given(name: str, mu: Any) -> str:
     """Name under which the user gave a column."""
     names = {"building": "building_index"}
     return "mu" if name in ("mu_s", "mu_k") and mu is not None else names.get(name, name)
-
-
-def _scale_values(scale: Any) -> dict[str, FloatArray]:
-    if scale is None:
-        return {}
-    factors = as_array(scale, "scale", "grid", InvalidMotion, or_number=True).reshape(-1)
-    if not len(factors):
-        raise refusal(InvalidMotion, "scale", "grid", "at least one value", "none")
-    wrong = np.flatnonzero(~np.isfinite(factors))
-    if len(wrong):
-        got = f"{factors[wrong[0]]:g} at index {wrong[0]}"
-        raise refusal(InvalidMotion, "scale", "grid", "a finite number", got)
-    return {"scale": factors}
-
-
-def _index_values(value: Any, name: str, kind: type[SeismassError]) -> IndexArray:
-    """One index or a list of them, from 0; the first one where nothing is given."""
-    requirement = "a whole number from 0, or a list of them"
-    try:
-        given = np.asarray(0 if value is None else value)
-    except (TypeError, ValueError):
-        raise refusal(kind, name, "grid", requirement, brief(value)) from None
-    if given.dtype.kind not in "iu" or given.ndim > 1 or not given.size or np.ma.is_masked(value):
-        raise refusal(kind, name, "grid", requirement, brief(value))
-    wrong = np.flatnonzero((given.reshape(-1) < 0) | (given.reshape(-1) >= 2**32))
-    if len(wrong):
-        got = f"{given.reshape(-1)[wrong[0]]} at index {wrong[0]}"
-        raise refusal(kind, name, "grid", requirement, got)
-    indices = given.reshape(-1).astype(np.int64)
-    indices.setflags(write=False)
-    return indices

@@ -11,6 +11,7 @@ import polars as pl
 from seismass._values import FloatArray, as_count, as_number, brief, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption
 from seismass.plausibility import scaling_remarks
+from seismass.simulate import motion_names
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 
 
@@ -144,7 +145,7 @@ def scale_asce7_10(
     factors = individual * common
     scaled = factors[:, None] * spectra
     return ScalingResult(
-        names=tuple(str(getattr(motion, "name", "")) or f"motion {n}" for n, motion in enumerate(suite, start=1)),
+        names=tuple(motion_names(suite)),
         individual=frozen(individual),
         common=common,
         factors=frozen(factors),

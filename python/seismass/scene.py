@@ -89,6 +89,9 @@ class Building(Value):
         blocks is added: P_i/h_i is subtracted from the tangent stiffness of storey i.
     geometric_stiffness : array_like, optional
         Finished P/h of each storey (N/m), instead of `gravity_load`.
+    mass_is_stated : bool, default True
+        False where the masses are only a convention, as `uniform` makes them where it is given none: then blocks have
+        to be given by `mass_ratio`, and forces mean something as fractions of the weight alone.
 
     Attributes
     ----------
@@ -97,6 +100,8 @@ class Building(Value):
     heights, gravity_load, geometric_stiffness : ndarray, shape (storeys,), or None
         As given, read-only.
     damping : float, Rayleigh or ndarray
+        As given.
+    mass_is_stated : bool
         As given.
 
     Raises
@@ -126,6 +131,7 @@ class Building(Value):
         "gravity_load",
         "heights",
         "mass",
+        "mass_is_stated",
         "overstrength",
         "second_slope",
         "stiffness",
@@ -143,6 +149,7 @@ class Building(Value):
     heights: FloatArray | None
     gravity_load: FloatArray | None
     geometric_stiffness: FloatArray | None
+    mass_is_stated: bool
 
     def __init__(
         self,
@@ -157,6 +164,7 @@ class Building(Value):
         heights: ArrayLike | None = None,
         gravity_load: ArrayLike | None = None,
         geometric_stiffness: ArrayLike | None = None,
+        mass_is_stated: bool = True,
     ) -> None:
         if gravity_load is not None and geometric_stiffness is not None:
             raise refusal(
@@ -175,7 +183,7 @@ class Building(Value):
             gravity_load=gravity_load,
             geometric_stiffness=geometric_stiffness,
         )
-        self._set(**springs, damping=_damping(damping))
+        self._set(**springs, damping=_damping(damping), mass_is_stated=bool(mass_is_stated))
         heights_only = gravity_load is None
         if heights_only and self.heights is not None:
             _check_heights(self.heights, len(self.mass))
@@ -200,7 +208,7 @@ class Building(Value):
         storeys: int,
         period: float,
         *,
-        mass: float = 1.0,
+        mass: float | None = None,
         yield_shear: ArrayLike | None = None,
         yield_shear_over_weight: ArrayLike | None = None,
         overstrength: ArrayLike = DEFAULT_OVERSTRENGTH,
@@ -219,10 +227,11 @@ class Building(Value):
             Number of storeys n.
         period : float
             First period T of the bare building (s).
-        mass : float, default 1
-            Mass of each floor (kg). Drifts and slips do not depend on it where all else is given as ratios (Notes).
+        mass : float, optional
+            Mass of each floor (kg). Drifts and slips do not depend on it where all else is given as ratios (Notes). By
+            default it is 1 kg and not stated: what depends on it is then refused.
         yield_shear : array_like, optional
-            V_y of each storey (N); elastic where neither it nor the next is given.
+            V_y of each storey (N), where the mass is stated; elastic where neither it nor the next is given.
         yield_shear_over_weight : array_like, optional
             V_y as a fraction of the weight g sum(m) of the building without blocks.
         overstrength, second_slope, third_slope, damping, heights, gravity_load, geometric_stiffness
@@ -231,7 +240,8 @@ class Building(Value):
         Raises
         ------
         InvalidScene
-            As for `Building`, or both forms of yield shear are given.
+            As for `Building`, or both forms of yield shear are given, or the mass is not stated and something in N or
+            N/m is given.
 
         Notes
         -----
@@ -241,7 +251,7 @@ class Building(Value):
         the mass where the building is elastic or has its strengths over the weight, its damping is a ratio, there is no
         P-Delta, and blocks are given by `mass_ratio`; forces and energies are then proportional to it. What is given
         in other units needs the real mass: `yield_shear`, `gravity_load`, `geometric_stiffness`, a damping matrix, and
-        the `mass` of blocks.
+        the `mass` of blocks; it is refused where the mass is not stated, and `mass=1.0` states it.
 
         Examples
         --------
@@ -250,7 +260,14 @@ class Building(Value):
         Building(3 storeys, T1 = 0.6 s, V_y/W = [0.24, 0.2, 0.12], Omega = 2, r2 = 0.05, r3 = 0, damping = 0.05)
         """
         count = as_count(storeys, "storeys", "building", InvalidScene, least=1)
-        floor_mass = as_number(mass, "mass", "building", InvalidScene)
+        if mass is None:
+            _refuse_without_mass(
+                yield_shear=yield_shear,
+                damping=damping,
+                gravity_load=gravity_load,
+                geometric_stiffness=geometric_stiffness,
+            )
+        floor_mass = 1.0 if mass is None else as_number(mass, "mass", "building", InvalidScene)
         stiffness = _kernel.uniform_stiffness(count, as_number(period, "period", "building", InvalidScene), floor_mass)
         if yield_shear_over_weight is not None:
             if yield_shear is not None:
@@ -270,7 +287,43 @@ class Building(Value):
             heights=heights,
             gravity_load=gravity_load,
             geometric_stiffness=geometric_stiffness,
+            mass_is_stated=mass is not None,
         )
+
+    def replace(self, **changes: Any) -> Building:
+        """Return another building, with these arguments changed.
+
+        Parameters
+        ----------
+        **changes
+            Arguments of `Building`, or `yield_shear_over_weight`, V_y as fractions of the weight of the new building.
+            Masses given here are stated.
+
+        Raises
+        ------
+        InvalidScene
+            As for `Building` and `uniform`.
+
+        Examples
+        --------
+        >>> import seismass as sm
+        >>> sm.Building.uniform(3, 0.6).replace(yield_shear_over_weight=[0.24, 0.20, 0.12])
+        Building(3 storeys, T1 = 0.6 s, V_y/W = [0.24, 0.2, 0.12], Omega = 2, r2 = 0.05, r3 = 0, damping = 0.05)
+        """
+        over_weight = changes.pop("yield_shear_over_weight", None)
+        if over_weight is not None and "yield_shear" in changes:
+            raise refusal(
+                InvalidScene, "yield_shear_over_weight", "building", "left out where yield_shear is given", "both"
+            )
+        if "mass" in changes:
+            changes = {"mass_is_stated": True} | changes
+        elif not changes.get("mass_is_stated", self.mass_is_stated):
+            _refuse_without_mass(**changes)
+        if over_weight is None:
+            return super().replace(**changes)
+        changed = super().replace(**changes, yield_shear=np.inf)
+        strength = as_fraction_of_weight(over_weight, changed.storeys) * changed.weight
+        return changed_building(changed, yield_shear=strength)
 
     @property
     def storeys(self) -> int:
@@ -304,6 +357,7 @@ class Building(Value):
             "heights": self.heights,
             "gravity_load": self.gravity_load,
             "geometric_stiffness": self.geometric_stiffness,
+            "mass_is_stated": self.mass_is_stated,
         }
 
     def __repr__(self) -> str:
@@ -328,7 +382,7 @@ class Block(Value):
     floor : int
         Floor that carries it, counted from 1; 0 is the ground slab, whose blocks do not load the building.
     mass : float, optional
-        Mass (kg). Either it or `mass_ratio` is needed.
+        Mass (kg). Either it or `mass_ratio` is needed; on a floor of a building whose mass is not stated, the latter.
     mass_ratio : float, optional
         Mass over that of the floor (alpha of the paper); not on the ground.
     mu : float, optional
@@ -466,8 +520,8 @@ class Scene(Value):
     Raises
     ------
     InvalidScene
-        A block is invalid or stands on a missing floor, P/h reaches a stiffness, a list has another length, or there
-        are storey values without a building.
+        A block is invalid, stands on a missing floor or has a mass where the building's is not stated, P/h reaches a
+        stiffness, a list has another length, or there are storey values without a building.
 
     Examples
     --------
@@ -600,6 +654,33 @@ class Scene(Value):
         return f"Scene({name}{self.storeys} {noun}, T1 = {self.building.periods[0]:.4g} s, {blocks})"
 
 
+def changed_building(building: Building, **changes: Any) -> Building:
+    """Return a building with arguments changed that no user gives: forces may follow masses that are not stated."""
+    return Building(**(building._arguments() | changes))
+
+
+def _refuse_without_mass(**given: Any) -> None:
+    """Refuse forces and stiffnesses for a building whose mass is not stated, which they need."""
+    for name in ("yield_shear", "gravity_load", "geometric_stiffness", "damping"):
+        value = given.get(name)
+        if value is None or (name == "damping" and (np.ndim(value) == 0 or isinstance(value, Rayleigh))):
+            continue
+        if name == "yield_shear" and _is_elastic(value):
+            continue
+        ratio = {"yield_shear": "yield_shear_over_weight", "damping": "a ratio"}.get(name)
+        instead = f" ({ratio} does not need it)" if ratio else ""
+        requirement = f"left out where the mass is not stated{instead}"
+        raise refusal(InvalidScene, name, "building", requirement, brief(value))
+
+
+def _is_elastic(yield_shear: Any) -> bool:
+    """Whether yield shears are infinite throughout; what is no number is judged later."""
+    try:
+        return bool(np.isinf(np.asarray(yield_shear, dtype=np.float64)).all())
+    except (TypeError, ValueError):
+        return False
+
+
 def as_fraction_of_weight(value: Any, storeys: int) -> FloatArray:
     """Return yield shears over the weight, positive: one number (shape ()) or one per storey."""
     name = "yield_shear_over_weight"
@@ -663,9 +744,12 @@ def _damping_arguments(damping: float | Rayleigh | FloatArray) -> dict[str, Any]
 
 def _block_mass(block: Block, number: int, building: Building | None) -> float:
     """Mass in kg; a ratio needs a floor that exists."""
-    if block.mass_ratio is None:
-        return block.mass if block.mass is not None else 0.0
     owner = f"block {number}"
+    if block.mass_ratio is None:
+        if building is not None and not building.mass_is_stated and block.floor > 0:
+            requirement = "given as mass_ratio where the mass of the building is not stated"
+            raise refusal(InvalidScene, "mass", owner, requirement, f"{block.mass:g} kg")
+        return block.mass if block.mass is not None else 0.0
     floors = 0 if building is None else building.storeys
     if block.floor == 0:
         raise refusal(InvalidScene, "mass_ratio", owner, "left out on the ground", f"{block.mass_ratio:g}")

@@ -12,6 +12,7 @@ import numpy as np
 from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
 from seismass.errors import InvalidMotion, InvalidScene, InvalidSceneFile
 from seismass.input_table import Table, load_table
+from seismass.plausibility import motion_remarks
 from seismass.records import Record, read_record
 from seismass.scene import MAX_STOREYS, Block, Building, Rayleigh, Scene, as_fraction_of_weight
 from seismass.simulate import Motion
@@ -77,6 +78,12 @@ class SceneFile:
     note: str
     path: Path
     records: tuple[Record, ...] = ()
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the records had interpreted or left out, and what is unlikely about scene and motion, as sentences."""
+        of_records = (f"{record.name}: {remark}" for record in self.records for remark in record.remarks)
+        return (*of_records, *self.scene.remarks, *motion_remarks(self.motion))
 
 
 def read_scene(path: str | os.PathLike[str]) -> SceneFile:

@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, Final, Protocol, TypeAlias, TypedDict, cast, runtime_checkable
 
 import numpy as np
 import polars as pl
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
 from seismass._values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption, InvalidScene
+from seismass.forks import require_polars
 from seismass.scene import Scene
 from seismass.units import STANDARD_GRAVITY
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
 """Kinds of events: what happens to a storey (yield, unload), to a block, or to all blocks (lift, land)."""
+
+_EVENT: Final = np.dtype(
+    [
+        ("time", np.float64),
+        ("kind", f"U{max(map(len, EVENT_KINDS))}"),
+        ("number", np.uint32),
+        ("sign", np.int8),
+        ("element", np.uint8),
+    ]
+)
 
 
 class Motion(Value):
@@ -328,22 +340,42 @@ class Response:
         block, counted from 1; `sign` (yield: of the force; unload: of the force before; slip, reverse: of the
         relative velocity that follows; stick: of the one before; touch, lift, land: of the one then, 0: none);
         `element` (yield: 1 or 2, first or second yield of the storey; otherwise null).
+
+        In a process that was forked from one in which Polars had been used, it is a SimulationError: `event_log` is the
+        same without Polars.
         """
         if "events" not in self._known:
-            time = self._asked("events", "events", stored="event_time")
-            kinds = np.array(EVENT_KINDS)[self._get("event_kind")]
-            element = pl.Series("element", self._get("event_element"))
+            listed = self.event_log
+            require_polars("events", "event_log")
             self._known["events"] = pl.DataFrame(
                 {
-                    "time": pl.Series(time, dtype=pl.Float64),
-                    "kind": pl.Series(kinds.tolist(), dtype=pl.String),
-                    "number": pl.Series(self._get("event_number")),
-                    "sign": pl.Series(self._get("event_sign")),
-                    "element": element.replace(0, None),
+                    "time": pl.Series(listed["time"], dtype=pl.Float64),
+                    "kind": pl.Series(listed["kind"].tolist(), dtype=pl.String),
+                    "number": pl.Series(listed["number"]),
+                    "sign": pl.Series(listed["sign"]),
+                    "element": pl.Series(listed["element"]).replace(0, None),
                 }
             )
         log: pl.DataFrame = self._known["events"]
         return log
+
+    @property
+    def event_log(self) -> NDArray[np.void]:
+        """Event log as a structured array, made without Polars; it also serves in a forked process.
+
+        Fields as the columns of `events`; `element` is 0 where that is null.
+        """
+        if "event_log" not in self._known:
+            time = self._asked("event_log", "events", stored="event_time")
+            log = np.empty(len(time), dtype=_EVENT)
+            log["time"] = time
+            log["kind"] = np.array(EVENT_KINDS)[self._get("event_kind")]
+            for name in ("number", "sign", "element"):
+                log[name] = self._get(f"event_{name}")
+            log.setflags(write=False)
+            self._known["event_log"] = log
+        listed: NDArray[np.void] = self._known["event_log"]
+        return listed
 
     @property
     def counts(self) -> dict[str, int]:
@@ -502,6 +534,11 @@ def as_motion(motion: Any, parameter: str, owner: str) -> Motion:
     if not isinstance(found, Motion):
         raise refusal(InvalidMotion, parameter, owner, "a Motion or a Record", brief(motion))
     return found
+
+
+def motion_names(motions: Iterable[Any]) -> list[str]:
+    """Return the names of motions; one without a name is called by its number, from 1."""
+    return [str(getattr(motion, "name", "")) or f"motion {n}" for n, motion in enumerate(motions, start=1)]
 
 
 def _same(one: Any, other: Any) -> bool:

@@ -24,19 +24,16 @@ pub(crate) fn from_kernel(py: Python<'_>, error: &Error) -> PyErr {
         Error::Invalid { domain: Domain::Scene, .. } => exception(py, &SCENE, "InvalidScene", message),
         Error::Invalid { domain: Domain::Motion, .. } => exception(py, &MOTION, "InvalidMotion", message),
         Error::Invalid { domain: Domain::Options, .. } => exception(py, &OPTION, "InvalidOption", message),
-        Error::TooStiff { .. } | Error::TooManyEvents { .. } | Error::NotFinite { .. } => simulation_error(py, message),
+        Error::TooStiff { .. } | Error::TooManyEvents { .. } | Error::NotFinite { .. } | Error::Defect { .. } => {
+            simulation_error(py, message)
+        }
         Error::Interrupted => PyKeyboardInterrupt::new_err(()),
     }
 }
 
 /// The exception for a panic of the kernel, which is a defect of seismass and never the user's fault.
 pub(crate) fn from_panic(py: Python<'_>, payload: &(dyn std::any::Any + Send)) -> PyErr {
-    let reason = payload
-        .downcast_ref::<String>()
-        .map(String::as_str)
-        .or_else(|| payload.downcast_ref::<&str>().copied())
-        .unwrap_or("no message");
-    simulation_error(py, format!("the kernel stopped on a defect of seismass, please report it: {reason}"))
+    from_kernel(py, &Error::of_panic(payload))
 }
 
 /// The exception for a run that was accepted and could not be finished.

@@ -1,6 +1,7 @@
 //! Many runs: grouped so that they share propagators, solved in parallel, returned in the order asked for.
 
 use std::num::NonZero;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -103,6 +104,11 @@ pub fn simulate_each<T: Clone + Send + Sync>(
     Ok(of_run.into_iter().map(result_of).collect())
 }
 
+/// What `work` returns, its panic as the error of its own run: the others go on.
+fn contained<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|payload| Err(Error::of_panic(payload.as_ref())))
+}
+
 /// Runs `work` of a batch or spectrum (`owner`) in a pool of `threads` threads: where those are all cores, in the global
 /// one, whose threads stay. A process that was forked from one that has used that has none of its threads: it takes a
 /// pool of its own.
@@ -171,15 +177,32 @@ impl Batch<'_> {
                 _ => &mut shared.insert((group, RegimeCache::new(self.motions[motion].dt()))).1,
             };
             let result = match scaled_motion {
-                Ok(motion) => {
+                Ok(motion) => contained(|| {
                     // Made here and not kept, so that a large batch holds its scenes and responses alone.
                     let model = Model::new(&self.scenes[scene]);
                     run(&self.scenes[scene], &model, motion, self.options, cache, &self.control.stop)
-                }
+                }),
                 Err(error) => Err(error.clone()),
             };
+            if matches!(result, Err(Error::Defect { .. })) {
+                // What the run was forming when it stopped may be half of it.
+                shared = None;
+            }
             hand_over(index, result);
             self.control.done.fetch_add(multiplicity[index], Ordering::Relaxed);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_the_error_of_its_own_run() {
+        let stopped: Vec<Result<usize>> = (0..3).map(|i| contained(|| Ok([1, 2][i]))).collect();
+        assert_eq!(stopped[..2], [Ok(1), Ok(2)]);
+        let reason = "index out of bounds: the len is 2 but the index is 2".to_owned();
+        assert_eq!(stopped[2], Err(Error::Defect { reason }));
     }
 }

@@ -1,5 +1,7 @@
 //! Errors of the kernel, as data: which parameter of what must be what, or what happened when and where.
 
+use std::any::Any;
+
 use thiserror::Error;
 
 /// What an invalid parameter belongs to; decides which exception Python raises.
@@ -64,8 +66,14 @@ pub enum Error {
     NotFinite {
         /// Time at which a value was found not to be finite (s).
         time: f64,
-        /// "storey 2" or "block 1".
+        /// "storey 2", "block 1" or "the building".
         element: String,
+    },
+    /// The kernel stopped on a defect of its own: never the user's fault.
+    #[error("the kernel stopped on a defect of seismass, please report it: {reason}")]
+    Defect {
+        /// What the panic said.
+        reason: String,
     },
     /// The caller asked to stop.
     #[error("interrupted")]
@@ -73,6 +81,16 @@ pub enum Error {
 }
 
 impl Error {
+    /// The defect that a panic's payload tells of.
+    pub fn of_panic(payload: &(dyn Any + Send)) -> Self {
+        let reason = payload
+            .downcast_ref::<String>()
+            .map(String::as_str)
+            .or_else(|| payload.downcast_ref::<&str>().copied())
+            .unwrap_or("no message");
+        Self::Defect { reason: reason.to_owned() }
+    }
+
     /// An invalid parameter: *parameter* of *owner* must be *requirement*; got *value*.
     pub fn invalid(
         domain: Domain,

@@ -316,6 +316,10 @@ impl Run<'_> {
         state.form_series::<V, K>(tau, h);
         state.update_bounds::<V, K>(observer);
         state.form_ranges::<V, K>();
+        // Squares of the response overflow before it does: nothing bounds it then, and no guard can be looked at.
+        if !state.ranges.are_finite() {
+            return Err(state.not_finite(tau));
+        }
         let event = state.first_event::<V, K>(tau, isolated);
         let end = event.place();
         observer.observe_series::<V, K>(state, tau, end, isolated);
@@ -487,7 +491,9 @@ impl State<'_> {
         let block = self.motions.iter().position(|m| !(m.slip + m.velocity).is_finite());
         let element = match (storey, block) {
             (Some(i), _) => format!("storey {}", i + 1),
-            (None, j) => format!("block {}", j.map_or(0, |j| j + 1)),
+            (None, Some(j)) => format!("block {}", j + 1),
+            // Only what is formed of them, as their squares.
+            (None, None) => "the building".into(),
         };
         Error::NotFinite { time: self.interval.start + tau, element }
     }

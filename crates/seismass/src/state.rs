@@ -111,6 +111,13 @@ impl Ranges {
         (self.remainder, self.chord) = (liveliness * off_cubic(h), liveliness * (0.125 * h * h));
     }
 
+    /// Whether what is kept by [`Ranges::set_margins`] is a number: if not, no bound holds, nor in lanes beyond the last
+    /// storey.
+    #[inline(always)]
+    pub(crate) fn are_finite(&self) -> bool {
+        self.remainder < f64::INFINITY
+    }
+
     /// Forms the ranges over a step of `h` in a regime, of which the margins are kept, from the state at its ends, and
     /// tells which come to their bounds; `contact` is the least contact force.
     #[inline(always)]

@@ -5,7 +5,8 @@
 use std::sync::Arc;
 
 use seismass::{
-    Block, Building, Damping, Error, EventKind, Motion, Options, STANDARD_GRAVITY, Scene, Storey, simulate,
+    Block, Building, Control, Damping, Error, EventKind, Motion, Options, Run, STANDARD_GRAVITY, Scene, Storey,
+    simulate, simulate_many,
 };
 
 fn storey(mass: f64, stiffness: f64) -> Scene {
@@ -58,4 +59,33 @@ fn contact_that_is_zero_all_along_is_lost() {
         |kind: EventKind| events.iter().filter(|event| event.kind == kind).map(|event| event.time).collect::<Vec<_>>();
     assert_eq!((at(EventKind::Lift), at(EventKind::Land)), (vec![1.0], vec![1.99]));
     assert!(events.iter().all(|event| !(1.0 < event.time && event.time < 1.99)), "{events:?}");
+}
+
+/// Accelerations so large that squares of the response overflow: an error of that run, which takes no other with it.
+#[test]
+fn what_leaves_the_range_of_numbers_is_an_error_of_its_own_run() {
+    let springs = |n: usize| vec![Storey::yielding(5e5, 3000.0); n];
+    let scene = |n: usize| {
+        let building = Building::new(vec![1000.0; n], springs(n), Damping::Modal { ratio: 0.05 }).unwrap();
+        Scene::new(Some(Arc::new(building)), vec![Block::new(1, 1000.0, 0.3)]).unwrap()
+    };
+    for n in [1, 2, 3, 4, 6] {
+        let scenes = [scene(n)];
+        let motions = [shaking(0.01)];
+        let runs = [1.0, 1e155, 1e200, 1e300, 2.0].map(|scale| Run { scene: 0, motion: 0, scale });
+        let results = simulate_many(&scenes, &motions, &runs, &Options::default(), None, &Control::default()).unwrap();
+        for (result, run) in results.into_iter().zip(runs) {
+            let alone = simulate(&scenes[0], &motions[0].scaled(run.scale).unwrap(), &Options::default());
+            match (result, alone) {
+                (Ok(result), Ok(alone)) => {
+                    assert!(run.scale < 3.0, "{n} storeys, {}", run.scale);
+                    assert_eq!(result.peaks, alone.peaks);
+                }
+                (Err(Error::NotFinite { time, .. }), Err(Error::NotFinite { time: same, .. })) => {
+                    assert!(run.scale > 3.0 && time == same && time >= 0.0);
+                }
+                other => panic!("{n} storeys, {}: {other:?}", run.scale),
+            }
+        }
+    }
 }

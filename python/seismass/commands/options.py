@@ -5,12 +5,15 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
     from seismass.records import Suite
     from seismass.spectra import TargetSpectrum
+
+_LISTED_SINGLY: Final = 8
 
 
 def add_motion_options(parser: argparse.ArgumentParser) -> None:
@@ -90,9 +93,33 @@ def warn_remarks(suite: Suite) -> None:
             print(f"seismass: motion {number}, {record.name}: {remark}", file=sys.stderr)
 
 
+def warn(remarks: Iterable[str]) -> None:
+    """Print remarks on standard error, each once."""
+    for remark in dict.fromkeys(remarks):
+        print(f"seismass: {remark}", file=sys.stderr)
+
+
 def left_out(suite: Suite) -> list[str]:
-    """Return a line for each file of the folder that the suite left out, with the reason."""
-    return [f"left out {item.file.name}: {item.reason}" for item in suite.excluded]
+    """Return a line for each file that the suite left out, with the reason, and for each of its remarks.
+
+    More than a few files are counted by reason.
+    """
+    from seismass._values import printable
+
+    if len(suite.excluded) <= _LISTED_SINGLY:
+        lines = [f"left out {printable(item.file.name)}: {item.reason}" for item in suite.excluded]
+    else:
+        grouped: dict[str, list[str]] = {}
+        for item in suite.excluded:
+            # What a reason says of one file, behind a colon, would make every group one of its own.
+            reason = item.reason.partition(": ")[0] if item.reason.startswith("vertical") else item.reason
+            grouped.setdefault(reason, []).append(printable(item.file.name))
+        lines = [
+            f"left out {len(names)} {'file' if len(names) == 1 else 'files'}, {names[0]}"
+            f"{' and others' if len(names) > 1 else ''}: {reason}"
+            for reason, names in grouped.items()
+        ]
+    return [*lines, *suite.remarks]
 
 
 def read_target(args: argparse.Namespace) -> TargetSpectrum:

@@ -14,7 +14,7 @@ import polars as pl
 
 from seismass.errors import InvalidOption, SimulationError
 from seismass.files import write_table, written_whole
-from seismass.scene import Building, Rayleigh, Scene
+from seismass.scene import Block, Building, Rayleigh, Scene
 from seismass.scene_file import KEYS, SceneFile, read_scene
 from seismass.simulate import Response, simulate
 from seismass.units import STANDARD_GRAVITY
@@ -106,13 +106,17 @@ def as_json(file: SceneFile, response: Response) -> dict[str, Any]:
         "collapsed_storey": response.collapsed_storey,
         "end_time": response.end_time,
         "dt": file.motion.dt,
-        "remarks": [remark for record in file.records for remark in record.remarks],
+        "remarks": list(file.remarks),
         **{name: getattr(response, name).tolist() for name in lists},
         "peak_base_shear": response.peak_base_shear,
     }
     if response.peak_drift_ratio is not None and response.residual_drift_ratio is not None:
         result["peak_drift_ratio"] = response.peak_drift_ratio.tolist()
         result["residual_drift_ratio"] = response.residual_drift_ratio.tolist()
+    if file.scene.building is not None:
+        building = file.scene.building
+        result["mass_stated"] = building.mass_is_stated
+        result["peak_shear_over_weight"] = (response.peak_storey_shear / building.weight).tolist()
     result["counts"] = {kind: count for kind, count in response.counts.items() if count}
     result["events"] = [
         {key: value for key, value in event.items() if value is not None}
@@ -147,9 +151,9 @@ def summary(file: SceneFile, response: Response) -> str:
         f"  motion    {source}{motion.samples} samples at {motion.dt:g} s ({motion.duration:g} s), "
         f"PGA {motion.pga_g:.3f} g{vertical}"
     )
-    lines += [f"            {record.name}: {remark}" for record in file.records for remark in record.remarks]
+    lines += [f"            {remark}" for remark in file.remarks]
     if scene.building is not None:
-        lines += ["", *_aligned(_storey_table(response))]
+        lines += ["", *_aligned(_storey_table(scene.building, response))]
     if scene.blocks:
         lines += ["", *_aligned(_block_table(scene, response))]
     counts = ", ".join(f"{count} {kind}" for kind, count in response.counts.items() if count) or "none"
@@ -172,7 +176,7 @@ def _building_lines(building: Building, scene: Scene) -> list[str]:
     periods = ", ".join(f"{period:.3f}" for period in building.periods[:3])
     more = ", ..." if building.storeys > 3 else ""
     lines = [
-        f"building  {building.storeys} {noun}, periods {periods}{more} s, weight {building.weight / 1000.0:.5g} kN, "
+        f"building  {building.storeys} {noun}, periods {periods}{more} s, {_weight_text(building)}, "
         f"damping {_damping_text(building)}"
     ]
     parameters = ", ".join(
@@ -190,6 +194,13 @@ def _building_lines(building: Building, scene: Scene) -> list[str]:
     return lines
 
 
+def _weight_text(building: Building) -> str:
+    """The weight; where no mass is stated, that forces are fractions of it."""
+    if building.mass_is_stated:
+        return f"weight {building.weight / 1000.0:.5g} kN"
+    return "no mass stated (forces over the weight W)"
+
+
 def _damping_text(building: Building) -> str:
     damping = building.damping
     if isinstance(damping, Rayleigh):
@@ -202,8 +213,10 @@ def _listed(values: Any) -> str:
     return numbers[0] if len(set(numbers)) == 1 else " ".join(numbers)
 
 
-def _storey_table(response: Response) -> list[list[str]]:
-    header = ["storey", "peak drift mm", "at s", "residual mm", "peak shear kN", "floor acceleration g"]
+def _storey_table(building: Building, response: Response) -> list[list[str]]:
+    stated = building.mass_is_stated
+    unit, force = ("kN", 1000.0) if stated else ("/ W", building.weight)
+    header = ["storey", "peak drift mm", "at s", "residual mm", f"peak shear {unit}", "floor acceleration g"]
     ratios = response.peak_drift_ratio
     if ratios is not None:
         header.insert(2, "of height %")
@@ -214,7 +227,7 @@ def _storey_table(response: Response) -> list[list[str]]:
             f"{1000.0 * response.peak_drift[i]:.3f}",
             f"{response.peak_drift_time[i]:.3f}",
             f"{1000.0 * response.residual_drift[i]:.3f}",
-            f"{response.peak_storey_shear[i] / 1000.0:.4g}",
+            f"{response.peak_storey_shear[i] / force:.4g}",
             f"{response.peak_floor_acceleration[i] / STANDARD_GRAVITY:.4f}",
         ]
         if ratios is not None:
@@ -224,12 +237,22 @@ def _storey_table(response: Response) -> list[list[str]]:
 
 
 def _block_table(scene: Scene, response: Response) -> list[list[str]]:
-    header = ["block", "floor", "mass kg", "mu", "peak slip mm", "at s", "residual mm", "slip path mm"]
+    stated = scene.building is None or scene.building.mass_is_stated
+    header = [
+        "block",
+        "floor",
+        "mass kg" if stated else "of floor mass",
+        "mu",
+        "peak slip mm",
+        "at s",
+        "residual mm",
+        "slip path mm",
+    ]
     rows = [
         [
             str(j + 1),
             str(block.floor) if block.floor else "ground",
-            f"{mass:.5g}",
+            _mass_text(block, mass, stated),
             f"{block.mu_s:g}" if block.mu_s == block.mu_k else f"{block.mu_s:g}/{block.mu_k:g}",
             f"{1000.0 * response.peak_slip[j]:.3f}",
             f"{response.peak_slip_time[j]:.3f}",
@@ -239,6 +262,13 @@ def _block_table(scene: Scene, response: Response) -> list[list[str]]:
         for j, (block, mass) in enumerate(zip(scene.blocks, scene.block_mass, strict=True))
     ]
     return [header, *rows]
+
+
+def _mass_text(block: Block, mass: float, stated: bool) -> str:
+    """The mass of a block; over that of its floor where that is not stated, but for blocks on the ground."""
+    if stated:
+        return f"{mass:.5g}"
+    return f"{mass:.5g} kg" if block.mass_ratio is None else f"{block.mass_ratio:.5g}"
 
 
 def _aligned(rows: list[list[str]]) -> list[str]:

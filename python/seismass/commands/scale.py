@@ -32,11 +32,13 @@ def add_parser(subparsers: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the factors; return the exit code."""
+    from seismass.plausibility import motion_remarks, target_remarks
     from seismass.scaling import scale_asce7_10
 
     target = read_target(args)
     suite = read_motions(args)
     scaling = scale_asce7_10(suite, target, args.period)
+    remarks = (*motion_remarks(suite), *target_remarks(target), *scaling.remarks)
     if args.json:
         warn_left_out(suite)
         rows = zip(scaling.table().to_dicts(), suite, strict=True)
@@ -45,6 +47,7 @@ def run(args: argparse.Namespace) -> int:
             "target": target.label,
             "common_factor": scaling.common,
             "governing_period": scaling.governing_period,
+            "remarks": [*suite.remarks, *remarks],
             "motions": [{**row, "remarks": list(record.remarks)} for row, record in rows],
             "spectrum": scaling.spectrum_table().to_dict(as_series=False),
         }
@@ -54,6 +57,8 @@ def run(args: argparse.Namespace) -> int:
     for line in left_out(suite):
         print(f"        {line}")
     print(f"target  {target.label}")
+    for remark in remarks:
+        print(f"remark  {remark}")
     print(
         f"range   {len(scaling.periods)} periods from {scaling.periods[0]:g} to {scaling.periods[-1]:g} s; "
         f"the mean touches the target at {scaling.governing_period:.4g} s; SF2 = {scaling.common:.6f}\n"

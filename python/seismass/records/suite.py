@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import os
 import re
 from collections.abc import Iterator
@@ -24,6 +25,7 @@ _VERTICAL_NAME = re.compile(
     r"|(?:UP|VERT?|DWN|[BH][NH]Z)\.?$",  # joined to a station code: HECVER, TCUUP.
     re.IGNORECASE,
 )
+_COLUMNS = ("number", "file", "name", "event", "station", "component", "dt", "unit", "scale", "note")
 
 
 @dataclass(frozen=True)
@@ -46,22 +48,29 @@ class Suite:
         What was taken, in order.
     excluded : tuple of Excluded
         What was left out.
+    remarks : tuple of str
+        What else a reader of the suite should know, such as columns of a list that were not used.
 
     Raises
     ------
     InvalidMotion
-        The name is no string, or the records or the files left out are something else.
+        The name is no string, or the records, the files left out or the remarks are something else.
     """
 
     name: str
     records: tuple[Record, ...]
     excluded: tuple[Excluded, ...] = ()
+    remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
             raise refusal(InvalidMotion, "name", "suite", "a string", brief(self.name))
         what = f"suite {self.name}"
-        for parameter, item, kind in (("records", "record", Record), ("excluded", "excluded file", Excluded)):
+        for parameter, item, kind in (
+            ("records", "record", Record),
+            ("excluded", "excluded file", Excluded),
+            ("remarks", "remark", str),
+        ):
             values = getattr(self, parameter)
             if not isinstance(values, tuple | list):
                 raise refusal(InvalidMotion, parameter, what, f"a tuple of {kind.__name__} objects", brief(values))
@@ -129,16 +138,18 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     ----------
     path : path-like
         A directory: every .AT2 file in it and below (any case of the suffix), sorted by path; vertical components are
-        left out by file name (-UP, VER, -V, ...) and by header. Or a CSV with a column `file`, relative to the CSV, one
-        row per record in the order to keep; its columns `name`, `event`, `station`, `component` replace what the files
-        say, `dt` and `unit` are passed to `read_record`, `note` is added to the remarks, others are ignored. A vertical
-        component in it is an error, by header, by `component`, and by file name unless `component` says otherwise.
+        left out by file name (-UP, VER, -V, ...) and by header. Files of other kinds are left out with the reason;
+        hidden ones are not looked at. Or a CSV with a column `file`, relative to the CSV, one row per record in the
+        order to keep; its columns `name`, `event`, `station`, `component` replace what the files say, `dt` and `unit`
+        are passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the remarks; a
+        `number` is for the reader. Other columns are not used, and named in the remarks of the suite. A vertical
+        component in the list is an error: by header, by `component`, and by file name unless `component` is given.
 
     Raises
     ------
     RecordFormatError
-        A missing path, no record in it, a CSV without the column or that lists a file twice or a vertical component,
-        or any file that cannot be read: none is dropped silently.
+        A missing path, no record in it, a CSV without the column or that lists a file twice, a vertical component or a
+        scale that is no finite number, or any .AT2 file that cannot be read: none is dropped silently.
     """
     source = as_path(path, "suite", RecordFormatError)
     if source.is_dir():
@@ -150,12 +161,15 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
 
 def _read_directory(directory: Path) -> Suite:
     files = sorted(
-        (file for file in directory.rglob("*") if file.suffix.lower() == ".at2" and file.is_file()),
+        (file for file in directory.rglob("*") if file.is_file() and not _is_hidden(file.relative_to(directory))),
         key=lambda file: file.relative_to(directory).as_posix(),
     )
     records: list[Record] = []
     excluded: list[Excluded] = []
     for file in files:
+        if file.suffix.lower() != ".at2":
+            excluded.append(Excluded(file, _reason_of_kind(file)))
+            continue
         record = read_record(file)
         reason = _vertical_reason(record)
         if reason:
@@ -164,10 +178,31 @@ def _read_directory(directory: Path) -> Suite:
             records.append(record)
     if not records:
         raise RecordFormatError(
-            f"records of directory {directory} must be at least one horizontal .AT2 file; "
-            f"got {len(files)} .AT2 files, {len(excluded)} of them vertical"
+            f"records of directory {directory} must be at least one horizontal .AT2 file; got {_counted(excluded)}"
         )
     return Suite(printable(directory.resolve().name), tuple(records), tuple(excluded))
+
+
+def _is_hidden(file: Path) -> bool:
+    return any(part.startswith(".") for part in file.parts)
+
+
+def _reason_of_kind(file: Path) -> str:
+    """Why a file that is no .AT2 file is not read."""
+    suffix = printable(file.suffix)
+    quantity = {".vt2": "velocities", ".dt2": "displacements"}.get(suffix.lower())
+    if quantity:
+        return f"not read: {suffix} files hold {quantity}"
+    kind = f"{suffix} files are" if suffix else "files without a suffix are"
+    return f"not read: {kind} read by name or from a list, where their units can be given"
+
+
+def _counted(excluded: list[Excluded]) -> str:
+    """What is in a directory without a record."""
+    vertical = sum(item.file.suffix.lower() == ".at2" for item in excluded)
+    others = len(excluded) - vertical
+    beside = f" and {others} files of other kinds, which are read by name or from a list" if others else ""
+    return f"{vertical} .AT2 files, {vertical} of them vertical{beside}"
 
 
 def _read_list(source: Path) -> Suite:
@@ -207,8 +242,16 @@ def _read_list(source: Path) -> Suite:
             )
         labels = {key: cells[key] for key in ("name", "event", "station", "component") if cells.get(key)}
         remarks = (*record.remarks, cells["note"]) if cells.get("note") else record.remarks
+        factor = _cell_number(cells, "scale", source, number)
+        if factor is not None:
+            if not math.isfinite(factor):
+                raise RecordFormatError(f"scale of {source.name}, row {number}, must be a finite number; got {factor}")
+            record = record.scaled(factor)
+            remarks = (*remarks, f"scaled by {factor:g} as listed")
         records.append(record.replace(remarks=remarks, **labels))
-    return Suite(printable(source.stem), tuple(records))
+    unknown = [printable(column) for column in columns if column and column not in _COLUMNS]
+    named = f"columns of {printable(source.name)} that are not used: {', '.join(unknown)}"
+    return Suite(printable(source.stem), tuple(records), remarks=(named,) if unknown else ())
 
 
 def _cell_number(cells: dict[str, str], column: str, source: Path, row: int) -> float | None:

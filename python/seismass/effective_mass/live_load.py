@@ -1,0 +1,375 @@
+"""The share of the design live load to attach where occupancy and friction are random.
+
+A model with a share phi of the design live load attached does not depend on what is really there, so that its drifts
+are solved once; the real building is solved for every sample of occupancy and friction.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, Protocol, runtime_checkable
+
+import numpy as np
+import polars as pl
+from numpy.typing import ArrayLike
+from scipy import stats
+
+from seismass import _kernel
+from seismass._values import FloatArray, as_count, as_number, as_path, brief, refusal
+from seismass.effective_mass.curve import check_fractions, interpolated, over_records, resampled
+from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
+from seismass.effective_mass.result import finite_values
+from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
+from seismass.errors import InvalidOption
+from seismass.scene import Scene
+from seismass.simulate import MotionLike, instruction_set
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SCHEMA_VERSION: Final = 1
+"""Version of the tables and of the JSON of an uncertainty."""
+LEVELS: Final = (0.05, 0.16, 0.50, 0.84, 0.95)
+"""Probabilities at which the share is tabulated."""
+TORNADO_LEVELS: Final = (0.05, 0.95)
+"""Probabilities to which one variable at a time is moved, the others at their medians."""
+RESAMPLES: Final = 2000
+"""Bootstrap resamples over the records."""
+
+
+@runtime_checkable
+class Distribution(Protocol):
+    """A distribution as scipy.stats freezes it."""
+
+    def ppf(self, q: Any) -> Any:
+        """Return quantiles."""
+        ...
+
+
+def lognormal(median: float, sigma: float) -> Distribution:
+    """Return a lognormal distribution by its median and the standard deviation of its logarithm."""
+    centre, spread = (as_number(value, name, "lognormal", InvalidOption) for name, value in _pair(median, sigma))
+    if not (centre > 0.0 and spread > 0.0 and np.isfinite([centre, spread]).all()):
+        raise refusal(InvalidOption, "median and sigma", "lognormal", "positive", f"{centre:g} and {spread:g}")
+    frozen: Distribution = stats.lognorm(s=spread, scale=centre)
+    return frozen
+
+
+def beta(mean: float, deviation: float) -> Distribution:
+    """Return a beta distribution on [0, 1] by its mean and standard deviation."""
+    centre, spread = (as_number(value, name, "beta", InvalidOption) for name, value in _pair(mean, deviation))
+    if not (0.0 < centre < 1.0 and 0.0 < spread < np.sqrt(centre * (1.0 - centre))):
+        requirement = "between 0 and 1, and a standard deviation above 0 and below sqrt(mean (1 - mean))"
+        raise refusal(InvalidOption, "mean", "beta", requirement, f"{centre:g} and {spread:g}")
+    total = centre * (1.0 - centre) / spread**2 - 1.0
+    frozen: Distribution = stats.beta(centre * total, (1.0 - centre) * total)
+    return frozen
+
+
+def _pair(first: Any, second: Any) -> tuple[tuple[str, Any], tuple[str, Any]]:
+    return ("first argument", first), ("second argument", second)
+
+
+@dataclass(frozen=True, eq=False)
+class LiveLoadUncertainty:
+    """The share phi of the design live load to attach as mass, with what is known of occupancy and friction.
+
+    Attributes
+    ----------
+    share : float
+        The share whose model has the expected largest drift of the real building, over samples and motions: the
+        value to report.
+    interval : tuple of float or None
+        90 % bootstrap interval of `share` over the records; None with one earthquake alone.
+    share_84 : float
+        Share that is enough in 84 % of the samples.
+    quantiles : polars.DataFrame
+        probability, share.
+    tornado : polars.DataFrame
+        One row per variable: variable, low, high (values at 5 and 95 %), share_low, share_median, share_high, span.
+    samples : polars.DataFrame
+        One row per sample: sample (from 1), mu, occupancy, real_drift, slides (share of the motions under which goods
+        slide), share.
+    curve : polars.DataFrame
+        fraction, model_drift: mean largest drift of the model by share of the design live load.
+    unit : {"m", "ratio"}
+        Unit of drifts.
+    remarks : tuple of str
+        Assumptions, and what a user must know beside the numbers.
+    metadata : dict
+        Versions, seed, conventions, counts.
+    """
+
+    share: float
+    interval: tuple[float, float] | None
+    share_84: float
+    quantiles: pl.DataFrame = field(repr=False)
+    tornado: pl.DataFrame = field(repr=False)
+    samples: pl.DataFrame = field(repr=False)
+    curve: pl.DataFrame = field(repr=False)
+    unit: str
+    remarks: tuple[str, ...] = field(repr=False)
+    metadata: dict[str, Any] = field(repr=False)
+
+    def exceedance(self, fraction: float) -> float:
+        """Return the probability that the share to attach is above a code's fraction of the design live load."""
+        limit = as_number(fraction, "fraction", "exceedance", InvalidOption)
+        return float(np.mean(self.samples["share"].to_numpy() > limit))
+
+    @property
+    def text(self) -> str:
+        """The answer in a few lines."""
+        low_high = "" if self.interval is None else f" (90 % interval {self.interval[0]:.2f} to {self.interval[1]:.2f})"
+        levels = ", ".join(f"{100 * row[0]:g} % {row[1]:.2f}" for row in self.quantiles.iter_rows())
+        lines = [
+            f"share of the design live load   {self.share:.3f}{low_high}: equal expected drift",
+            f"enough in 84 % of samples       {self.share_84:.3f}",
+            f"quantiles                       {levels}",
+            f"above 0.25 (ASCE 7 storage)     in {100.0 * self.exceedance(0.25):.0f} % of samples",
+        ]
+        for row in self.tornado.iter_rows(named=True):
+            lines.append(
+                f"{row['variable']:<32}{row['low']:.3g} to {row['high']:.3g}: share {row['share_low']:.2f} to "
+                f"{row['share_high']:.2f}"
+            )
+        return "\n".join([*lines, *(f"remark                          {remark}" for remark in self.remarks)])
+
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """Return the tables by name."""
+        return {"quantiles": self.quantiles, "tornado": self.tornado, "samples": self.samples, "curve": self.curve}
+
+    def to_json(self) -> str:
+        """Return everything but the samples and the curve as JSON; null for what is no finite number."""
+        names = ("share", "interval", "share_84", "unit", "remarks", "metadata")
+        document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
+        document |= {"quantiles": self.quantiles.to_dicts(), "tornado": self.tornado.to_dicts()}
+        return json.dumps(finite_values(document), indent=2, allow_nan=False)
+
+    def plot(self) -> Figure:
+        """Return the figure of the distribution of the share, with the tornado below it."""
+        from seismass.report.uncertainty_figure import uncertainty_figure
+
+        return uncertainty_figure(self)
+
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write the tables (Parquet and CSV), live_load.json and the figure (PNG and SVG) to a folder.
+
+        Raises
+        ------
+        OSError
+            A file cannot be written.
+        """
+        from seismass.report.folder import write_folder
+
+        return write_folder(
+            as_path(folder, "live load uncertainty", InvalidOption),
+            tables=self.tables(),
+            documents={"live_load.json": self.to_json() + "\n"},
+            figures={"live_load": self.plot()},
+        )
+
+
+def live_load_uncertainty(
+    scene: Scene,
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    mu: Distribution,
+    occupancy: Distribution,
+    samples: int = 200,
+    seed: int = 0,
+    damping: ModelDamping = SAME_DAMPING,
+    fractions: ArrayLike | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> LiveLoadUncertainty:
+    """Return the share of the design live load to attach where occupancy and friction are random.
+
+    Parameters
+    ----------
+    scene : Scene
+        The building with the whole design live load as blocks.
+    motions : Motion, Record or iterable of them
+        The suite, scaled as it is to act.
+    mu : frozen distribution of scipy.stats
+        Static friction coefficient of all goods; each block keeps its ratio of kinetic to static.
+    occupancy : frozen distribution of scipy.stats
+        Share of the design live load that is present, from 0 to 1, the same on every floor.
+    samples : int, default 200
+        Latin hypercube samples; mu and occupancy are independent.
+    seed : int, default 0
+        Seed of the samples and of the bootstrap.
+    damping, fractions, threads, progress
+        As for `effective_mass`.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption, SimulationError, KeyboardInterrupt
+        As for `effective_mass`; or a sample of a distribution is out of range.
+
+    Notes
+    -----
+    The model has phi of the mass of the design live load, and its whole weight in P-Delta; the real building has the
+    mass and the weight of the goods present.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
+    >>> scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.4))
+    >>> suite = [record.scaled(2.0) for record in sm.builtin_suite()]
+    >>> found = sm.live_load_uncertainty(
+    ...     scene, suite, mu=sm.lognormal(0.4, 0.25), occupancy=sm.beta(0.7, 0.15), samples=20
+    ... )
+    >>> 0.0 <= found.share <= found.share_84 <= 1.0
+    True
+    """
+    owner = "live load uncertainty"
+    checked = check_loaded(scene)
+    named = named_motions(motions, owner)
+    shares = check_fractions(fractions, owner)
+    convention = check_damping(damping, owner)
+    count = as_count(samples, "samples", owner, InvalidOption, least=2)
+    start = as_count(seed, "seed", owner, InvalidOption)
+    levels = _latin_hypercube(count, 2, start)
+    one_at_a_time = np.full((1 + 2 * len(TORNADO_LEVELS), 2), 0.5)
+    one_at_a_time[1:3, 0] = one_at_a_time[3:5, 1] = TORNADO_LEVELS
+    both = np.concatenate([levels, one_at_a_time])
+    frictions = _sampled(mu, both[:, 0], "mu", np.inf)
+    present = _sampled(occupancy, both[:, 1], "occupancy", 1.0)
+    stages = Stages(progress, (len(shares) + len(both)) * len(named))
+    models = [attached(checked, share, convention) for share in shares]
+    model = solve(models, named, threads=threads, progress=stages.next(len(models) * len(named)))
+    scenes = [_with_goods(checked, friction, share) for friction, share in zip(frictions, present, strict=True)]
+    real = solve(scenes, named, threads=threads, progress=stages.next(len(scenes) * len(named)))
+    model_drift, real_drift = over_records(model.largest, "mean"), over_records(real.largest, "mean")
+    found = interpolated(
+        shares, np.broadcast_to(model_drift, (len(both), len(shares))), np.repeat(real_drift[:, None], len(shares), 1)
+    )
+    sampled = real.part(0, count)
+    share, interval = _equal_expected(shares, model, sampled, named, start)
+    values = found[:count]
+    heights = None if checked.building is None else checked.building.heights
+    return LiveLoadUncertainty(
+        share=share,
+        interval=interval,
+        share_84=float(np.quantile(values, 0.84)),
+        quantiles=pl.DataFrame({"probability": LEVELS, "share": np.quantile(values, LEVELS)}),
+        tornado=_tornado(frictions[count:], present[count:], found[count:]),
+        samples=pl.DataFrame(
+            {
+                "sample": np.arange(1, count + 1, dtype=np.uint32),
+                "mu": frictions[:count],
+                "occupancy": present[:count],
+                "real_drift": real_drift[:count],
+                "slides": sampled.slides.mean(axis=1),
+                "share": values,
+            }
+        ),
+        curve=pl.DataFrame({"fraction": shares, "model_drift": model_drift}),
+        unit="m" if heights is None else "ratio",
+        remarks=_remarks(checked, sampled, values, model_drift),
+        metadata={
+            "schema_version": SCHEMA_VERSION,
+            "package_version": _kernel.VERSION,
+            "instructions": instruction_set(),
+            "samples": count,
+            "seed": start,
+            "damping": convention,
+            "motions": len(named),
+            "mu": _described(mu),
+            "occupancy": _described(occupancy),
+        },
+    )
+
+
+def _latin_hypercube(count: int, dimensions: int, seed: int) -> FloatArray:
+    """Probabilities, one in each of `count` equal ranges of every dimension, shape (count, dimensions)."""
+    generator = np.random.default_rng(seed)
+    ranks = np.stack([generator.permutation(count) for _ in range(dimensions)], axis=1)
+    levels: FloatArray = (ranks + generator.random((count, dimensions))) / count
+    return levels
+
+
+def _sampled(distribution: Any, levels: FloatArray, name: str, most: float) -> FloatArray:
+    owner = "live load uncertainty"
+    if not isinstance(distribution, Distribution):
+        raise refusal(InvalidOption, name, owner, "a frozen distribution of scipy.stats", brief(distribution))
+    values = np.asarray(distribution.ppf(levels), dtype=np.float64)
+    wrong = ~((values >= 0.0) & (values <= most) & np.isfinite(values))
+    if wrong.any():
+        requirement = "zero or positive" if np.isinf(most) else f"from 0 to {most:g}"
+        raise refusal(InvalidOption, name, owner, f"a distribution of values {requirement}", f"{values[wrong][0]:g}")
+    return values
+
+
+def _with_goods(scene: Scene, friction: float, present: float) -> Scene:
+    """The scene with a share of its goods and another friction coefficient; goods on the ground are left out."""
+    blocks = []
+    for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
+        if block.floor > 0 and present > 0.0:
+            kinetic = friction * (block.mu_k / block.mu_s if block.mu_s > 0.0 else 1.0)
+            amount = {"mass": None, "mass_ratio": block.mass_ratio * present} if block.mass_ratio else {}
+            blocks.append(block.replace(**({"mass": mass * present} | amount), mu_s=friction, mu_k=kinetic, mu=None))
+    return scene.replace(blocks=blocks)
+
+
+def _equal_expected(
+    shares: FloatArray, model: Peaks, real: Peaks, motions: NamedMotions, seed: int
+) -> tuple[float, tuple[float, float] | None]:
+    """Share whose model has the expected drift over samples and motions, and its bootstrap interval."""
+    by_record = real.largest.mean(axis=0)[None, :]
+    drift = over_records(model.largest, "mean")[None, :]
+    expected = np.full_like(drift, over_records(by_record, "mean")[0])
+    if not np.isfinite(expected).all():
+        return float("nan"), None
+    share = float(interpolated(shares, drift, expected)[0])
+    if motions.clusters < 2:
+        return share, None
+    drawn = resampled(
+        model.largest, by_record, statistic="mean", cluster_of=motions.cluster_of, resamples=RESAMPLES, seed=seed
+    )
+    low, high = np.percentile(interpolated(shares, *drawn), [5.0, 95.0])
+    return share, (float(low), float(high))
+
+
+def _tornado(frictions: FloatArray, present: FloatArray, found: FloatArray) -> pl.DataFrame:
+    rows = []
+    for variable, values, first in (("friction mu", frictions, 1), ("occupancy", present, 3)):
+        low, high = float(found[first]), float(found[first + 1])
+        rows.append(
+            {
+                "variable": variable,
+                "low": float(values[first]),
+                "high": float(values[first + 1]),
+                "share_low": low,
+                "share_median": float(found[0]),
+                "share_high": high,
+                "span": abs(high - low),
+            }
+        )
+    return pl.DataFrame(rows).sort("span", descending=True)
+
+
+def _remarks(scene: Scene, real: Peaks, values: FloatArray, model_drift: FloatArray) -> tuple[str, ...]:
+    remarks = ["mu and occupancy are independent, and the same on every floor"]
+    if scene.geometric_stiffness.any():
+        remarks.append("P-Delta of the models has the weight of the whole design live load")
+    collapsed = int(real.collapsed.any(axis=1).sum())
+    if collapsed:
+        remarks.append(f"the real building collapses under some motion in {collapsed} samples")
+    highest = float((over_records(real.largest, "mean") > model_drift[-1] * (1.0 + 1e-12)).mean())
+    if highest > 0.0:
+        remarks.append(f"in {100.0 * highest:.0f} % of samples it drifts more than with the whole design load attached")
+    return tuple(remarks)
+
+
+def _described(distribution: Any) -> str:
+    """A frozen distribution as text."""
+    name = getattr(getattr(distribution, "dist", None), "name", type(distribution).__name__)
+    arguments = [f"{value:g}" for value in getattr(distribution, "args", ())]
+    arguments += [f"{key}={value:g}" for key, value in getattr(distribution, "kwds", {}).items()]
+    return f"{name}({', '.join(arguments)})"

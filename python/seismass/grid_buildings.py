@@ -1,0 +1,154 @@
+"""The buildings of a grid's scenes: those given, with what columns change in them, formed as they are needed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Final, Literal, NamedTuple, TypeAlias, get_args
+
+import numpy as np
+
+from seismass._values import FloatArray, refusal
+from seismass.errors import InvalidScene
+from seismass.grid_columns import Column, IndexArray
+from seismass.scene import Building, changed_building
+from seismass.units import STANDARD_GRAVITY
+
+AttachedDamping: TypeAlias = Literal["same", "ratio"]
+"""Damping of a building to which live load is attached: the matrix that it has without, or its ratio in new modes."""
+ATTACHED_DAMPING: Final = get_args(AttachedDamping)
+
+CHANGING: Final = ("period", "strength", "yield_shear_over_weight", "overstrength", "second_slope")
+"""Columns that change a building as it is given, beside the live load that is attached to it."""
+
+
+class Formed(NamedTuple):
+    """Buildings of some scenes, which of them each scene has, and block masses over the floor masses they have."""
+
+    buildings: list[Building]
+    which: IndexArray
+    mass_ratio: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class BuildingColumns:
+    """What forms the building of a scene.
+
+    Attributes
+    ----------
+    given : tuple of Building
+        Buildings that the index of a scene chooses from.
+    periods : ndarray
+        First period of each (s), as given where they were made from it.
+    floors : tuple of int
+        Floor of each block, from 1.
+    columns : dict of str to Column
+        Those of `CHANGING`, `attached` and `sliding` that are given.
+    damping : {"same", "ratio"}
+        Damping where live load is attached.
+    """
+
+    given: tuple[Building, ...]
+    periods: FloatArray
+    floors: tuple[int, ...]
+    columns: dict[str, Column[np.float64]]
+    damping: AttachedDamping
+
+    def of(self, scenes: IndexArray, index: IndexArray, live_load: FloatArray) -> Formed:
+        """Return the buildings of scenes that have these of the given ones.
+
+        Parameters
+        ----------
+        scenes : ndarray of int, shape (scenes,)
+            Numbers of the scenes, from 0.
+        index : ndarray of int, shape (scenes,)
+            Index of the building that each was given.
+        live_load : ndarray, shape (scenes, blocks)
+            Mass of the live load over that of its floor, attached or not.
+        """
+        attached, sliding = self.shares_of(scenes)
+        blocks = live_load if sliding is None else live_load * sliding[:, None]
+        changing = [self.columns[name].of(scenes).reshape(len(scenes), -1) for name in CHANGING if name in self.columns]
+        if attached is None and not changing:
+            return Formed(list(self.given), index, blocks)
+        if attached is not None and sliding is not None:
+            changing += [attached[:, None] * live_load, (1.0 - sliding)[:, None] * live_load]
+        keys = np.nan_to_num(np.column_stack([index, *changing]), nan=-1.0, posinf=np.inf)
+        _, first, which = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+        which = which.reshape(-1)
+        formed, added = [], []
+        for place in first.tolist():
+            try:
+                building, more = self._formed(scenes[place : place + 1], int(index[place]), live_load[place])
+            except InvalidScene as error:
+                message = str(error).replace(" must be ", f" of scene {scenes[place] + 1} must be ", 1)
+                raise InvalidScene(message) from None
+            formed.append(building)
+            added.append(more)
+        if attached is not None:
+            blocks = blocks / np.array(added)[which]
+        return Formed(formed, which, blocks)
+
+    def shares_of(self, scenes: IndexArray) -> tuple[FloatArray | None, FloatArray | None]:
+        """Return the shares of the live load that are attached and that slide, or None where all of it slides."""
+        if not {"attached", "sliding"} & self.columns.keys():
+            return None, None
+        shares = {name: self.columns[name].of(scenes) for name in ("attached", "sliding") if name in self.columns}
+        attached = shares.get("attached", np.zeros(len(scenes)))
+        return attached, shares.get("sliding", 1.0 - attached)
+
+    def periods_of(self, scenes: IndexArray, index: IndexArray) -> FloatArray:
+        """Return the first period of each building without live load (s)."""
+        if "period" in self.columns:
+            return self.columns["period"].of(scenes)
+        return self.periods[index]
+
+    def _formed(self, scene: IndexArray, index: int, live_load: FloatArray) -> tuple[Building, FloatArray]:
+        """The building of a scene, and the mass of each block's floor over that without attached live load."""
+        building = self.given[index]
+        value = {name: self.columns[name].of(scene)[0] for name in CHANGING if name in self.columns}
+        changes: dict[str, Any] = {name: value[name] for name in ("overstrength", "second_slope") if name in value}
+        if "period" in value:
+            faster = float(building.periods[0]) / value["period"]
+            changes["stiffness"] = building.stiffness * faster**2
+            if isinstance(building.damping, np.ndarray):  # the same ratios in its modes
+                changes["damping"] = building.damping * faster
+        if "strength" in value:
+            changes["yield_shear"] = building.yield_shear * value["strength"]
+        elif "yield_shear_over_weight" in value:
+            changes["yield_shear"] = _strengths(value["yield_shear_over_weight"], building.storeys) * building.weight
+        if changes:
+            building = changed_building(building, **changes)
+        attached, sliding = self.shares_of(scene)
+        more = np.ones(len(self.floors))
+        if attached is None or sliding is None:
+            return building, more
+        load = np.zeros(building.storeys)
+        on = [(floor - 1, ratio) for floor, ratio in zip(self.floors, live_load, strict=True) if ratio != 0.0]
+        for i, ratio in on:
+            if i >= building.storeys:
+                requirement = f"a floor of the building, 1 to {building.storeys}"
+                raise refusal(InvalidScene, "floor", "live load", requirement, str(i + 1))
+            load[i] += ratio
+        changes = {}
+        if attached[0] != 0.0:
+            changes["mass"] = building.mass + attached[0] * load * building.mass
+            if self.damping == "same":
+                changes["damping"] = building.damping_matrix
+            for j, floor in enumerate(self.floors):
+                if floor <= building.storeys:
+                    more[j] = changes["mass"][floor - 1] / building.mass[floor - 1]
+        if building.gravity_load is not None and sliding[0] != 1.0:
+            # The weight of what does not slide is there, however much of it is counted as mass.
+            still = (1.0 - sliding[0]) * load * building.mass * STANDARD_GRAVITY
+            changes["gravity_load"] = building.gravity_load + still
+        return (changed_building(building, **changes) if changes else building), more
+
+
+def _strengths(over_weight: FloatArray, storeys: int) -> FloatArray:
+    """V_y over the weight of each storey, from a row that may be longer than the building is high."""
+    values = np.full(storeys, over_weight[0]) if len(over_weight) == 1 else over_weight[:storeys]
+    if len(values) < storeys or np.isnan(values).any():
+        given = int((~np.isnan(over_weight)).sum())
+        requirement = f"one number or {storeys} values, one per storey"
+        raise refusal(InvalidScene, "yield_shear_over_weight", "building", requirement, f"{given} values")
+    return values

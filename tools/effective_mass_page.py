@@ -1,0 +1,101 @@
+"""Make docs/effective_mass.md's tables and the chart of the README from maps under recordings and the built-in suite.
+
+Usage: tools/effective_mass_page.py SHARED, a folder with `records`; some ten minutes. The table of the built-in suite
+alone is checked by the tests.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import polars as pl
+
+from seismass.commands.effective_map import bins_text, rules_text
+from seismass.effective_mass import EffectiveMassMap, effective_mass_map
+from seismass.records import Suite, builtin_suite, read_record, read_suite
+from seismass.report.figures import save_figure
+from seismass.report.map_figures import collapse_figure, rules_figure
+from seismass.spectra import TargetSpectrum
+
+ROOT = Path(__file__).parents[1]
+PAGE = ROOT / "docs" / "effective_mass.md"
+MORE = (
+    "01_Hector_Mine_1999_Hector/RSN1787_HECTOR_HEC000.AT2",
+    "01_Hector_Mine_1999_Hector/RSN1787_HECTOR_HEC090.AT2",
+    "02_Loma_Prieta_1989_Gilroy_Array_3/RSN767_LOMAP_G03000.AT2",
+    "02_Loma_Prieta_1989_Gilroy_Array_3/RSN767_LOMAP_G03090.AT2",
+    "07_Kobe_1995_substitutes/RSN1111_KOBE_NIS000.AT2",
+    "07_Kobe_1995_substitutes/RSN1111_KOBE_NIS090.AT2",
+)
+TITLES = {
+    "builtin": "Built-in suite, 7 synthetic motions",
+    "paper": "The paper's seven recordings (one substitute)",
+    "far_field": "42 components of 21 of the FEMA P-695 far-field pairs",
+}
+
+
+def suites(shared: Path) -> dict[str, Suite]:
+    """Return the three suites by key."""
+    records = shared / "records"
+    far_field = read_suite(records / "fema_p695_far_field").records
+    return {
+        "builtin": builtin_suite(),
+        "paper": read_suite(records / "paper_seven.csv"),
+        "far_field": Suite("FEMA P-695 far field", (*far_field, *(read_record(records / file) for file in MORE))),
+    }
+
+
+def tables(key: str, result: EffectiveMassMap) -> str:
+    """Return the tables of one map between their markers."""
+    sliding = result.table.filter(pl.col("slides"))
+    worst = []
+    for name, what in (
+        ("worst_storey_ratio", "with the effective fraction"),
+        ("worst_storey_ratio_at_1", "with all attached"),
+        ("worst_storey_envelope_ratio", "over the larger of the effective fraction and nothing"),
+    ):
+        share, most = float((sliding[name] > 1.05).to_numpy().mean()), float(sliding[name].to_numpy().max())
+        worst.append(f"  {what:55}{100.0 * share:>5.1f} % of cases, worst {most:.2f}")
+    counts = result.table["kind"].value_counts().sort("kind").to_dicts()
+    kinds = ", ".join(f"{row['count']} {row['kind']}" for row in counts)
+    lines = [
+        f"<!-- {key} -->",
+        "```text",
+        f"{TITLES[key]}: {result.table.height} cases, goods slide in {sliding.height} ({kinds})",
+        "",
+        *rules_text(result.rules()),
+        "",
+        *bins_text(result.by_eta()),
+        "",
+        "Some storey drifts more than 1.05 times the model",
+        *worst,
+        "```",
+        f"<!-- end of {key} -->",
+    ]
+    return "\n".join(lines)
+
+
+def with_tables(page: str, key: str, result: EffectiveMassMap) -> str:
+    """Return the page with the tables of one map in their place."""
+    first, last = f"<!-- {key} -->", f"<!-- end of {key} -->"
+    before, _, rest = page.partition(first)
+    _, _, after = rest.partition(last)
+    return before + tables(key, result) + after
+
+
+def write(maps: dict[str, EffectiveMassMap]) -> None:
+    """Write page and figures."""
+    page = PAGE.read_text(encoding="utf-8")
+    for key, result in maps.items():
+        page = with_tables(page, key, result)
+    PAGE.write_text(page, encoding="utf-8")
+    save_figure(collapse_figure(maps["far_field"]), "png", ROOT / "docs" / "figures" / "effective_fraction.png")
+    save_figure(rules_figure(maps["far_field"]), "png", ROOT / "docs" / "figures" / "rules.png")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    target = TargetSpectrum.asce7()
+    write({key: effective_mass_map(suite, target) for key, suite in suites(Path(sys.argv[1])).items()})
