@@ -131,7 +131,7 @@ def run_times(runs: list[Run], repeats: int = REPEATS) -> list[RunTime]:
     for scene, motion in runs:
         spent, response = timed(partial(sm.simulate, scene, motion, events=False, energy=False), repeats)
         storeys = 0 if scene.building is None else scene.building.storeys
-        model = "real" if scene.blocks else "asce"
+        model = "real" if scene.blocks else "glued"
         events = sum(response.counts.values())
         found.append(RunTime(storeys, model, spent, motion.samples, events, response.statistics["regimes"]))
     return found

@@ -204,6 +204,17 @@ def test_collapsed_runs_are_counted_and_never_averaged() -> None:
     json.dumps(findings(result.summary, result.fractions), allow_nan=False)
 
 
+def test_no_mean_over_buildings_is_of_fewer_buildings(small: StudyResult) -> None:
+    lost = (pl.col("R") == 4.0) & (pl.col("storeys") == 3) & (pl.col("occupancy") == "storage")
+    columns = ("underestimation_percent", "ratio", "ratio_mass", "ratio_sliding")
+    summary = small.summary.with_columns(pl.when(~lost).then(name).alias(name) for name in columns)
+    storage, commercial = findings(summary, small.fractions)
+    (at_r4,) = (row for row in storage["first_storey"] if row["R"] == 4.0)
+    assert at_r4["underestimation_percent"] is at_r4["mass_percent"] is None
+    assert at_r4["eta"] is not None
+    assert all(row["underestimation_percent"] is not None for row in commercial["first_storey"])
+
+
 def test_quantiles_of_infinite_values() -> None:
     values = np.array([[3.0, np.inf, 1.0, 2.0], [np.inf, np.inf, 1.0, 2.0], [np.nan, 1.0, 2.0, 3.0]])
     np.testing.assert_array_equal(quantile(values, 0.5), [2.5, np.inf, np.nan])

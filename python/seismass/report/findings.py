@@ -50,7 +50,8 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
         without the motion that changes it most; `growth` with alpha and with R: of all pairs of storeys with results
         that differ by one step of it alone, how many there are and in how many the underestimation grows, for all
         storeys and for first storeys; `first_storey`, for each R and alpha the mean over the buildings of the first
-        storey's underestimation, of what mass and what sliding does (%), and of eta and the two estimates.
+        storey's underestimation, of what mass and what sliding does (%), and of eta and the two estimates; null where a
+        building has none.
     """
     entries = []
     keys = ["building", "eta", "estimate", "conservative", "effective"]
@@ -64,6 +65,8 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
         ranked = known.sort("underestimation_percent", descending=True)
         place = [*_PLACE, "mass_percent", "sliding_percent"]
         first = rows.filter(pl.col("storey") == 1)
+        compared = ("underestimation_percent", "mass_percent", "sliding_percent", *keys[1:])
+        means = first.group_by("R", "alpha").agg(_mean_of_all(name) for name in compared).sort("R", "alpha")
         entries.append(
             {
                 "occupancy": occupancy,
@@ -84,11 +87,7 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
                     "alpha_first_storey": _growth(first, "alpha", "R"),
                     "R_first_storey": _growth(first, "R", "alpha"),
                 },
-                "first_storey": first.filter(has_result)
-                .group_by("R", "alpha")
-                .agg(pl.col("underestimation_percent", "mass_percent", "sliding_percent", *keys[1:]).mean())
-                .sort("R", "alpha")
-                .to_dicts(),
+                "first_storey": [_finite(row) for row in means.to_dicts()],
             }
         )
     return entries
@@ -97,6 +96,12 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
 def _finite(row: dict[str, Any]) -> dict[str, Any]:
     """The row with null for what is no finite number, which JSON does not have."""
     return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in row.items()}
+
+
+def _mean_of_all(name: str) -> pl.Expr:
+    """Mean over the buildings; null where one of them has no number, so that no mean is of fewer buildings."""
+    value = pl.col(name)
+    return pl.when(value.null_count() == 0).then(value.mean()).alias(name)
 
 
 def _growth(rows: pl.DataFrame, varied: str, fixed: str) -> dict[str, int]:

@@ -90,7 +90,7 @@ def write_study(
         ("tables.json", _tables_document(result.metadata, tables)),
         ("study.json", study_metadata(result)),
     ):
-        text = json.dumps(document, indent=2) + "\n"
+        text = json.dumps(document, indent=2, allow_nan=False) + "\n"
         writers[file] = partial(Path.write_text, data=text, encoding="utf-8")
     if figures:
         from seismass.report.figures import save_figure
