@@ -649,7 +649,7 @@ CASES: list[Case] = [
         "batch of other things",
         lambda: sm.simulate_many([block(), 1], QUIET),
         sm.InvalidScene,
-        r"scene 1 of batch must be a Scene; got 1",
+        r"scene 2 of batch must be a Scene; got 1",
     ),  # type: ignore[list-item]
     (
         "batch of no list",
@@ -661,19 +661,19 @@ CASES: list[Case] = [
         "batch under other things",
         lambda: sm.simulate_many(block(), [QUIET, None]),
         sm.InvalidMotion,
-        r"motion 1 of batch must be a Motion or a Record; got None",
+        r"motion 2 of batch must be a Motion or a Record; got None",
     ),  # type: ignore[list-item]
     (
         "pair of a missing scene",
-        lambda: sm.simulate_many(block(), QUIET, pairs=[(0, 0), (1, 0)]),
+        lambda: sm.simulate_many(block(), QUIET, pairs=[(1, 1), (2, 1)]),
         sm.InvalidOption,
-        r"pairs of batch must be an index of a scene, 0 to 0; got 1 in pair 1",
+        r"pairs of batch must be the number of a scene, counted from 1 to 1; got 2 in pair 2",
     ),
     (
         "pairs of three",
-        lambda: sm.simulate_many(block(), QUIET, pairs=[(0, 0, 0)]),
+        lambda: sm.simulate_many(block(), QUIET, pairs=[(1, 1, 1)]),
         sm.InvalidOption,
-        r"pairs of batch must be rows of \(index of scene, index of motion\); got",
+        r"pairs of batch must be rows of \(number of scene, number of motion\); got",
     ),
     (
         "pairs of fractions",

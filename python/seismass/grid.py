@@ -13,8 +13,15 @@ from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_number, brief, refusal
 from seismass.errors import InvalidOption, InvalidScene
 from seismass.forks import require_polars
-from seismass.grid_buildings import ATTACHED_DAMPING, CHANGING, AttachedDamping, BuildingColumns
-from seismass.grid_columns import Column, IndexArray, block_table, index_values, number_values, strength_table
+from seismass.grid_buildings import (
+    ATTACHED_DAMPING,
+    CHANGING,
+    AttachedDamping,
+    BuildingColumns,
+    changing_values,
+    given_buildings,
+)
+from seismass.grid_columns import Column, IndexArray, block_values, index_values, number_values, share_values
 from seismass.scene import Block, Building, Scene
 
 Roof: TypeAlias = Literal["loaded", "bare"]
@@ -169,7 +176,7 @@ class Grid:
         motion: ArrayLike | None = None,
         collapse_drift: float | None = None,
     ) -> None:
-        uniform, index, periods = _given_buildings(building, storeys, period)
+        uniform, index, periods = given_buildings(building, storeys, period)
         self._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
         if storeys is not None:
             if building_index is not None:
@@ -179,15 +186,16 @@ class Grid:
             raise refusal(InvalidScene, "building_index", "grid", "given where there are several buildings", "none")
         else:
             index = index_values(building_index, "building_index", InvalidScene)
-        values = self._block_values(mass_ratio, mu, mu_s, mu_k)
-        values |= self._changing_values(
+        values = block_values(len(self.floors), mass_ratio, mu, mu_s, mu_k)
+        values |= changing_values(
+            self.buildings,
             period=period,
             strength=strength,
             yield_shear_over_weight=yield_shear_over_weight,
             overstrength=overstrength,
             second_slope=second_slope,
         )
-        values |= self._share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
+        values |= share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
         indices = {"building": index}
         if motion is not None:
             indices["motion"] = index_values(motion, "motion", InvalidOption)
@@ -267,19 +275,20 @@ class Grid:
         [0.3, 0.3]
         """
         grid = cls.__new__(cls)
-        uniform, index, periods = _given_buildings(building, storeys, period)
+        uniform, index, periods = given_buildings(building, storeys, period)
         grid._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
         if storeys is None:
             index = np.arange(len(grid.buildings))
-        values = grid._block_values(mass_ratio, mu, mu_s, mu_k)
-        values |= grid._changing_values(
+        values = block_values(len(grid.floors), mass_ratio, mu, mu_s, mu_k)
+        values |= changing_values(
+            grid.buildings,
             period=None if storeys is not None else period,
             strength=strength,
             yield_shear_over_weight=yield_shear_over_weight,
             overstrength=overstrength,
             second_slope=second_slope,
         )
-        values |= grid._share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
+        values |= share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
         lengths = {"building": len(index)}
         for axis, names in _AXES.items():
             given = {name: len(values[name]) for name in names if name in values}
@@ -413,56 +422,6 @@ class Grid:
         columns = {name: column for name, column in self._columns.items() if name in names}
         self._formed = BuildingColumns(self.buildings, periods, self.floors, columns, damping)
 
-    def _block_values(self, mass_ratio: Any, mu: Any, mu_s: Any, mu_k: Any) -> dict[str, FloatArray]:
-        """What blocks have, as tables of values by blocks; a width of one stands for all blocks."""
-        given = {"mu": mu, "mu_s": mu_s, "mu_k": mu_k}
-        if mass_ratio is None:
-            for name, value in given.items():
-                if value is not None:
-                    raise refusal(InvalidScene, name, "grid", "left out where mass_ratio is", brief(value))
-            return {}
-        if mu is not None and (mu_s is not None or mu_k is not None):
-            raise refusal(InvalidScene, "mu", "grid", "left out where mu_s or mu_k is given", brief(mu))
-        static = mu if mu_s is None else mu_s
-        if static is None:
-            raise refusal(InvalidScene, "mu", "grid", "given, or mu_s", "neither")
-        blocks = len(self.floors)
-        values = {
-            "mass_ratio": block_table(mass_ratio, "mass_ratio", blocks),
-            "mu_s": block_table(static, "mu" if mu_s is None else "mu_s", blocks),
-        }
-        values["mu_k"] = values["mu_s"] if mu_k is None else block_table(mu_k, "mu_k", blocks)
-        return values
-
-    def _changing_values(self, *, yield_shear_over_weight: Any, **numbers: Any) -> dict[str, FloatArray]:
-        """What changes buildings."""
-        values = number_values(numbers)
-        if yield_shear_over_weight is not None:
-            if "strength" in values:
-                raise refusal(
-                    InvalidScene, "strength", "grid", "left out where yield_shear_over_weight is given", "both"
-                )
-            values["yield_shear_over_weight"] = strength_table(yield_shear_over_weight)
-        if "strength" in values and all(np.isinf(building.yield_shear).all() for building in self.buildings):
-            requirement = "left out where buildings are elastic (yield_shear_over_weight makes them yield)"
-            raise refusal(InvalidScene, "strength", "grid", requirement, brief(numbers["strength"]))
-        return values
-
-    def _share_values(self, attached: Any, sliding: Any, mass_ratio: Any) -> dict[str, FloatArray]:
-        """Shares of the live load, of which no more than all is there."""
-        for name, value in (("attached", attached), ("sliding", sliding)):
-            if value is not None and mass_ratio is None:
-                raise refusal(InvalidScene, name, "grid", "left out where mass_ratio is", brief(value))
-        values = number_values({"attached": attached, "sliding": sliding})
-        lengths = {len(column) for column in values.values()} - {1}
-        if len(values) == 2 and len(lengths) < 2:
-            both = values["attached"] + values["sliding"]
-            wrong = np.flatnonzero(both > 1.0 + 1e-12)
-            if len(wrong):
-                got = f"{both[wrong[0]]:g} together as value {wrong[0] + 1}"
-                raise refusal(InvalidScene, "attached and sliding", "grid", "shares of at most 1 together", got)
-        return values
-
     def _per_block(self, name: str, scenes: IndexArray) -> FloatArray:
         """A property of the blocks of scenes, shape (scenes, blocks)."""
         shape = (len(scenes), len(self.floors))
@@ -551,33 +510,6 @@ _AXES: Final = {
     "scale": ("scale",),
 }
 """Axes of a product beside the building, and what each of them holds."""
-
-
-def _given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Building, ...], IndexArray, FloatArray]:
-    """The buildings of a grid, which of them each value has where storeys and periods describe them, their periods."""
-    if (building is None) == (storeys is None):
-        got = "neither" if building is None else "both"
-        raise refusal(InvalidScene, "building", "grid", "given either as building or as storeys", got)
-    if storeys is None:
-        listed = (building,) if isinstance(building, Building) else building
-        if not isinstance(listed, Sequence) or not listed or not all(isinstance(item, Building) for item in listed):
-            raise refusal(InvalidScene, "building", "grid", "a Building or a list of Buildings", brief(building))
-        of_given = np.array([float(item.periods[0]) for item in listed])
-        return tuple(listed), np.zeros(1, dtype=np.int64), of_given
-    if period is None:
-        raise refusal(InvalidScene, "period", "grid", "given where storeys is", "none")
-    heights = index_values(storeys, "storeys", InvalidScene, of="a list of such numbers") + 1
-    periods = number_values({"period": period})["period"]
-    if len(heights) != len(periods) and 1 not in (len(heights), len(periods)):
-        requirement = f"one value, or as many as storeys has, {len(heights)}"
-        raise refusal(InvalidScene, "period", "grid", requirement, f"{len(periods)} values")
-    pairs = np.column_stack(np.broadcast_arrays(heights, periods))
-    distinct, first, which = np.unique(pairs, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first)  # buildings are numbered as they are listed
-    place = np.empty_like(order)
-    place[order] = np.arange(len(order))
-    buildings = tuple(Building.uniform(int(count), float(seconds)) for count, seconds in distinct[order])
-    return buildings, place[which.reshape(-1)], distinct[order, 1]
 
 
 def _as_given(name: str, mu: Any) -> str:

@@ -1,15 +1,16 @@
-"""The buildings of a grid's scenes: those given, with what columns change in them, formed as they are needed."""
+"""The buildings of a grid: those given, and what columns change in them, formed as scenes need them."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
-from seismass._values import FloatArray, refusal
+from seismass._values import FloatArray, brief, refusal
 from seismass.errors import InvalidScene
-from seismass.grid_columns import Column, IndexArray
+from seismass.grid_columns import Column, IndexArray, index_values, number_values, strength_table
 from seismass.scene import Building, changed_building
 from seismass.units import STANDARD_GRAVITY
 
@@ -151,4 +152,46 @@ def _strengths(over_weight: FloatArray, storeys: int) -> FloatArray:
         given = int((~np.isnan(over_weight)).sum())
         requirement = f"one number or {storeys} values, one per storey"
         raise refusal(InvalidScene, "yield_shear_over_weight", "building", requirement, f"{given} values")
+    return values
+
+
+def given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Building, ...], IndexArray, FloatArray]:
+    """Return the buildings of a grid, which of them each value of storeys and periods has, and their periods."""
+    if (building is None) == (storeys is None):
+        got = "neither" if building is None else "both"
+        raise refusal(InvalidScene, "building", "grid", "given either as building or as storeys", got)
+    if storeys is None:
+        listed = (building,) if isinstance(building, Building) else building
+        if not isinstance(listed, Sequence) or not listed or not all(isinstance(item, Building) for item in listed):
+            raise refusal(InvalidScene, "building", "grid", "a Building or a list of Buildings", brief(building))
+        of_given = np.array([float(item.periods[0]) for item in listed])
+        return tuple(listed), np.zeros(1, dtype=np.int64), of_given
+    if period is None:
+        raise refusal(InvalidScene, "period", "grid", "given where storeys is", "none")
+    heights = index_values(storeys, "storeys", InvalidScene, of="a list of such numbers") + 1
+    periods = number_values({"period": period})["period"]
+    if len(heights) != len(periods) and 1 not in (len(heights), len(periods)):
+        requirement = f"one value, or as many as storeys has, {len(heights)}"
+        raise refusal(InvalidScene, "period", "grid", requirement, f"{len(periods)} values")
+    pairs = np.column_stack(np.broadcast_arrays(heights, periods))
+    distinct, first, which = np.unique(pairs, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # buildings are numbered as they are listed
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    buildings = tuple(Building.uniform(int(count), float(seconds)) for count, seconds in distinct[order])
+    return buildings, place[which.reshape(-1)], distinct[order, 1]
+
+
+def changing_values(
+    buildings: Sequence[Building], *, yield_shear_over_weight: Any, **numbers: Any
+) -> dict[str, FloatArray]:
+    """Return what changes buildings."""
+    values = number_values(numbers)
+    if yield_shear_over_weight is not None:
+        if "strength" in values:
+            raise refusal(InvalidScene, "strength", "grid", "left out where yield_shear_over_weight is given", "both")
+        values["yield_shear_over_weight"] = strength_table(yield_shear_over_weight)
+    if "strength" in values and all(np.isinf(building.yield_shear).all() for building in buildings):
+        requirement = "left out where buildings are elastic (yield_shear_over_weight makes them yield)"
+        raise refusal(InvalidScene, "strength", "grid", requirement, brief(numbers["strength"]))
     return values

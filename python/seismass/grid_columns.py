@@ -117,3 +117,40 @@ def strength_table(value: Any) -> FloatArray:
 
 def _first(value: Any) -> Any:
     return value[0] if len(value) else 0.0
+
+
+def block_values(blocks: int, mass_ratio: Any, mu: Any, mu_s: Any, mu_k: Any) -> dict[str, FloatArray]:
+    """Return what blocks have, as tables of values by blocks; a width of one stands for all blocks."""
+    given = {"mu": mu, "mu_s": mu_s, "mu_k": mu_k}
+    if mass_ratio is None:
+        for name, value in given.items():
+            if value is not None:
+                raise refusal(InvalidScene, name, "grid", "left out where mass_ratio is", brief(value))
+        return {}
+    if mu is not None and (mu_s is not None or mu_k is not None):
+        raise refusal(InvalidScene, "mu", "grid", "left out where mu_s or mu_k is given", brief(mu))
+    static = mu if mu_s is None else mu_s
+    if static is None:
+        raise refusal(InvalidScene, "mu", "grid", "given, or mu_s", "neither")
+    values = {
+        "mass_ratio": block_table(mass_ratio, "mass_ratio", blocks),
+        "mu_s": block_table(static, "mu" if mu_s is None else "mu_s", blocks),
+    }
+    values["mu_k"] = values["mu_s"] if mu_k is None else block_table(mu_k, "mu_k", blocks)
+    return values
+
+
+def share_values(attached: Any, sliding: Any, mass_ratio: Any) -> dict[str, FloatArray]:
+    """Return shares of the live load, of which no more than all is there."""
+    for name, value in (("attached", attached), ("sliding", sliding)):
+        if value is not None and mass_ratio is None:
+            raise refusal(InvalidScene, name, "grid", "left out where mass_ratio is", brief(value))
+    values = number_values({"attached": attached, "sliding": sliding})
+    lengths = {len(column) for column in values.values()} - {1}
+    if len(values) == 2 and len(lengths) < 2:
+        both = values["attached"] + values["sliding"]
+        wrong = np.flatnonzero(both > 1.0 + 1e-12)
+        if len(wrong):
+            got = f"{both[wrong[0]]:g} together as value {wrong[0] + 1}"
+            raise refusal(InvalidScene, "attached and sliding", "grid", "shares of at most 1 together", got)
+    return values

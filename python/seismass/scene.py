@@ -260,6 +260,10 @@ class Building(Value):
         Building(3 storeys, T1 = 0.6 s, V_y/W = [0.24, 0.2, 0.12], Omega = 2, r2 = 0.05, r3 = 0, damping = 0.05)
         """
         count = as_count(storeys, "storeys", "building", InvalidScene, least=1)
+        if yield_shear_over_weight is not None and yield_shear is not None:
+            raise refusal(
+                InvalidScene, "yield_shear_over_weight", "building", "left out where yield_shear is given", "both"
+            )
         if mass is None:
             _refuse_without_mass(
                 yield_shear=yield_shear,
@@ -270,10 +274,6 @@ class Building(Value):
         floor_mass = 1.0 if mass is None else as_number(mass, "mass", "building", InvalidScene)
         stiffness = _kernel.uniform_stiffness(count, as_number(period, "period", "building", InvalidScene), floor_mass)
         if yield_shear_over_weight is not None:
-            if yield_shear is not None:
-                raise refusal(
-                    InvalidScene, "yield_shear_over_weight", "building", "left out where yield_shear is given", "both"
-                )
             weight = STANDARD_GRAVITY * floor_mass * count
             yield_shear = as_fraction_of_weight(yield_shear_over_weight, count) * weight
         return cls(

@@ -345,6 +345,7 @@ class Response:
         same without Polars.
         """
         if "events" not in self._known:
+            self._asked("events", "events", stored="event_time")
             listed = self.event_log
             require_polars("events", "event_log")
             self._known["events"] = pl.DataFrame(
