@@ -312,7 +312,7 @@ CASES: list[Case] = [
     ),  # type: ignore[arg-type]
     (
         "both strengths",
-        lambda: sm.Building.uniform(2, 0.5, yield_shear=1.0, yield_shear_over_weight=0.1),
+        lambda: sm.Building.uniform(2, 0.5, mass=1.0, yield_shear=1.0, yield_shear_over_weight=0.1),
         sm.InvalidScene,
         r"yield_shear_over_weight of building must be left out where yield_shear is given; got both",
     ),
