@@ -124,7 +124,7 @@ def interpolated(fractions: FloatArray, model: FloatArray, real: FloatArray) -> 
     with np.errstate(invalid="ignore"):
         low = model[inside, k] - real[inside, k]
         high = model[inside, k + 1] - real[inside, k + 1]
-        weight = np.where(np.isinf(high), 0.0, -low / (high - low))
+        weight = np.where(np.isfinite(high) & np.isfinite(low), -low / (high - low), 0.0)
     value[inside] = fractions[k] + weight * (fractions[k + 1] - fractions[k])
     return value
 

@@ -160,13 +160,18 @@ class Search:
         )
         tail = 50.0 * (1.0 - options.confidence)
         values = interpolated(options.fractions, model_drift, real_drift)
+        # Without a finite real drift no share is enough: the resample counts as 1.
+        values[np.isinf(real_drift).any(axis=1)] = 1.0
         if kind == "stuck":
             values = np.ones(1)
         elif friction(self.scene_at(1.0)) == 0.0:
             values = np.zeros(1)
         low, high = np.percentile(values, [tail, 100.0 - tail])
         with np.errstate(invalid="ignore"):
-            band = np.percentile(real_drift / model_drift, [tail, 100.0 - tail], axis=0)
+            ratios = real_drift / model_drift
+        if not np.isfinite(ratios).all():  # collapsed runs leave no ratio to draw
+            return (float(low), float(high)), None
+        band = np.percentile(ratios, [tail, 100.0 - tail], axis=0)
         return (float(low), float(high)), band
 
     def _metadata(self, scene: Scene, about: dict[str, Any], evaluations: int) -> dict[str, Any]:
