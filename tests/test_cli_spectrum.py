@@ -105,4 +105,4 @@ def test_remarks_of_a_record_are_said(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["run", str(tmp_path / "scene.toml")]) == 0
     assert f"one: {remark}\n" in capsys.readouterr().out
     assert main(["run", str(tmp_path / "scene.toml"), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["remarks"] == [remark]
+    assert json.loads(capsys.readouterr().out)["remarks"] == [f"one: {remark}"]

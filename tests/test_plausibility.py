@@ -1,9 +1,12 @@
 """Remarks on inputs that are valid but unlikely. The limits are those of the specification of the remarks."""
 
+import json
+
 import numpy as np
 import pytest
 
 import seismass as sm
+from seismass.cli import main
 from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
 from seismass.units import STANDARD_GRAVITY as G
 
@@ -89,3 +92,14 @@ def test_factors_and_mean_spectrum():
     assert ratio.max() > 2.0
     at = scaling.periods[ratio.argmax()]
     assert scaling.remarks[-1].startswith(f"mean scaled spectrum is {ratio.max():.3g} times the target at {at:.4g} s")
+
+
+def test_the_command_that_scales_prints_remarks_once_and_keeps_them(capsys):
+    options = ["scale", "--sds", "107", "--sd1", "61"]
+    assert main(options) == 0
+    printed = capsys.readouterr().out
+    assert printed.count("S_DS of the target spectrum is 107 g") == printed.count("scale factors are outside") == 1
+    assert main([*options, "--json"]) == 0
+    remarks = json.loads(capsys.readouterr().out)["remarks"]
+    assert [remark.split(" is ")[0] for remark in remarks[:1]] == ["S_DS of the target spectrum"]
+    assert remarks[1].startswith("scale factors are outside 0.2 to 5")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -91,12 +90,6 @@ def warn_remarks(suite: Suite) -> None:
     for number, record in enumerate(suite, start=1):
         for remark in record.remarks:
             print(f"seismass: motion {number}, {record.name}: {remark}", file=sys.stderr)
-
-
-def warn(remarks: Iterable[str]) -> None:
-    """Print remarks on standard error, each once."""
-    for remark in dict.fromkeys(remarks):
-        print(f"seismass: {remark}", file=sys.stderr)
 
 
 def left_out(suite: Suite) -> list[str]:
