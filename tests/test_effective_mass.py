@@ -257,20 +257,20 @@ def test_drift_ratios_and_p_delta() -> None:
 
 
 def test_collapse() -> None:
-    """P-Delta on a weak building: some motions, then all, bring it down."""
+    """P-Delta and a limit of drift that two of seven motions reach."""
     building = sm.Building.uniform(
         2,
         0.6,
         mass=1.0,
-        yield_shear_over_weight=[0.16, 0.12],
+        yield_shear_over_weight=[0.4, 0.3],
         heights=3.0,
         gravity_load=STANDARD_GRAVITY,
         second_slope=0.02,
     )
-    scene = sm.Scene(building, sm.blocks_on_floors([1.0, 0.0], 0.3), collapse_drift=0.11)
+    scene = sm.Scene(building, sm.blocks_on_floors([1.0, 0.0], 0.3), collapse_drift=0.17)
     peaks = [sm.simulate(scene, motion) for motion in MOTIONS]
     collapsed = sum(peak.status == "collapsed" for peak in peaks)
-    assert 0 < collapsed < 4
+    assert collapsed == 2
     mean = sm.effective_mass(scene, MOTIONS)
     assert mean.kind == "collapsed"
     assert np.isnan(mean.value)

@@ -44,28 +44,13 @@ def test_strengths_may_be_replaced_as_fractions() -> None:
         RATIOS.replace(yield_shear=1.0, yield_shear_over_weight=0.2)
 
 
-@pytest.mark.parametrize(
-    ("changes", "name"),
-    [
-        ({"yield_shear": 1e6}, "yield_shear"),
-        ({"yield_shear": [np.inf, np.inf, 1e6]}, "yield_shear"),
-        ({"gravity_load": 1e6, "heights": 3.0}, "gravity_load"),
-        ({"geometric_stiffness": 1e5}, "geometric_stiffness"),
-        ({"damping": np.eye(3)}, "damping"),
-    ],
-)
-def test_what_is_in_newtons_is_refused(changes: dict[str, object], name: str) -> None:
-    message = f"^{name} of building must be left out where the mass is not stated"
-    with pytest.raises(sm.InvalidScene, match=message):
-        sm.Building.uniform(3, 0.6, **changes)
-    with pytest.raises(sm.InvalidScene, match=message):
-        RATIOS.replace(**changes)
-    sm.Building.uniform(3, 0.6, mass=2e5, **changes)
-    RATIOS.replace(mass=2e5, yield_shear=np.inf).replace(**changes)
-
-
-def test_ratios_and_heights_are_not() -> None:
-    sm.Building.uniform(3, 0.6, heights=3.5, damping=sm.Rayleigh(0.05), overstrength=1.5, yield_shear=np.inf)
+def test_forces_are_for_floors_of_one_kilogram() -> None:
+    """V_y in N beside masses that are not stated are those of 1 kg; far too large ones are remarked on."""
+    forces = RATIOS.yield_shear
+    assert sm.Building.uniform(3, 0.6, yield_shear=forces) == RATIOS
+    assert sm.Building.uniform(3, 0.6).replace(yield_shear=forces) == RATIOS
+    meant_in_newtons = sm.Scene(sm.Building.uniform(3, 0.6, yield_shear=440e3))
+    assert any("5 W" in remark or "above 5" in remark for remark in meant_in_newtons.remarks)
 
 
 def test_blocks_are_ratios_but_for_those_on_the_ground() -> None:

@@ -229,9 +229,9 @@ class Building(Value):
             First period T of the bare building (s).
         mass : float, optional
             Mass of each floor (kg). Drifts and slips do not depend on it where all else is given as ratios (Notes). By
-            default it is 1 kg and not stated: what depends on it is then refused.
+            default it is 1 kg and not stated: blocks are then ratios of it.
         yield_shear : array_like, optional
-            V_y of each storey (N), where the mass is stated; elastic where neither it nor the next is given.
+            V_y of each storey (N); elastic where neither it nor the next is given.
         yield_shear_over_weight : array_like, optional
             V_y as a fraction of the weight g sum(m) of the building without blocks.
         overstrength, second_slope, third_slope, damping, heights, gravity_load, geometric_stiffness
@@ -240,8 +240,7 @@ class Building(Value):
         Raises
         ------
         InvalidScene
-            As for `Building`, or both forms of yield shear are given, or the mass is not stated and something in N or
-            N/m is given.
+            As for `Building`, or both forms of yield shear are given.
 
         Notes
         -----
@@ -250,8 +249,8 @@ class Building(Value):
         Stiffness follows the mass, and so does everything given as a ratio. Drifts and slips therefore do not depend on
         the mass where the building is elastic or has its strengths over the weight, its damping is a ratio, there is no
         P-Delta, and blocks are given by `mass_ratio`; forces and energies are then proportional to it. What is given
-        in other units needs the real mass: `yield_shear`, `gravity_load`, `geometric_stiffness`, a damping matrix, and
-        the `mass` of blocks; it is refused where the mass is not stated, and `mass=1.0` states it.
+        in other units is for floor masses of 1 kg where no mass is stated: `yield_shear`, `gravity_load`,
+        `geometric_stiffness`, a damping matrix. The `mass` of blocks is refused there, and `mass=1.0` states it.
 
         Examples
         --------
@@ -263,13 +262,6 @@ class Building(Value):
         if yield_shear_over_weight is not None and yield_shear is not None:
             raise refusal(
                 InvalidScene, "yield_shear_over_weight", "building", "left out where yield_shear is given", "both"
-            )
-        if mass is None:
-            _refuse_without_mass(
-                yield_shear=yield_shear,
-                damping=damping,
-                gravity_load=gravity_load,
-                geometric_stiffness=geometric_stiffness,
             )
         floor_mass = 1.0 if mass is None else as_number(mass, "mass", "building", InvalidScene)
         stiffness = _kernel.uniform_stiffness(count, as_number(period, "period", "building", InvalidScene), floor_mass)
@@ -317,8 +309,6 @@ class Building(Value):
             )
         if "mass" in changes:
             changes = {"mass_is_stated": True} | changes
-        elif not changes.get("mass_is_stated", self.mass_is_stated):
-            _refuse_without_mass(**changes)
         if over_weight is None:
             return super().replace(**changes)
         changed = super().replace(**changes, yield_shear=np.inf)
@@ -657,28 +647,6 @@ class Scene(Value):
 def changed_building(building: Building, **changes: Any) -> Building:
     """Return a building with arguments changed that no user gives: forces may follow masses that are not stated."""
     return Building(**(building._arguments() | changes))
-
-
-def _refuse_without_mass(**given: Any) -> None:
-    """Refuse forces and stiffnesses for a building whose mass is not stated, which they need."""
-    for name in ("yield_shear", "gravity_load", "geometric_stiffness", "damping"):
-        value = given.get(name)
-        if value is None or (name == "damping" and (np.ndim(value) == 0 or isinstance(value, Rayleigh))):
-            continue
-        if name == "yield_shear" and _is_elastic(value):
-            continue
-        ratio = {"yield_shear": "yield_shear_over_weight", "damping": "a ratio"}.get(name)
-        instead = f" ({ratio} does not need it)" if ratio else ""
-        requirement = f"left out where the mass is not stated{instead}"
-        raise refusal(InvalidScene, name, "building", requirement, brief(value))
-
-
-def _is_elastic(yield_shear: Any) -> bool:
-    """Whether yield shears are infinite throughout; what is no number is judged later."""
-    try:
-        return bool(np.isinf(np.asarray(yield_shear, dtype=np.float64)).all())
-    except (TypeError, ValueError):
-        return False
 
 
 def as_fraction_of_weight(value: Any, storeys: int) -> FloatArray:

@@ -157,11 +157,11 @@ class EffectiveMassParameters:
                 raise refusal(InvalidOption, "roof", owner, "loaded where it is the only floor", "bare")
             buildings.append((storeys, _number(building[1], "period", above=0.0), building[2]))
         checked: dict[str, Any] = {"buildings": tuple(buildings)}
-        for name, least in (("mass_ratios", 0.0), ("response_modification", None), ("mus", 0.0), ("intensities", 0.0)):
+        above, least = {"mass_ratios": 0.0, "intensities": 0.0}, {"response_modification": 1.0, "mus": 0.0}
+        for name in (*above, *least):
             values = _listed(getattr(self, name), name)
             checked[name] = tuple(
-                _number(value, name, above=least) if least is not None else _number(value, name, least=1.0)
-                for value in values
+                _number(value, name, above=above.get(name), least=least.get(name)) for value in values
             )
         for name, values in checked.items():
             if len(set(values)) != len(values):

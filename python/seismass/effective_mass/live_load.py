@@ -10,6 +10,7 @@ import json
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol, runtime_checkable
 
@@ -177,8 +178,8 @@ def live_load_uncertainty(
     scene: Scene,
     motions: MotionLike | Iterable[MotionLike],
     *,
-    mu: Distribution,
-    occupancy: Distribution,
+    mu: Distribution | float,
+    occupancy: Distribution | float,
     samples: int = 200,
     seed: int = 0,
     damping: ModelDamping = SAME_DAMPING,
@@ -194,9 +195,9 @@ def live_load_uncertainty(
         The building with the whole design live load as blocks.
     motions : Motion, Record or iterable of them
         The suite, scaled as it is to act.
-    mu : frozen distribution of scipy.stats
+    mu : frozen distribution of scipy.stats, or float
         Static friction coefficient of all goods; each block keeps its ratio of kinetic to static.
-    occupancy : frozen distribution of scipy.stats
+    occupancy : frozen distribution of scipy.stats, or float
         Share of the design live load that is present, from 0 to 1, the same on every floor.
     samples : int, default 200
         Latin hypercube samples; mu and occupancy are independent.
@@ -296,9 +297,13 @@ def _latin_hypercube(count: int, dimensions: int, seed: int) -> FloatArray:
 
 def _sampled(distribution: Any, levels: FloatArray, name: str, most: float) -> FloatArray:
     owner = "live load uncertainty"
-    if not isinstance(distribution, Distribution):
-        raise refusal(InvalidOption, name, owner, "a frozen distribution of scipy.stats", brief(distribution))
-    values = np.asarray(distribution.ppf(levels), dtype=np.float64)
+    if isinstance(distribution, Distribution):
+        values = np.asarray(distribution.ppf(levels), dtype=np.float64)
+    elif isinstance(distribution, Real) and not isinstance(distribution, bool):
+        values = np.full(len(levels), float(distribution))
+    else:
+        requirement = "a frozen distribution of scipy.stats, or a number"
+        raise refusal(InvalidOption, name, owner, requirement, brief(distribution))
     wrong = ~((values >= 0.0) & (values <= most) & np.isfinite(values))
     if wrong.any():
         requirement = "zero or positive" if np.isinf(most) else f"from 0 to {most:g}"
@@ -368,7 +373,9 @@ def _remarks(scene: Scene, real: Peaks, values: FloatArray, model_drift: FloatAr
 
 
 def _described(distribution: Any) -> str:
-    """A frozen distribution as text."""
+    """A frozen distribution, or a number, as text."""
+    if isinstance(distribution, Real):
+        return f"{float(distribution):g}"
     name = getattr(getattr(distribution, "dist", None), "name", type(distribution).__name__)
     arguments = [f"{value:g}" for value in getattr(distribution, "args", ())]
     arguments += [f"{key}={value:g}" for key, value in getattr(distribution, "kwds", {}).items()]

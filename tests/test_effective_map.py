@@ -1,0 +1,124 @@
+"""The map of effective fractions against single answers, its rules by hand, its axis of intensity, its command."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import polars as pl
+import pytest
+
+import seismass as sm
+from seismass.cli import main
+from seismass.design import response_spectrum_analysis
+from seismass.report.map_figures import map_figures
+from seismass.spectra import mean_spectrum
+
+SUITE = sm.builtin_suite()
+TARGET = sm.TargetSpectrum.asce7()
+SMALL = sm.EffectiveMassParameters(
+    buildings=((2, 0.38, "bare"), (3, 0.6, "loaded")),
+    mass_ratios=(0.5, 1.0),
+    response_modification=(1.0, 4.0),
+    mus=(0.0, 0.2, 50.0),
+)
+
+
+@pytest.fixture(scope="module")
+def small() -> sm.EffectiveMassMap:
+    return sm.effective_mass_map(SUITE, TARGET, SMALL)
+
+
+def test_cases_are_single_answers(small: sm.EffectiveMassMap) -> None:
+    factors = small.scaling.factors
+    motions = [record.scaled(factor) for record, factor in zip(SUITE, factors, strict=True)]
+    assert small.table.height == 2 * 2 * 2 * 3
+    for row in small.table.iter_rows(named=True):
+        storeys = row["storeys"]
+        bare = sm.Building.uniform(storeys, row["period"], mass=1.0)
+        goods = np.full(storeys, row["alpha"])
+        if row["roof"] == "bare":
+            goods[-1] = 0.0
+        shear = response_spectrum_analysis(
+            bare.mass + 0.25 * goods, bare.stiffness, lambda periods: mean_spectrum(SUITE, factors, periods)
+        ).storey_shear
+        building = bare if row["R"] == 1.0 else bare.replace(yield_shear=shear / row["R"])
+        answer = sm.effective_mass(sm.Scene(building, sm.blocks_on_floors(goods, row["mu"])), motions)
+        assert row["kind"] == answer.kind
+        # Interpolated between shares 0.01 apart, not refined.
+        assert row["value"] == pytest.approx(answer.value, abs=5e-4)
+        assert row["real"] == pytest.approx(answer.real, rel=1e-12)
+        assert row["eta"] == pytest.approx(answer.eta, rel=1e-12)
+        assert row["slides"] == (answer.kind != "stuck")
+        worst = answer.storeys["ratio"].max()
+        assert row["worst_storey_ratio"] == pytest.approx(worst, rel=2e-3)
+
+
+def test_rules_by_hand(small: sm.EffectiveMassMap) -> None:
+    sliding = small.table.filter(pl.col("slides"))
+    none = small.rules().row(by_predicate=pl.col("rule") == "none, 0", named=True)
+    ratio = 1.0 / sliding["ratio_at_0"].to_numpy()
+    assert none["cases"] == sliding.height
+    assert none["bias"] == pytest.approx(np.exp(np.log(ratio).mean()), rel=1e-12)
+    assert none["log_scatter"] == pytest.approx(np.log(ratio).std(), rel=1e-12)
+    assert none["unsafe"] == pytest.approx((1.0 / ratio > 1.05).mean())
+    quarter = small.rules({"a quarter": lambda eta: np.full_like(eta, 0.25)}).row(0, named=True)
+    assert quarter["bias"] == pytest.approx(np.exp(np.log(1.0 / sliding["ratio_at_0_25"].to_numpy()).mean()), rel=1e-12)
+    bins = small.by_eta()
+    assert bins["cases"].sum() == sliding.height
+
+
+def test_intensity_is_strength_and_friction() -> None:
+    """Intensity s with (V_y, mu) has the fraction of intensity 1 with (V_y/s, mu/s): R and mu here."""
+    common: dict[str, Any] = {"buildings": ((2, 0.38, "bare"),), "mass_ratios": (1.0,)}
+    strong = sm.EffectiveMassParameters(**common, response_modification=(2.0,), mus=(0.4, 0.3), intensities=(1.0, 2.0))
+    weak = sm.EffectiveMassParameters(**common, response_modification=(4.0,), mus=(0.2, 0.15))
+    one = sm.effective_mass_map(SUITE, TARGET, strong).table.filter(pl.col("intensity") == 2.0)
+    other = sm.effective_mass_map(SUITE, TARGET, weak).table
+    np.testing.assert_allclose(one["value"], other["value"], atol=1e-9)
+    np.testing.assert_allclose(one["eta"], other["eta"], rtol=1e-9)
+    np.testing.assert_allclose(one["low"], other["low"], atol=1e-9)
+
+
+def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["map", "--mu", "0.1,0.3", "--R", "2,4", "--alpha", "1", "--intensity", "0.5,1"]
+    assert main([*arguments, "--out", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    assert "min(1, eta^2)" in printed
+    assert "Effective fraction by eta" in printed
+    names = {file.name for file in tmp_path.iterdir()}
+    assert {"map.parquet", "rules.csv", "map.json", "collapse.png", "rules.svg", "intensity.png"} <= names
+    assert pl.read_parquet(tmp_path / "map.parquet").height == 16 * 2 * 2 * 2
+    assert json.loads((tmp_path / "map.json").read_text())["rules"][0]["rule"] == "min(1, eta^2)"
+
+
+def test_figures_of_one_intensity(small: sm.EffectiveMassMap) -> None:
+    assert set(map_figures(small)) == {"collapse", "rules"}
+
+
+WRONG: list[tuple[dict[str, Any], str]] = [
+    ({"buildings": ((1, 0.4, "bare"),)}, "roof of effective mass map must be loaded"),
+    ({"buildings": ((2, 0.4),)}, "buildings of effective mass map must be a tuple of"),
+    ({"buildings": ()}, "buildings of effective mass map must be a tuple of at least one"),
+    ({"mus": (-0.1,)}, "mus of effective mass map must be at least 0"),
+    ({"mus": (0.2, 0.2)}, "mus of effective mass map must be a tuple of values, none twice"),
+    ({"mass_ratios": (0.0,)}, "mass_ratios of effective mass map must be above 0"),
+    ({"response_modification": (0.5,)}, "response_modification of effective mass map must be at least 1"),
+    ({"intensities": (0.0,)}, "intensities of effective mass map must be above 0"),
+    ({"design_fraction": 25.0}, "design_fraction of effective mass map must be between 0 and 1"),
+    ({"resamples": 0}, "resamples of effective mass map must be a whole number"),
+    ({"model_damping": "own"}, "damping of effective mass map must be same or ratio"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "message"), WRONG, ids=[message for _, message in WRONG])
+def test_wrong_parameters(arguments: dict[str, Any], message: str) -> None:
+    with pytest.raises(sm.InvalidOption, match=f"^{message}"):
+        sm.EffectiveMassParameters(**arguments)
+
+
+def test_wrong_suite() -> None:
+    with pytest.raises(sm.InvalidMotion, match=r"^suite of effective mass map must be a Suite"):
+        sm.effective_mass_map([1, 2, 3], TARGET, SMALL)  # type: ignore[arg-type]
