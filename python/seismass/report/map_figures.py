@@ -197,10 +197,11 @@ def map_caption(result: EffectiveMassMap) -> str:
     """Return one line on the motions and the parameters that the map depends on."""
     chosen, suite = result.metadata["parameters"], result.metadata["suite"]
     name = str(suite["name"]).replace("$", r"\$")
+    damping = "C of the real building" if chosen["model_damping"] == "same" else "that ratio in their own modes"
     target = str(result.metadata["target"]["label"]).split(" (")[0].replace("$", r"\$")
     return (
         f"{len(suite['motions'])} motions ({name}) scaled to {target}, for T = {chosen['scaling_period']:g} s;\n"
         rf"$V_y$ designed with $\lambda$ = {chosen['design_fraction']:g}; $\Omega$ = {chosen['overstrength']:g}, "
         rf"$r_2$ = {chosen['second_slope']:g}, $r_3$ = {chosen['third_slope']:g}; damping "
-        f"{100.0 * chosen['damping']:g} %, models: {chosen['model_damping']}"
+        f"{100.0 * chosen['damping']:g} %, models with {damping}"
     )
