@@ -124,7 +124,7 @@ def test_tables_of_the_builtin_suite_are_current() -> None:
     result = effective_mass_map(builtin_suite(), TargetSpectrum.asce7())
     assert module["with_tables"](page, "builtin", result) == page
     rules = result.rules()
-    # effective_fraction of the specification, section 3, column B7: bias, log scatter, share unsafe.
+    # An independent run of the same grid, to three digits: bias, log scatter, share unsafe.
     for rule, bias, scatter, unsafe in (
         ("min(1, eta^2)", 1.015, 0.095, 0.16),
         ("min(1, eta)", 1.077, 0.107, 0.01),

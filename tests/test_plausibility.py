@@ -1,4 +1,4 @@
-"""Remarks on inputs that are valid but unlikely. The limits are those of the specification of the remarks."""
+"""Remarks on inputs that are valid but unlikely. The limits are those that the module states."""
 
 import json
 

@@ -97,10 +97,10 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment import assess
     from seismass.building_file import read_building
     from seismass.errors import SimulationError
-    from seismass.report.write import check_out
+    from seismass.report.folder import check_out
 
     started = time.perf_counter()
-    check_out(args.out)
+    check_out(args.out, "assessment")
     building = read_building(args.file)
     code, target = _code(args), _target(args)
     suite = read_motions(args)

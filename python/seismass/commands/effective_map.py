@@ -62,12 +62,11 @@ def add_parser(subparsers: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """Make the map, write its files and print how rules do; return the exit code."""
     from seismass.effective_mass import EffectiveMassParameters, effective_mass_map
-    from seismass.report.folder import write_folder
+    from seismass.report.folder import check_out, write_folder
     from seismass.report.map_figures import map_figures
-    from seismass.report.write import check_out
 
     started = time.perf_counter()
-    check_out(args.out)
+    check_out(args.out, "map")
     given = {
         "mus": args.mu,
         "response_modification": args.R,
@@ -84,9 +83,12 @@ def run(args: argparse.Namespace) -> int:
     result = effective_mass_map(suite, target, parameters, threads=args.jobs, progress=progress_bar())
     rules, bins = result.rules(), result.by_eta()
     document = {**result.metadata, "rules": rules.to_dicts(), "by_eta": bins.to_dicts()}
+    tables = {"map": result.table, "rules": rules, "by_eta": bins, "scaling": result.scaling.table()}
+    about = {f"seismass.{key}": json.dumps(value) for key, value in result.metadata.items()}
     files = write_folder(
         args.out,
-        tables={"map": result.table, "rules": rules, "by_eta": bins, "scaling": result.scaling.table()},
+        tables=tables,
+        metadata=dict.fromkeys(tables, about),
         documents={"map.json": json.dumps(document, indent=2) + "\n"},
         figures=None if args.no_figures else map_figures(result),
     )
@@ -99,6 +101,8 @@ def run(args: argparse.Namespace) -> int:
     for line in left_out(suite):
         print(f"         {line}")
     print(f"target   {target.label}")
+    for remark in result.metadata["remarks"]:
+        print(f"remark   {remark}")
     print(f"cases    {result.table.height}, goods slide in {sliding}; {result.metadata['runs']} runs\n")
     print("\n".join(rules_text(rules)))
     print()

@@ -106,12 +106,13 @@ def add_parser(subparsers: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
     from seismass.report.findings import findings_text
+    from seismass.report.folder import check_out
     from seismass.report.sensitivity import sensitivity_text
-    from seismass.report.write import check_out, study_metadata, write_study
+    from seismass.report.write import study_metadata, write_study
     from seismass.study import StudyParameters, run_study, study_sensitivity
 
     started = time.perf_counter()
-    check_out(args.out)
+    check_out(args.out, "study")
     parameters = StudyParameters(
         code=args.code,
         occupancies=None if args.occupancy is None else tuple(args.occupancy),

@@ -26,6 +26,7 @@ from seismass.effective_mass.curve import (
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, full_weight
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.errors import InvalidMotion, InvalidOption
+from seismass.plausibility import motion_remarks, scaling_remarks, target_remarks
 from seismass.records import Suite
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.scene import (
@@ -365,6 +366,11 @@ def effective_mass_map(
             "target": {"label": target.label, **target.parameters},
             "suite": {"name": suite.name, "motions": list(scaling.names), "factors": scaling.factors.tolist()},
             "runs": total,
+            "remarks": [
+                *target_remarks(target),
+                *scaling_remarks(scaling),
+                *motion_remarks([record.motion for record in scaled]),
+            ],
         },
     )
 

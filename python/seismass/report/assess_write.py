@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from contextlib import ExitStack
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from seismass._values import as_path
 from seismass.errors import InvalidOption
-from seismass.files import write_table, written_whole
-from seismass.report.write import check_out
+from seismass.report.folder import check_out, write_folder
 
 if TYPE_CHECKING:
     from seismass.assessment.result import Assessment
@@ -39,26 +35,15 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
         A file cannot be written; then none is changed.
     """
     out = as_path(folder, "assessment", InvalidOption)
-    check_out(out)
-    writers: dict[str, Callable[[Path], object]] = {
-        "assessment.txt": partial(Path.write_text, data=result.text() + "\n", encoding="utf-8"),
-        "assessment.json": partial(Path.write_text, data=result.to_json() + "\n", encoding="utf-8"),
-    }
-    for name, table in result.tables().items():
-        writers[f"{name}.parquet"] = partial(write_table, table, "parquet")
-        writers[f"{name}.csv"] = partial(write_table, table, "csv")
-    if figures:
-        from seismass.report.figures import save_figure
-
-        for name, figure in result.figures().items():
-            writers[f"{name}.png"] = partial(save_figure, figure, "png")
-            writers[f"{name}.svg"] = partial(save_figure, figure, "svg")
-    out.mkdir(parents=True, exist_ok=True)
-    with ExitStack() as stack:
-        for name, write in writers.items():
-            write(stack.enter_context(written_whole(out / name)))
+    check_out(out, "assessment")
+    files = write_folder(
+        out,
+        tables=result.tables(),
+        documents={"assessment.txt": result.text() + "\n", "assessment.json": result.to_json() + "\n"},
+        figures=result.figures() if figures else None,
+    )
     ours = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
     ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
-    for name in ours - set(writers):
+    for name in ours - {path.name for path in files}:
         (out / name).unlink(missing_ok=True)
-    return [out / name for name in writers]
+    return files

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from functools import partial
@@ -10,11 +11,25 @@ from typing import TYPE_CHECKING
 
 import polars as pl
 
+from seismass._values import refusal
+from seismass.errors import InvalidOption
 from seismass.files import write_table, written_whole
-from seismass.report.figures import save_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+def check_out(out: Path, owner: str) -> None:
+    """Refuse a folder that cannot be one, before anything is solved.
+
+    Raises
+    ------
+    InvalidOption
+        `out`, or one of its parents, is a file, or it cannot be written to.
+    """
+    existing = next((path for path in (out, *out.parents) if path.exists()), None)
+    if existing is not None and not (existing.is_dir() and os.access(existing, os.W_OK)):
+        raise refusal(InvalidOption, "out", owner, "a folder that can be written to", str(out))
 
 
 def write_folder(
@@ -23,6 +38,7 @@ def write_folder(
     tables: Mapping[str, pl.DataFrame],
     documents: Mapping[str, str],
     figures: Mapping[str, Figure] | None = None,
+    metadata: Mapping[str, dict[str, str]] | None = None,
 ) -> list[Path]:
     """Write tables (Parquet and CSV), documents and figures (PNG and SVG) to a folder, which is made if it is missing.
 
@@ -34,6 +50,8 @@ def write_folder(
         By name without suffix.
     documents : mapping of str to str
         Text by file name.
+    metadata : mapping of str to dict, optional
+        Key-value metadata of the Parquet file of each table that has any.
 
     Returns
     -------
@@ -47,13 +65,17 @@ def write_folder(
     """
     writers: dict[str, Callable[[Path], object]] = {}
     for name, table in tables.items():
-        writers[f"{name}.parquet"] = partial(write_table, table, "parquet")
+        about = None if metadata is None else metadata.get(name)
+        writers[f"{name}.parquet"] = partial(write_table, table, "parquet", metadata=about)
         writers[f"{name}.csv"] = partial(write_table, table, "csv")
     for name, text in documents.items():
         writers[name] = partial(Path.write_text, data=text, encoding="utf-8")
-    for name, figure in (figures or {}).items():
-        writers[f"{name}.png"] = partial(save_figure, figure, "png")
-        writers[f"{name}.svg"] = partial(save_figure, figure, "svg")
+    if figures:
+        from seismass.report.figures import save_figure  # matplotlib, which tables do not need
+
+        for name, figure in figures.items():
+            writers[f"{name}.png"] = partial(save_figure, figure, "png")
+            writers[f"{name}.svg"] = partial(save_figure, figure, "svg")
     out.mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
         for name, write in writers.items():

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-from collections.abc import Callable
-from contextlib import ExitStack
-from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
 import polars as pl
 
-from seismass.errors import InvalidOption
-from seismass.files import write_table, written_whole
 from seismass.report.findings import findings
+from seismass.report.folder import write_folder
 from seismass.study import Sensitivity, StudyResult
 from seismass.study.columns import TABLES, units_of
 
@@ -39,19 +34,6 @@ def study_metadata(result: StudyResult) -> dict[str, Any]:
         },
         "findings": findings(result.summary, result.fractions, result.metadata["code"]["name"]),
     }
-
-
-def check_out(out: Path) -> None:
-    """Refuse a folder that cannot be one, before a study runs.
-
-    Raises
-    ------
-    InvalidOption
-        `out`, or one of its parents, is a file.
-    """
-    existing = next((path for path in (out, *out.parents) if path.exists()), None)
-    if existing is not None and not (existing.is_dir() and os.access(existing, os.W_OK)):
-        raise InvalidOption(f"out of study must be a folder that can be written to; got {out}")
 
 
 def write_study(
@@ -81,33 +63,30 @@ def write_study(
         "scaling": result.scaling.table(),
         **({} if sensitivity is None else {"sensitivity": sensitivity.table}),
     }
-    writers: dict[str, Callable[[Path], object]] = {}
-    for name, table in tables.items():
-        metadata = table_metadata(result.metadata, name, table)
-        writers[f"{name}.parquet"] = partial(write_table, table, "parquet", metadata=metadata)
-        writers[f"{name}.csv"] = partial(write_table, table, "csv")
-    for file, document in (
-        ("tables.json", _tables_document(result.metadata, tables)),
-        ("study.json", study_metadata(result)),
-    ):
-        text = json.dumps(document, indent=2, allow_nan=False) + "\n"
-        writers[file] = partial(Path.write_text, data=text, encoding="utf-8")
+    drawn = None
     if figures:
-        from seismass.report.figures import save_figure
         from seismass.report.study_figures import study_figures
 
-        for name, figure in study_figures(result).items():
-            writers[f"{name}.png"] = partial(save_figure, figure, "png")
-            writers[f"{name}.svg"] = partial(save_figure, figure, "svg")
-    out.mkdir(parents=True, exist_ok=True)
-    with ExitStack() as stack:
-        for name, write in writers.items():
-            write(stack.enter_context(written_whole(out / name)))
+        drawn = study_figures(result)
+    files = write_folder(
+        out,
+        tables=tables,
+        documents={
+            file: json.dumps(document, indent=2, allow_nan=False) + "\n"
+            for file, document in (
+                ("tables.json", _tables_document(result.metadata, tables)),
+                ("study.json", study_metadata(result)),
+            )
+        },
+        figures=drawn,
+        metadata={name: table_metadata(result.metadata, name, table) for name, table in tables.items()},
+    )
+    written = {path.name for path in files}
     for path in list(out.iterdir()):
         ours = FIGURE_FILE.fullmatch(path.name) or path.name in ("sensitivity.parquet", "sensitivity.csv")
-        if ours and path.name not in writers and path.is_file():
+        if ours and path.name not in written and path.is_file():
             path.unlink()
-    return [out / name for name in writers]
+    return files
 
 
 def made_from(metadata: dict[str, Any]) -> dict[str, Any]:
