@@ -149,6 +149,7 @@ def rules_figure(result: EffectiveMassMap) -> Figure:
 def intensity_figure(result: EffectiveMassMap, building: int | None = None, alpha: float | None = None) -> Figure:
     """Effective fraction against intensity for one building and load: a panel for each R, a line for each friction.
 
+    Bands are bootstrap intervals over the records.
     By default the building in the middle of the list, and the load nearest to alpha = 1.
     """
     numbers = result.table["building"].unique().sort().to_list()
@@ -159,6 +160,7 @@ def intensity_figure(result: EffectiveMassMap, building: int | None = None, alph
     factors = here["R"].unique().sort().to_list()
     mus = here["mu"].unique().sort().to_list()
     storeys, period, roof = here.row(0, named=True)["storeys"], here["period"][0], here["roof"][0]
+    confidence = result.metadata["parameters"]["confidence"]
     columns = min(len(factors), 4)
     rows = -(-len(factors) // columns)
     with mpl.rc_context(STYLE):
@@ -168,6 +170,9 @@ def intensity_figure(result: EffectiveMassMap, building: int | None = None, alph
         for axes, factor in zip(grid.flat, factors, strict=False):
             for colour, marker, mu in zip(shades, _INTENSITY_LOOKS * len(mus), mus, strict=False):
                 line = here.filter((pl.col("R") == factor) & (pl.col("mu") == mu))
+                if line["low"].null_count() == 0:
+                    ends = (line[name].to_numpy() for name in ("intensity", "low", "high"))
+                    axes.fill_between(*ends, color=colour, alpha=0.12, linewidth=0.0)
                 axes.plot(
                     line["intensity"].to_numpy(),
                     line["value"].to_numpy(),
@@ -186,7 +191,8 @@ def intensity_figure(result: EffectiveMassMap, building: int | None = None, alph
         figure.legend(handles, labels, loc="outside upper center", ncols=min(len(mus), 6), frameon=False)
         figure.supylabel("effective fraction of live load", fontsize=9.0)
         figure.supxlabel(
-            f"intensity: factor of the scaled motions, strengths unchanged   ({storeys} storeys, {period:g} s, {roof} "
+            "intensity: factor of the scaled motions, strengths unchanged; "
+            f"bands: {100.0 * confidence:g} % intervals over the records   ({storeys} storeys, {period:g} s, {roof} "
             rf"roof, $\alpha$ = {load:g})" + "\n" + map_caption(result),
             fontsize=7.5,
         )
