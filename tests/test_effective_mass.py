@@ -52,6 +52,12 @@ def largest_drifts(scene: sm.Scene, motions: Any = MOTIONS) -> Any:
     return np.array([np.inf if run.status == "collapsed" else run.peak_drift.max() for run in runs])
 
 
+def largest_ratios(scene: sm.Scene) -> Any:
+    """As `largest_drifts`, over the heights."""
+    runs = [sm.simulate(scene, motion) for motion in MOTIONS]
+    return np.array([np.inf if run.status == "collapsed" else run.peak_drift_ratio.max() for run in runs])
+
+
 # Values of an independent run of the definition, agreed with a leapfrog of its own order.
 REFERENCE = [
     ((3, 0.47, 1.0, 4.0, 0.1), 47.624282, 0.193232213),
@@ -222,6 +228,8 @@ def share_by_hand(model: Any, real: float) -> float:
         if model[k] < real:
             if k == len(SHARES) - 1:
                 return 1.0
+            if np.isinf(model[k + 1]):  # collapses there: the share before it
+                return float(SHARES[k])
             return float(SHARES[k] + 0.01 * (real - model[k]) / (model[k + 1] - model[k]))
     return 0.0
 
@@ -376,8 +384,19 @@ def test_collapse() -> None:
     assert 0.0 <= median.value <= 1.0
     drifts = [np.inf if peak.status == "collapsed" else peak.peak_drift_ratio.max() for peak in peaks]
     assert median.real == pytest.approx(np.median(drifts), rel=1e-12)
-    assert median.interval is not None
-    assert np.isfinite(median.interval).all()
+    # Resamples by hand: without a finite real drift no share is enough, which counts as 1.
+    real = np.array(drifts)
+    models = np.array([largest_ratios(sm.attached_scene(scene, share)) for share in SHARES])
+    values, infinite = [], 0
+    for draw in np.random.default_rng(0).multinomial(7, np.full(7, 1.0 / 7.0), size=300):
+        records = np.repeat(np.arange(7), draw)
+        drift = float(np.median(real[records]))
+        infinite += np.isinf(drift)
+        values.append(1.0 if np.isinf(drift) else share_by_hand(np.median(models[:, records], axis=1), drift))
+    assert 0 < infinite < 300
+    drawn = sm.effective_mass(scene, MOTIONS, statistic="median", resamples=300)
+    assert drawn.interval == pytest.approx(np.percentile(values, [5.0, 95.0]), abs=1e-9)
+    assert drawn.curve["ratio_low"].null_count() == drawn.curve.height
 
 
 def test_tables_json_and_files(tmp_path: Path) -> None:
