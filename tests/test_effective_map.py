@@ -48,12 +48,76 @@ def test_cases_are_single_answers(small: sm.EffectiveMassMap) -> None:
         answer = sm.effective_mass(sm.Scene(building, sm.blocks_on_floors(goods, row["mu"])), motions)
         assert row["kind"] == answer.kind
         # Interpolated between shares 0.01 apart, not refined.
-        assert row["value"] == pytest.approx(answer.value, abs=5e-4)
+        assert row["value"] == pytest.approx(answer.value, abs=2e-4)
         assert row["real"] == pytest.approx(answer.real, rel=1e-12)
         assert row["eta"] == pytest.approx(answer.eta, rel=1e-12)
         assert row["slides"] == (answer.kind != "stuck")
         worst = answer.storeys["ratio"].max()
         assert row["worst_storey_ratio"] == pytest.approx(worst, rel=2e-3)
+
+
+def test_intervals_are_those_of_single_answers(small: sm.EffectiveMassMap) -> None:
+    """Same seed, same number of resamples: the same draws of the same curves."""
+    motions = [record.scaled(factor) for record, factor in zip(SUITE, small.scaling.factors, strict=True)]
+    for row in small.table.filter((pl.col("R") == 1.0) & (pl.col("mu") > 0.0)).iter_rows(named=True):
+        goods = [row["alpha"]] * row["storeys"]
+        if row["roof"] == "bare":
+            goods[-1] = 0.0
+        scene = sm.Scene(
+            sm.Building.uniform(row["storeys"], row["period"], mass=1.0), sm.blocks_on_floors(goods, row["mu"])
+        )
+        answer = sm.effective_mass(scene, motions, resamples=SMALL.resamples, seed=SMALL.seed)
+        assert (row["low"], row["high"]) == pytest.approx(answer.interval, abs=1e-9)
+
+
+@pytest.mark.xfail(strict=True, reason="the bootstrap of the map does not know that goods without friction count as 0")
+def test_interval_of_goods_without_friction(small: sm.EffectiveMassMap) -> None:
+    """`effective_mass` gives (0, 0): the real building is the bare one in every resample."""
+    frictionless = small.table.filter(pl.col("mu") == 0.0)
+    assert frictionless["value"].to_list() == [0.0] * frictionless.height
+    assert frictionless["high"].to_list() == [0.0] * frictionless.height
+
+
+def test_table(small: sm.EffectiveMassMap) -> None:
+    assert small.table.columns == [
+        *("building", "storeys", "period", "roof", "R", "alpha", "intensity", "mu", "eta", "base_shear_coefficient"),
+        *("slides", "value", "kind", "low", "high", "real", "ratio_at_0", "ratio_at_0_25", "ratio_at_1"),
+        *("worst_storey_ratio", "worst_storey_ratio_at_1", "worst_storey_envelope_ratio"),
+    ]
+    assert small.table["building"].unique().sort().to_list() == [1, 2]
+    stuck = small.table.filter(pl.col("mu") == 50.0)
+    assert stuck["kind"].to_list() == ["stuck"] * 8
+    np.testing.assert_allclose(stuck["ratio_at_1"], 1.0, rtol=1e-14)
+    np.testing.assert_allclose(small.table.filter(pl.col("mu") == 0.0)["ratio_at_0"], 1.0, rtol=1e-14)
+
+
+def test_rules_of_eta_by_hand(small: sm.EffectiveMassMap) -> None:
+    """Every sliding case by a loop: the model's curve at min(1, eta^2) and min(1, eta), over the real drift."""
+    table = small.rules()
+    for name, power in (("min(1, eta^2)", 2), ("min(1, eta)", 1)):
+        ratios = []
+        for case, row in enumerate(small.table.iter_rows(named=True)):
+            if row["slides"]:
+                share = min(1.0, row["eta"] ** power)
+                curve = small.curves[small.curve_of[case]]
+                ratios.append(float(np.interp(share, np.linspace(0.0, 1.0, 101), curve)) / row["real"])
+        found = table.row(by_predicate=pl.col("rule") == name, named=True)
+        assert found["bias"] == pytest.approx(np.prod(ratios) ** (1.0 / len(ratios)), rel=1e-12)
+        assert found["log_scatter"] == pytest.approx(np.std(np.log(ratios)), rel=1e-12)
+        assert found["unsafe"] == pytest.approx(sum(1.05 * ratio < 1.0 for ratio in ratios) / len(ratios))
+        assert found["low"] == pytest.approx(np.percentile(ratios, 5.0), rel=1e-12)
+        assert found["high"] == pytest.approx(np.percentile(ratios, 95.0), rel=1e-12)
+
+
+def test_threads_and_progress() -> None:
+    one_case = sm.EffectiveMassParameters(
+        buildings=((2, 0.38, "bare"),), mass_ratios=(1.0,), response_modification=(4.0,), mus=(0.1, 0.2)
+    )
+    seen: list[tuple[int, int]] = []
+    one = sm.effective_mass_map(SUITE, TARGET, one_case, threads=1, progress=lambda *runs: seen.append(runs))
+    two = sm.effective_mass_map(SUITE, TARGET, one_case, threads=2)
+    assert one.table.equals(two.table)
+    assert seen[-1] == ((101 + 2) * 7, (101 + 2) * 7)
 
 
 def test_rules_by_hand(small: sm.EffectiveMassMap) -> None:
@@ -109,6 +173,15 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"intensities": (0.0,)}, "intensities of effective mass map must be above 0"),
     ({"design_fraction": 25.0}, "design_fraction of effective mass map must be between 0 and 1"),
     ({"resamples": 0}, "resamples of effective mass map must be a whole number"),
+    ({"buildings": ((0, 0.4, "loaded"),)}, "storeys of effective mass map must be"),
+    ({"buildings": ((2, 0.0, "bare"),)}, "period of effective mass map must be above 0"),
+    ({"buildings": ((2, 0.4, "half"),)}, "buildings of effective mass map must be a tuple of"),
+    ({"mus": [0.2]}, "mus of effective mass map must be a tuple of at least one"),
+    ({"mus": (float("nan"),)}, "mus of effective mass map must be at least 0; got nan"),
+    ({"mass_ratios": ("all",)}, "mass_ratios of effective mass map must be a number"),
+    ({"confidence": 90.0}, "confidence of effective mass map must be between 0 and 1"),
+    ({"overstrength": -1.0}, "overstrength of effective mass map must be at least 0"),
+    ({"seed": -1}, "seed of effective mass map must be"),
     ({"model_damping": "own"}, "damping of effective mass map must be same or ratio"),
 ]
 

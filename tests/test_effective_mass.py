@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import polars as pl
 import pytest
 
 import seismass as sm
@@ -44,6 +46,18 @@ def case(storeys: int, period: float, alpha: float, reduction: float, mu: float)
     return sm.Scene(building, sm.blocks_on_floors([alpha] * (storeys - 1) + [0.0], mu))
 
 
+def largest_drifts(scene: sm.Scene, motions: Any = MOTIONS) -> Any:
+    """Largest drift of each run, one by one; infinite in a run that collapses."""
+    runs = [sm.simulate(scene, motion) for motion in motions]
+    return np.array([np.inf if run.status == "collapsed" else run.peak_drift.max() for run in runs])
+
+
+def largest_ratios(scene: sm.Scene) -> Any:
+    """As `largest_drifts`, over the heights."""
+    runs = [sm.simulate(scene, motion) for motion in MOTIONS]
+    return np.array([np.inf if run.status == "collapsed" else run.peak_drift_ratio.max() for run in runs])
+
+
 # Values of an independent run of the definition, agreed with a leapfrog of its own order.
 REFERENCE = [
     ((3, 0.47, 1.0, 4.0, 0.1), 47.624282, 0.193232213),
@@ -61,8 +75,8 @@ def test_reference_values(arguments: tuple[Any, ...], real_mm: float, value: flo
     found = sm.effective_mass(case(*arguments), MOTIONS)
     assert found.kind == "root"
     assert found.value == pytest.approx(value, abs=1e-7)
-    # Given to 1e-6 mm.
-    assert 1e3 * found.real == pytest.approx(real_mm, abs=1e-6)
+    # Given to 1e-6 mm, so to half of that.
+    assert 1e3 * found.real == pytest.approx(real_mm, abs=6e-7)
     assert found.model == pytest.approx(found.real, rel=1e-9)
     assert found.interval is not None
     assert found.interval[0] < found.value < found.interval[1]
@@ -83,8 +97,14 @@ def test_reference_strengths_coefficient_and_storeys() -> None:
 def test_all_attached_is_not_enough() -> None:
     found = sm.effective_mass(case(3, 0.47, 1.0, 4.0, 0.4), MOTIONS)
     assert (found.value, found.kind) == (1.0, "one")
-    assert 1e3 * found.real == pytest.approx(69.855967, abs=1e-6)
+    assert 1e3 * found.real == pytest.approx(69.855967, abs=6e-7)
     assert 0.0 < found.excess < 0.01
+    # The root is beyond 1, at 1.000876277: a model made here has the real drift there.
+    scene = case(3, 0.47, 1.0, 4.0, 0.4)
+    assert scene.building is not None
+    heavier = scene.building.mass + 1.000876277 * np.array([1.0, 1.0, 0.0])
+    model = sm.Scene(scene.building.replace(mass=heavier, damping=scene.building.damping_matrix))
+    assert largest_drifts(model).mean() == pytest.approx(found.real, rel=1e-8)
     assert "more than the model with all goods attached" in found.text
 
 
@@ -135,7 +155,9 @@ def test_goods_without_friction() -> None:
 
 
 def test_little_friction() -> None:
-    assert sm.effective_mass(case(3, 0.47, 1.0, 4.0, 1e-6), MOTIONS).value == 0.0
+    """As mu goes to 0 the root goes to 0 from below: the model never drifts less."""
+    found = sm.effective_mass(case(3, 0.47, 1.0, 4.0, 1e-6), MOTIONS)
+    assert (found.value, found.kind, found.roots) == (0.0, "zero", ())
 
 
 def scaled_scene(scene: sm.Scene, *, mass: float = 1.0, force: float = 1.0, mu: float = 1.0, time: float = 1.0) -> Any:
@@ -151,18 +173,22 @@ def scaled_scene(scene: sm.Scene, *, mass: float = 1.0, force: float = 1.0, mu: 
 
 def test_invariances() -> None:
     scene = case(3, 0.47, 1.0, 4.0, 0.2)
-    value = sm.effective_mass(scene, MOTIONS).value
+    plain = sm.effective_mass(scene, MOTIONS)
     others = {
         "motions, strengths and friction times three": (
             scaled_scene(scene, force=3.0, mu=3.0),
             [record.scaled(3.0) for record in MOTIONS],
+            3.0,
         ),
-        "mirror image": (scene, [record.scaled(-1.0) for record in MOTIONS]),
-        "masses, stiffnesses and strengths times 1e5": (scaled_scene(scene, mass=1e5), MOTIONS),
-        "time times two": (scaled_scene(scene, time=2.0), [record.time_scaled(2.0) for record in MOTIONS]),
+        "mirror image": (scene, [record.scaled(-1.0) for record in MOTIONS], 1.0),
+        "masses, stiffnesses and strengths times 1e5": (scaled_scene(scene, mass=1e5), MOTIONS, 1.0),
+        "time times two": (scaled_scene(scene, time=2.0), [record.time_scaled(2.0) for record in MOTIONS], 4.0),
     }
-    for name, (other, motions) in others.items():
-        assert sm.effective_mass(other, motions).value == pytest.approx(value, abs=1e-10), name
+    for name, (other, motions, drift) in others.items():
+        found = sm.effective_mass(other, motions)
+        assert found.value == pytest.approx(plain.value, abs=1e-10), name
+        assert found.real == pytest.approx(drift * plain.real, rel=1e-10), name
+        assert found.eta == pytest.approx(plain.eta, rel=1e-10), name
 
 
 def test_bisection_on_single_runs() -> None:
@@ -186,41 +212,118 @@ def test_bisection_on_single_runs() -> None:
     assert sm.effective_mass(scene, MOTIONS).value == pytest.approx(low, abs=1e-8)
 
 
-def test_interval_is_the_paired_bootstrap() -> None:
+SHARES = np.linspace(0.0, 1.0, 101)
+
+
+@pytest.fixture(scope="module")
+def drifts() -> tuple[Any, Any]:
+    """Largest drifts of the models, shape (shares, motions), and of the real building, of the case R = 2, mu = 0.3."""
     scene = case(3, 0.47, 1.0, 2.0, 0.3)
-    found = sm.effective_mass(scene, MOTIONS, resamples=200, seed=3)
-    shares = found.curve["fraction"].unique().sort().to_numpy()
-    curves = np.array(
-        [
-            [sm.simulate(sm.attached_scene(scene, share), motion).peak_drift.max() for motion in MOTIONS]
-            for share in shares
-        ]
+    return np.array([largest_drifts(sm.attached_scene(scene, share)) for share in SHARES]), largest_drifts(scene)
+
+
+def share_by_hand(model: Any, real: float) -> float:
+    """The last crossing of one curve, with the rule for curves without one."""
+    for k in range(len(SHARES) - 1, -1, -1):
+        if model[k] < real:
+            if k == len(SHARES) - 1:
+                return 1.0
+            if np.isinf(model[k + 1]):  # collapses there: the share before it
+                return float(SHARES[k])
+            return float(SHARES[k] + 0.01 * (real - model[k]) / (model[k + 1] - model[k]))
+    return 0.0
+
+
+@pytest.mark.parametrize("statistic", ["mean", "median"])
+@pytest.mark.parametrize("events", [None, ["a", "a", "b", "c", "b", "b", "d"]], ids=["records", "events"])
+def test_interval_is_the_paired_bootstrap(drifts: tuple[Any, Any], statistic: Any, events: list[str] | None) -> None:
+    """Every resample as a list of records, whole events at a time, real and model from the same list."""
+    model, real = drifts
+    recorded: list[Any] = list(MOTIONS)
+    if events is not None:
+        recorded = [record.replace(synthetic=False, event=event) for record, event in zip(MOTIONS, events, strict=True)]
+    clusters = [[k] for k in range(7)] if events is None else [[0, 1], [2, 4, 5], [3], [6]]
+    count = len(clusters)
+    take = np.mean if statistic == "mean" else np.median
+    values, ratios = [], []
+    for draw in np.random.default_rng(3).multinomial(count, np.full(count, 1.0 / count), size=200):
+        records = [k for cluster, times in zip(clusters, draw, strict=True) for k in cluster * int(times)]
+        curve, drift = take(model[:, records], axis=1), float(take(real[records]))
+        values.append(share_by_hand(curve, drift))
+        ratios.append(drift / curve)
+    found = sm.effective_mass(
+        case(3, 0.47, 1.0, 2.0, 0.3), recorded, statistic=statistic, confidence=0.8, resamples=200, seed=3
     )
-    real = np.array([sm.simulate(scene, motion).peak_drift.max() for motion in MOTIONS])
-    draws = np.random.default_rng(3).multinomial(7, np.full(7, 1.0 / 7.0), size=200)
-    values = []
-    for draw in draws:
-        difference = (curves * draw).sum(axis=1) / 7.0 - (real * draw).sum() / 7.0
-        below = np.flatnonzero(difference < 0.0)
-        if not len(below):
-            values.append(0.0)
-        elif below[-1] == len(shares) - 1:
-            values.append(1.0)
-        else:
-            k = below[-1]
-            values.append(shares[k] + 0.01 * -difference[k] / (difference[k + 1] - difference[k]))
-    assert found.interval == pytest.approx(np.percentile(values, [5.0, 95.0]), abs=1e-9)
+    # The last bits of the sums differ; interpolation multiplies them by the inverse slope of the curve.
+    assert found.interval == pytest.approx(np.percentile(values, [10.0, 90.0]), abs=1e-9)
+    assert (found.confidence, found.metadata["clusters"]) == (0.8, count)
+    largest = found.curve.filter(found.curve["storey"] == 0)
+    low, high = np.percentile(ratios, [10.0, 90.0], axis=0)
+    np.testing.assert_allclose(largest["ratio_low"], low, rtol=1e-12)
+    np.testing.assert_allclose(largest["ratio_high"], high, rtol=1e-12)
+    assert found.curve.filter(found.curve["storey"] > 0)["ratio_low"].null_count() == 3 * 101
 
 
-def test_records_of_one_earthquake_are_drawn_together() -> None:
+def test_seed_draws_other_resamples() -> None:
     scene = case(3, 0.47, 1.0, 2.0, 0.3)
-    recorded = [record.replace(synthetic=False) for record in MOTIONS]
-    one = sm.effective_mass(scene, [record.replace(event="1940") for record in recorded])
+    first, again, other = (sm.effective_mass(scene, MOTIONS, resamples=100, seed=seed) for seed in (0, 0, 1))
+    assert first.interval == again.interval
+    assert first.interval != other.interval
+    assert first.value == other.value
+    assert first.metadata["inputs_sha256"] != other.metadata["inputs_sha256"]
+
+
+def test_several_roots() -> None:
+    """Three shares give the real drift; the largest counts. Each root by single runs of its model."""
+    scene = case(2, 1.0, 1.5, 2.0, 0.2)
+    found = sm.effective_mass(scene, MOTIONS)
+    assert found.kind == "multiple"
+    assert len(found.roots) == 3
+    assert found.value == found.roots[-1]
+    assert "3 shares give the same drift" in found.text
+    real = largest_drifts(scene).mean()
+    for root in found.roots:
+        assert largest_drifts(sm.attached_scene(scene, root)).mean() == pytest.approx(real, rel=1e-9)
+    places = [0.0, *found.roots, 1.0]
+    middles = [0.5 * (low + high) for low, high in itertools.pairwise(places)]
+    above = [largest_drifts(sm.attached_scene(scene, share)).mean() > real for share in middles]
+    assert above == [False, True, False, True]
+
+
+def test_records_of_one_earthquake_give_no_interval() -> None:
+    recorded = [record.replace(synthetic=False, event="1940") for record in MOTIONS]
+    one = sm.effective_mass(case(3, 0.47, 1.0, 2.0, 0.3), recorded)
     assert one.interval is None
     assert "one earthquake" in one.text
-    pairs = [record.replace(event=f"event {number // 2}") for number, record in enumerate(recorded)]
-    assert sm.effective_mass(scene, pairs).metadata["clusters"] == 4
-    assert sm.effective_mass(scene, MOTIONS).metadata["clusters"] == 7
+    assert one.curve["ratio_low"].null_count() == one.curve.height
+    # Synthetic motions are of no earthquake, whatever they are called.
+    assert sm.effective_mass(case(2, 0.38, 0.5, 4.0, 0.2), MOTIONS).metadata["clusters"] == 7
+
+
+def test_kinetic_friction_alone_is_zero() -> None:
+    """Goods that stick before they slide without friction are not absent: the bare model drifts less."""
+    scene = case(3, 0.47, 1.0, 4.0, 0.3)
+    scene = scene.replace(blocks=[block.replace(mu_s=0.3, mu_k=0.0) for block in scene.blocks])
+    real, bare = largest_drifts(scene).mean(), largest_drifts(sm.attached_scene(scene, 0.0)).mean()
+    assert bare < 0.9 * real
+    found = sm.effective_mass(scene, MOTIONS)
+    assert found.kind == "root"
+    assert found.value > 0.0
+    assert found.model == pytest.approx(real, rel=1e-9)
+
+
+def test_damping_of_the_models() -> None:
+    """With the ratio kept, stuck goods still count as all, and `excess` says that their model drifts less."""
+    scene = case(3, 0.47, 1.0, 4.0, 50.0)
+    building = scene.building
+    assert building is not None
+    found = sm.effective_mass(scene, MOTIONS, damping="ratio")
+    model = largest_drifts(sm.Scene(building.replace(mass=building.mass + np.array([1.0, 1.0, 0.0])))).mean()
+    assert (found.value, found.kind) == (1.0, "stuck")
+    assert found.model == pytest.approx(model, rel=1e-12)
+    assert found.excess == pytest.approx(largest_drifts(scene).mean() / model - 1.0, rel=1e-9)
+    assert found.excess > 0.01
+    assert found.metadata["damping"] == "ratio"
 
 
 def test_interpolation_by_hand() -> None:
@@ -281,8 +384,19 @@ def test_collapse() -> None:
     assert 0.0 <= median.value <= 1.0
     drifts = [np.inf if peak.status == "collapsed" else peak.peak_drift_ratio.max() for peak in peaks]
     assert median.real == pytest.approx(np.median(drifts), rel=1e-12)
-    assert median.interval is not None
-    assert np.isfinite(median.interval).all()
+    # Resamples by hand: without a finite real drift no share is enough, which counts as 1.
+    real = np.array(drifts)
+    models = np.array([largest_ratios(sm.attached_scene(scene, share)) for share in SHARES])
+    values, infinite = [], 0
+    for draw in np.random.default_rng(0).multinomial(7, np.full(7, 1.0 / 7.0), size=300):
+        records = np.repeat(np.arange(7), draw)
+        drift = float(np.median(real[records]))
+        infinite += np.isinf(drift)
+        values.append(1.0 if np.isinf(drift) else share_by_hand(np.median(models[:, records], axis=1), drift))
+    assert 0 < infinite < 300
+    drawn = sm.effective_mass(scene, MOTIONS, statistic="median", resamples=300)
+    assert drawn.interval == pytest.approx(np.percentile(values, [5.0, 95.0]), abs=1e-9)
+    assert drawn.curve["ratio_low"].null_count() == drawn.curve.height
 
 
 def test_tables_json_and_files(tmp_path: Path) -> None:
@@ -297,12 +411,30 @@ def test_tables_json_and_files(tmp_path: Path) -> None:
     assert row["real_drift"] == pytest.approx(single.real, rel=1e-12)
     if single.roots:
         assert row["last_root"] == pytest.approx(single.roots[-1], abs=1e-3)
+    assert found.curve.columns[5:] == ["ratio_low", "ratio_high"]
+    assert found.storeys.columns == [
+        *("storey", "real", "model", "model_at_0", "model_at_1"),
+        *("ratio", "ratio_at_0", "ratio_at_1", "envelope_ratio"),
+    ]
+    assert found.records.columns == [
+        *("motion", "record", "event", "slips", "collapsed", "real_drift", "kind", "first_root", "last_root")
+    ]
+    assert json.loads(found.to_json()) == json.loads(json.dumps(found.to_dict()))
     document = json.loads(found.to_json())
     assert document["value"] == found.value
+    assert document["interval"] == list(found.interval or ())
+    assert document["storeys"] == found.storeys.to_dicts()
+    assert document["records"] == found.records.to_dicts()
     assert document["metadata"]["second_slope"] == [0.05, 0.05]
     names = {file.name for file in found.write(tmp_path)}
     assert names == {file.name for file in tmp_path.iterdir()}
-    assert {"curve.png", "storeys.svg", "records.csv", "curve.parquet", "effective_mass.json"} <= names
+    assert names == {
+        "effective_mass.json",
+        *(f"{table}.{form}" for table in ("curve", "storeys", "records") for form in ("parquet", "csv")),
+        *(f"{figure}.{form}" for figure in ("curve", "storeys") for form in ("png", "svg")),
+    }
+    assert (tmp_path / "curve.png").read_bytes().startswith(b"\x89PNG")
+    assert pl.read_parquet(tmp_path / "curve.parquet").equals(found.curve)
 
 
 def scene() -> sm.Scene:
@@ -347,6 +479,38 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
     (lambda: sm.effective_mass(scene(), MOTIONS, resamples=0), sm.InvalidOption, "resamples of effective mass"),
     (lambda: sm.effective_mass(scene(), MOTIONS, threads=0), sm.InvalidOption, "threads of effective mass"),
     (lambda: sm.effective_mass(scene(), MOTIONS, progress=1), sm.InvalidOption, "progress of effective mass"),
+    *[
+        (
+            lambda fractions=fractions: sm.effective_mass(scene(), MOTIONS, fractions=fractions),
+            sm.InvalidOption,
+            f"fractions of effective mass must be {requirement}",
+        )
+        for fractions, requirement in (
+            ([0.1, 1.0], r"a list in increasing order that begins with 0 .*got \[0.1, 1.0\]"),
+            ([0.0, 0.5, 0.5, 1.0], r"a list in increasing order .*got \[0.0, 0.5, 0.5, 1.0\]"),
+            ([0.0, float("nan"), 1.0], ".*nan"),
+            ("all", ".*'all'"),
+        )
+    ],
+    *[
+        (
+            lambda confidence=confidence: sm.effective_mass(scene(), MOTIONS, confidence=confidence),
+            sm.InvalidOption,
+            f"confidence of effective mass must be .*got {confidence!r}",
+        )
+        for confidence in (0, 1, -0.5, "high", None, float("nan"))
+    ],
+    (lambda: sm.effective_mass(scene(), MOTIONS, resamples=1.5), sm.InvalidOption, "resamples of .*got 1.5"),
+    (lambda: sm.effective_mass(scene(), MOTIONS, seed=-1), sm.InvalidOption, "seed of effective mass must be .*got -1"),
+    (lambda: sm.effective_mass(scene(), MOTIONS, threads="two"), sm.InvalidOption, "threads of .*got 'two'"),
+    (lambda: sm.attached_scene(scene(), 0.5, "own"), sm.InvalidOption, "damping of attached scene must be same or"),
+    (
+        lambda: sm.effective_mass_of_design(
+            lambda share: sm.Building.uniform(2 if share < 0.5 else 3, 0.4), sm.blocks_on_floors([1.0], 0.2), MOTIONS
+        ),
+        sm.InvalidScene,
+        "design of effective mass must be a Building of the same number of storeys",
+    ),
     (lambda: sm.attached_scene(scene(), 1.5), sm.InvalidOption, "fraction of attached scene must be between 0 and 1"),
     (lambda: sm.effective_mass_of_design(3, [], MOTIONS), sm.InvalidOption, "design of effective mass must be a"),
     (

@@ -126,7 +126,7 @@ class Search:
             return "collapsed"
         if not real.slides[-1].any():
             return "stuck"
-        if friction(self.scene_at(1.0)) == 0.0:  # the real building is the bare one, whatever the curve does
+        if without_friction(self.scene_at(1.0)):  # the real building is the bare one, whatever the curve does
             return "zero"
         return kind_of(is_below(model_drift, real_drift))
 
@@ -164,7 +164,7 @@ class Search:
         values[np.isinf(real_drift).any(axis=1)] = 1.0
         if kind == "stuck":
             values = np.ones(1)
-        elif friction(self.scene_at(1.0)) == 0.0:
+        elif without_friction(self.scene_at(1.0)):
             values = np.zeros(1)
         low, high = np.percentile(values, [tail, 100.0 - tail])
         with np.errstate(invalid="ignore"):
@@ -199,6 +199,11 @@ class Search:
             "clusters": self.motions.clusters,
             "shares_beside_the_grid": evaluations,
         }
+
+
+def without_friction(scene: Scene) -> bool:
+    """Whether no goods on the floors have friction; goods with mu_s alone stick until they slide."""
+    return all(block.mu_s == 0.0 for block, floor in zip(scene.blocks, scene.block_floor, strict=True) if floor > 0)
 
 
 class _Difference:
