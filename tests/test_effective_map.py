@@ -70,7 +70,6 @@ def test_intervals_are_those_of_single_answers(small: sm.EffectiveMassMap) -> No
         assert (row["low"], row["high"]) == pytest.approx(answer.interval, abs=1e-9)
 
 
-@pytest.mark.xfail(strict=True, reason="the bootstrap of the map does not know that goods without friction count as 0")
 def test_interval_of_goods_without_friction(small: sm.EffectiveMassMap) -> None:
     """`effective_mass` gives (0, 0): the real building is the bare one in every resample."""
     frictionless = small.table.filter(pl.col("mu") == 0.0)

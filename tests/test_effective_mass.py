@@ -525,3 +525,9 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
 def test_wrong_input(make: Callable[[], object], kind: type[Exception], message: str) -> None:
     with pytest.raises(kind, match=f"^{message}"):
         make()
+
+
+def test_motions_of_zeros_are_refused() -> None:
+    still = sm.Motion(np.zeros(100), 0.01)
+    with pytest.raises(sm.InvalidMotion, match=r"^motions of effective mass must be other than zero somewhere"):
+        sm.effective_mass(scene(), still)

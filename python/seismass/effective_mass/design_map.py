@@ -171,6 +171,8 @@ class EffectiveMassParameters:
             checked[name] = _number(getattr(self, name), name, least=0.0)
             if checked[name] > 1.0:
                 raise refusal(InvalidOption, name, owner, "between 0 and 1", f"{checked[name]:g}")
+        if not 0.0 < checked["confidence"] < 1.0:
+            raise refusal(InvalidOption, "confidence", owner, "above 0 and below 1", f"{checked['confidence']:g}")
         for name in ("overstrength", "second_slope", "third_slope", "damping", "scaling_period"):
             checked[name] = _number(getattr(self, name), name, least=0.0)
         checked["resamples"] = as_count(self.resamples, "resamples", owner, InvalidOption, least=1)
@@ -480,6 +482,7 @@ def _intervals(
     for case in np.flatnonzero(slides):
         against = np.broadcast_to(drawn[:, shares + case, None], (len(drawn), shares))
         ends[:, case] = np.percentile(interpolated(DEFAULT_FRACTIONS, drawn[:, :shares], against), [tail, 100.0 - tail])
+    ends[:, np.array(chosen.mus) == 0.0] = 0.0
     return ends[0], ends[1]
 
 

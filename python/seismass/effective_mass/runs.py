@@ -63,8 +63,11 @@ def named_motions(motions: Any, owner: str) -> NamedMotions:
     listed = list(given)
     if not listed:
         raise refusal(InvalidMotion, "motions", owner, "at least one Motion or Record", "none")
+    taken = [as_motion(motion, f"motion {number}", owner) for number, motion in enumerate(listed, start=1)]
+    if not any(motion.acceleration.any() for motion in taken):
+        raise refusal(InvalidMotion, "motions", owner, "other than zero somewhere", "zero throughout")
     return NamedMotions(
-        [as_motion(motion, f"motion {number}", owner) for number, motion in enumerate(listed, start=1)],
+        taken,
         [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(listed, start=1)],
         ["" if getattr(motion, "synthetic", False) else str(getattr(motion, "event", "")) for motion in listed],
     )
