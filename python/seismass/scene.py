@@ -313,7 +313,7 @@ class Building(Value):
             return super().replace(**changes)
         changed = super().replace(**changes, yield_shear=np.inf)
         strength = as_fraction_of_weight(over_weight, changed.storeys) * changed.weight
-        return changed_building(changed, yield_shear=strength)
+        return changed.replace(yield_shear=strength)
 
     @property
     def storeys(self) -> int:
@@ -645,7 +645,7 @@ class Scene(Value):
 
 
 def changed_building(building: Building, **changes: Any) -> Building:
-    """Return a building with arguments changed that no user gives: forces may follow masses that are not stated."""
+    """Return a building with arguments changed as they are: unlike in `replace`, a changed mass is not a stated one."""
     return Building(**(building._arguments() | changes))
 
 
