@@ -44,12 +44,20 @@ class Record(Value):
         Vertical ground acceleration (m/s2, up positive) at the same instants.
     remarks : tuple of str
         What a reader had to interpret or leave out.
+    azimuth : float, optional
+        Direction of positive acceleration, degrees clockwise from north; None where the source does not say.
+    network : str
+        Network or agency that recorded it; empty where the source does not say.
+    sha256 : str
+        Digest of the bytes of the source file; empty for a record that no file holds.
+    history : tuple of str
+        What was done to the samples after reading, in order.
 
     Raises
     ------
     InvalidMotion
-        No sample, a value that is not finite, a step that is not positive, components of different length, remarks that
-        are no tuple of strings.
+        No sample, a value that is not finite, a step that is not positive, components of different length, remarks or
+        history that are no tuple of strings.
     """
 
     acceleration: NDArray[np.float64]
@@ -63,6 +71,10 @@ class Record(Value):
     synthetic: bool = False
     vertical: NDArray[np.float64] | None = None
     remarks: tuple[str, ...] = ()
+    azimuth: float | None = None
+    network: str = ""
+    sha256: str = ""
+    history: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         what = f"record {self.name}" if self.name else "record"
@@ -76,10 +88,13 @@ class Record(Value):
                     f"got {len(vertical)} samples"
                 )
             object.__setattr__(self, "vertical", vertical)
-        remarks: Any = self.remarks
-        if not isinstance(remarks, tuple | list) or not all(isinstance(remark, str) for remark in remarks):
-            raise refusal(InvalidMotion, "remarks", what, "a tuple of strings", brief(remarks))
-        object.__setattr__(self, "remarks", tuple(remarks))
+        if self.azimuth is not None:
+            object.__setattr__(self, "azimuth", _number("azimuth", self.azimuth, what, positive=False))
+        for parameter in ("remarks", "history"):
+            sentences: Any = getattr(self, parameter)
+            if not isinstance(sentences, tuple | list) or not all(isinstance(one, str) for one in sentences):
+                raise refusal(InvalidMotion, parameter, what, "a tuple of strings", brief(sentences))
+            object.__setattr__(self, parameter, tuple(sentences))
 
     def _arguments(self) -> dict[str, Any]:
         return {field.name: getattr(self, field.name) for field in fields(self)}
