@@ -32,7 +32,7 @@ from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
 from seismass.long_table import long_table
 from seismass.own_building import OwnBuilding
-from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
+from seismass.records import Record, Suite, builtin_suite, read_record, read_records, read_suite
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
 from seismass.scene_file import SceneFile, read_scene
@@ -91,6 +91,7 @@ __all__ = [
     "long_table",
     "read_building",
     "read_record",
+    "read_records",
     "read_scene",
     "read_suite",
     "response_spectrum",
