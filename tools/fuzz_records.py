@@ -47,10 +47,10 @@ OUTCOMES = {
     "labels": "same samples and step, another event, station, component or direction",
     "fewer": "fewer channels, each as in the unchanged file",
     "remark": "different samples or step, with a remark that the unchanged file has not",
-    "no count": "another number of samples in text of columns that states none, as the remark of the unchanged file says",
+    "no count": "another number of samples in text of columns that states none, as a remark says of any such file",
     "value": "the same number of samples, some of other values (a digit, a sign): nothing in the file contradicts",
     "order": "the same number of samples, lines or columns of them in another order or in place of others",
-    "step": "the same samples, another step: a digit of the only step that the file states",
+    "step": "another step: a digit of the only step that the file states",
     "defect: silent": "**defect**: different without a remark",
     "defect: crash": "**defect**: another exception",
     "defect: slow": f"**defect**: more than {SECONDS_PER_FILE:g} s",
@@ -78,6 +78,7 @@ class Tally:
 
     @property
     def total(self) -> int:
+        """Number of files read."""
         return sum(self.counts.values())
 
 
@@ -293,9 +294,6 @@ def classify(original: Original, records: tuple[Record, ...]) -> str:
     if any(a.samples != b.samples for a, b in zip(records, before, strict=True)):
         same_step = all(a.dt == b.dt and a.unit == b.unit for a, b in zip(records, before, strict=True))
         return "no count" if NO_COUNT in records[0].remarks and same_step else "defect: silent"
-    if any(a.dt != b.dt for a, b in zip(records, before, strict=True)):
-        same = all(np.array_equal(a.acceleration, b.acceleration) for a, b in zip(records, before, strict=True))
-        return "step" if same else "defect: silent"
     changed = []
     for a, b in zip(records, before, strict=True):
         # The mean that is removed from K-NET counts moves with every sample.
@@ -304,6 +302,8 @@ def classify(original: Original, records: tuple[Record, ...]) -> str:
         changed.append(np.flatnonzero(np.abs(moved) > 1e-12 * b.pga))
     if all(len(at) == a.samples for at, a in zip(changed, records, strict=True)):
         return "defect: silent"  # another unit, sign or scale
+    if any(a.dt != b.dt for a, b in zip(records, before, strict=True)):
+        return "step" if sum(map(len, changed)) <= 4 else "defect: silent"
     return "value" if sum(map(len, changed)) <= 4 else "order"
 
 

@@ -182,7 +182,8 @@ def _csmip_channel(level: int, pairs: bool, channel: int, channels: int) -> str:
     )
 
 
-ESM_KEYS = """EVENT_NAME EVENT_ID EVENT_DATE_YYYYMMDD EVENT_TIME_HHMMSS EVENT_LATITUDE_DEGREE EVENT_LONGITUDE_DEGREE
+ESM_KEYS = """\
+EVENT_NAME EVENT_ID EVENT_DATE_YYYYMMDD EVENT_TIME_HHMMSS EVENT_LATITUDE_DEGREE EVENT_LONGITUDE_DEGREE
 EVENT_DEPTH_KM HYPOCENTER_REFERENCE MAGNITUDE_W MAGNITUDE_W_REFERENCE MAGNITUDE_L MAGNITUDE_L_REFERENCE FOCAL_MECHANISM
 NETWORK STATION_CODE STATION_NAME STATION_LATITUDE_DEGREE STATION_LONGITUDE_DEGREE STATION_ELEVATION_M LOCATION
 SENSOR_DEPTH_M VS30_M/S SITE_CLASSIFICATION_EC8 MORPHOLOGIC_CLASSIFICATION EPICENTRAL_DISTANCE_KM
@@ -191,7 +192,7 @@ SAMPLING_INTERVAL_S NDATA DURATION_S STREAM UNITS INSTRUMENT INSTRUMENT_ANALOG/D
 INSTRUMENTAL_DAMPING FULL_SCALE_G N_BIT_DIGITAL_CONVERTER PGA_CM/S^2 TIME_PGA_S BASELINE_CORRECTION FILTER_TYPE
 FILTER_ORDER LOW_CUT_FREQUENCY_HZ HIGH_CUT_FREQUENCY_HZ LATE/NORMAL_TRIGGERED DATABASE_VERSION HEADER_FORMAT DATA_TYPE
 PROCESSING DATA_TIMESTAMP_YYYYMMDD_HHMMSS DATA_LICENSE DATA_CITATION DATA_CREATOR ORIGINAL_DATA_MEDIATOR_CITATION
-ORIGINAL_DATA_MEDIATOR ORIGINAL_DATA_CREATOR_CITATION ORIGINAL_DATA_CREATOR USER1 USER2 USER3 USER4 USER5""".split()
+ORIGINAL_DATA_MEDIATOR ORIGINAL_DATA_CREATOR_CITATION ORIGINAL_DATA_CREATOR USER1 USER2 USER3 USER4 USER5"""
 
 
 def esm(**changes: str) -> str:
@@ -216,14 +217,14 @@ def esm(**changes: str) -> str:
         "DATA_TYPE": "ACCELERATION",
         **changes,
     }
-    header = "".join(f"{key}: {stated.get(key, '')}\n" for key in ESM_KEYS)
+    header = "".join(f"{key}: {stated.get(key, '')}\n" for key in ESM_KEYS.split())
     return header + "".join(f"{value:.6f}\n" for value in values)
 
 
 def knet(*, direction: str = "E-W") -> str:
     """Return a K-NET file, or one of KiK-net by its number of direction."""
     per_count = 3920.0 / 6182761.0
-    counts = [round(value / per_count) - 12000 for value in motion()]
+    counts = [round(value / per_count) - 12000 for value in motion(points=200)]  # whole seconds
     mean = sum(counts) / len(counts)
     largest = max(abs(count - mean) for count in counts) * per_count
     header = {
@@ -238,7 +239,7 @@ def knet(*, direction: str = "E-W") -> str:
         "Station Height(m)": "0",
         "Record Time": "2000/01/01 00:00:10",
         "Sampling Freq(Hz)": f"{1.0 / DT:.0f}Hz",
-        "Duration Time(s)": f"{POINTS * DT:.0f}",
+        "Duration Time(s)": f"{200 * DT:.0f}",
         "Dir.": direction,
         "Scale Factor": "3920(gal)/6182761",
         "Max. Acc. (gal)": f"{largest:.3f}",

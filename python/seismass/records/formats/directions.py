@@ -13,7 +13,7 @@ _WORDS: Final = {
 }
 _DEGREES = re.compile(r"(\d{1,3})(?:\.0*)?\s*(?:DEG(?:REES?)?)?(?:\s*\(.*)?", re.IGNORECASE)
 _QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])", re.IGNORECASE)
-_SEED = re.compile(r"[A-Z][HNGLP]([NEZ])")
+_SEED = re.compile(r"[A-Z][HNGLP]([NEZ])\d{0,2}")
 _UP: Final = frozenset({"UP", "U", "V", "Z", "UD", "VER", "VERT", "VERTICAL", "DOWN", "DWN"})
 
 
@@ -44,6 +44,6 @@ def is_vertical(component: str) -> bool:
     words = re.findall(r"[A-Z0-9]+", component.upper())
     if not words:
         return False
-    if words[0] in {"V", "Z", "U"} or re.fullmatch(r"[A-Z][HNGL]Z|UD[12]", words[0]):
+    if words[0] in {"V", "Z", "U"} or re.fullmatch(r"[A-Z][HNGLP]Z\d{0,2}|UD[12]", words[0]):
         return True
     return any(word in _UP and len(word) > 1 for word in words)
