@@ -215,7 +215,11 @@ WRONG: list[tuple[str, Callable[[str], str], str]] = [
     ("made.EW", without_line("Mag."), r"line 5 of made.EW must be its 'Mag.'"),
     ("made.smc", swapped("203", "202"), r"line \d+ of made.smc must be 2 numbers of 10 characters; got 30"),
     ("made.smc", swapped("    -32768         2\n", "    -32768         3\n"), r"comments of made.smc must be 3 lines"),
-    ("made.smc", swapped("    -32768         2\n", "    -32768         1\n"), r"comments of made.smc must be 1, .* more"),
+    (
+        "made.smc",
+        swapped("    -32768         2\n", "    -32768         1\n"),
+        r"comments of made.smc must be 1, .* more",
+    ),
     ("made.smc", with_last_line(" 1.0000E+0\n"), r"points of made.smc must be 203, as its header says; got more"),
     ("made_pairs.smc", swapped(" 2.0000E-2", " 2.5000E-2"), r"times of made_pairs.smc must be uniform.*volume 2"),
     ("made.txt", swapped("npts: 203", "npts: 205"), r"points of made.txt must be 205, as its header says; got 203"),

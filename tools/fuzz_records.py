@@ -34,6 +34,9 @@ SECONDS_PER_FILE = 5.0
 MEMORY_GROWTH_KB = 512 * 1024
 """A file that takes longer, or makes the process larger by more, is a defect. The largest file read has 1.1 MB."""
 
+SCALE_ROUNDING = 1e-4
+"""A scale that is off by less is within the digits of the peak in the header."""
+
 ARGUMENTS: dict[str, dict[str, object]] = {
     "4_HECTOR000.txt": {"unit": "g"},
     "el_centro.th": {"unit": "g", "dt": 0.02},
@@ -48,7 +51,7 @@ OUTCOMES = {
     "fewer": "fewer channels, each as in the unchanged file",
     "remark": "different samples or step, with a remark that the unchanged file has not",
     "no count": "another number of samples in text of columns that states none, as a remark says of any such file",
-    "value": "the same number of samples, some of other values (a digit, a sign): nothing in the file contradicts",
+    "value": "the same number of samples, some of other values (a digit, a sign, the last of a scale): nothing contradicts",
     "order": "the same number of samples, lines or columns of them in another order or in place of others",
     "step": "another step: a digit of the only step that the file states",
     "defect: silent": "**defect**: different without a remark",
@@ -300,8 +303,13 @@ def classify(original: Original, records: tuple[Record, ...]) -> str:
         moved = a.acceleration - b.acceleration
         moved -= np.median(moved)
         changed.append(np.flatnonzero(np.abs(moved) > 1e-12 * b.pga))
-    if all(len(at) == a.samples for at, a in zip(changed, records, strict=True)):
-        return "defect: silent"  # another unit, sign or scale
+    if all(len(at) > 0.9 * a.samples for at, a in zip(changed, records, strict=True)):
+        # Another unit, sign or scale, but for the last digits of K-NET's scale factor, below those of its peak.
+        rounding = all(
+            np.max(np.abs(a.acceleration - b.acceleration)) < SCALE_ROUNDING * b.pga
+            for a, b in zip(records, before, strict=True)
+        )
+        return "value" if rounding else "defect: silent"
     if any(a.dt != b.dt for a, b in zip(records, before, strict=True)):
         return "step" if sum(map(len, changed)) <= 4 else "defect: silent"
     return "value" if sum(map(len, changed)) <= 4 else "order"

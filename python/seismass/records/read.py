@@ -201,8 +201,10 @@ def decoded(content: bytes, source: Path) -> str:
     RecordFormatError
         They are binary, or there is nothing but blanks.
     """
-    if b"\0" in content[:HEAD_BYTES] and content.count(b"\0") <= MOST_NULS and content[:HEAD_BYTES].isascii():
-        content = content.replace(b"\0", b" ")  # some SMC files fill their station code so
+    if b"\0" in content and content[:HEAD_BYTES].isascii():  # some SMC files are padded, and so is their station code
+        content = content.rstrip(b"\0\x1a\r\n\t ") or content
+        if content.count(b"\0", 0, HEAD_BYTES) <= MOST_NULS:
+            content = content[:HEAD_BYTES].replace(b"\0", b" ") + content[HEAD_BYTES:]
     if b"\0" in content:
         raise RecordFormatError(f"content of {source.name} must be text; got binary data")
     try:

@@ -39,6 +39,25 @@ def azimuth_of(component: str) -> float | None:
     return _WORDS.get(re.sub(r"[^A-Z]", "", text))
 
 
+def direction_remark(component: str, number: float | None, vertical_codes: tuple[int, ...]) -> str | None:
+    """Return a remark where a header's text and its integer disagree on the direction of a component.
+
+    Parameters
+    ----------
+    component : str
+        As the text names it.
+    number : float, optional
+        The integer header's degrees or code; None where it is missing.
+    vertical_codes : tuple of int
+        What the format writes for vertical components.
+    """
+    azimuth = azimuth_of(component)
+    if number is None or (azimuth is None and not is_vertical(component)):
+        return None
+    agrees = number in vertical_codes if azimuth is None else 0.0 <= number <= 360.0 and number % 360.0 == azimuth
+    return None if agrees else f"direction is {component} in the text of the header and {number:g} in its integers"
+
+
 def is_vertical(component: str) -> bool:
     """Whether a component is one of the vertical direction: UP, V, U-D, UD2, HNZ, "VERTICAL COMP"."""
     words = re.findall(r"[A-Z0-9]+", component.upper())
