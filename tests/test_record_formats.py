@@ -18,6 +18,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from seismass.errors import RecordFormatError
 from seismass.records import Record, read_record, read_records, read_suite
@@ -551,3 +553,79 @@ def _seconds(file: Path) -> float:
     start = time.process_time()
     read_record(file, dt=0.01)
     return time.process_time() - start
+
+
+def test_any_file_under_any_format_is_a_record_or_a_format_error(tmp_path: Path) -> None:
+    for name, content in {**FILES, "empty": b"\n", "word": b"x", "star": b"*\n*\n" * 9}.items():
+        file = put(tmp_path, name, content)
+        for one in FORMATS:
+            for cut in (len(content), len(content) // 2, len(content) // 9, 1):
+                put(tmp_path, name, content[:cut])
+                try:
+                    records = read_records(file, format=one.name)  # type: ignore[arg-type]
+                except RecordFormatError:
+                    continue
+                assert all(record.samples > 0 for record in records)
+
+
+@given(st.sampled_from(sorted(FILES)), st.data())
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_pieces_in_a_file_are_a_record_or_a_format_error(tmp_path: Path, name: str, data: st.DataObject) -> None:
+    content = FILES[name]
+    at = data.draw(st.integers(0, len(content)))
+    pieces = [
+        "1e308",
+        "9" * 5000,
+        "-",
+        " ",
+        "\n",
+        "1e-999",
+        "0" * 400 + ".5",
+        "\x0b",
+        "٣",
+        "NaN",
+        "(8F10.3)",
+        "\x85",
+        "E",
+    ]
+    piece = data.draw(st.one_of(st.sampled_from(pieces), st.text(max_size=20)))
+    left_out = data.draw(st.integers(0, 30))
+    try:
+        records = read_records(put(tmp_path, name, content[:at] + piece.encode() + content[at + left_out :]))
+    except RecordFormatError:
+        return
+    assert all(np.isfinite(record.acceleration).all() for record in records)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "NPTS" + " " * 300_000,
+        "a" * 300_000,
+        "dt(" * 100_000,
+        " " * 300_000 + "x",
+        "PEAK ACCELERATION =" + " " * 300_000,
+    ],
+)
+@pytest.mark.parametrize(
+    "name", ["made.AT2", "made_v2.cosmos", "made.V2", "made.smc", "made.ASC", "made.EW", "made.txt"]
+)
+def test_long_lines_take_no_time(tmp_path: Path, name: str, line: str) -> None:
+    """No pattern searches a long line again and again; a quadratic one would need minutes."""
+    lines = FILES[name].decode().splitlines()
+    start = time.process_time()
+    for at in (0, 1, 3, 20, 45, 46):
+        text = "\n".join([*lines[:at], line, *lines[at:]])
+        try:
+            read_records(put(tmp_path, name, text))
+        except RecordFormatError:
+            continue
+    assert time.process_time() - start < 5.0
+
+
+def test_numbers_too_large_for_a_motion_are_refused(tmp_path: Path) -> None:
+    file = put(tmp_path, "a.txt", "acceleration (g)\n" + "1e308\n" * 9)
+    with pytest.raises(RecordFormatError, match=r"samples of a.txt must be those of a motion; got: .*inf at sample 0"):
+        read_record(file, dt=0.01)
+    large = read_record(put(tmp_path, "a.txt", "acceleration (cm/s2)\n" + "1e300\n-1e300\n" * 200), dt=0.01)
+    assert "is above 5 g" in large.remarks[1]

@@ -16,6 +16,7 @@ import polars as pl
 from seismass._values import as_path, brief, printable, refusal
 from seismass.errors import InvalidMotion, RecordFormatError
 from seismass.records.formats import COLUMNS, NotRead
+from seismass.records.formats.columns import is_row_of_numbers
 from seismass.records.formats.directions import is_vertical
 from seismass.records.read import (
     HEAD_BYTES,
@@ -36,9 +37,7 @@ _VERTICAL_NAME = re.compile(
     re.IGNORECASE,
 )
 _SAID_BY_NAME = "files are read by name or from a list, where their units can be given"
-_NUMBERS = re.compile(r"[\s\d.,;+-]*\d[\d.,;+\s-]*(?:[eEdD][+-]?\d+[\d.,;+\seEdD-]*)?")
-
-LARGEST_COLUMNS = 64 * 1024 * 1024
+LARGEST_COLUMNS = 32 * 1024 * 1024
 """Text of columns above so many bytes is left to be read by name."""
 
 _COLUMNS = ("number", "file", "channel", "name", "event", "station", "component", "dt", "unit", "scale", "note")
@@ -240,7 +239,7 @@ def _read_columns(file: Path, head: str, size: int) -> tuple[Record, ...] | str:
     lines = head.splitlines()[:-1] if size > len(head) else head.splitlines()
     header: list[str] = []
     for line in lines:
-        if _NUMBERS.fullmatch(line):
+        if is_row_of_numbers(line):
             break
         header.append(line)
     if len(header) == len(lines) or stated_unit("\n".join(header)) is None or size > LARGEST_COLUMNS:

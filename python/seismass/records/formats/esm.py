@@ -53,10 +53,10 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     kind = header.get("DATA_TYPE", "").upper()
     if kind not in ("ACCELERATION", ""):
         raise NotRead(f"quantity of {file} must be acceleration; got {kind.lower()}: read the .ACC.ASC file beside it")
-    unit = stated_unit(f"units: {header.get('UNITS', '')}")
+    unit = stated_unit(f"units: {header.get('UNITS', '')[:40]}")
     if unit is None:
         raise RecordFormatError(
-            f"UNITS of {file} must be an acceleration in cm/s^2; got {header.get('UNITS', 'none')!r}"
+            f"UNITS of {file} must be an acceleration in cm/s^2; got {header.get('UNITS', 'none')[:40]!r}"
         )
     unit = agreed_unit(unit, arguments.unit, file)
     written = header.get("SAMPLING_INTERVAL_S", "")
@@ -64,7 +64,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         raise RecordFormatError(f"SAMPLING_INTERVAL_S of {file} must be a number; got {written!r}")
     dt = agreed_step(step_in_seconds(written, "s", file), arguments.dt, f"{written} s", file)
     count = header.get("NDATA", "")
-    if not count.isdecimal():
+    if not re.fullmatch(r"\d{1,9}", count):
         raise RecordFormatError(f"NDATA of {file} must be a whole number; got {count!r}")
     tokens, values = parse_numbers(enumerate(lines[start:], start=start + 1), file)
     if len(values) != int(count) or not len(values):

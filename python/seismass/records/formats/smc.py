@@ -15,6 +15,7 @@ import numpy as np
 from seismass._values import printable
 from seismass.errors import RecordFormatError
 from seismass.records.formats.common import (
+    LINE_WIDTH,
     Arguments,
     Channel,
     Format,
@@ -50,7 +51,7 @@ def _recognises(head: str) -> bool:
         and lines[1].startswith("*")
         and lines[_TEXT - 1].startswith("*")
         and "station =" in head
-        and (lines[0].startswith("*") or _KIND.fullmatch(lines[0]) is not None)
+        and (lines[0].startswith("*") or _KIND.fullmatch(lines[0].strip()[:LINE_WIDTH]) is not None)
     )
 
 
@@ -58,7 +59,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     file = source.name
     refuse_skip(arguments, SMC.title, file)
     lines = text.splitlines()
-    kind = _KIND.fullmatch(lines[0])
+    kind = _KIND.fullmatch(lines[0].strip()[:LINE_WIDTH])
     quantity = kind["kind"].lower() if kind else "a record of no volume"
     if "accelerogram" not in quantity:
         raise NotRead(
@@ -96,13 +97,13 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         remarks.append("uncorrected accelerogram: neither filtered nor corrected for its baseline")
     if whole[17] == 1:
         remarks.append("the header flags a problem, which its comments describe")
-    station = _STATION.match(lines[5].strip())
+    station = _STATION.match(lines[5].strip()[:LINE_WIDTH])
     component = station["component"].strip() if station else ""
     horizontal = whole[13]
     azimuth = azimuth_of(component)
     if azimuth is None and not is_vertical(component) and horizontal not in (missing, None) and whole[12] == 90:
         azimuth = float(horizontal or 0.0) % 360.0
-    agency = _SOURCE.search(lines[7])
+    agency = _SOURCE.search(lines[7][:LINE_WIDTH])
     record = Record(
         acceleration=block.values * ACCELERATION_UNITS["cm/s2"],
         dt=dt,
