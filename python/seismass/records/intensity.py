@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Final, cast
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 import polars as pl
@@ -65,32 +65,39 @@ def integrals(acceleration: FloatArray, dt: float) -> tuple[FloatArray, FloatArr
 def peak_velocity(acceleration: FloatArray, dt: float, velocity: FloatArray) -> FloatArray:
     """Return the largest absolute velocity in continuous time (m/s): at a sample, or where acceleration is zero."""
     before, after = acceleration[..., :-1], acceleration[..., 1:]
-    peak = np.max(np.abs(velocity), axis=-1)
-    turns = before * after < 0.0
-    if turns.any():
-        share = np.divide(before, before - after, out=np.zeros(before.shape), where=turns)
-        turning = np.abs(velocity[..., :-1] + 0.5 * dt * share * before)
-        peak = np.maximum(peak, np.max(turning, axis=-1))
-    return cast(FloatArray, peak)
+    within = before * after < 0.0
+    first, last = before[within], after[within]
+    turns = np.zeros(within.shape)
+    turns[within] = velocity[..., :-1][within] + 0.5 * dt * first * (first / (first - last))
+    return _largest(velocity, turns)
 
 
 def peak_displacement(
     acceleration: FloatArray, dt: float, velocity: FloatArray, displacement: FloatArray
 ) -> FloatArray:
     """Return the largest absolute displacement in continuous time (m): at a sample, or where velocity is zero."""
-    peak = np.max(np.abs(displacement), axis=-1)
-    start, slope = velocity[..., :-1], dt * acceleration[..., :-1]
-    bend = 0.5 * dt * (acceleration[..., 1:] - acceleration[..., :-1])
-    # Velocity within a step is start + slope s + bend s^2 for s from 0 to 1; both roots without cancellation.
+    before, after = acceleration[..., :-1], acceleration[..., 1:]
+    # Velocity may be zero within a step if it changes sign or turns there.
+    within = (velocity[..., :-1] * velocity[..., 1:] < 0.0) | (before * after < 0.0)
+    start, slope = velocity[..., :-1][within], dt * before[within]
+    bend = 0.5 * dt * (after[within] - before[within])
+    # It is start + slope s + bend s^2 for s from 0 to 1; both roots without cancellation, 0 for those outside.
     discriminant = slope * slope - 4.0 * bend * start
     real = discriminant >= 0.0
     w = -0.5 * (slope + np.copysign(np.sqrt(np.where(real, discriminant, 0.0)), slope))
-    for above, below in ((w, bend), (start, w)):
-        share = np.divide(above, below, out=np.zeros(w.shape), where=real & (np.abs(below) > np.abs(above)))
-        share = np.where(share > 0.0, share, 0.0)
-        moved = dt * share * (start + share * (0.5 * slope + share * bend / 3.0))
-        peak = np.maximum(peak, np.max(np.abs(displacement[..., :-1] + moved), axis=-1, initial=0.0))
-    return cast(FloatArray, peak)
+    turns = np.zeros((2, *within.shape))
+    for turn, above, below in zip(turns, (w, start), (bend, w), strict=True):
+        inside = real & (np.abs(above) < np.abs(below)) & ((above > 0.0) == (below > 0.0))
+        s = np.divide(above, below, out=np.zeros(w.shape), where=inside)
+        moved = dt * s * (start + s * (0.5 * slope + s * bend / 3.0))
+        turn[within] = displacement[..., :-1][within] + moved
+    return _largest(displacement, *turns)
+
+
+def _largest(*values: FloatArray) -> FloatArray:
+    """Largest absolute value over the last axes."""
+    largest = [np.max(np.abs(part), axis=-1, initial=0.0) for part in values]
+    return np.asarray(np.max(largest, axis=0), dtype=np.float64)
 
 
 def build_up(acceleration: FloatArray, dt: float) -> FloatArray:
@@ -101,7 +108,7 @@ def build_up(acceleration: FloatArray, dt: float) -> FloatArray:
     before, after = acceleration[..., :-1], acceleration[..., 1:]
     built = np.zeros(acceleration.shape)
     np.cumsum((before * before + before * after + after * after) * (dt / 3.0), axis=-1, out=built[..., 1:])
-    return cast(FloatArray, built * (math.pi / (2.0 * STANDARD_GRAVITY)))
+    return built * (math.pi / (2.0 * STANDARD_GRAVITY))
 
 
 def time_of_share(acceleration: FloatArray, dt: float, share: float) -> float:

@@ -206,7 +206,7 @@ class Record(Value):
         return intensity.bracketed_duration(self.acceleration, self.dt, threshold_g)
 
     def measures(self) -> dict[str, float]:
-        """Return peaks, intensities, durations and the ends of velocity and displacement by name; see `intensity_table`."""
+        """Return peaks, intensities, durations and ends by name; `intensity_table` says their units."""
         return intensity.measures(self)
 
     @property
@@ -265,15 +265,15 @@ class Record(Value):
 
     def resampled(self, dt: float) -> Record:
         """Return the record at another time step; see `seismass.records.processing.resampled`."""
-        from seismass.records import processing
+        from seismass.records.processing import resampled
 
-        return processing.resampled(self, dt)
+        return resampled(self, dt)
 
     def baseline_corrected(self, order: int = 1, fit: Literal["velocity", "acceleration"] = "velocity") -> Record:
         """Return the record less a polynomial; see `seismass.records.processing.baseline_corrected`."""
-        from seismass.records import processing
+        from seismass.records.processing import baseline_corrected
 
-        return processing.baseline_corrected(self, order, fit)
+        return baseline_corrected(self, order, fit)
 
     def band_passed(
         self,
@@ -285,9 +285,9 @@ class Record(Value):
         keep_pads: bool = False,
     ) -> Record:
         """Return the record within a band of frequencies; see `seismass.records.processing.band_passed`."""
-        from seismass.records import processing
+        from seismass.records.processing import band_passed
 
-        return processing.band_passed(self, low_hz, high_hz, order, taper=taper, keep_pads=keep_pads)
+        return band_passed(self, low_hz, high_hz, order, taper=taper, keep_pads=keep_pads)
 
     def with_vertical(self, vertical: Record) -> Record:
         """Return the record with the accelerations of `vertical` beside its own, both cut to the shorter.
