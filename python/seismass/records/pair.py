@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from itertools import takewhile
 from typing import Any, Final, Literal
@@ -250,7 +250,11 @@ class Pair(Value):
 
     def scaled(self, factor: float) -> Pair:
         """Return the pair with every component multiplied by one factor."""
-        return self.replace(**{name: record.scaled(factor) for name, record in self._named().items()})
+        return self.each(lambda record: record.scaled(factor))
+
+    def each(self, change: Callable[[Record], Record]) -> Pair:
+        """Return the pair with every component changed in one way, as `pair.each(lambda r: r.resampled(0.005))`."""
+        return self.replace(**{name: change(record) for name, record in self._named().items()})
 
     def _labels(self) -> str:
         one, other = (record.component or record.name or "?" for record in (self.first, self.second))
