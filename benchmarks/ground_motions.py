@@ -151,13 +151,13 @@ def text(shared: Path, *, quick: bool) -> str:
     measured = table(("eqsig less ours", "least", "median", "largest"), measures_rows(chosen))
     return (
         f"RotD50, 5 % damping, {len(listed)} pairs at {len(listed[0].periods)} periods: differences from the flatfile "
-        "(%) by band of periods, least\nto largest, and processor time of one thread for all of them.\n\n"
+        "(%) by band of periods, least to\nlargest, and processor time of one thread for all of them.\n\n"
         f"{spectra}\n\n"
         "eqsig has the recurrence of Nigam and Jennings (1969), as ours, and takes the largest sample of the response "
         "of each\ncombination. With the samples refined on the lines between them it gives the flatfile's numbers "
-        "themselves: these are peaks\nof at least ten samples a period, and ours differ from them by what lies between "
-        "the samples. pyrotd multiplies by transfer\nfunctions in the frequency domain, where a record repeats without rest unless zeros "
-        "are added.\n\n"
+        "themselves: these are\npeaks at no fewer than ten samples a period, and ours differ from them by what lies "
+        "between the samples. pyrotd multiplies\nby transfer functions in the frequency domain, where a record repeats "
+        "without rest unless zeros are added.\n\n"
         f"Measures of the {2 * len(listed)} horizontal components, which eqsig sums over samples:\n\n{measured}\n\n"
         f"{cpu()}; Python {sys.version.split()[0]}, numpy {np.__version__}."
     )

@@ -126,14 +126,16 @@ def flatfile_tables(listed: list[Listed]) -> str:
     ]
     worst = np.unravel_index(np.argmax(all_of_them), all_of_them.shape)
     item, period = listed[int(worst[0])], float(listed[0].periods[int(worst[1])])
+    least, largest = signed(float(all_of_them.min())), signed(float(all_of_them.max()))
+    long_periods = np.abs(all_of_them[:, listed[0].periods >= 1.0]).max()
     return (
         f"Differences of ours from the flatfile (%), RotD50, {len(listed)} pairs at {all_of_them.shape[1]} periods:\n\n"
         f"{table(header, rows)}\n\n"
         f"{table(('period (s)', 'least', 'median', 'largest'), by_period, 0)}\n\n"
-        f"The least difference is {signed(float(all_of_them.min()))} %, the largest "
-        f"{signed(float(all_of_them.max()))} % (RSN{item.sequence} at {period:g} s, {period / item.pair.dt:.0f} samples "
-        "a period): the\nflatfile's are peaks at samples, as the table of other programs shows, and ours in continuous "
-        f"time. From 1 s on the two\nagree within {np.abs(all_of_them[:, listed[0].periods >= 1.0]).max():.2f} %."
+        f"The least difference is {least} %, the largest {largest} % (RSN{item.sequence} at {period:g} s, "
+        f"{period / item.pair.dt:.0f} samples a period): the\nflatfile's are peaks at samples, as the table of other "
+        "programs shows, and ours in continuous time. From 1 s on the two\n"
+        f"agree within {long_periods:.2f} %."
     )
 
 
