@@ -1,0 +1,135 @@
+"""The db4 wavelet of pulse identification: its continuous transform and one scaled wavelet as a history.
+
+PyWavelets gives the wavelet and is imported on first use. Its own continuous transform takes no db4, so that this one is
+built from the integral of the wavelet, as MATLAB's `cwt` is, by convolution through FFT.
+"""
+
+from __future__ import annotations
+
+import functools
+from typing import Any, Final
+
+import numpy as np
+from scipy.signal import fftconvolve
+
+from seismass._values import FloatArray, frozen
+from seismass.errors import MissingPackage
+
+WAVELET: Final = "db4"
+SUPPORT: Final = 7
+"""Width of the wavelet in units of its scale."""
+PERIOD_OF_SCALE: Final = 1.4
+"""Period of the wavelet over scale times step: one over its centre frequency, 5/7."""
+_LEVEL: Final = 4
+"""Level of the wavelet that is subtracted (Shahi and Baker, 2014): sixteen points per unit, linear between them."""
+_FINE_LEVEL: Final = 10
+
+
+def _pywt() -> Any:
+    try:
+        import pywt
+    except ImportError as error:
+        raise MissingPackage(
+            "PyWavelets of pulse identification must be installed (pip install seismass[pulses]); "
+            f"got {str(error) or 'no such package'}"
+        ) from error
+    return pywt
+
+
+@functools.cache
+def _wavelet(level: int) -> tuple[FloatArray, FloatArray]:
+    """Places from 0 to 7 and values of the wavelet of unit energy there."""
+    _, psi, places = _pywt().Wavelet(WAVELET).wavefun(level)
+    return frozen(places), frozen(psi)
+
+
+@functools.cache
+def _integral() -> tuple[FloatArray, FloatArray]:
+    """Places and the integral of the wavelet from 0 to there."""
+    places, psi = _wavelet(_FINE_LEVEL)
+    return places, frozen(np.cumsum(psi) * (places[1] - places[0]))
+
+
+def _filter(scale: int) -> FloatArray:
+    """Weights of a transform at one scale: the integral of the wavelet over each sample, in order of time.
+
+    The wavelet is centred on weight `_half(scale)`.
+    """
+    places, integral = _integral()
+    half = _half(scale)
+    edges = (np.arange(-half, half + 2) - 0.5) / scale + 0.5 * SUPPORT
+    return frozen(np.diff(np.interp(edges, places, integral)) * np.sqrt(scale))
+
+
+def _half(scale: int) -> int:
+    """Samples from the centre of a wavelet to its end."""
+    return (SUPPORT * scale + 1) // 2
+
+
+def transform(velocity: FloatArray, scale: int) -> FloatArray:
+    """Return the wavelet coefficient centred on each sample, at one scale.
+
+    Parameters
+    ----------
+    velocity : ndarray, shape (samples,)
+        The history, taken as zero before and after.
+    scale : int
+        Scale of the wavelet in samples.
+
+    Returns
+    -------
+    ndarray, shape (samples,)
+        Sum of the history times the wavelet of unit energy, in the unit of the history times the root of a sample.
+    """
+    return np.asarray(fftconvolve(velocity, _filter(scale)[::-1], mode="full")[_half(scale) :][: len(velocity)])
+
+
+def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> FloatArray:
+    """Return the coefficients at one scale, centred on the samples from `first` to `last`, both included.
+
+    As `transform`, of what the wavelets there touch alone.
+    """
+    half = _half(scale)
+    start, stop = first - half, last + half + 1
+    touched = velocity[max(0, start) : stop]
+    padded = np.pad(touched, (max(0, -start), max(0, stop - len(velocity))))
+    return np.asarray(fftconvolve(padded, _filter(scale)[::-1], mode="valid"))
+
+
+def coefficient(velocity: FloatArray, scale: int, sample: int) -> float:
+    """Return the one coefficient at a scale that is centred on a sample."""
+    half = _half(scale)
+    first, last = max(0, sample - half), min(len(velocity), sample + half + 1)
+    weights = _filter(scale)[first - sample + half : last - sample + half]
+    return float(velocity[first:last] @ weights)
+
+
+def wavelet_history(samples: int, scale: int, sample: int) -> FloatArray:
+    """Return the wavelet of unit energy centred on a sample, as a history.
+
+    Parameters
+    ----------
+    samples : int
+        Length of the history.
+    scale : int
+        Scale of the wavelet in samples.
+    sample : int
+        Where its centre is.
+
+    Returns
+    -------
+    ndarray, shape (samples,)
+        The wavelet of level 4, linear between its points, divided by the root of the scale.
+    """
+    places, psi = _wavelet(_LEVEL)
+    at = (np.arange(samples) - sample) / scale + 0.5 * SUPPORT
+    return np.asarray(np.interp(at, places, psi, left=0.0, right=0.0) / np.sqrt(scale))
+
+
+def approximation_energy(velocity: FloatArray) -> float:
+    """Return the energy of the approximation coefficients of one level of the discrete transform.
+
+    Half the frequencies are in it, and nearly all the energy of a velocity.
+    """
+    approximation, _ = _pywt().dwt(velocity, WAVELET)
+    return float(np.sum(np.square(approximation)))
