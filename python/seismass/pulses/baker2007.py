@@ -17,17 +17,11 @@ from seismass.pulses.extraction import (
     scale_range,
     single_velocity,
 )
+from seismass.pulses.limits import ARRIVAL, LEAST_PGV, NO_PULSE_BELOW, PULSE_ABOVE
 from seismass.pulses.result import BAKER, Candidate, Kind, OrientationScan, PulseResult
 from seismass.pulses.wavelet import transform
 from seismass.records.record import Record
 
-PULSE_ABOVE: Final = 0.85
-NO_PULSE_BELOW: Final = 0.15
-LEAST_PGV: Final = 0.30
-"""Peak velocity (m/s) that a pulse-like record is above."""
-PULSE_SHARE: Final = 0.10
-"""Share of the pulse's energy at whose time the record must still be below `RECORD_SHARE` of its own."""
-RECORD_SHARE: Final = 0.20
 MOST_ORIENTATIONS: Final = 3600
 _OWNER: Final = "pulse identification"
 
@@ -155,8 +149,9 @@ def _candidate(
     energy_ratio = float(np.sum(np.square(found.residual)) / np.sum(np.square(velocity)))
     indicator = pulse_indicator_2007(pgv_ratio, energy_ratio)
     of_record, of_pulse = cumulative_share(velocity), cumulative_share(found.pulse)
-    begins = int(np.argmax(of_pulse >= PULSE_SHARE))
-    early = int(np.argmax(of_record >= RECORD_SHARE)) > begins
+    share_of_pulse, share_of_record = ARRIVAL[BAKER]
+    begins = int(np.argmax(of_pulse >= share_of_pulse))
+    early = int(np.argmax(of_record >= share_of_record)) > begins
     reasons = []
     if indicator <= PULSE_ABOVE:
         unclear = ", between the limits of no pulse, 0.15, and pulse, 0.85" if indicator >= NO_PULSE_BELOW else ""
@@ -165,8 +160,8 @@ def _candidate(
         reasons.append(f"peak velocity {CENTIMETRES * pgv:.1f} cm/s is not above 30 cm/s")
     if not early:
         reasons.append(
-            f"it arrives late: the record has {100.0 * of_record[begins]:.0f} % of its squared velocity where the pulse "
-            "has 10 %"
+            f"it arrives late: the record has {100.0 * of_record[begins]:.0f} % of its squared velocity where the "
+            "pulse has 10 %"
         )
     kind: Kind = "no pulse"
     if not reasons:

@@ -89,7 +89,11 @@ def single_velocity(record: Any, owner: str) -> FloatArray:
     velocity = cumulative_trapezoid(record.acceleration, dx=record.dt, initial=0.0)
     if not velocity.any():
         raise refusal(
-            InvalidMotion, "acceleration", f"record {record.name}".rstrip(), "other than zero somewhere", "zero throughout"
+            InvalidMotion,
+            "acceleration",
+            f"record {record.name}".rstrip(),
+            "other than zero somewhere",
+            "zero throughout",
         )
     return np.asarray(velocity)
 
@@ -203,8 +207,8 @@ def extract(velocity: FloatArray, scales: range, row: int, sample: int) -> Extra
     Notes
     -----
     The scale is refined to the whole number of samples, between its neighbours in the search, at which the coefficient
-    at the sample is largest in size (at steps below 2 ms to every second, third, ... number of samples). Each wavelet is that of the largest coefficient, within 0.4 scales of the sample,
-    of what the ones before it left.
+    at the sample is largest in size (at steps below 2 ms to every second, third, ... number of samples). Each wavelet
+    is that of the largest coefficient, within 0.4 scales of the sample, of what the ones before it left.
     """
     low, high = scales[max(0, row - 1)], scales[min(len(scales) - 1, row + 1)]
     between = range(low, high + 1, math.ceil((high + 1 - low) / REFINEMENTS))

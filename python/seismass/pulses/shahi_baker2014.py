@@ -17,15 +17,12 @@ from seismass.pulses.extraction import (
     horizontals,
     scale_range,
 )
+from seismass.pulses.limits import ARRIVAL
 from seismass.pulses.result import SHAHI_BAKER, Candidate, PulseResult
 from seismass.pulses.wavelet import approximation_energy, transform
 from seismass.records.record import Record
 
 CANDIDATES: Final = 5
-PULSE_SHARE: Final = 0.05
-"""The test of arrival looks at the last sample at which the pulse has this share of its energy or less."""
-LATE_SHARE: Final = 0.17
-"""Share of the record's energy there from which on the pulse is late."""
 _OWNER: Final = "pulse identification"
 
 
@@ -47,7 +44,7 @@ def pulse_indicator_2014(pgv_ratio: float, energy_ratio: float, pgv_cm_s: float)
     Examples
     --------
     >>> f"{pulse_indicator_2014(0.5, 0.5 * (1.0 - 0.63) / 0.777, 30.0):.3f}"
-    '2.036'
+    '1.963'
     """
     principal = (0.63 * pgv_ratio + 0.777 * energy_ratio - 1.208421) / 0.2462717
     peak = (pgv_cm_s - 11.58861) / 18.88015
@@ -131,9 +128,10 @@ def _candidate(pair: Horizontals, scales: range, number: int, row: int, sample: 
     indicator = pulse_indicator_2014(pgv_ratio, energy_ratio, CENTIMETRES * pgv)
     of_record, of_pulse = cumulative_share(velocity), cumulative_share(found.pulse)
     # A pulse that begins with the record has nothing before it.
-    begins = int(np.count_nonzero(of_pulse <= PULSE_SHARE)) - 1
+    share_of_pulse, share_of_record = ARRIVAL[SHAHI_BAKER]
+    begins = int(np.count_nonzero(of_pulse <= share_of_pulse)) - 1
     before = float(of_record[begins]) if begins >= 0 else 0.0
-    early = before < LATE_SHARE
+    early = before < share_of_record
     reasons = []
     if indicator <= 0.0:
         reasons.append(f"indicator {indicator:.3f} is not positive")

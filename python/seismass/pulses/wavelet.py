@@ -1,7 +1,7 @@
 """The db4 wavelet of pulse identification: its continuous transform and one scaled wavelet as a history.
 
-PyWavelets gives the wavelet and is imported on first use. Its own continuous transform takes no db4, so that this one is
-built from the integral of the wavelet, as MATLAB's `cwt` is, by convolution through FFT.
+PyWavelets gives the wavelet and is imported on first use. Its own continuous transform takes no db4, so that this one
+is built from the integral of the wavelet, as MATLAB's `cwt` is, by convolution through FFT.
 """
 
 from __future__ import annotations
@@ -44,26 +44,25 @@ def _wavelet(level: int) -> tuple[FloatArray, FloatArray]:
 
 
 @functools.cache
-def _integral() -> tuple[FloatArray, FloatArray]:
-    """Places and the integral of the wavelet from 0 to there."""
+def _integral() -> FloatArray:
+    """Integral of the wavelet from 0 to each of 1024 points per unit."""
     places, psi = _wavelet(_FINE_LEVEL)
-    return places, frozen(np.cumsum(psi) * (places[1] - places[0]))
+    return frozen(np.cumsum(psi) * (places[1] - places[0]))
 
 
 def _filter(scale: int) -> FloatArray:
-    """Weights of a transform at one scale: the integral of the wavelet over each sample, in order of time.
+    """Weights of a transform at one scale, shape (7 scale,): the integral of the wavelet over each sample.
 
-    The wavelet is centred on weight `_half(scale)`.
+    As MATLAB's `cwt` forms them, which takes the integral at the point before, so that published periods are met to the
+    sample.
     """
-    places, integral = _integral()
-    half = _half(scale)
-    edges = (np.arange(-half, half + 2) - 0.5) / scale + 0.5 * SUPPORT
-    return frozen(np.diff(np.interp(edges, places, integral)) * np.sqrt(scale))
+    points = np.arange(SUPPORT * scale + 1) * 2**_FINE_LEVEL // scale
+    return frozen(np.diff(_integral()[points]) * np.sqrt(scale))
 
 
-def _half(scale: int) -> int:
-    """Samples from the centre of a wavelet to its end."""
-    return (SUPPORT * scale + 1) // 2
+def _before(scale: int) -> int:
+    """Weights before the one that is centred on a sample."""
+    return SUPPORT * scale // 2
 
 
 def transform(velocity: FloatArray, scale: int) -> FloatArray:
@@ -81,7 +80,8 @@ def transform(velocity: FloatArray, scale: int) -> FloatArray:
     ndarray, shape (samples,)
         Sum of the history times the wavelet of unit energy, in the unit of the history times the root of a sample.
     """
-    return np.asarray(fftconvolve(velocity, _filter(scale)[::-1], mode="full")[_half(scale) :][: len(velocity)])
+    after = SUPPORT * scale - 1 - _before(scale)
+    return np.asarray(fftconvolve(velocity, _filter(scale)[::-1], mode="full")[after:][: len(velocity)])
 
 
 def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> FloatArray:
@@ -89,8 +89,8 @@ def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> F
 
     As `transform`, of what the wavelets there touch alone.
     """
-    half = _half(scale)
-    start, stop = first - half, last + half + 1
+    start = first - _before(scale)
+    stop = last - _before(scale) + SUPPORT * scale
     touched = velocity[max(0, start) : stop]
     padded = np.pad(touched, (max(0, -start), max(0, stop - len(velocity))))
     return np.asarray(fftconvolve(padded, _filter(scale)[::-1], mode="valid"))
@@ -98,10 +98,9 @@ def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> F
 
 def coefficient(velocity: FloatArray, scale: int, sample: int) -> float:
     """Return the one coefficient at a scale that is centred on a sample."""
-    half = _half(scale)
-    first, last = max(0, sample - half), min(len(velocity), sample + half + 1)
-    weights = _filter(scale)[first - sample + half : last - sample + half]
-    return float(velocity[first:last] @ weights)
+    start = sample - _before(scale)
+    first, last = max(0, start), min(len(velocity), start + SUPPORT * scale)
+    return float(velocity[first:last] @ _filter(scale)[first - start : last - start])
 
 
 def wavelet_history(samples: int, scale: int, sample: int) -> FloatArray:
