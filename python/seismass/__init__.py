@@ -32,7 +32,20 @@ from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
 from seismass.long_table import long_table
 from seismass.own_building import OwnBuilding
-from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
+from seismass.records import (
+    Pair,
+    Pairs,
+    Record,
+    RotD,
+    Suite,
+    builtin_suite,
+    find_pairs,
+    intensity_table,
+    read_pair,
+    read_record,
+    read_suite,
+    rotd,
+)
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
 from seismass.scene_file import SceneFile, read_scene
@@ -61,10 +74,13 @@ __all__ = [
     "LiveLoadUncertainty",
     "Motion",
     "OwnBuilding",
+    "Pair",
+    "Pairs",
     "Rayleigh",
     "Record",
     "RecordFormatError",
     "Response",
+    "RotD",
     "ScalingResult",
     "Scene",
     "SceneFile",
@@ -83,17 +99,21 @@ __all__ = [
     "effective_mass",
     "effective_mass_map",
     "effective_mass_of_design",
+    "find_pairs",
     "friction_pair",
     "friction_table",
     "instruction_set",
+    "intensity_table",
     "live_load_uncertainty",
     "lognormal",
     "long_table",
     "read_building",
+    "read_pair",
     "read_record",
     "read_scene",
     "read_suite",
     "response_spectrum",
+    "rotd",
     "scale_asce7_10",
     "simulate",
     "simulate_many",

@@ -1,8 +1,26 @@
-"""Ground motion records: reading them, gathering them to suites, and the built-in synthetic suite."""
+"""Ground motion records: reading them, gathering them to suites and pairs, and the built-in synthetic suite."""
 
 from seismass.records.builtin import builtin_suite
+from seismass.records.intensity import intensity_table
+from seismass.records.pair import Pair, read_pair
+from seismass.records.pair_search import Pairs, find_pairs
 from seismass.records.read import read_record
 from seismass.records.record import Record
+from seismass.records.rotd import RotD, rotd
 from seismass.records.suite import Excluded, Suite, read_suite
 
-__all__ = ["Excluded", "Record", "Suite", "builtin_suite", "read_record", "read_suite"]
+__all__ = [
+    "Excluded",
+    "Pair",
+    "Pairs",
+    "Record",
+    "RotD",
+    "Suite",
+    "builtin_suite",
+    "find_pairs",
+    "intensity_table",
+    "read_pair",
+    "read_record",
+    "read_suite",
+    "rotd",
+]
