@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from seismass.pulses.extraction import (
 from seismass.pulses.limits import ARRIVAL, LEAST_PGV, NO_PULSE_BELOW, PULSE_ABOVE
 from seismass.pulses.result import BAKER, Candidate, Kind, OrientationScan, PulseResult
 from seismass.pulses.wavelet import transform
+from seismass.records.pair import Pair
 from seismass.records.record import Record
 
 MOST_ORIENTATIONS: Final = 3600
@@ -80,7 +81,9 @@ def baker2007(record: Record) -> PulseResult:
     return PulseResult(BAKER, (record.name,), (candidate,), ())
 
 
-def baker2007_orientations(first: Any, second: Record | None = None, *, orientations: int = 36) -> OrientationScan:
+def baker2007_orientations(
+    first: Record | Pair, second: Record | None = None, *, orientations: int = 36
+) -> OrientationScan:
     """Judge each orientation of a pair as one component.
 
     Parameters

@@ -10,12 +10,13 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
 
 from seismass._values import FloatArray, brief, refusal
 from seismass.errors import InvalidMotion
 from seismass.pulses.wavelet import PERIOD_OF_SCALE, coefficient, transform_near, wavelet_history
+from seismass.records.pair import Pair
 from seismass.records.record import Record
+from seismass.records.rotation import component_azimuth
 
 SHORTEST_PERIOD: Final = 0.25
 """Shortest pulse period that is looked for (s)."""
@@ -29,12 +30,8 @@ REFINEMENTS: Final = 201
 """Scales at most that are tried between two of the search: every one for steps above 2 ms, as in the papers' code."""
 NEIGHBOURHOOD: Final = 0.4
 """Further wavelets of a pulse, and no other candidate, are within this many scales of its first wavelet."""
-LENGTHS_OF_THE_CODE: Final = 20
-"""The code of Shahi and Baker leaves out pairs whose lengths differ by more samples."""
 CENTIMETRES: Final = 100.0
 """Velocities in cm/s, the unit of both methods' constants, over those in m/s."""
-_SQUARE: Final = 1.0
-"""Two components are at right angles within this (degrees)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,19 +43,22 @@ class Horizontals:
     names : tuple of str
         Names of the two records.
     velocities : tuple of ndarray, shape (samples,)
-        The two velocities (m/s).
+        The velocity (m/s) of the first component, and the one at right angles to it on the side of the second.
     dt : float
         Time step (s).
-    azimuths : tuple of float, optional
-        Directions of the two (degrees from north), where both records state them.
+    azimuth_of_first : float, optional
+        Direction of the first (degrees from north), where both records state theirs.
+    turn : float
+        1 where the second is clockwise from the first, -1 where it is the other way round.
     remarks : tuple of str
-        What was done to make them of one length.
+        What was done to bring them together.
     """
 
     names: tuple[str, str]
     velocities: tuple[FloatArray, FloatArray]
     dt: float
-    azimuths: tuple[float, float] | None
+    azimuth_of_first: float | None
+    turn: float
     remarks: tuple[str, ...]
 
     def towards(self, angle: float) -> FloatArray:
@@ -68,15 +68,13 @@ class Horizontals:
 
     def azimuth(self, angle: float) -> float | None:
         """Return the direction of an angle in degrees from north, 0 to 180, or None where it is not known."""
-        if self.azimuths is None:
+        if self.azimuth_of_first is None:
             return None
-        first, second = self.azimuths
-        turn = 1.0 if (second - first) % 360.0 < 180.0 else -1.0
-        return (first + turn * math.degrees(angle)) % 180.0
+        return (self.azimuth_of_first + self.turn * math.degrees(angle)) % 180.0
 
 
 def single_velocity(record: Any, owner: str) -> FloatArray:
-    """Return the velocity (m/s) of one record, the acceleration linear between samples and the start at rest.
+    """Return the velocity (m/s) of one record.
 
     Raises
     ------
@@ -86,69 +84,45 @@ def single_velocity(record: Any, owner: str) -> FloatArray:
     if not isinstance(record, Record):
         raise refusal(InvalidMotion, "record", owner, "a Record", brief(record))
     scale_range(record.dt, owner)
-    velocity = cumulative_trapezoid(record.acceleration, dx=record.dt, initial=0.0)
-    if not velocity.any():
-        raise refusal(
-            InvalidMotion,
-            "acceleration",
-            f"record {record.name}".rstrip(),
-            "other than zero somewhere",
-            "zero throughout",
-        )
-    return np.asarray(velocity)
+    if not record.velocity.any():
+        what = f"record {record.name}".rstrip()
+        raise refusal(InvalidMotion, "acceleration", what, "other than zero somewhere", "zero throughout")
+    return record.velocity
 
 
 def horizontals(first: Any, second: Any, owner: str) -> Horizontals:
-    """Return the velocities of two records, or of a pair: anything that holds two records.
+    """Return the velocities of a pair, or of two records, which are brought together as `Pair.from_records` does.
 
     Raises
     ------
     InvalidMotion
-        Not two records, different steps, directions that are stated and not perpendicular, or no motion.
+        Neither a pair nor two records, different steps, directions that are stated and not at right angles, or no
+        motion in one of them.
     """
-    records = _two_records(first, second, owner)
-    steps = [record.dt for record in records]
-    if not math.isclose(*steps, rel_tol=1e-9):
-        raise refusal(InvalidMotion, "dt", f"the two records of {owner}", "equal", f"{steps[0]:g} and {steps[1]:g} s")
-    azimuths = None
-    if records[0].azimuth is not None and records[1].azimuth is not None:
-        azimuths = (records[0].azimuth, records[1].azimuth)
-        apart = (azimuths[1] - azimuths[0]) % 180.0
-        if abs(apart - 90.0) > _SQUARE:
-            got = f"{azimuths[0]:g} and {azimuths[1]:g} degrees"
-            raise refusal(InvalidMotion, "azimuth", f"the two records of {owner}", "perpendicular", got)
-    lengths = [record.samples for record in records]
-    shortest = min(lengths)
-    remarks = []
-    if lengths[0] != lengths[1]:
-        said = f"cut to {shortest} samples: {lengths[0]} and {lengths[1]}"
-        if abs(lengths[0] - lengths[1]) > LENGTHS_OF_THE_CODE:
-            said += f", a difference above the {LENGTHS_OF_THE_CODE} at which Shahi and Baker's code leaves a pair out"
-        remarks.append(said)
-    velocities = tuple(single_velocity(record, owner)[:shortest] for record in records)
+    if isinstance(first, Pair) and second is None:
+        pair = first
+    elif isinstance(first, Record) and isinstance(second, Record):
+        pair = Pair.from_records(_directed(first), _directed(second))
+    else:
+        got = brief(first) if second is None else f"{brief(first)} and {brief(second)}"
+        raise refusal(InvalidMotion, "records", owner, "a Pair, or two Records", got)
+    for record in (pair.first, pair.second):
+        single_velocity(record, owner)
     return Horizontals(
-        names=(records[0].name, records[1].name),
-        velocities=(velocities[0], velocities[1]),
-        dt=records[0].dt,
-        azimuths=azimuths,
-        remarks=tuple(remarks),
+        names=(pair.first.name, pair.second.name),
+        velocities=(pair.first.velocity, pair.component(90.0).velocity),
+        dt=pair.dt,
+        azimuth_of_first=None if pair.azimuths is None else pair.azimuths[0],
+        turn=math.copysign(1.0, pair.apart),
+        remarks=pair.remarks,
     )
 
 
-def _two_records(first: Any, second: Any, owner: str) -> tuple[Record, Record]:
-    given = [first, second]
-    if second is None:
-        held = [getattr(first, name, None) for name in ("first", "second")]
-        if all(isinstance(one, Record) for one in held):
-            given = held
-        elif isinstance(first, tuple | list) and len(first) == 2:
-            given = list(first)
-        else:
-            raise refusal(InvalidMotion, "records", owner, "a pair of records, or two records", brief(first))
-    for number, one in enumerate(given, start=1):
-        if not isinstance(one, Record):
-            raise refusal(InvalidMotion, f"record {number}", owner, "a Record", brief(one))
-    return given[0], given[1]
+def _directed(record: Record) -> Record:
+    """The record with the direction that its component label states, where it has no other."""
+    if record.azimuth is not None:
+        return record
+    return record.replace(azimuth=component_azimuth(record.component))
 
 
 def scale_range(dt: float, owner: str) -> range:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from seismass.pulses.extraction import (
 from seismass.pulses.limits import ARRIVAL
 from seismass.pulses.result import SHAHI_BAKER, Candidate, PulseResult
 from seismass.pulses.wavelet import approximation_energy, transform
+from seismass.records.pair import Pair
 from seismass.records.record import Record
 
 CANDIDATES: Final = 5
@@ -58,7 +59,7 @@ def pulse_indicator_2014(pgv_ratio: float, energy_ratio: float, pgv_cm_s: float)
     )
 
 
-def shahi_baker2014(first: Any, second: Record | None = None) -> PulseResult:
+def shahi_baker2014(first: Record | Pair, second: Record | None = None) -> PulseResult:
     """Judge whether a pair of horizontal components is pulse-like, in any direction.
 
     Parameters
@@ -77,15 +78,15 @@ def shahi_baker2014(first: Any, second: Record | None = None) -> PulseResult:
     Raises
     ------
     InvalidMotion
-        Not two records, different steps, directions that are stated and not perpendicular, no motion in one of them, or
-        a step too long for a pulse of 0.25 s.
+        Neither a pair nor two records, different steps, directions that are stated and not at right angles, no motion
+        in one of them, or a step too long for a pulse of 0.25 s.
     MissingPackage
         PyWavelets is not installed.
 
     Notes
     -----
-    Components of different length are cut to the shorter, with a remark where they differ by more than the 20 samples
-    at which the authors' code leaves a pair out. r_E is the ratio of the energies of the db4 approximation coefficients
+    Components of different length are cut to the shorter; the authors' code leaves a pair out that differs by more than
+    20 samples. r_E is the ratio of the energies of the db4 approximation coefficients
     of one level, as there. A pulse is late, and none, if the record has 17 % of its cumulative squared velocity where
     the pulse still has 5 %.
     """
