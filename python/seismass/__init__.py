@@ -43,6 +43,7 @@ from seismass.records import (
     intensity_table,
     read_pair,
     read_record,
+    read_records,
     read_suite,
     rotd,
 )
@@ -110,6 +111,7 @@ __all__ = [
     "read_building",
     "read_pair",
     "read_record",
+    "read_records",
     "read_scene",
     "read_suite",
     "response_spectrum",

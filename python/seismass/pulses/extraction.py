@@ -16,7 +16,6 @@ from seismass.errors import InvalidMotion
 from seismass.pulses.wavelet import PERIOD_OF_SCALE, coefficient, transform_near, wavelet_history
 from seismass.records.pair import Pair
 from seismass.records.record import Record
-from seismass.records.rotation import component_azimuth
 
 SHORTEST_PERIOD: Final = 0.25
 """Shortest pulse period that is looked for (s)."""
@@ -102,7 +101,7 @@ def horizontals(first: Any, second: Any, owner: str) -> Horizontals:
     if isinstance(first, Pair) and second is None:
         pair = first
     elif isinstance(first, Record) and isinstance(second, Record):
-        pair = Pair.from_records(_directed(first), _directed(second))
+        pair = Pair.from_records(first, second)
     else:
         got = brief(first) if second is None else f"{brief(first)} and {brief(second)}"
         raise refusal(InvalidMotion, "records", owner, "a Pair, or two Records", got)
@@ -116,13 +115,6 @@ def horizontals(first: Any, second: Any, owner: str) -> Horizontals:
         turn=math.copysign(1.0, pair.apart),
         remarks=pair.remarks,
     )
-
-
-def _directed(record: Record) -> Record:
-    """The record with the direction that its component label states, where it has no other."""
-    if record.azimuth is not None:
-        return record
-    return record.replace(azimuth=component_azimuth(record.component))
 
 
 def scale_range(dt: float, owner: str) -> range:

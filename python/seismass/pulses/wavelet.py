@@ -10,7 +10,6 @@ import functools
 from typing import Any, Final
 
 import numpy as np
-from scipy.signal import fftconvolve
 
 from seismass._values import FloatArray, frozen
 from seismass.errors import MissingPackage
@@ -65,6 +64,12 @@ def _before(scale: int) -> int:
     return SUPPORT * scale // 2
 
 
+def _convolved(velocity: FloatArray, scale: int, mode: str) -> FloatArray:
+    from scipy.signal import fftconvolve  # slow to import
+
+    return np.asarray(fftconvolve(velocity, _filter(scale)[::-1], mode=mode))
+
+
 def transform(velocity: FloatArray, scale: int) -> FloatArray:
     """Return the wavelet coefficient centred on each sample, at one scale.
 
@@ -81,7 +86,7 @@ def transform(velocity: FloatArray, scale: int) -> FloatArray:
         Sum of the history times the wavelet of unit energy, in the unit of the history times the root of a sample.
     """
     after = SUPPORT * scale - 1 - _before(scale)
-    return np.asarray(fftconvolve(velocity, _filter(scale)[::-1], mode="full")[after:][: len(velocity)])
+    return _convolved(velocity, scale, "full")[after:][: len(velocity)]
 
 
 def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> FloatArray:
@@ -93,7 +98,7 @@ def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> F
     stop = last - _before(scale) + SUPPORT * scale
     touched = velocity[max(0, start) : stop]
     padded = np.pad(touched, (max(0, -start), max(0, stop - len(velocity))))
-    return np.asarray(fftconvolve(padded, _filter(scale)[::-1], mode="valid"))
+    return _convolved(padded, scale, "valid")
 
 
 def coefficient(velocity: FloatArray, scale: int, sample: int) -> float:

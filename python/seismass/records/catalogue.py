@@ -50,7 +50,7 @@ class Component:
 
     @property
     def direction(self) -> str:
-        """"horizontal" or "vertical"."""
+        """ "horizontal" or "vertical"."""
         return "vertical" if self.azimuth is None else "horizontal"
 
 
