@@ -380,7 +380,7 @@ def test_what_is_no_pair_is_refused() -> None:
         shahi_baker2014(first)
     with pytest.raises(InvalidMotion, match=r"records of pulse identification must be .*; got .* and 3"):
         shahi_baker2014(first, 3)  # type: ignore[arg-type]
-    with pytest.raises(InvalidMotion, match="dt of second component of pair made must be that of the first, 0.01 s"):
+    with pytest.raises(InvalidMotion, match=r"dt of second component of pair made must be that of the first, 0.01 s"):
         shahi_baker2014(first, second.replace(dt=0.02))
     with pytest.raises(InvalidMotion, match="record of pulse identification must be a Record"):
         baker2007(np.zeros(3))  # type: ignore[arg-type]

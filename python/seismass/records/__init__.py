@@ -2,6 +2,8 @@
 
 from seismass.records.builtin import builtin_suite
 from seismass.records.catalogue import catalogue
+from seismass.records.catalogue_report import CatalogueSearch, FoundFile
+from seismass.records.catalogue_search import find_catalogue
 from seismass.records.intensity import intensity_table
 from seismass.records.pair import Pair, read_pair
 from seismass.records.pair_search import Pairs, find_pairs
@@ -11,7 +13,9 @@ from seismass.records.rotd import RotD, rotd
 from seismass.records.suite import Excluded, Suite, read_suite
 
 __all__ = [
+    "CatalogueSearch",
     "Excluded",
+    "FoundFile",
     "Pair",
     "Pairs",
     "Record",
@@ -19,6 +23,7 @@ __all__ = [
     "Suite",
     "builtin_suite",
     "catalogue",
+    "find_catalogue",
     "find_pairs",
     "intensity_table",
     "read_pair",

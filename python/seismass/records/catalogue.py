@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import polars as pl
 
@@ -50,7 +50,7 @@ class Component:
 
     @property
     def direction(self) -> str:
-        """ "horizontal" or "vertical"."""
+        """Either "horizontal" or "vertical"."""
         return "vertical" if self.azimuth is None else "horizontal"
 
 
@@ -237,14 +237,13 @@ _FLATFILE: Final = {1787: (7.13, 11.66, 726.0), 767: (6.93, 12.82, 349.85), 161:
 _ODD: Final = (
     "",
     "the two horizontals have 7997 and 7998 points",
-    "the two horizontals have 7576 and 7575 points; the table's pulse period, 4.2 s, is not that of the pair, 4.40 s, "
-    "but that of a component",
+    "the two horizontals have 7576 and 7575 points",
     "RSN1612; its neighbour RSN1611 is Lamont 1058",
-    "the table has no pulse, but every component has one, of 2.66 s for the pair: the 2.6 s in the row below fits here. "
-    "The table writes Erzinkan, NGA-West2 Erzican; the horizontals have 4262 and 4156 points",
-    "the table's pulse of 2.6 s is in no component of the recording; it fits Erzincan, one row up. The horizontals have "
-    "5372 and 5346 points",
-    "often not at hand; KJMA (RSN1106) and Nishi-Akashi (RSN1111) are other stations of the same event, and substitutes",
+    "the table has no pulse, but every component has one, of 2.66 s for the pair: the 2.6 s of the row below fits "
+    "here. The table writes Erzinkan, NGA-West2 Erzican; the horizontals have 4262 and 4156 points",
+    "the table's pulse of 2.6 s is in no component of the recording; it fits Erzincan, one row up. The horizontals "
+    "have 5372 and 5346 points",
+    "often not at hand: KJMA (RSN1106) and Nishi-Akashi (RSN1111), other stations of the event, are substitutes",
 )
 
 
@@ -300,7 +299,7 @@ def catalogue() -> pl.DataFrame:
                 "how_to_get": how_to_get(recording),
             }
         )
-    schema = {
+    schema: dict[str, Any] = {
         "number": pl.UInt32,
         "event": pl.String,
         "station": pl.String,
