@@ -32,7 +32,7 @@ _SEQUENCE: Final = re.compile(r"RSN_?(\d+)(?!\d)", re.IGNORECASE)
 _YEAR: Final = re.compile(r"\b((?:18|19|20)\d\d)\b")
 _SHORT_YEAR: Final = re.compile(r"\b\d{1,2}/\d{1,2}/(\d\d)\b")
 # What text of columns may leave out. The shape of a record needs no step, and its peak tells the unit.
-_ATTEMPTS: Final[tuple[dict[str, Any], ...]] = ({}, {"unit": "g"}, {"unit": "g", "dt": 0.01})
+_ATTEMPTS: Final[tuple[dict[str, Any], ...]] = ({}, {"unit": "g"}, {"dt": 0.01}, {"unit": "g", "dt": 0.01})
 
 
 def find_catalogue(folder: str | os.PathLike[str]) -> CatalogueSearch:
