@@ -32,7 +32,17 @@ from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
 from seismass.long_table import long_table
 from seismass.own_building import OwnBuilding
-from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
+from seismass.records import (
+    NearFaultPulse,
+    Record,
+    Suite,
+    SyntheticParameters,
+    builtin_record,
+    builtin_suite,
+    read_record,
+    read_suite,
+    synthetic_motion,
+)
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
 from seismass.scene_file import SceneFile, read_scene
@@ -60,6 +70,7 @@ __all__ = [
     "InvalidSceneFile",
     "LiveLoadUncertainty",
     "Motion",
+    "NearFaultPulse",
     "OwnBuilding",
     "Rayleigh",
     "Record",
@@ -71,12 +82,14 @@ __all__ = [
     "SeismassError",
     "SimulationError",
     "Suite",
+    "SyntheticParameters",
     "TargetSpectrum",
     "__version__",
     "assess",
     "attached_scene",
     "beta",
     "blocks_on_floors",
+    "builtin_record",
     "builtin_suite",
     "code_fraction",
     "code_table",
@@ -98,5 +111,6 @@ __all__ = [
     "simulate",
     "simulate_many",
     "stream_many",
+    "synthetic_motion",
     "write_many",
 ]
