@@ -401,12 +401,12 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     (
         {"motion": changed(MOTION, unit="ft/s2")},
         sm.InvalidSceneFile,
-        r"motion.unit of .* must be one of g, m/s2, cm/s2; got 'ft/s2'",
+        r"motion.unit of .* must be one of g, m/s2, cm/s2, gal; got 'ft/s2'",
     ),
     (
         {"motion": changed(MOTION, unit=["g"])},
         sm.InvalidSceneFile,
-        r"motion.unit of .* must be one of g, m/s2, cm/s2; got \['g'\]",
+        r"motion.unit of .* must be one of g, m/s2, cm/s2, gal; got \['g'\]",
     ),
     (
         {"building": changed(BUILDING, damping={"kind": ["modal"]})},

@@ -175,6 +175,14 @@ def positive_option(text: str) -> float:
     return number
 
 
+def positive_count(text: str) -> int:
+    """Return a whole number above zero."""
+    number = int(text) if text.isdecimal() else 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"must be a whole number above zero; got {text!r}")
+    return number
+
+
 def threads_option(text: str) -> int:
     """Return a number of threads."""
     from seismass.batch import MAX_THREADS
