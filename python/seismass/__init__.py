@@ -35,11 +35,14 @@ from seismass.long_table import long_table
 from seismass.own_building import OwnBuilding
 from seismass.pulses import OrientationScan, PulseResult, baker2007, baker2007_orientations, shahi_baker2014
 from seismass.records import (
+    NearFaultPulse,
     Pair,
     Pairs,
     Record,
     RotD,
     Suite,
+    SyntheticParameters,
+    builtin_record,
     builtin_suite,
     catalogue,
     find_catalogue,
@@ -50,6 +53,7 @@ from seismass.records import (
     read_records,
     read_suite,
     rotd,
+    synthetic_motion,
 )
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
@@ -79,6 +83,7 @@ __all__ = [
     "LiveLoadUncertainty",
     "MissingPackage",
     "Motion",
+    "NearFaultPulse",
     "OrientationScan",
     "OwnBuilding",
     "Pair",
@@ -95,6 +100,7 @@ __all__ = [
     "SeismassError",
     "SimulationError",
     "Suite",
+    "SyntheticParameters",
     "TargetSpectrum",
     "__version__",
     "assess",
@@ -103,6 +109,7 @@ __all__ = [
     "baker2007_orientations",
     "beta",
     "blocks_on_floors",
+    "builtin_record",
     "builtin_suite",
     "catalogue",
     "code_fraction",
@@ -132,5 +139,6 @@ __all__ = [
     "simulate",
     "simulate_many",
     "stream_many",
+    "synthetic_motion",
     "write_many",
 ]
