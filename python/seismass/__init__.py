@@ -33,11 +33,23 @@ from seismass.grid import Grid
 from seismass.long_table import long_table
 from seismass.own_building import OwnBuilding
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
-from seismass.scaling import ScalingResult, scale_asce7_10
+from seismass.scaling import (
+    FirstModeOscillator,
+    PushoverScaling,
+    ScalingResult,
+    Selection,
+    first_mode_oscillator,
+    scale_asce7_10,
+    scale_asce7_16,
+    scale_least_squares,
+    scale_modal_pushover,
+    scale_sa_t1,
+    select_records,
+)
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
 from seismass.scene_file import SceneFile, read_scene
 from seismass.simulate import Motion, Response, instruction_set, simulate
-from seismass.spectra import TargetSpectrum, response_spectrum
+from seismass.spectra import InelasticSpectrum, TargetSpectrum, inelastic_spectrum, mean_spectrum, response_spectrum
 from seismass.units import STANDARD_GRAVITY
 
 __version__ = _kernel.VERSION
@@ -51,8 +63,10 @@ __all__ = [
     "EffectiveMass",
     "EffectiveMassMap",
     "EffectiveMassParameters",
+    "FirstModeOscillator",
     "FrictionPair",
     "Grid",
+    "InelasticSpectrum",
     "InvalidBuildingFile",
     "InvalidMotion",
     "InvalidOption",
@@ -61,6 +75,7 @@ __all__ = [
     "LiveLoadUncertainty",
     "Motion",
     "OwnBuilding",
+    "PushoverScaling",
     "Rayleigh",
     "Record",
     "RecordFormatError",
@@ -69,6 +84,7 @@ __all__ = [
     "Scene",
     "SceneFile",
     "SeismassError",
+    "Selection",
     "SimulationError",
     "Suite",
     "TargetSpectrum",
@@ -83,18 +99,26 @@ __all__ = [
     "effective_mass",
     "effective_mass_map",
     "effective_mass_of_design",
+    "first_mode_oscillator",
     "friction_pair",
     "friction_table",
+    "inelastic_spectrum",
     "instruction_set",
     "live_load_uncertainty",
     "lognormal",
     "long_table",
+    "mean_spectrum",
     "read_building",
     "read_record",
     "read_scene",
     "read_suite",
     "response_spectrum",
     "scale_asce7_10",
+    "scale_asce7_16",
+    "scale_least_squares",
+    "scale_modal_pushover",
+    "scale_sa_t1",
+    "select_records",
     "simulate",
     "simulate_many",
     "stream_many",
