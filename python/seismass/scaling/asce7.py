@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Final, cast
+from typing import Any, Final
 
 import numpy as np
 
@@ -16,9 +16,6 @@ from seismass.scaling.suite import SuiteSpectra, positive_number, positive_perio
 from seismass.scene import Building
 from seismass.simulate import Motion
 from seismass.spectra import GroundMotion, TargetSpectrum, response_spectrum
-
-if TYPE_CHECKING:
-    from seismass.records import Record
 
 SHARE_7_16: Final = 0.9
 """Least mean over target, ASCE/SEI 7-16, 16.2.3.2."""
@@ -140,8 +137,8 @@ def scale_asce7_16(
         raise refusal(InvalidOption, "building", "scaling", "a Building", brief(building))
     if building is not None and (period is not None or lowest_period is not None):
         name = "period" if period is not None else "lowest_period"
-        given = period if period is not None else lowest_period
-        raise refusal(InvalidOption, name, "scaling", "left out where a building is given", brief(given))
+        value = period if period is not None else lowest_period
+        raise refusal(InvalidOption, name, "scaling", "left out where a building is given", brief(value))
     if building is not None:
         period, lowest_period = float(building.periods[0]), _period_of_mass(building)
     fundamental = positive_period(1.0 if period is None else period)
@@ -149,9 +146,9 @@ def scale_asce7_16(
     if upper < 1.5:
         raise refusal(InvalidOption, "longest", "scaling", "at least 1.5 (ASCE/SEI 7-16, 16.2.3.1)", f"{upper:g}")
     lowest = np.inf if lowest_period is None else positive_number(lowest_period, "lowest_period")
-    given_records = list(records) if not hasattr(records, "acceleration") else [records]
-    pairs = [item for item in given_records if hasattr(item, "at_angles")]
-    motions = [cast("Record", item.first) if hasattr(item, "at_angles") else item for item in given_records]
+    given: list[Any] = [records] if hasattr(records, "acceleration") else list(records)
+    pairs = [item for item in given if hasattr(item, "at_angles")]
+    motions = [item.first if hasattr(item, "at_angles") else item for item in given]
     suite = suite_spectra(
         motions,
         target,
@@ -163,7 +160,7 @@ def scale_asce7_16(
         least=(MOTIONS_7_16, "ASCE/SEI 7-16, 16.2.2"),
     )
     if pairs:
-        suite = _of_pairs(suite, given_records, threads)
+        suite = _of_pairs(suite, given, threads)
     individual = suite.log_factors()
     common = suite.common_factor(individual, SHARE_7_16)
     return suite.result("ASCE 7-16", individual, common, _notes(len(pairs), len(motions), lowest_period is None))

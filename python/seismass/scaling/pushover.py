@@ -1,4 +1,4 @@
-"""Modal-pushover-based scaling: the first-mode inelastic oscillator reaches the target deformation (Kalkan and Chopra)."""
+"""Modal-pushover-based scaling: the first-mode inelastic oscillator reaches a target deformation."""
 
 from __future__ import annotations
 
@@ -257,7 +257,9 @@ class _Search:
         peaks = factor * self._elastic[motion]
         yields = np.flatnonzero(factor > self._at_yield[motion])
         if len(yields):
-            peaks[yields] = self._runner.peaks(np.zeros(len(yields)), np.asarray(motion)[yields], factor[yields])
+            peaks[yields] = self._runner.peaks(
+                np.zeros(len(yields), dtype=np.int64), np.asarray(motion)[yields], factor[yields]
+            )
         return np.asarray(peaks)
 
     def roots(self, wanted: float) -> list[FloatArray]:

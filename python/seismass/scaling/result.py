@@ -1,7 +1,8 @@
-"""What every scaling method gives back: factors, the spectra that they follow from or lead to, and how good they are."""
+"""What every scaling method gives back: factors, scaled spectra beside the target, and how good they are."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,8 @@ from seismass.plausibility import scaling_remarks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from seismass.spectra import GroundMotion, TargetSpectrum
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,8 +143,15 @@ class ScalingResult:
             }
         )
 
-    def plot(self) -> Figure:
-        """Return a figure of the scaled spectra, their mean and scatter, and the target, as the paper's Fig. 1."""
+    def plot(self, records: Iterable[GroundMotion] | None = None, target: TargetSpectrum | None = None) -> Figure:
+        """Return a figure of the scaled spectra, their mean and scatter, and the target, as the paper's Fig. 1.
+
+        Parameters
+        ----------
+        records, target : optional
+            The suite and the target that were scaled: spectra are then drawn beyond the range of the comparison, which
+            is marked. The result itself has them within it.
+        """
         from seismass.report.scaling_figure import scaling_figure  # matplotlib takes a quarter of a second
 
-        return scaling_figure(self)
+        return scaling_figure(self, records, target)

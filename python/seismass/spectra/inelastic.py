@@ -188,10 +188,13 @@ def inelastic_spectrum(
         found = _of_ductilities(runner, np.atleast_1d(levels), elastic / unit, unit)
     if levels.ndim == 0:
         found = [values[:, 0, :] for values in found]
+    at_yield, peaks, demands = (frozen(values) for values in found)
     return InelasticSpectrum(
-        tuple(motion_names(suite)),
-        frozen(at),
-        *(frozen(values) for values in found),
+        names=tuple(motion_names(suite)),
+        periods=frozen(at),
+        strength=at_yield,
+        displacement=peaks,
+        ductility=demands,
         elastic_strength=frozen(elastic / unit),
         damping=damping_ratio,
         overstrength=float(overstrength),
@@ -245,7 +248,8 @@ def _of_ductilities(runner: Oscillators, levels: FloatArray, strong: FloatArray,
 
     def demand(pairs: Any, reduction: FloatArray) -> FloatArray:
         factor = reduction / start[pairs]
-        return runner.peaks(period[pairs], motion[pairs], factor) / unit[period[pairs]]
+        demands: FloatArray = runner.peaks(period[pairs], motion[pairs], factor) / unit[period[pairs]]
+        return demands
 
     pairs, level, step = _brackets(demand, levels, len(start))
     low, high = SCAN_STEP * (step - 1.0), SCAN_STEP * step  # ln R, with the demand below and not below the target
