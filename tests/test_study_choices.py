@@ -327,6 +327,20 @@ def test_sensitivity_changes_one_choice_at_a_time() -> None:
     assert sensitivity_markdown(result.table).count("| choice | setting |") == 2
 
 
+def test_a_study_takes_factors_of_another_scaling() -> None:
+    """The same factors give the same drifts; other factors, another digest; a wrong number of them is refused."""
+    suite = sm.builtin_suite()
+    own = run_study(suite, TARGET, SMALL)
+    scaling = sm.scale_asce7_10(suite, TARGET, SMALL.scaling_period)
+    given = run_study(suite, TARGET, SMALL, scaling=scaling)
+    assert given.responses.equals(own.responses)
+    other = run_study(suite, TARGET, SMALL, scaling=sm.scale_asce7_10(suite, TARGET, 0.5))
+    assert other.responses.equals(run_study(suite, TARGET, replace(SMALL, scaling_period=0.5)).responses)
+    assert other.metadata["inputs_sha256"] != given.metadata["inputs_sha256"]
+    with pytest.raises(sm.InvalidOption, match="scaling of study must be a ScalingResult of 7 motions; got one of 3"):
+        run_study(suite, TARGET, SMALL, scaling=sm.scale_asce7_10(suite[:3], TARGET))
+
+
 def test_commands_of_the_choices(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["study", "--out", str(tmp_path), "--no-figures", "--occupancy", "archive:0.25:1", "--mu", "0.2,0.4"]
     options = ["--damping-base", "loaded", "--height", "3", "--p-delta", "--collapse-drift-ratio", "0.2", "--json"]
