@@ -9,13 +9,13 @@ from typing import Any, Final
 import numpy as np
 
 from seismass._values import FloatArray, brief, frozen, refusal
+from seismass.design import vibration_modes
 from seismass.errors import InvalidOption
-from seismass.scaling.modes import mass_participation
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import SuiteSpectra, positive_number, positive_period, suite_spectra
 from seismass.scene import Building
 from seismass.simulate import Motion
-from seismass.spectra import GroundMotion, TargetSpectrum, response_spectrum
+from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 
 SHARE_7_16: Final = 0.9
 """Least mean over target, ASCE/SEI 7-16, 16.2.3.2."""
@@ -146,7 +146,8 @@ def scale_asce7_16(
     if upper < 1.5:
         raise refusal(InvalidOption, "longest", "scaling", "at least 1.5 (ASCE/SEI 7-16, 16.2.3.1)", f"{upper:g}")
     lowest = np.inf if lowest_period is None else positive_number(lowest_period, "lowest_period")
-    given: list[Any] = [records] if hasattr(records, "acceleration") else list(records)
+    single = hasattr(records, "acceleration") or not isinstance(records, Iterable)
+    given: list[Any] = as_motions(records, "scaling") if single else list(records)
     pairs = [item for item in given if hasattr(item, "at_angles")]
     motions = [item.first if hasattr(item, "at_angles") else item for item in given]
     suite = suite_spectra(
@@ -202,6 +203,6 @@ def _of_pairs(suite: SuiteSpectra, given: list[Any], threads: int | None) -> Sui
 
 def _period_of_mass(building: Building) -> float:
     """Period (s) of the mode with which the modes together have 90 % of the mass."""
-    periods, shares = mass_participation(building)
-    total: FloatArray = np.cumsum(shares)
-    return float(periods[int(np.searchsorted(total, MASS_7_16 * (1.0 - 1e-12)))])
+    modes = vibration_modes(building.mass, building.stiffness)
+    total: FloatArray = np.cumsum(modes.effective_mass) / building.mass.sum()
+    return float(modes.periods[int(np.searchsorted(total, MASS_7_16 * (1.0 - 1e-12)))])

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from seismass._values import FloatArray, brief, refusal
+from seismass.design import vibration_modes
 from seismass.errors import InvalidOption
-from seismass.scaling.modes import shear_modes
 from seismass.scene import Building
 from seismass.units import STANDARD_GRAVITY
 
@@ -98,14 +98,11 @@ def first_mode_oscillator(building: Building) -> FirstModeOscillator:
         raise refusal(InvalidOption, "building", "scaling", "a Building", brief(building))
     if building.gravity_load is not None or building.geometric_stiffness is not None:
         raise refusal(InvalidOption, "building", "pushover", "one without P-Delta", "one with P-Delta")
-    frequencies, modes = shear_modes(building)
-    shape = modes[:, 0]
+    modes = vibration_modes(building.mass, building.stiffness)
+    shape, period, modal_mass = modes.shapes[:, 0], float(modes.periods[0]), float(modes.effective_mass[0])
     loads = building.mass * shape
     shares = np.cumsum(loads[::-1])[::-1] / loads.sum()  # V_i / V_b
-    participation = float(loads.sum() / (loads @ shape))
-    modal_mass = float(loads.sum()) * participation
-    damping = float(shape @ building.damping_matrix @ shape) / (2.0 * frequencies[0] * float(loads @ shape))
-    period = 2.0 * np.pi / float(frequencies[0])
+    damping = float(shape @ building.damping_matrix @ shape) * period / (4.0 * np.pi)
     if not np.isfinite(building.yield_shear).any():
         return FirstModeOscillator(period, np.inf, damping=damping)
     yield_shear, overstrength, second, third = _idealised(building, shares)

@@ -68,7 +68,7 @@ def select_records(
     period, period_range, points, damping, threads
         As `period`, `period_range`, `count`, `damping` and `threads` of `scale_asce7_10`.
     max_per_event : int, optional
-        Most records of one event; None: any number. Records without an event are each their own.
+        Most records of one event; None: any number. Synthetic records and those without an event are each their own.
     max_per_station : int, optional
         Most records of one event at one station: 1 takes one of the two components of a recording. Where event or
         station is not known, an NGA sequence number in the name (RSN767) tells components of one recording.
@@ -168,11 +168,13 @@ def _factor_range(given: Any) -> tuple[float, float]:
 
 
 def _event(record: Record, number: int) -> tuple[Any, ...]:
-    return (record.event.casefold(),) if record.event else (number,)
+    return (record.event.casefold(),) if record.event and not record.synthetic else (number,)
 
 
 def _recording(record: Record, number: int) -> tuple[Any, ...]:
     """What two components of one recording share."""
+    if record.synthetic:
+        return (number,)
     if record.event and record.station:
         return (record.event.casefold(), record.station.casefold())
     sequence = _SEQUENCE.search(record.name)
