@@ -27,6 +27,7 @@ from seismass.records.checks import suspicions
 from seismass.records.formats import FORMATS, NotRead, recognise
 from seismass.records.formats.directions import azimuth_of, is_vertical
 from seismass.records.formats.fixed import layout_of
+from seismass.records.suite import suite_of_file
 from seismass.units import STANDARD_GRAVITY, unit_by_name
 
 ROOT = Path(__file__).parents[1]
@@ -521,6 +522,16 @@ def test_a_list_names_the_channel(tmp_path: Path) -> None:
     put(tmp_path, "list.csv", "file,channel\nmade.V2,2\n")
     with pytest.raises(RecordFormatError, match=r"must be a horizontal component; got made.V2, component UP"):
         read_suite(tmp_path / "list.csv")
+
+
+def test_a_file_of_several_channels_gives_its_horizontals(tmp_path: Path) -> None:
+    suite = suite_of_file(put(tmp_path, "made.V2"))
+    assert [record.component for record in suite] == ["90 DEG"]
+    assert suite.excluded[0].reason == "made channel 2: vertical component by its header: UP"
+    assert len(suite_of_file(put(tmp_path, "made.UD2"))) == 1
+    vertical = FILES["made.V2"].replace(b" 90 DEG", b"UP     ")
+    with pytest.raises(RecordFormatError, match=r"channels of up.V2 must be at least one horizontal; got 2 vertical"):
+        suite_of_file(put(tmp_path, "up.V2", vertical))
 
 
 def test_large_foreign_files_cost_a_folder_nothing(tmp_path: Path) -> None:

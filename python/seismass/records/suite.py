@@ -157,10 +157,10 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
         header and by file name (-UP, VER, -V, ...), files of other kinds with the reason; hidden ones are not looked
         at. Or a CSV with a column `file`, relative to the CSV, one row per record in the order to keep, and a column
         `channel` for files of several; its columns `name`, `event`, `station`, `component` replace what the files say,
-        `dt` and `unit`
-        are passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the remarks; a
-        `number` is for the reader. Other columns are not used, and named in the remarks of the suite. A vertical
-        component in the list is an error: by header, by `component`, and by file name unless `component` is given.
+        `dt` and `unit` are passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the
+        remarks; a `number` is for the reader. Other columns are not used, and named in the remarks of the suite. A
+        vertical component in the list is an error: by header, by `component`, and by file name unless `component` is
+        given.
 
     Raises
     ------
@@ -174,6 +174,25 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     if source.suffix.lower() == ".csv":
         return _read_list(source)
     raise RecordFormatError(f"suite of records must be a directory or a .csv file; got {source}")
+
+
+def suite_of_file(path: Path, *, dt: float | None = None, unit: str | None = None) -> Suite:
+    """Return the one record of a file, vertical or not, or the horizontal channels of a file of several.
+
+    Raises
+    ------
+    RecordFormatError
+        As for `read_records`, or all of several channels are vertical.
+    """
+    records = read_records(path, dt=dt, unit=unit)
+    if len(records) == 1:
+        return Suite(records[0].name, records)
+    taken = tuple(record for record in records if not _vertical_reason(record))
+    if not taken:
+        raise RecordFormatError(f"channels of {path.name} must be at least one horizontal; got {len(records)} vertical")
+    reasons = ((record.name, _vertical_reason(record)) for record in records)
+    left_out = tuple(Excluded(path, f"{name}: {reason}") for name, reason in reasons if reason)
+    return Suite(printable(path.stem), taken, left_out)
 
 
 def _read_directory(directory: Path) -> Suite:
