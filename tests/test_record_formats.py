@@ -209,7 +209,7 @@ WRONG: list[tuple[str, Callable[[str], str], str]] = [
         swapped("INTERVAL_S: 0.02", "INTERVAL_S: soon"),
         r"SAMPLING_INTERVAL_S of .* must be a number; got 'soon",
     ),
-    ("made.ASC", without_line("USER3:"), r"header of made.ASC must be 64 keys, .*; got 63"),
+    ("made.ASC", without_line("NDATA:"), r"header of made.ASC must have STATION_CODE, .*; got none of NDATA"),
     ("made.EW", swapped("3920(gal)", "3290(gal)"), r"peak of made.EW must be 167.696, .*; got"),
     ("made.EW", swapped("50Hz", "100Hz"), r"points of made.EW must last 4 s, .*; got 200, which last 2 s"),
     ("made.EW", swapped("50Hz", "50kHz"), r"Sampling Freq\(Hz\) of made.EW must be as 100Hz; got '50kHz'"),
@@ -255,6 +255,11 @@ def test_arguments_must_agree_with_a_header(tmp_path: Path) -> None:
 def test_the_time_of_a_peak_that_differs_is_remarked(tmp_path: Path) -> None:
     file = put(tmp_path, "made.V2", FILES["made.V2"].replace(b"AT    2.220   SEC", b"AT    3.220   SEC", 1))
     assert "the peak is at 2.22 s; the header gives 3.22 s" in read_records(file)[0].remarks
+
+
+def test_a_header_of_esm_with_other_keys_is_remarked(tmp_path: Path) -> None:
+    file = put(tmp_path, "made.ASC", without_line("USER3:")(FILES["made.ASC"].decode()))
+    assert read_record(file).remarks == ("header has 63 keys, where DYNA 1.x has 64",)
 
 
 def test_a_peak_without_its_sign_is_remarked(tmp_path: Path) -> None:
