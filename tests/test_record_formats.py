@@ -125,6 +125,18 @@ def test_channels_are_asked_for_by_number_or_component(tmp_path: Path) -> None:
     assert read_record(put(tmp_path, "made.ASC"), channel="HNE").component == "HNE"
 
 
+def test_velocities_beside_accelerations_are_passed_over(tmp_path: Path) -> None:
+    both = MADE["cosmos"](channels=1).encode() + NAMED[-1][1]
+    records = read_records(put(tmp_path, "both.V2c", both))
+    assert [(record.component, record.samples) for record in records] == [("90 deg", POINTS)]
+
+
+def test_the_place_in_a_building_is_no_part_of_a_direction(tmp_path: Path) -> None:
+    placed = FILES["made.V2"].replace(b"CHAN  1:  90 DEG\n", b"CHAN  1:  90 DEG                  ROOF - EAST WALL\n", 1)
+    first = read_records(put(tmp_path, "made.V2", placed))[0]
+    assert (first.component, first.azimuth) == ("90 DEG", 90.0)
+
+
 def test_a_damaged_channel_refuses_the_file(tmp_path: Path) -> None:
     lines = FILES["made.V2"].decode().splitlines(keepends=True)
     second = next(at for at, line in enumerate(lines) if at > 10 and line.startswith("CORRECTED"))

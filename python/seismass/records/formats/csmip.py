@@ -255,7 +255,8 @@ def _channel(
     if channels and not several and int(channels[1]) > 1:
         remarks.append(f"the station has {channels[1]} channels; this file has one")
     place = _CHANNEL.search("\n".join(titles[5:9]))
-    component = " ".join(place["component"].split()) if place else ""
+    # The place in a building may stand further right.
+    component = re.split(r"\s{2,}", place["component"].strip())[0] if place else ""
     contradiction = direction_remark(component, angle, _VERTICAL)
     if contradiction:
         remarks.append(contradiction)
