@@ -1,0 +1,1 @@
+"""Spectral matching."""
