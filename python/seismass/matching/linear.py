@@ -30,7 +30,9 @@ def product(left: FloatArray, right: FloatArray) -> FloatArray:
         for start in range(0, columns, TILE):
             tile = result[top : top + TILE, start : start + TILE]
             for first in range(0, inner, depth):
-                tile += left[top : top + TILE, first : first + depth] @ right[first : first + depth, start : start + TILE]
+                tile += (
+                    left[top : top + TILE, first : first + depth] @ right[first : first + depth, start : start + TILE]
+                )
     return result
 
 

@@ -7,7 +7,7 @@ order. By linearity the displacement at an instant is a sum over samples; its we
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from scipy.signal import lfilter
 
 from seismass._values import FloatArray
 
-UNDERSHOOT = 0.6
+UNDERSHOOT: Final = 0.6
 """Share of an extremum that the samples beside it reach at least, with four samples or more in a period."""
 
 
@@ -102,13 +102,13 @@ class Oscillators:
         longest = int(np.ceil(self.periods.max() / self.dt)) + 3
         samples = np.concatenate([acceleration, np.zeros(longest)])
         rows: list[Any] = []
-        for index, period in enumerate(self.periods):
+        for number, period in enumerate(self.periods):
             end = len(acceleration) + int(np.ceil(period / self.dt)) + 3
-            moved = self.response(index, samples[:end])
+            moved = self.response(number, samples[:end])
             size = np.abs(moved)
             peak = (size[1:-2] >= size[:-3]) & (size[1:-2] > size[2:-1])
             at = np.flatnonzero(peak & (size[1:-2] >= UNDERSHOOT * share * size.max())) + 1
-            rows.append((np.full(len(at), index), at, moved[at - 1], moved[at], moved[at + 1]))
+            rows.append((np.full(len(at), number), at, moved[at - 1], moved[at], moved[at + 1]))
         index, at, before, here, after = (np.concatenate(part) for part in zip(*rows, strict=True))
         # In the step after the sample where |u| still grows at it, else in the one before it.
         velocity = self._velocity(index, samples[at], samples[at + 1], here, after)

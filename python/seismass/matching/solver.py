@@ -90,6 +90,7 @@ def adjust(
     periods: FloatArray,
     target: FloatArray,
     between: Ratios,
+    final: Ratios,
     *,
     damping: float,
     tolerance: float,
@@ -106,7 +107,9 @@ def adjust(
     periods, target : ndarray, shape (periods,)
         Where it is matched (s), and the pseudo-acceleration there (m/s2).
     between : Ratios
-        Judges the misfit, at the same periods and at others between them.
+        Chooses the best of each pass, at the same periods and at others between them.
+    final : Ratios
+        Judges the misfit, at still others.
     damping : float
         Ratio of critical damping of the target.
     tolerance : float
@@ -118,11 +121,12 @@ def adjust(
     displacement = target * (periods / (2.0 * np.pi)) ** 2
     delay = _delays(oscillators)
     acceleration, best = given, given
-    least = _score(between([given])[0])
+    least, _ = _score(between([given])[0])
+    reached = _score(final([given])[0])[1] <= tolerance
     passes = chosen = 0
     shortened = False
     span = (len(given), 0)  # of all wavelets so far
-    while passes < max_iterations and least[1] > tolerance and passes - chosen < PATIENCE:
+    while passes < max_iterations and not reached and passes - chosen < PATIENCE:
         extrema = oscillators.extrema(acceleration, SHARE, MOST)
         time = dt * (extrema.step + extrema.fraction)
         wavelets = place(time - delay[extrema.oscillator], periods[extrema.oscillator], damping, dt, len(given))
@@ -149,8 +153,10 @@ def adjust(
         span = (first, last)
         passes += 1
         shortened = shortened or bool(wavelets.shortened.any())
-        if scores[number][0] < least[0] or scores[number][1] <= tolerance:
-            least, best, chosen = scores[number], acceleration, passes
+        score, largest = scores[number]
+        reached = largest <= tolerance and _score(final([acceleration])[0])[1] <= tolerance
+        if score < least or reached:
+            least, best, chosen = score, acceleration, passes
     return Adjusted(best, passes, chosen, shortened)
 
 
@@ -187,7 +193,12 @@ def _effect(influence: FloatArray, wavelets: Placed) -> FloatArray:
 
 
 def _amplitudes(
-    effect: FloatArray, ratio: FloatArray, taken_back: FloatArray, largest: NDArray[np.bool_], weight: float, ease: float
+    effect: FloatArray,
+    ratio: FloatArray,
+    taken_back: FloatArray,
+    largest: NDArray[np.bool_],
+    weight: float,
+    ease: float,
 ) -> list[FloatArray]:
     """Amplitudes of the wavelets (m/s2), for each weight of `WEAKER`: regularised least squares.
 

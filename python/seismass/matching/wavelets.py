@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from seismass._values import FloatArray
 
 WINDOW_POWER: Final = 6
-"""The window is (1 - x^2) to this power: close to a Gaussian exp(-6 x^2), with five continuous derivatives at its ends."""
+"""The window is (1 - x^2) to this power: close to a Gaussian exp(-6 x^2), with five derivatives that close."""
 LEAST_HALF_WIDTH: Final = 0.75
 """Half-width of a window, in periods, below which its centre is moved away from the end of the record instead."""
 
