@@ -188,6 +188,7 @@ WRONG: list[tuple[str, Callable[[str], str], str]] = [
     ("made_v2.cosmos", swapped("(8F10.5)", "(8X10.5)"), r"format of the numbers of .* must be one as \(8F10.3\)"),
     ("made_v2.cosmos", swapped("(8F10.5)", "(7F10.5)"), r"line \d+ of .* must be 7 numbers of 10 characters; got 80"),
     ("made_v2.cosmos", swapped("    -999\n", "    xxxx\n"), r"value 10 of the integer header .* must be a number"),
+    ("made_v2.cosmos", swapped(" 100 Integer", "  70 Integer"), r"integer header of .* must be at least 76 values, 70"),
     ("made_v2.cosmos", without_line("|<SCNL>"), r"comments of .* must be 1 lines that start with \|"),
     ("made_v2.cosmos", with_last_line("1.0\n"), r"line \d+ of .* must begin a channel"),
     ("made_v2.cosmos", swapped("   20.000000", "   40.000000"), r"points of .* must last 4.06 s"),

@@ -54,6 +54,9 @@ _UNITS: Final = {2: "g", 4: "cm/s2", 10: "cm/s2"}
 _OTHER_UNITS: Final = {5: "cm/s", 6: "cm", 7: "in/s2", 8: "in/s", 9: "in", 11: "mg", 12: "micro g", 50: "counts"}
 _SPECIAL_AZIMUTHS: Final = {400: "UP", 401: "DOWN", 402: "VERTICAL"}
 
+_NEEDED: Final = {"integer": 76, "real": 65}
+"""Values that are looked at; the format has 100 of each."""
+
 MISSING: Final = -999.0
 
 
@@ -99,17 +102,8 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
 
 
 def _is_acceleration(raw: _Raw) -> bool:
-    what = raw.data["what"].lower()
-    return (
-        ("accel" in raw.kind.lower() or "accel" in what)
-        and "spectr" not in raw.kind.lower()
-        and raw.whole[1]
-        in (
-            1.0,
-            MISSING,
-            None,
-        )
-    )
+    words = f"{raw.kind} {raw.data['what']}".lower()
+    return "accel" in words and "spectr" not in words and raw.whole[1] in (1.0, MISSING)
 
 
 def _read_channel(lines: list[str], start: int, file: str) -> tuple[_Raw, int]:
@@ -170,8 +164,11 @@ def _read_header(lines: list[str], at: int, what: str, file: str) -> tuple[list[
     rows, count = int(match["rows"]), int(match["count"])
     layout = layout_of(match["edit"], file)
     numbers = header_values(lines, at + 1, rows, layout)[:count]
-    if not 65 <= count <= rows * layout.columns or len(numbers) < count or at + rows >= len(lines):
-        raise RecordFormatError(f"{what} header of {file} must be {count} values in {rows} lines; got {len(numbers)}")
+    if not _NEEDED[what] <= count <= rows * layout.columns or len(numbers) < count or at + rows >= len(lines):
+        raise RecordFormatError(
+            f"{what} header of {file} must be at least {_NEEDED[what]} values, {count} in {rows} lines; "
+            f"got {len(numbers)}"
+        )
     if any(number is None for number in numbers):
         wrong = numbers.index(None)
         raise RecordFormatError(f"value {wrong + 1} of the {what} header of {file} must be a number; got none")
