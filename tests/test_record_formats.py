@@ -270,6 +270,13 @@ def test_the_time_of_a_peak_that_differs_is_remarked(tmp_path: Path) -> None:
     assert "the peak is at 2.22 s; the header gives 3.22 s" in read_records(file)[0].remarks
 
 
+def test_a_short_line_amid_an_at2_file_is_remarked(tmp_path: Path) -> None:
+    lines = FILES["made.AT2"].decode().splitlines()
+    lines[8], lines[-1] = lines[-1], lines[8]
+    remarks = read_record(put(tmp_path, "made.AT2", "\n".join(lines))).remarks
+    assert remarks == ("line 9 has another number of values than the others: lines may be missing or moved",)
+
+
 def test_a_header_of_esm_with_other_keys_is_remarked(tmp_path: Path) -> None:
     file = put(tmp_path, "made.ASC", without_line("USER3:")(FILES["made.ASC"].decode()))
     assert read_record(file).remarks == ("header has 63 keys, where DYNA 1.x has 64",)

@@ -105,6 +105,9 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
         raise RecordFormatError(
             f"last number of {file} must be written as the others are; got {tokens[-1]!r}: the file is cut off"
         )
+    uneven = _uneven_line(lines, line_of_counts + 1)
+    if uneven:
+        remarks.append(f"line {uneven} has another number of values than the others: lines may be missing or moved")
     event, station, component = _titles(titles)
     return Record(
         acceleration=values * ACCELERATION_UNITS[unit],
@@ -120,6 +123,18 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
         synthetic=bool(_SYNTHETIC.search(header)),
         remarks=tuple(remarks),
     )
+
+
+def _uneven_line(lines: list[str], start: int) -> int | None:
+    """Return the first line that has other than the most usual number of values, but for the last two; 1 is the first.
+
+    Fields that touch are told apart by their points. The last line may be short, and zeros may follow it.
+    """
+    counts = [max(line.count("."), len(line.split())) for line in lines[start:]]
+    while counts and not counts[-1]:
+        counts.pop()
+    usual = max(counts[:20], default=0)
+    return next((start + index + 1 for index, count in enumerate(counts[:-2]) if count not in (0, usual)), None)
 
 
 def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
