@@ -336,8 +336,8 @@ def far_field(pairs: dict[str, Pair]) -> dict[str, str]:
         )
     head = (
         f"The far-field set was chosen by distance, 10 km and more from the fault. {pulses} of its {len(chosen)} pairs "
-        "at hand are pulse-like by Shahi and Baker (2014). The methods look at the motion alone: basins and surface waves "
-        "make such motions too."
+        "at hand are pulse-like by Shahi and Baker (2014). The methods look at the motion alone: basins and surface "
+        "waves make such motions too."
     )
     return {"far_field_head": head, "far_field": rows(lines)}
 
