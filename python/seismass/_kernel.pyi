@@ -20,6 +20,7 @@ __all__ = [
     "Scene",
     "instruction_set",
     "integrate_reference",
+    "oscillator_peaks",
     "response_spectra",
     "simulate",
     "simulate_columns",
@@ -486,6 +487,17 @@ def integrate_reference(
 
     States of gauss and newmark switch at step ends, or where `event_tolerance` (over the step) is given, at the located
     events. Friction springs have `stiffness_ratio` times the stiffness of their storey.
+    """
+
+def oscillator_peaks(
+    motions: SupportsGetItem[int, Motion],
+    periods: NDArray[float64],
+    damping: NDArray[float64],
+    threads: SupportsIndex | None = None,
+) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
+    """
+    Peaks of linear oscillators from rest, each motions x damping ratios x periods: relative displacement (m) with its
+    sign, its time (s), and absolute acceleration (m/s2).
     """
 
 def response_spectra(

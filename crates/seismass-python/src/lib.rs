@@ -26,5 +26,5 @@ mod _kernel {
     #[pymodule_export]
     use crate::scene::{Building, Motion, Scene, uniform_stiffness};
     #[pymodule_export]
-    use crate::spectrum::response_spectra;
+    use crate::spectrum::{oscillator_peaks, response_spectra};
 }

@@ -22,8 +22,10 @@ use crate::lanes::InstructionSet;
 use crate::scene::Motion;
 
 mod oscillator;
+mod peaks;
 
 use oscillator::Oscillator;
+pub use peaks::{OscillatorPeak, oscillator_peaks};
 
 /// Oscillators advanced together.
 const LANES: usize = 16;
@@ -53,16 +55,11 @@ pub fn response_spectra(
     threads: Option<usize>,
     control: &Control,
 ) -> Result<Vec<f64>> {
-    validate(motions, periods, damping)?;
-    let per_motion = periods.len() * damping.len();
-    let count = motions.len().saturating_mul(per_motion);
+    let count = validate(motions, periods, damping, 1)?;
     if count == 0 {
         return Ok(Vec::new());
     }
-    if !is_there_memory(count) {
-        let requirement = "of so few oscillators and motions that their peaks fit into memory";
-        return Err(Error::invalid(Domain::Options, "periods", "spectrum", requirement, format!("{count} peaks")));
-    }
+    let per_motion = periods.len() * damping.len();
     let mut peaks = vec![0.0; count];
     let solve = |peaks: &mut [f64]| {
         let each = peaks.par_chunks_mut(per_motion).zip(motions);
@@ -106,7 +103,8 @@ fn solve_one(motion: &Motion, periods: &[f64], damping: &[f64], control: &Contro
     Ok(())
 }
 
-fn validate(motions: &[Motion], periods: &[f64], damping: &[f64]) -> Result<()> {
+/// Number of oscillators under all motions, for each of which there is memory for `numbers`.
+fn validate(motions: &[Motion], periods: &[f64], damping: &[f64], numbers: usize) -> Result<usize> {
     for (i, &period) in periods.iter().enumerate() {
         if !(period.is_finite() && period > 0.0) {
             let owner = format!("oscillator {}", i + 1);
@@ -125,13 +123,20 @@ fn validate(motions: &[Motion], periods: &[f64], damping: &[f64]) -> Result<()> 
             return Err(Error::invalid(Domain::Options, "period", owner, requirement, period));
         }
     }
-    Ok(())
+    let count = motions.len().saturating_mul(periods.len().saturating_mul(damping.len()));
+    if !is_there_memory(count.saturating_mul(numbers)) {
+        let requirement = "of so few oscillators and motions that their peaks fit into memory";
+        return Err(Error::invalid(Domain::Options, "periods", "spectrum", requirement, format!("{count} peaks")));
+    }
+    Ok(count)
 }
 
 /// A motion times dt^2 (m) and a factor, without its quiet head and tail but for the zeros that follow it, and what bounds
 /// it in each block of steps. Before it nothing moves; the free vibration after it is known in closed form.
 struct Load {
     samples: Vec<f64>,
+    /// The sample of the motion with which they begin.
+    first: usize,
     blocks: Vec<LoadBounds>,
     /// The inverse of the factor: a power of two, near the largest acceleration, so that no square leaves the range of
     /// numbers.
@@ -167,7 +172,7 @@ impl Load {
                 }
             })
             .collect();
-        Self { samples, blocks, unit }
+        Self { samples, first, blocks, unit }
     }
 
     /// Samples at the ends of the steps of a block, and the next.

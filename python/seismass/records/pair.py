@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from itertools import takewhile
 from typing import Any, Final, Literal
@@ -15,7 +15,7 @@ from seismass._values import FloatArray, Value, as_number, brief, refusal
 from seismass.errors import InvalidMotion, InvalidOption
 from seismass.records.read import read_record
 from seismass.records.record import Record
-from seismass.records.rotation import at_angles, between
+from seismass.records.rotation import at_angles, between, component_azimuth
 
 PERPENDICULAR: Final = 5.0
 """How far (degrees) two stated directions may be from a right angle; motion in the plane is solved for."""
@@ -85,7 +85,8 @@ class Pair(Value):
         Parameters
         ----------
         first, second, vertical : Record
-            Components that begin at the same instant, as those of one file set do.
+            Components that begin at the same instant, as those of one file set do. A horizontal without azimuth has the
+            one that its component label states, if it states one.
         lengths : {"shorter", "padded"}
             Where the horizontals differ in length: cut the longer, or pad the shorter with zeros. The vertical is cut
             or padded to them. Both are stated in the remarks and in the history of the component.
@@ -104,7 +105,7 @@ class Pair(Value):
                 raise refusal(InvalidMotion, f"{name} component", "pair", "a Record", brief(record))
         samples = (min if lengths == "shorter" else max)(first.samples, second.samples)
         remarks: list[str] = []
-        ready = [_aligned(_alone(one, remarks), samples, remarks) for one in (first, second)]
+        ready = [_aligned(_alone(_directed(one), remarks), samples, remarks) for one in (first, second)]
         if isinstance(vertical, Record):
             vertical = _aligned(_alone(vertical, remarks), samples, remarks)
         pair = cls(ready[0], ready[1], vertical, tuple(remarks))
@@ -250,7 +251,11 @@ class Pair(Value):
 
     def scaled(self, factor: float) -> Pair:
         """Return the pair with every component multiplied by one factor."""
-        return self.replace(**{name: record.scaled(factor) for name, record in self._named().items()})
+        return self.each(lambda record: record.scaled(factor))
+
+    def each(self, change: Callable[[Record], Record]) -> Pair:
+        """Return the pair with every component changed in one way, as `pair.each(lambda r: r.resampled(0.005))`."""
+        return self.replace(**{name: change(record) for name, record in self._named().items()})
 
     def _labels(self) -> str:
         one, other = (record.component or record.name or "?" for record in (self.first, self.second))
@@ -306,6 +311,11 @@ def _angle(parameter: str, value: Any) -> float:
     if not math.isfinite(angle):
         raise refusal(InvalidOption, parameter, "pair", "a finite number of degrees", brief(value))
     return angle
+
+
+def _directed(record: Record) -> Record:
+    azimuth = component_azimuth(record.component) if record.azimuth is None else record.azimuth
+    return record if azimuth == record.azimuth else record.replace(azimuth=azimuth)
 
 
 def _alone(record: Record, remarks: list[str]) -> Record:

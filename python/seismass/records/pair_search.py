@@ -16,7 +16,7 @@ from seismass.errors import InvalidMotion, RecordFormatError
 from seismass.records.pair import Pair
 from seismass.records.read import read_record
 from seismass.records.record import Record
-from seismass.records.rotation import component_azimuth
+from seismass.records.rotation import between, component_azimuth
 from seismass.records.suite import Excluded, _is_hidden, _vertical_reason
 
 _SEQUENCE: Final = re.compile(r"^RSN(\d+)(?!\d)", re.IGNORECASE)
@@ -182,13 +182,11 @@ def _pair(records: list[Record], lengths: Literal["shorter", "padded"]) -> Pair 
 
 
 def _directed(horizontal: list[Record]) -> list[Record]:
-    """The two horizontals with their directions, as far as these are stated."""
-    azimuths = [
-        component_azimuth(record.component) if record.azimuth is None else record.azimuth for record in horizontal
-    ]
-    if azimuths == [None, None]:
-        ends = [_DIRECTION.search(record.name) for record in horizontal]
-        degrees = [float(end["degrees"]) for end in ends if end and end["degrees"]]
-        if len(degrees) == 2 and max(degrees) <= 360.0 and abs(degrees[0] - degrees[1]) in (90.0, 270.0):
-            azimuths = [value % 360.0 for value in degrees]
-    return [record.replace(azimuth=azimuth) for record, azimuth in zip(horizontal, azimuths, strict=True)]
+    """The two horizontals with the directions that their names end in, where nothing else states them."""
+    if any(record.azimuth is not None or component_azimuth(record.component) is not None for record in horizontal):
+        return horizontal
+    ends = [_DIRECTION.search(record.name) for record in horizontal]
+    degrees = [float(end["degrees"]) for end in ends if end and end["degrees"]]
+    if len(degrees) != 2 or max(degrees) > 360.0 or abs(between(*degrees)) != 90.0:
+        return horizontal
+    return [record.replace(azimuth=azimuth % 360.0) for record, azimuth in zip(horizontal, degrees, strict=True)]

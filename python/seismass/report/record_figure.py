@@ -65,7 +65,7 @@ def _draw(record: Record, panels: list[Axes]) -> None:
         reach = 1.12 * float(np.max(np.abs(values))) or 1.0
         axes.set_ylim(-reach, reach)
         axes.set_ylabel(label)
-        _note(axes, peak, top=True)
+        _note(axes, peak)
     _arias(record, panels[-1], built)
     for axes in panels:
         axes.set_xlim(0.0, max(record.duration, record.dt))
@@ -75,7 +75,8 @@ def _draw(record: Record, panels: list[Axes]) -> None:
     title = plain(record.name or "(unnamed)") + (", synthetic" if record.synthetic else "")
     lines = [title + (f"  ({plain(', '.join(said))})" if said else "")]
     lines += [plain(remark) for remark in drift_remarks(record)]
-    panels[0].set_title("\n".join(lines), loc="left", fontsize=8.5, wrap=True)
+    # The last line is left to the peak.
+    panels[0].set_title("\n".join([*lines, " "]), loc="left", fontsize=8.5, pad=3.0)
 
 
 def _arias(record: Record, axes: Axes, built: FloatArray) -> None:
@@ -87,10 +88,9 @@ def _arias(record: Record, axes: Axes, built: FloatArray) -> None:
     axes.axvspan(*bounds, color=VERMILION, alpha=0.08, linewidth=0.0)
     axes.set_ylim(0.0, 1.08 * record.arias or 1.0)
     axes.set_ylabel("Arias (m/s)")
-    _note(axes, f"Arias = {record.arias:.3f} m/s, D5-95 = {bounds[1] - bounds[0]:.2f} s (dashed)", top=False)
+    _note(axes, f"Arias = {record.arias:.3f} m/s, D5-95 = {bounds[1] - bounds[0]:.2f} s (dashed)")
 
 
-def _note(axes: Axes, text: str, *, top: bool) -> None:
-    """A measure in the corner at the end of the record, where the motion has died away."""
-    place: Any = {"x": 0.99, "y": 0.94 if top else 0.07, "va": "top" if top else "bottom"}
-    axes.text(s=text, ha="right", transform=axes.transAxes, fontsize=8.0, **place)
+def _note(axes: Axes, text: str) -> None:
+    """A measure above the end of a panel, where nothing is drawn."""
+    axes.set_title(text, loc="right", fontsize=8.0, pad=3.0)

@@ -50,27 +50,27 @@ def record_html(record: Record) -> str:
 
 
 def _sketch(record: Record) -> str:
-    """The range of the accelerations in each column of pixels, with the peak marked."""
+    """The accelerations with their peak marked: a line, or their range in each column of pixels where they are many."""
     peak = record.pga or 1.0
-    columns = min(WIDTH, record.samples)
-    starts = np.linspace(0, record.samples, columns, endpoint=False).astype(int)
-    # Columns share their border samples, so that the line has no gaps.
-    ends = np.minimum(np.append(starts[1:], record.samples) + 1, record.samples)
-    x = (np.arange(columns) + 0.5) * (WIDTH / columns)
     middle, reach = 0.5 * HEIGHT, 0.5 * HEIGHT - 6.0
-
-    def y(acceleration: float) -> float:
-        return middle - reach * acceleration / peak
-
-    parts = (record.acceleration[start:end] for start, end in zip(starts, ends, strict=True))
-    lines = (f"M{at:.1f} {y(part.max()):.1f}V{y(part.min()) + 0.1:.1f}" for at, part in zip(x, parts, strict=True))
+    width = WIDTH / record.samples
+    y = middle - reach / peak * record.acceleration
+    if record.samples <= WIDTH:
+        points = " ".join(f"{(number + 0.5) * width:.1f},{at:.1f}" for number, at in enumerate(y))
+        curve = f'<polyline points="{points}" stroke="{COLOUR}" fill="none"/>'
+    else:
+        starts = np.linspace(0, record.samples, WIDTH, endpoint=False).astype(int)
+        # Columns share their border samples, so that the curve has no gaps.
+        ends = np.minimum(np.append(starts[1:], record.samples) + 1, record.samples)
+        parts = [y[start:end] for start, end in zip(starts, ends, strict=True)]
+        path = "".join(f"M{x}.5 {part.min():.1f}V{part.max() + 0.1:.1f}" for x, part in enumerate(parts))
+        curve = f'<path d="{path}" stroke="{COLOUR}" fill="none"/>'
     where = int(np.argmax(np.abs(record.acceleration)))
-    spot = ((where + 0.5) * WIDTH / record.samples, y(float(record.acceleration[where])))
     label = f"accelerations, peak {record.pga_g:.4f} g at {where * record.dt:.2f} s"
     return (
         f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" width="100%" style="max-width:{WIDTH}px;display:block" role="img" '
         f'aria-label="{label}"><title>{label}</title>'
-        f'<line x1="0" y1="{middle}" x2="{WIDTH}" y2="{middle}" stroke="currentColor" stroke-opacity="0.4"/>'
-        f'<path d="{"".join(lines)}" stroke="{COLOUR}" stroke-width="{max(1.0, WIDTH / columns):.2f}" fill="none"/>'
-        f'<circle cx="{spot[0]:.1f}" cy="{spot[1]:.1f}" r="3.5" fill="none" stroke="currentColor"/></svg>'
+        f'<line x1="0" y1="{middle}" x2="{WIDTH}" y2="{middle}" stroke="currentColor" stroke-opacity="0.4"/>{curve}'
+        f'<circle cx="{(where + 0.5) * width:.1f}" cy="{y[where]:.1f}" r="3.5" '
+        'fill="none" stroke="currentColor"/></svg>'
     )

@@ -15,7 +15,7 @@ import polars as pl
 from seismass import _kernel
 from seismass._values import FloatArray, brief, printable, refusal
 from seismass.batch import simulate_many
-from seismass.errors import InvalidMotion
+from seismass.errors import InvalidMotion, InvalidOption
 from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
 from seismass.records import Suite
 from seismass.scaling import ScalingResult, scale_asce7_10
@@ -71,6 +71,7 @@ def run_study(
     target: TargetSpectrum,
     parameters: StudyParameters | None = None,
     *,
+    scaling: ScalingResult | None = None,
     effective: bool = False,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
@@ -80,11 +81,13 @@ def run_study(
     Parameters
     ----------
     suite : Suite
-        Motions, unscaled; they are scaled to the target by `scale_asce7_10`.
+        Motions, unscaled.
     target : TargetSpectrum
         Design spectrum.
     parameters : StudyParameters, optional
         The grid; default the paper's.
+    scaling : ScalingResult, optional
+        Factors of the motions, by whatever method; default those of `scale_asce7_10` towards the target.
     effective : bool, default False
         Compute the effective fraction of each building too, with its interval: a hundred times as many runs.
     threads : int, optional
@@ -102,14 +105,19 @@ def run_study(
     chosen = StudyParameters() if parameters is None else parameters
     if not isinstance(suite, Suite):
         raise refusal(InvalidMotion, "suite", "study", "a Suite of records", brief(suite))
-    scaling = scale_asce7_10(suite, target, chosen.scaling_period, damping=chosen.damping, threads=threads)
+    given = scaling is not None
+    if scaling is None:
+        scaling = scale_asce7_10(suite, target, chosen.scaling_period, damping=chosen.damping, threads=threads)
+    else:
+        _check_scaling(scaling, len(suite))
+    factors = scaling.factors
 
     def design_spectrum(periods: FloatArray) -> FloatArray:
-        return mean_spectrum(suite, scaling.factors, periods, chosen.damping, threads=threads)
+        return mean_spectrum(suite, factors, periods, chosen.damping, threads=threads)
 
     spectrum = _spectrum(suite, target, scaling, chosen.damping, threads)
     buildings = list(study_buildings(chosen, design_spectrum))
-    records = [record.scaled(factor) for record, factor in zip(suite, scaling.factors, strict=True)]
+    records = [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)]
     motions = [record.motion for record in records]
     distinct, run_of, table = _solve(buildings, motions, threads, progress)
     names = display_names(suite)
@@ -130,7 +138,7 @@ def run_study(
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": _digest(suite, target, chosen),
+            "inputs_sha256": _digest(suite, target, chosen, factors if given else None),
             "parameters": chosen.content(),
             "code": _code_metadata(chosen),
             "target": {"label": target.label, **target.parameters},
@@ -146,6 +154,13 @@ def run_study(
             },
         },
     )
+
+
+def _check_scaling(scaling: Any, motions: int) -> None:
+    known = isinstance(scaling, ScalingResult)
+    if not known or len(scaling.factors) != motions:
+        got = f"one of {len(scaling.factors)}" if known else brief(scaling)
+        raise refusal(InvalidOption, "scaling", "study", f"a ScalingResult of {motions} motions", got)
 
 
 def _solve(
@@ -245,8 +260,8 @@ def _spectrum(
     return pl.DataFrame({"period": periods, "target": target(periods), "mean": scaled.mean(axis=0), **motions})
 
 
-def _digest(suite: Suite, target: TargetSpectrum, parameters: StudyParameters) -> str:
-    """SHA-256 of everything that the numbers depend on: samples, target, parameters."""
+def _digest(suite: Suite, target: TargetSpectrum, parameters: StudyParameters, factors: FloatArray | None) -> str:
+    """SHA-256 of everything that the numbers depend on: samples, target, parameters, factors where they are given."""
     digest = hashlib.sha256()
     digest.update(json.dumps([SCHEMA_VERSION, target.parameters, parameters.content()], sort_keys=True).encode())
     for record in suite:
@@ -255,4 +270,6 @@ def _digest(suite: Suite, target: TargetSpectrum, parameters: StudyParameters) -
         if record.vertical is not None:
             digest.update(b"vertical")
             digest.update(np.ascontiguousarray(record.vertical, dtype="<f8").tobytes())
+    if factors is not None:
+        digest.update(np.ascontiguousarray(factors, dtype="<f8").tobytes())
     return digest.hexdigest()

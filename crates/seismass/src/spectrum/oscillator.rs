@@ -154,8 +154,15 @@ impl Oscillator {
         -(b + 2.0 * self.zeta * self.s * v + self.s * self.s * u)
     }
 
+    /// The step from a state under a load.
+    pub(super) fn step(&self, [u, v]: [f64; 2], b: [f64; 2]) -> Step {
+        let [vu, vv, v0, v1] = self.step_v;
+        let v_end = v + (vu * u + vv * v + (v0 * b[0] + v1 * b[1]));
+        Step { u: [u, u + self.increment([u, v], b)], v: [v, v_end], b }
+    }
+
     /// Bound of |u| within a step.
-    fn bound(&self, step: &Step) -> f64 {
+    pub(super) fn bound(&self, step: &Step) -> f64 {
         let Step { u: [u0, u1], v: [v0, v1], b: [b0, b1] } = *step;
         if self.s <= SMALL_STEP {
             let [y0, y1] = [self.second_derivative(u0, v0, b0), self.second_derivative(u1, v1, b1)];
@@ -171,30 +178,26 @@ impl Oscillator {
     }
 
     /// The larger of `peak` and |u| at any zero of u' inside the steps of a block.
-    pub(super) fn peak_inside_steps(&self, [mut u, mut v]: [f64; 2], samples: &[f64], mut peak: f64) -> f64 {
-        let [vu, vv, v0, v1] = self.step_v;
+    pub(super) fn peak_inside_steps(&self, mut state: [f64; 2], samples: &[f64], mut peak: f64) -> f64 {
         for pair in samples.windows(2) {
-            let (b0, b1) = (pair[0], pair[1]);
-            let u_end = u + self.increment([u, v], [b0, b1]);
-            let v_end = v + (vu * u + vv * v + (v0 * b0 + v1 * b1));
-            let step = Step { u: [u, u_end], v: [v, v_end], b: [b0, b1] };
+            let step = self.step(state, [pair[0], pair[1]]);
             if self.bound(&step) > peak {
-                peak = peak.max(self.interior_peak(&step));
+                peak = peak.max(self.interior_extreme(&step)[1].abs());
             }
-            (u, v) = (u_end, v_end);
+            state = step.end();
         }
         peak
     }
 
-    /// Largest |u| at a zero of u' inside a step.
-    fn interior_peak(&self, step: &Step) -> f64 {
+    /// Time within the step, 0 to 1, and u where |u| is largest at a zero of u' inside a step; zeros where there is none.
+    pub(super) fn interior_extreme(&self, step: &Step) -> [f64; 2] {
         let [u0, u1] = step.u;
         let [v0, v1] = step.v;
         let [b0, b1] = step.b;
         let y0 = self.second_derivative(u0, v0, b0);
         // The zeros of u'' are half a period apart, so a small step has at most one.
         if self.s <= SMALL_STEP && y0 * self.second_derivative(u1, v1, b1) > 0.0 {
-            return if v0 * v1 < 0.0 { self.monotone_peak(step, [0.0, 1.0], [v0, v1]) } else { 0.0 };
+            return if v0 * v1 < 0.0 { self.monotone_extreme(step, [0.0, 1.0], [v0, v1]) } else { [0.0; 2] };
         }
         let (theta, decay) = (self.q * self.s, self.zeta * self.s);
         let y_rate = -(b1 - b0) - 2.0 * decay * y0 - self.s * self.s * v0;
@@ -202,22 +205,26 @@ impl Oscillator {
         while phase <= 0.0 {
             phase += std::f64::consts::PI;
         }
-        let mut peak = 0.0f64;
+        let mut extreme = [0.0f64; 2];
         let (mut left, mut v_left) = (0.0, v0);
         while left < 1.0 {
             let right = (phase / theta).min(1.0);
             let v_right = if right < 1.0 { self.within(step, right)[1] } else { v1 };
             if v_left * v_right < 0.0 {
-                peak = peak.max(self.monotone_peak(step, [left, right], [v_left, v_right]));
+                let [time, u] = self.monotone_extreme(step, [left, right], [v_left, v_right]);
+                if u.abs() > extreme[1].abs() {
+                    extreme = [time, u];
+                }
             }
             (left, v_left) = (right, v_right);
             phase += std::f64::consts::PI;
         }
-        peak
+        extreme
     }
 
-    /// |u| at the zero of u' in an interval in which u' is monotone and changes sign: Newton, kept inside its bracket.
-    fn monotone_peak(&self, step: &Step, [mut left, mut right]: [f64; 2], [v_left, v_right]: [f64; 2]) -> f64 {
+    /// Time and u at the zero of u' in an interval in which u' is monotone and changes sign: Newton, kept inside its
+    /// bracket.
+    fn monotone_extreme(&self, step: &Step, [mut left, mut right]: [f64; 2], [v_left, v_right]: [f64; 2]) -> [f64; 2] {
         let mut time = left + (right - left) * (v_left / (v_left - v_right));
         let tolerance = PHASE_TOLERANCE / self.s.max(1.0);
         for _ in 0..MAX_ITERATIONS {
@@ -236,7 +243,7 @@ impl Oscillator {
                 break;
             }
         }
-        self.within(step, time)[0].abs()
+        [time, self.within(step, time)[0]]
     }
 
     /// u and u' at a time within a step, 0 to 1.
@@ -253,22 +260,35 @@ impl Oscillator {
         ]
     }
 
-    /// Largest |u| of the free vibration from a state: at its first extreme, where u^2 + 2 zeta u v + v^2 (v in units
-    /// of w) has decayed at the rate 2 zeta w.
+    /// Largest |u| of the free vibration from a state.
     pub(super) fn free_peak(&self, u: f64, v: f64) -> f64 {
+        u.abs().max(self.free_extreme(u, v)[1].abs())
+    }
+
+    /// Steps until the first extreme of the free vibration from a state, and u there, where u^2 + 2 zeta u v + v^2 (v in
+    /// units of w) has decayed at the rate 2 zeta w. A velocity upwards leads to a positive extreme.
+    pub(super) fn free_extreme(&self, u: f64, v: f64) -> [f64; 2] {
         let v = v / self.s;
         let mut phase = libm::atan2(self.q * v, self.zeta * v + u);
         if phase < 0.0 {
             phase += std::f64::consts::PI;
         }
         let envelope = libm::hypot(u + self.zeta * v, self.q * v);
-        u.abs().max(envelope * libm::exp(-self.zeta * phase / self.q))
+        let extreme = envelope * libm::exp(-self.zeta * phase / self.q);
+        [phase / (self.q * self.s), if v < 0.0 { -extreme } else { extreme }]
     }
 }
 
 /// Displacement, velocity and load at both ends of a step.
-struct Step {
-    u: [f64; 2],
-    v: [f64; 2],
-    b: [f64; 2],
+pub(super) struct Step {
+    pub(super) u: [f64; 2],
+    pub(super) v: [f64; 2],
+    pub(super) b: [f64; 2],
+}
+
+impl Step {
+    /// Displacement and velocity at its end.
+    pub(super) fn end(&self) -> [f64; 2] {
+        [self.u[1], self.v[1]]
+    }
 }
