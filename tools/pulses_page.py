@@ -81,8 +81,8 @@ extracted; a pulse that comes after the shaking is refused.
 Pulses of Mavroeidis and Papageorgiou (2003), a cosine under a cosine bell of two periods, with a peak of 60 cm/s, 30
 degrees from the first component, in noise from 0.5 to 15 Hz with 30 % of the peak in both directions; {seeds} seeds for
 each period. T_p is the period of the wavelet, not of the shape: without noise it is 1.115 times the period of this
-shape at every period, 1.14 times that of a bell of three periods, 0.99 times that of a sine under a bell of one and a half,
-and that of a db4 wavelet itself within one sample of its scale.
+shape at every period, 1.14 times that of a bell of three periods, 0.99 times that of a sine under a bell of one and a
+half, and that of a db4 wavelet itself within one sample of its scale.
 
 {synthetic}
 
