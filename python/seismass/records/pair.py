@@ -28,7 +28,7 @@ class Pair(Value):
     """Two horizontal components of one recording at the same instants, and its vertical component.
 
     Make one with `from_records`, `read_pair` or `find_pairs`. Components of other directions are linear combinations of
-    the two, and as exact as they are.
+    the two, and as exact as they are. Iterating gives the two horizontals and then the vertical, if there is one.
 
     Parameters
     ----------
@@ -126,6 +126,9 @@ class Pair(Value):
         peaks = " and ".join(f"{record.pga_g:.4f}" for record in (self.first, self.second))
         vertical = "" if self.vertical is None else f", vertical {self.vertical.pga_g:.4f} g"
         return f"<Pair {self.name or '(unnamed)'}: {self.samples} x {self.dt:g} s, PGA {peaks} g{vertical}>"
+
+    def _repr_html_(self) -> str:
+        return "".join(record._repr_html_() for record in self)
 
     def __len__(self) -> int:
         return len(self._named())

@@ -24,7 +24,7 @@ PANELS: Final = 4
 
 def record_figure(
     record: Record, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None
-) -> Figure | SubFigure:
+) -> Figure:
     """Return the figure of a record; `Record.plot` says what the arguments are.
 
     Peaks are those in continuous time; circles mark the largest of the samples, which are what is drawn.
@@ -45,8 +45,7 @@ def record_figure(
             if len(panels) != PANELS or not all(isinstance(one, Axes) for one in panels):
                 raise refusal(InvalidOption, "axes", "plot", f"{PANELS} Axes", brief(axes))
         _draw(record, panels)
-    found = panels[0].figure
-    return found
+    return panels[0].figure.figure  # of a subfigure the whole one
 
 
 def _draw(record: Record, panels: list[Axes]) -> None:
