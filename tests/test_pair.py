@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 import re
 import runpy
+import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -355,6 +357,21 @@ def test_documentation_has_the_peers() -> None:
     text = (ROOT / "docs" / "ground_motions.md").read_text(encoding="utf-8")
     assert re.search(r"\| eqsig [\d.]+, 10 samples a period \| 0\.00 to 0\.00 \|", text)
     assert re.search(r"\| pyrotd [\d.]+ \|", text)
+
+
+def test_benchmark_marks_what_is_absent(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its own row has no differences from its own spectra, and programs that are not installed are said."""
+    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
+    monkeypatch.setitem(sys.modules, "eqsig.sdof", None)
+    benchmark = runpy.run_path(str(ROOT / "benchmarks" / "ground_motions.py"))
+    record = sm.builtin_suite()[0].with_duration(5.0)
+    pair = Pair.from_records(record, record.replace(acceleration=record.acceleration[::-1]))
+    periods = np.array([0.02, 0.1, 0.5, 2.0])
+    listed = [SimpleNamespace(pair=pair, periods=periods, spectrum=rotd(pair, periods)[50])]
+    rows = benchmark["spectra_rows"](listed, lambda value: f"{value:.2f}")
+    assert len(rows) == len(benchmark["PROGRAMS"])
+    assert rows[0][1:6] == ("0.00 to 0.00",) * 4 + ("0.00",)
+    assert all(row[0].startswith("eqsig: absent") and len(row) == len(rows[0]) for row in rows[1:3])
 
 
 @pytest.mark.parametrize(
