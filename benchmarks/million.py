@@ -39,7 +39,7 @@ LEAST_TIME: Final = 3.0
 
 def motion() -> sm.Motion:
     """Return the strong part of a built-in motion."""
-    whole = sm.builtin_suite()[MOTION].motion
+    whole = sm.builtin_suite("seven")[MOTION].motion
     first, last = (round(time / whole.dt) for time in STRONG_PART)
     return sm.Motion(whole.acceleration[first : last + 1], whole.dt)
 
@@ -103,7 +103,7 @@ def measure(sizes: tuple[int, ...] = SIZES, threads: int = THREADS) -> dict[str,
         child = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
         batches.append(json.loads(child.stdout))
     used = motion()
-    name = f"{sm.builtin_suite()[MOTION].name}, {STRONG_PART[0]:g} to {STRONG_PART[1]:g} s"
+    name = f"{sm.builtin_suite('seven')[MOTION].name}, {STRONG_PART[0]:g} to {STRONG_PART[1]:g} s"
     return {
         "motion": name,
         "samples": used.samples,

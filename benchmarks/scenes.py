@@ -111,7 +111,7 @@ def suite() -> sm.records.Suite:
     shared = os.environ.get("SEISMASS_SHARED")
     if shared:
         return sm.read_suite(Path(shared) / "records" / "paper_seven.csv")
-    return sm.builtin_suite()
+    return sm.builtin_suite("seven")
 
 
 def _name(record: sm.Record) -> str:

@@ -64,7 +64,7 @@ def test_drifts_and_slips_are_those_of_single_runs(small: sm.Assessment) -> None
     building = sm.read_building(tables())
     scene = building.scene()
     assert scene.building is not None
-    motions = [r.scaled(f).motion for r, f in zip(sm.builtin_suite(), small.scaling.factors, strict=True)]
+    motions = [r.scaled(f).motion for r, f in zip(sm.builtin_suite("seven"), small.scaling.factors, strict=True)]
     real = [sm.simulate(scene, motion) for motion in motions]
     ratios = np.array([response.peak_drift / 4.0 for response in real])
     np.testing.assert_allclose(mean_of(small, "real"), ratios.mean(axis=0), rtol=1e-12)
@@ -88,7 +88,7 @@ def test_drifts_and_slips_are_those_of_single_runs(small: sm.Assessment) -> None
 
 def test_the_effective_fraction_is_that_of_the_scene(small: sm.Assessment) -> None:
     assert small.scaling is not None
-    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite(), small.scaling.factors, strict=True)]
+    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite("seven"), small.scaling.factors, strict=True)]
     for model, factor in (("real", 1.0), ("real_mu_low", 0.67), ("real_mu_high", 1.5)):
         alone = sm.effective_mass(sm.read_building(tables()).scene(mu_factor=factor), motions, resamples=200)
         assert small.effective[model].value == alone.value
@@ -102,13 +102,15 @@ def test_attached_models_are_those_of_the_effective_fraction() -> None:
     scene = sm.read_building(tables()).scene()
     goods = np.array([0.8 * 3.0e6 / G, 0.0])
     ours, theirs = with_mass(scene, 0.4 * goods), sm.attached_scene(scene, 0.4)
-    motion = sm.builtin_suite()[0].motion
+    motion = sm.builtin_suite("seven")[0].motion
     np.testing.assert_allclose(sm.simulate(ours, motion).peak_drift, sm.simulate(theirs, motion).peak_drift, rtol=1e-12)
 
 
 def test_motions_are_scaled_for_the_period_with_goods(small: sm.Assessment) -> None:
     building = sm.read_building(tables())
-    scaling = sm.scale_asce7_10(sm.builtin_suite(), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods))
+    scaling = sm.scale_asce7_10(
+        sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods)
+    )
     assert small.scaling is not None
     np.testing.assert_array_equal(small.scaling.factors, scaling.factors)
     other = sm.assess(tables(), scaling_period=0.7, mu_factors=(1, 1), resamples=2)

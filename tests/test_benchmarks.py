@@ -33,7 +33,7 @@ def module(monkeypatch: pytest.MonkeyPatch) -> Any:
 def bench(module: Any) -> Any:
     """The section-4 building under the first 2000 samples of a built-in motion."""
     scenes = module("scenes")
-    motion = sm.builtin_suite()[0]
+    motion = sm.builtin_suite("seven")[0]
     samples = motion.scaled(6.9 / motion.pga).acceleration[:2000]
     return scenes.BenchmarkScene("short", "short", scenes.section4(0.05), sm.Motion(samples, motion.dt), "synthetic")
 

@@ -12,7 +12,7 @@ import pytest
 import seismass as sm
 from seismass import cli
 
-MOTION = sm.builtin_suite()[0].source
+MOTION = sm.builtin_suite("seven")[0].source
 COMMAND = (sys.executable, "-c", "import sys; from seismass.cli import main; sys.exit(main(sys.argv[1:]))")
 
 

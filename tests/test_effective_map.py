@@ -16,7 +16,7 @@ from seismass.design import response_spectrum_analysis
 from seismass.report.map_figures import map_figures
 from seismass.spectra import mean_spectrum
 
-SUITE = sm.builtin_suite()
+SUITE = sm.builtin_suite("seven")
 TARGET = sm.TargetSpectrum.asce7()
 SMALL = sm.EffectiveMassParameters(
     buildings=((2, 0.38, "bare"), (3, 0.6, "loaded")),

@@ -18,7 +18,7 @@ from seismass.effective_mass.curve import interpolated
 from seismass.spectra import mean_spectrum
 from seismass.units import STANDARD_GRAVITY
 
-SUITE = sm.builtin_suite()
+SUITE = sm.builtin_suite("seven")
 FACTORS = sm.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7()).factors
 MOTIONS = [record.scaled(factor) for record, factor in zip(SUITE, FACTORS, strict=True)]
 

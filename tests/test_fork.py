@@ -88,7 +88,7 @@ def test_a_fork_before_polars_has_threads_loses_nothing() -> None:
 
 def test_the_log_is_the_events_without_polars() -> None:
     building = sm.Building.uniform(2, 0.4, yield_shear_over_weight=0.1)
-    response = sm.simulate(sm.Scene(building, sm.blocks_on_floors([1.0, 1.0], 0.1)), sm.builtin_suite()[0])
+    response = sm.simulate(sm.Scene(building, sm.blocks_on_floors([1.0, 1.0], 0.1)), sm.builtin_suite("seven")[0])
     log, events = response.event_log, response.events
     assert log.dtype.names == tuple(events.columns)
     assert not log.flags.writeable

@@ -255,7 +255,7 @@ INTERRUPTED = """
     import seismass as sm
     building = sm.Building.uniform(2, 0.3, yield_shear_over_weight=[0.2, 0.12])
     grid = sm.Grid.product(building, mass_ratio=1.0, mu=np.linspace(0.1, 0.5, 1000), scale=np.linspace(0.5, 2.0, 1000))
-    motion = sm.builtin_suite()[0]
+    motion = sm.builtin_suite("seven")[0]
     sent = []
     def interrupt():
         time.sleep(0.5)

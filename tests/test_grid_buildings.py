@@ -14,7 +14,7 @@ from seismass.spectra import mean_spectrum
 from seismass.study import StudyParameters, run_study
 
 BASE = sm.Building.uniform(3, 0.47, mass=2e5, yield_shear_over_weight=[0.3, 0.25, 0.12], heights=3.5, gravity_load=2e6)
-MOTION = sm.builtin_suite()[0]
+MOTION = sm.builtin_suite("seven")[0]
 
 
 def test_each_column_changes_its_own() -> None:
@@ -116,7 +116,7 @@ def test_bare_roofs_of_several_storeys_are_one_grid() -> None:
 
 def test_the_study_of_the_paper_is_a_grid() -> None:
     """All three storeys, three models, four R and three alpha, with the strengths of the design: the study's drifts."""
-    suite, target, parameters = sm.builtin_suite(), sm.TargetSpectrum.asce7(), StudyParameters()
+    suite, target, parameters = sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(), StudyParameters()
     study = run_study(suite, target, parameters)
     factors = study.scaling.factors
     periods = dict(parameters.buildings)

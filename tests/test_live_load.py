@@ -19,7 +19,7 @@ from seismass.spectra import mean_spectrum
 ROOT = Path(__file__).parents[1]
 BUILDING = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
 SCENE = sm.Scene(BUILDING, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.4, mu_k=0.3))
-MOTIONS = [record.scaled(2.0) for record in sm.builtin_suite()]
+MOTIONS = [record.scaled(2.0) for record in sm.builtin_suite("seven")]
 SOME = {"mu": sm.lognormal(0.4, 0.25), "occupancy": sm.beta(0.7, 0.15)}
 
 

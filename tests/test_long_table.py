@@ -8,7 +8,7 @@ import pytest
 
 import seismass as sm
 
-SUITE = sm.builtin_suite()
+SUITE = sm.builtin_suite("seven")
 BASE = sm.Building.uniform(3, 0.47, mass=1e5, yield_shear_over_weight=[0.3, 0.25, 0.12], heights=[4.0, 3.5, 3.0])
 PER_STOREY = ("peak_drift", "peak_drift_time", "peak_drift_ratio", "residual_drift", "peak_storey_shear")
 PER_BLOCK = ("peak_slip", "peak_slip_time", "residual_slip", "slip_path")

@@ -20,7 +20,7 @@ def test_usual_inputs_have_no_remark():
     usual = scene(gravity_load=1e6)
     assert scene_remarks(usual) == usual.remarks == ()
     assert scene_remarks(sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.3)])) == ()
-    suite = sm.builtin_suite()
+    suite = sm.builtin_suite("seven")
     target = sm.TargetSpectrum.asce7()
     assert motion_remarks(suite) == target_remarks(target) == ()
     scaling = sm.scale_asce7_10(suite, target)
@@ -78,7 +78,7 @@ def test_targets(tmp_path):
 
 
 def test_factors_and_mean_spectrum():
-    suite, target = sm.builtin_suite(), sm.TargetSpectrum.asce7()
+    suite, target = sm.builtin_suite("seven"), sm.TargetSpectrum.asce7()
     factors = sm.scale_asce7_10(suite, target).factors
     # A record a tenth as strong has ten times the factor.
     weak = sm.Suite("weak", (suite[0].scaled(0.1), *suite[1:]))

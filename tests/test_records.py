@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from seismass.commands.options import left_out
 from seismass.errors import InvalidMotion, RecordFormatError
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
-from seismass.records.numbers import is_cut_off, split_touching
+from seismass.records.formats.columns import NO_COUNT
+from seismass.records.formats.numbers import is_cut_off, split_touching
 from seismass.units import STANDARD_GRAVITY, stated_unit, unknown_unit
 
 VALUES_G = [0.001, -0.25, 0.125, 1.5e-4, -3.0e-3, 0.0, 0.0625]
@@ -313,7 +314,8 @@ def test_directory_takes_horizontals_and_lists_the_rest(tmp_path: Path) -> None:
     for name in (*horizontal, *by_name, *by_header, *others, ".hidden.AT2", ".git/config"):
         file = tmp_path / name
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(at2(title=f"Quake, 1/1/2000, Town, {by_header.get(name, '90')}"))
+        no_record = "Notes on the records (g)\n0.1 to 0.2\n" if name in ("notes.txt", "README") else None
+        file.write_text(no_record or at2(title=f"Quake, 1/1/2000, Town, {by_header.get(name, '90')}"))
     suite = read_suite(tmp_path)
     taken = [record.source.relative_to(tmp_path).as_posix() for record in suite if record.source]
     assert taken == sorted(horizontal)
@@ -332,9 +334,11 @@ def test_directory_takes_horizontals_and_lists_the_rest(tmp_path: Path) -> None:
     assert sum(int(line.split()[2]) for line in lines) == len(suite.excluded)
 
 
-def test_directory_without_at2_files_says_what_is_there(tmp_path: Path) -> None:
+def test_directory_without_records_says_what_is_there(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("0.1\n0.2\n")
-    with pytest.raises(RecordFormatError, match=r"got 0 \.AT2 files, 0 of them vertical and 1 files of other kinds"):
+    with pytest.raises(
+        RecordFormatError, match=r"got 0 vertical components and 1 other files, a\.txt not read: \.txt files"
+    ):
         read_suite(tmp_path)
 
 
@@ -357,12 +361,12 @@ def test_a_scale_of_a_list_is_applied_and_other_columns_are_named(tmp_path: Path
     (tmp_path / "list.csv").write_text("number,file,dt,unit,scale,magnitude,Vs30\n1,a.txt,0.02,m/s2,1.5,7.1,300\n")
     suite = read_suite(tmp_path / "list.csv")
     assert suite[0].acceleration.tolist() == [0.1 * 1.5, -0.2 * 1.5]
-    assert suite[0].remarks == ("scaled by 1.5 as listed",)
+    assert suite[0].remarks == (NO_COUNT, "scaled by 1.5 as listed")
     assert suite.remarks == ("columns of list.csv that are not used: magnitude, Vs30",)
     assert left_out(suite) == list(suite.remarks)
     (tmp_path / "list.csv").write_text("file,dt,unit,scale\na.txt,0.02,m/s2,\n")
     plain = read_suite(tmp_path / "list.csv")
-    assert (plain[0].pga, plain[0].remarks, plain.remarks) == (0.2, (), ())
+    assert (plain[0].pga, plain[0].remarks, plain.remarks) == (0.2, (NO_COUNT,), ())
     for cell in ("nan", "inf", "twice"):
         (tmp_path / "list.csv").write_text(f"file,dt,unit,scale\na.txt,0.02,m/s2,{cell}\n")
         with pytest.raises(RecordFormatError, match=r"scale of list\.csv, row 1, must be a"):
@@ -448,7 +452,7 @@ def test_real_columns(shared: Path) -> None:
     np.testing.assert_array_equal(hector.acceleration, column[2:] * STANDARD_GRAVITY)
     assert "not as samples" in hector.remarks[0]
     el_centro = read_record(formats / "single_column/el_centro.th", unit="g", dt=0.02)
-    assert (el_centro.samples, el_centro.remarks) == (1560, ())
+    assert (el_centro.samples, el_centro.remarks) == (1560, (NO_COUNT,))
     assert el_centro.pga_g == pytest.approx(0.3188, abs=1e-4)  # El Centro 1940 NS as widely used
     esm = read_record(formats / "esm/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC")
     assert (esm.dt, esm.samples, esm.unit) == (0.005, 19128, "cm/s2")

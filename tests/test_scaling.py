@@ -12,7 +12,7 @@ G = 9.80665
 
 @pytest.fixture(scope="module")
 def suite() -> list[sm.Record]:
-    return list(sm.builtin_suite())
+    return list(sm.builtin_suite("seven"))
 
 
 @pytest.fixture(scope="module")

@@ -401,12 +401,12 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     (
         {"motion": changed(MOTION, unit="ft/s2")},
         sm.InvalidSceneFile,
-        r"motion.unit of .* must be one of g, m/s2, cm/s2; got 'ft/s2'",
+        r"motion.unit of .* must be one of g, m/s2, cm/s2, gal; got 'ft/s2'",
     ),
     (
         {"motion": changed(MOTION, unit=["g"])},
         sm.InvalidSceneFile,
-        r"motion.unit of .* must be one of g, m/s2, cm/s2; got \['g'\]",
+        r"motion.unit of .* must be one of g, m/s2, cm/s2, gal; got \['g'\]",
     ),
     (
         {"building": changed(BUILDING, damping={"kind": ["modal"]})},
@@ -517,7 +517,7 @@ def test_the_example_of_the_page_is_what_it_says(tmp_path: Path) -> None:
     building = sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.2, 0.12], heights=3.5)
     blocks = [sm.Block(1, mass_ratio=1.0, mu=0.3), sm.Block(2, mass_ratio=0.5, mu_s=0.35, mu_k=0.25)]
     assert file.scene == sm.Scene(building, blocks, collapse_drift=0.25)
-    assert file.motion == sm.builtin_suite()[0].scaled(1.5).motion
+    assert file.motion == sm.builtin_suite("seven")[0].scaled(1.5).motion
     response = sm.simulate(file.scene, file.motion)
     assert response.status == "completed"
     assert response.counts["yield"] > 0

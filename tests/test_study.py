@@ -26,12 +26,12 @@ SMALL = StudyParameters(buildings=((2, 0.38), (3, 0.47)), response_modification=
 
 @pytest.fixture(scope="module")
 def full() -> StudyResult:
-    return run_study(sm.builtin_suite(), TARGET)
+    return run_study(sm.builtin_suite("seven"), TARGET)
 
 
 @pytest.fixture(scope="module")
 def small() -> StudyResult:
-    return run_study(sm.builtin_suite(), TARGET, SMALL)
+    return run_study(sm.builtin_suite("seven"), TARGET, SMALL)
 
 
 def test_equal_runs_are_solved_once(full: StudyResult) -> None:
@@ -44,13 +44,13 @@ def test_equal_runs_are_solved_once(full: StudyResult) -> None:
 
 
 def test_yielding_at_r1_makes_buildings_of_two_occupancies_differ() -> None:
-    counts = run_study(sm.builtin_suite(), TARGET, StudyParameters(yield_at_r1=True)).metadata["counts"]
+    counts = run_study(sm.builtin_suite("seven"), TARGET, StudyParameters(yield_at_r1=True)).metadata["counts"]
     # 72 real, 72 attached, 36 code models of storage and 12 of commercial buildings.
     assert (counts["analyses"], counts["distinct"]) == (1512, 7 * (72 + 72 + 48))
 
 
 def test_two_equal_motions_count_once() -> None:
-    records = list(sm.builtin_suite())
+    records = list(sm.builtin_suite("seven"))
     suite = sm.Suite("twice", (*records[:2], records[0], records[0]))
     counts = run_study(suite, TARGET, SMALL).metadata["counts"]
     # Of 8 buildings the real and attached scenes are 2 (R = 1) + 4, the code scenes 4 + 4; 2 of 4 motions differ.
@@ -68,7 +68,7 @@ def test_tables_have_a_row_per_building_model_motion_and_storey(full: StudyResul
 
 
 def test_rows_are_what_the_kernel_gives_for_the_scene_built_by_hand(full: StudyResult) -> None:
-    suite = sm.builtin_suite()
+    suite = sm.builtin_suite("seven")
     factors = full.scaling.factors
     bare = sm.Building.uniform(3, 0.47, mass=1.0)
     share = np.array([0.25 * 1.5, 0.25 * 1.5, 0.0])
@@ -103,7 +103,7 @@ def test_strength_is_the_elastic_shear_over_r(full: StudyResult) -> None:
     assert full.designs.filter(R=1.0)["yield_shear_over_weight"].null_count() == 2 * 3 * 9
     # Spectral acceleration is evaluated at the period of the design model, here the last mode of each building.
     row = designs.filter(occupancy="storage", storeys=4, alpha=1.5, R=2.0).sort("storey")
-    suite = list(sm.builtin_suite())
+    suite = list(sm.builtin_suite("seven"))
     expected = mean_spectrum(suite, full.scaling.factors, row["design_period"])
     np.testing.assert_allclose(row["spectral_acceleration"], expected, rtol=1e-14)
     assert row["design_period"][0] == pytest.approx(0.6286, abs=0.5e-4)  # lambda alpha = 0.375
@@ -151,7 +151,7 @@ def test_summary_holds_means_over_motions_and_their_ratio(full: StudyResult) -> 
 def test_no_friction_is_the_commercial_rule() -> None:
     """mu = 0: the blocks are not there for the building, so real and code model with lambda = 0 agree."""
     result = run_study(
-        sm.builtin_suite(),
+        sm.builtin_suite("seven"),
         TARGET,
         StudyParameters(buildings=((2, 0.38),), occupancies=(("commercial", 0.0),), mu=(0.0,)),
     )
@@ -164,29 +164,29 @@ def test_lambda_of_one_is_the_real_model_where_nothing_slides() -> None:
         buildings=((2, 0.38),), occupancies=(("all", 1.0),), mass_ratios=(1.0,), mu=(1e3,), response_modification=(2.0,)
     )
     for base in ("bare", "loaded"):
-        result = run_study(sm.builtin_suite(), TARGET, replace(chosen, damping_base=base))
+        result = run_study(sm.builtin_suite("seven"), TARGET, replace(chosen, damping_base=base))
         # Masses, stiffness and C are the same numbers up to rounding of C.
         np.testing.assert_allclose(result.summary["ratio_sliding"], 1.0, atol=1e-12)
         assert result.summary["ratio_mass"].to_list() == [1.0, 1.0]
         assert result.summary["mean_peak_slip"].drop_nulls().to_list() == [0.0]
-    own = run_study(sm.builtin_suite(), TARGET, replace(chosen, damping_base="own"))
+    own = run_study(sm.builtin_suite("seven"), TARGET, replace(chosen, damping_base="own"))
     # C of the heavier models is larger: the real building drifts more than the same building glued.
     assert (own.summary["ratio_sliding"] > 1.001).all()
 
 
 def test_threads_change_no_digit(small: StudyResult) -> None:
-    again = run_study(sm.builtin_suite(), TARGET, SMALL, threads=1)
+    again = run_study(sm.builtin_suite("seven"), TARGET, SMALL, threads=1)
     assert again.responses.equals(small.responses)
     assert again.summary.equals(small.summary)
     assert again.metadata == small.metadata
 
 
 def test_digest_depends_on_motions_target_and_parameters(small: StudyResult) -> None:
-    records = list(sm.builtin_suite())
+    records = list(sm.builtin_suite("seven"))
     others = [
         run_study(sm.Suite("less", tuple(records[:6])), TARGET, SMALL),
-        run_study(sm.builtin_suite(), sm.TargetSpectrum.asce7(1.0), SMALL),
-        run_study(sm.builtin_suite(), TARGET, StudyParameters(**{**vars(SMALL), "second_slope": 0.1})),
+        run_study(sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(1.0), SMALL),
+        run_study(sm.builtin_suite("seven"), TARGET, StudyParameters(**{**vars(SMALL), "second_slope": 0.1})),
     ]
     with_vertical = (*records[:6], records[6].with_vertical(records[6].scaled(0.6)))
     others.append(run_study(sm.Suite("vertical", with_vertical), TARGET, SMALL))
@@ -208,7 +208,7 @@ def test_a_failed_run_gives_no_mean(small: StudyResult, monkeypatch: pytest.Monk
         )
 
     monkeypatch.setattr(study, "simulate_many", failing)
-    result = run_study(sm.builtin_suite(), TARGET, SMALL)
+    result = run_study(sm.builtin_suite("seven"), TARGET, SMALL)
     assert result.metadata["counts"]["failed"] == 1
     # Run 1 is the elastic real model under motion 1, which storage and commercial share.
     missing = result.summary.filter(pl.col("ratio").is_null())
@@ -267,7 +267,7 @@ def test_findings_are_counted_from_the_summary() -> None:
 def test_rounding_is_no_finding() -> None:
     """mu = 0: real and commercial code model are one building, and its drifts agree to rounding."""
     chosen = StudyParameters(buildings=((2, 0.38),), occupancies=(("commercial", 0.0),), mu=(0.0,))
-    result = run_study(sm.builtin_suite(), TARGET, chosen)
+    result = run_study(sm.builtin_suite("seven"), TARGET, chosen)
     assert (result.summary["underestimation_percent"] != 0.0).any()
     (entry,) = findings(result.summary, result.fractions)
     assert (entry["code_gives_more"], entry["growth"]["alpha"]["grows"], entry["growth"]["R"]["grows"]) == (0, 0, 0)
@@ -426,7 +426,7 @@ def test_names_of_motions_differ(labels: list[tuple[str, str, str]], names: list
 def test_recorded_and_synthetic_motions_are_counted_apart(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    records = list(sm.builtin_suite())[:3]
+    records = list(sm.builtin_suite("seven"))[:3]
     mixed = sm.Suite("mixed", (*records[:2], records[2].replace(synthetic=False, remarks=("found in a drawer",))))
     result = run_study(mixed, TARGET, SMALL)
     assert result.metadata["suite"]["synthetic"] == 2
@@ -449,7 +449,7 @@ def test_spectra_are_tabulated_over_the_periods_of_the_scaling(tmp_path: Path) -
     chosen = StudyParameters(
         buildings=((2, 4.0),), response_modification=(4.0,), mass_ratios=(1e-3,), scaling_period=20.0
     )
-    spectrum = run_study(sm.builtin_suite(), sm.TargetSpectrum.from_csv(file), chosen).spectrum
+    spectrum = run_study(sm.builtin_suite("seven"), sm.TargetSpectrum.from_csv(file), chosen).spectrum
     assert (spectrum["period"][0], spectrum["period"][-1]) == (3.5, 30.0)
 
 
@@ -460,7 +460,7 @@ def test_figures_tell_every_alpha_and_r_apart() -> None:
         response_modification=(2.0, 2.0000001),
         mass_ratios=(0.25, 0.5, 0.75, 1.0, 1.25),
     )
-    result = run_study(sm.Suite("x$_$y", sm.builtin_suite().records), TARGET, chosen)
+    result = run_study(sm.Suite("x$_$y", sm.builtin_suite("seven").records), TARGET, chosen)
     figures = study_figures(result)
     assert list(figures) == ["spectrum", "underestimation", "drift_R2", "drift_R2.0000001"]
     assert all(write.FIGURE_FILE.fullmatch(f"{name}.png") for name in figures)
@@ -632,11 +632,11 @@ def test_version_spectrum_and_scale_commands(capsys: pytest.CaptureFixture[str],
 
     assert command("scale", "--json") == 0
     document = json.loads(capsys.readouterr().out)
-    expected = sm.scale_asce7_10(sm.builtin_suite(), TARGET)
+    expected = sm.scale_asce7_10(sm.builtin_suite("seven"), TARGET)
     assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
-    assert document["motions"][0]["remarks"] == list(sm.builtin_suite()[0].remarks)
+    assert document["motions"][0]["remarks"] == list(sm.builtin_suite("seven")[0].remarks)
     assert command("scale") == 0
     printed = capsys.readouterr().out
     assert "synthetic-1" in printed
     assert "100 periods from 0.2 to 1.5 s" in printed
-    assert sm.builtin_suite()[0].remarks[0] in printed
+    assert sm.builtin_suite("seven")[0].remarks[0] in printed

@@ -28,7 +28,7 @@ ONE = StudyParameters(
 
 @pytest.fixture(scope="module")
 def small() -> StudyResult:
-    return run_study(sm.builtin_suite(), TARGET, SMALL)
+    return run_study(sm.builtin_suite("seven"), TARGET, SMALL)
 
 
 def rows_of(result: StudyResult, model: str, **keys: object) -> pl.DataFrame:
@@ -36,7 +36,7 @@ def rows_of(result: StudyResult, model: str, **keys: object) -> pl.DataFrame:
 
 
 def test_friction_is_an_axis_whose_parts_are_studies_of_their_own(small: StudyResult) -> None:
-    both = run_study(sm.builtin_suite(), TARGET, replace(SMALL, mu=(0.4, 0.2)))
+    both = run_study(sm.builtin_suite("seven"), TARGET, replace(SMALL, mu=(0.4, 0.2)))
     counts = both.metadata["counts"]
     # The 6 real scenes once more; models without blocks are the same for every mu.
     assert (counts["buildings"], counts["distinct"]) == (16, small.metadata["counts"]["distinct"] + 6 * 7)
@@ -53,7 +53,7 @@ def test_friction_is_an_axis_whose_parts_are_studies_of_their_own(small: StudyRe
 
 
 def test_figures_of_several_frictions_are_named_after_them() -> None:
-    result = run_study(sm.builtin_suite(), TARGET, replace(ONE, mu=(0.4, 0.2)))
+    result = run_study(sm.builtin_suite("seven"), TARGET, replace(ONE, mu=(0.4, 0.2)))
     names = ["spectrum", *(f"{name}_mu{mu}" for mu in (0.2, 0.4) for name in ("underestimation", "drift_R4"))]
     figures = study_figures(result)
     assert list(figures) == names
@@ -76,7 +76,7 @@ def test_figures_show_the_three_models_and_say_what_they_depend_on(small: StudyR
 
 
 def test_lambda_of_design_and_analysis_are_separate() -> None:
-    suite = sm.builtin_suite()
+    suite = sm.builtin_suite("seven")
     both = run_study(suite, TARGET, ONE)
     glued = run_study(suite, TARGET, replace(ONE, occupancies=(("storage", 0.25, 1.0),)))
     bare = run_study(suite, TARGET, replace(ONE, occupancies=(("storage", 0.0, 0.25),)))
@@ -100,7 +100,7 @@ def test_lambda_of_design_and_analysis_are_separate() -> None:
 @pytest.mark.parametrize("base", ["bare", "loaded", "own"])
 def test_damping_base_is_the_matrix_of_the_building_it_names(base: str) -> None:
     """Each model against a run of the scene with C written out: M Phi diag(2 zeta w) Phi^T M by numpy."""
-    suite = sm.builtin_suite()
+    suite = sm.builtin_suite("seven")
     result = run_study(suite, TARGET, replace(ONE, damping_base=base))
     bare = sm.Building.uniform(3, 0.47, mass=1.0)
     goods = np.array([1.0, 1.0, 0.0])
@@ -139,7 +139,7 @@ def test_eta_and_its_estimates_are_those_of_the_attached_model(small: StudyResul
 
 
 def test_effective_fraction_is_that_of_the_scene_alone() -> None:
-    suite = sm.builtin_suite()
+    suite = sm.builtin_suite("seven")
     result = run_study(suite, TARGET, replace(ONE, mu=(0.2,)), effective=True)
     row = result.fractions.row(0, named=True)
     strength = result.designs.sort("storey")["yield_shear_over_weight"].to_numpy()
@@ -159,7 +159,7 @@ def test_effective_fraction_is_that_of_the_scene_alone() -> None:
 
 
 def test_p_delta_has_the_same_weight_in_all_models() -> None:
-    suite = sm.builtin_suite()
+    suite = sm.builtin_suite("seven")
     chosen = replace(ONE, p_delta=True, height=4.0, response_modification=(2.0,))
     result, without = run_study(suite, TARGET, chosen), run_study(suite, TARGET, replace(chosen, p_delta=False))
     bare = sm.Building.uniform(3, 0.47, mass=1.0)
@@ -183,7 +183,7 @@ def test_p_delta_has_the_same_weight_in_all_models() -> None:
 
 
 def test_collapsed_runs_are_counted_and_never_averaged() -> None:
-    suite = sm.builtin_suite()
+    suite = sm.builtin_suite("seven")
     free = run_study(suite, TARGET, ONE)
     drifts = rows_of(free, "real", storey=1)["peak_drift"].to_numpy()
     limit = float(np.sort(drifts)[-2:].mean()) / 3.5  # between the largest drift and the one before
@@ -223,7 +223,7 @@ def test_quantiles_of_infinite_values() -> None:
 
 
 def test_any_code_takes_the_place_of_asce() -> None:
-    result = run_study(sm.builtin_suite(), TARGET, replace(SMALL, code="ec8"))
+    result = run_study(sm.builtin_suite("seven"), TARGET, replace(SMALL, code="ec8"))
     storage, ordinary = (sm.code_fraction("ec8", use) for use in ("storage", "ordinary"))
     assert result.metadata["code"]["name"] == storage.code
     assert result.metadata["code"]["fractions"]["storage"]["status"] == storage.status
@@ -232,12 +232,12 @@ def test_any_code_takes_the_place_of_asce() -> None:
     # A code that says nothing of ordinary buildings has none.
     racks = StudyParameters(code="asce7-10-racks")
     assert racks.fractions == (("storage", 0.67, 0.67),)
-    own = run_study(sm.builtin_suite(), TARGET, ONE)
+    own = run_study(sm.builtin_suite("seven"), TARGET, ONE)
     assert own.metadata["code"] == {"id": None, "name": "code", "fractions": {}}
 
 
 def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: Path) -> None:
-    sensitivity = study_sensitivity(sm.builtin_suite(), TARGET, ONE)
+    sensitivity = study_sensitivity(sm.builtin_suite("seven"), TARGET, ONE)
     files = write_study(small, tmp_path, figures=False, sensitivity=sensitivity)
     tables = sorted(file for file in files if file.suffix == ".parquet")
     assert [file.stem for file in tables] == sorted(TABLES)
@@ -270,7 +270,7 @@ def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: 
 
 
 def test_remarks_on_inputs_are_kept_and_printed_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    result = run_study(sm.builtin_suite(), TARGET, replace(SMALL, mu=(40.0,)))
+    result = run_study(sm.builtin_suite("seven"), TARGET, replace(SMALL, mu=(40.0,)))
     assert result.metadata["remarks"] == [
         "mu_s of block 1 is 40, above 1.5: friction coefficients are ratios, not per cent",
         "mu_s of block 1 is 40, above 1.5 (and 1 more): friction coefficients are ratios, not per cent",
@@ -280,7 +280,7 @@ def test_remarks_on_inputs_are_kept_and_printed_once(tmp_path: Path, capsys: pyt
 
 
 def test_sensitivity_changes_one_choice_at_a_time() -> None:
-    suite = sm.builtin_suite()
+    suite = sm.builtin_suite("seven")
     chosen = replace(SMALL, response_modification=(1.0, 4.0))
     seen: list[tuple[int, int]] = []
     result = study_sensitivity(suite, TARGET, chosen, progress=lambda done, total: seen.append((done, total)))

@@ -40,7 +40,7 @@ def suites(shared: Path) -> dict[str, Suite]:
     records = shared / "records"
     far_field = read_suite(records / "fema_p695_far_field").records
     return {
-        "builtin": builtin_suite(),
+        "builtin": builtin_suite("seven"),
         "paper": read_suite(records / "paper_seven.csv"),
         "far_field": Suite("FEMA P-695 far field", (*far_field, *(read_record(records / file) for file in MORE))),
     }

@@ -132,7 +132,7 @@ def _elastic(rows: pl.DataFrame) -> dict[str, Any]:
 def sensitivity_page(shared: Path) -> str:
     """The page of what the study's choices do."""
     values = {}
-    for name, suite in (("recorded", recorded(shared)), ("builtin", builtin_suite())):
+    for name, suite in (("recorded", recorded(shared)), ("builtin", builtin_suite("seven"))):
         found = study_sensitivity(suite, TargetSpectrum.asce7())
         values[f"{name}_title"] = f"{motions_text(found.metadata['suite'])} ({suite.name})."
         values[f"{name}_tables"] = sensitivity_markdown(found.table)

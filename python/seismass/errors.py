@@ -34,5 +34,9 @@ class InvalidBuildingFile(SeismassError, ValueError):
     """A building file with an unknown, missing or contradicting key, or that is not TOML or JSON."""
 
 
+class MissingPackage(SeismassError, ImportError):
+    """A package that an optional part needs and that is not installed; the message says how to install it."""
+
+
 class SimulationError(SeismassError, RuntimeError):
     """A run that could not be carried to its end; carries the time and the storey or block concerned in its message."""

@@ -65,7 +65,7 @@ def long_table(table: pl.DataFrame, scenes: Scene | Iterable[Scene] | Grid) -> p
     >>> import seismass as sm
     >>> building = sm.Building.uniform(2, 0.3, yield_shear_over_weight=[0.2, 0.12])
     >>> grid = sm.Grid.product(building, roof="bare", mass_ratio=[0.5, 1.0], mu=[0.1, 0.3])
-    >>> table = sm.long_table(sm.simulate_many(grid, sm.builtin_suite()), grid)
+    >>> table = sm.long_table(sm.simulate_many(grid, sm.builtin_suite("seven")), grid)
     >>> table.columns[:9]
     ['run', 'scene', 'motion', 'record', 'building', 'storeys', 'period', 'mass_ratio', 'mu_s']
     >>> table.filter(table["storey"] == 2)["peak_slip"].null_count(), len(table)

@@ -8,9 +8,13 @@ from typing import Final
 STANDARD_GRAVITY: Final = 9.80665
 """Standard gravity (m/s2), 3rd CGPM 1901: the g of every number in this package."""
 
-ACCELERATION_UNITS: Final = {"g": STANDARD_GRAVITY, "m/s2": 1.0, "cm/s2": 0.01}
-"""Accelerations of files in m/s2, by the name of the unit."""
+ACCELERATION_UNITS: Final = {"g": STANDARD_GRAVITY, "m/s2": 1.0, "cm/s2": 0.01, "gal": 0.01}
+"""Accelerations of files in m/s2, by the name of the unit; records call gal cm/s2."""
 
+_SPELLINGS: Final = {
+    **dict.fromkeys(("g", "g's", "(g)"), "g"),
+    **dict.fromkeys(("gal", "gals", "(gal)"), "cm/s2"),
+}
 _PER_SECOND_SQUARED = re.compile(
     r"([a-z]+)[ \t]*/[ \t]*s(?:ec)?(?:[ \t]*/[ \t]*s(?:ec)?(?![a-z])|[ \t]*(?:\*\*|\^)?[ \t]*(?:2(?![\d.])|²))",
     re.IGNORECASE,
@@ -19,6 +23,16 @@ _GAL = re.compile(r"\bgals?\b", re.IGNORECASE)
 _BRACKETED_G = re.compile(r"[(\[][ \t]*([%m]?g)(?:'s)?[ \t]*[)\]]", re.IGNORECASE)
 _UNITS_OF = re.compile(r"\bunits?[ \t]*(?:of\b|[:=])[ \t]*([^\s].*)", re.IGNORECASE)
 _G = re.compile(r"[(\[]?[ \t]*g(?:'s|ravity)?(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
+
+
+def unit_by_name(name: str) -> str | None:
+    """Return "g", "m/s2" or "cm/s2" for any spelling of it, gal included, or None for another unit.
+
+    >>> [unit_by_name(name) for name in ("Gal", "cm/sec^2", "m/s/s", "G", "ft/s2")]
+    ['cm/s2', 'cm/s2', 'm/s2', 'g', None]
+    """
+    text = name.strip().lower()
+    return _SPELLINGS.get(text) or (stated_unit(text) if _PER_SECOND_SQUARED.fullmatch(text) else None)
 
 
 def stated_unit(text: str) -> str | None:

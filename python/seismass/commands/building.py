@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seismass.commands.options import (
+    add_records_options,
     left_out,
     positive_option,
     read_motions,
@@ -53,12 +54,7 @@ def add_parser(subparsers: Any) -> None:
     what.add_argument("--codes", action="store_true", help="print the codes and their fractions, and stop")
     what.add_argument("--frictions", action="store_true", help="print the contacts and their friction, and stop")
     motions = parser.add_argument_group("motions and site, in place of the file's")
-    motions.add_argument(
-        "--records",
-        type=Path,
-        metavar="PATH",
-        help="folder of .AT2 files, or a CSV with a column `file` (default: the built-in synthetic suite)",
-    )
+    add_records_options(motions)
     motions.add_argument("--target", type=Path, metavar="CSV", help="site spectrum: period (s), Sa (g)")
     motions.add_argument("--sds", type=positive_option, metavar="G", help="S_DS of the ASCE 7 shape, g")
     motions.add_argument("--sd1", type=positive_option, metavar="G", help="S_D1, g")

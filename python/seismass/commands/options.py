@@ -12,20 +12,16 @@ from seismass.commands.targets import TARGET_HELP, target_of
 
 if TYPE_CHECKING:
     from seismass.records import Suite
+    from seismass.records.builtin import BuiltinName
     from seismass.spectra import TargetSpectrum
 
 _LISTED_SINGLY: Final = 8
 
 
 def add_motion_options(parser: argparse.ArgumentParser) -> None:
-    """Add --records, --target, --sds, --sd1, --tl and --period."""
+    """Add --records, --suite, --target, --sds, --sd1, --tl and --period."""
     motions = parser.add_argument_group("motions")
-    motions.add_argument(
-        "--records",
-        type=Path,
-        metavar="PATH",
-        help="folder of .AT2 files, or a CSV with a column `file` (default: the built-in synthetic suite)",
-    )
+    add_records_options(motions)
     motions.add_argument("--target", metavar="TARGET", help=TARGET_HELP)
     motions.add_argument("--sds", type=positive_option, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
     motions.add_argument("--sd1", type=positive_option, metavar="G", help="S_D1, g (0.61)")
@@ -40,11 +36,40 @@ def add_motion_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def read_motions(args: argparse.Namespace) -> Suite:
-    """Return the suite that the options name."""
+def add_records_options(group: argparse._ArgumentGroup) -> None:
+    """Add --records and --suite, which `read_motions` reads."""
+    group.add_argument(
+        "--records",
+        type=Path,
+        metavar="PATH",
+        help="folder of .AT2 files, or a CSV with a column `file` (default: built-in synthetic motions)",
+    )
+    group.add_argument(
+        "--suite",
+        choices=("seven", "eleven"),
+        help="built-in synthetic motions, where --records is left out: seven as ASCE 7-10 asks for, and the published "
+        "numbers are with (default), or eleven as ASCE 7-16 does",
+    )
+
+
+def read_motions(args: argparse.Namespace, default: BuiltinName = "seven") -> Suite:
+    """Return the suite that the options name.
+
+    Raises
+    ------
+    InvalidOption
+        A built-in suite is named beside --records.
+    RecordFormatError
+        As for `read_suite`.
+    """
+    from seismass.errors import InvalidOption
     from seismass.records import builtin_suite, read_suite
 
-    return builtin_suite() if args.records is None else read_suite(args.records)
+    if args.records is None:
+        return builtin_suite(args.suite or default)
+    if args.suite is not None:
+        raise InvalidOption(f"suite of motions must be left out where --records is given; got {args.suite}")
+    return read_suite(args.records)
 
 
 def read_records(path: Path, *, dt: float | None = None, unit: str | None = None) -> Suite:
@@ -149,6 +174,14 @@ def positive_option(text: str) -> float:
         number = 0.0
     if not 0.0 < number < math.inf:
         raise argparse.ArgumentTypeError(f"must be a positive number; got {text!r}")
+    return number
+
+
+def positive_count(text: str) -> int:
+    """Return a whole number above zero."""
+    number = int(text) if text.isdecimal() else 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"must be a whole number above zero; got {text!r}")
     return number
 
 

@@ -82,7 +82,7 @@ def effective_mass(
     >>> import seismass as sm
     >>> building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
     >>> scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2))
-    >>> result = sm.effective_mass(scene, [record.scaled(2.0) for record in sm.builtin_suite()])
+    >>> result = sm.effective_mass(scene, [record.scaled(2.0) for record in sm.builtin_suite("seven")])
     >>> result.kind
     'root'
     """

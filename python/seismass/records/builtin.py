@@ -1,11 +1,22 @@
-"""The built-in suite: seven synthetic motions stored with the package, so that a study runs without any recording."""
+"""The built-in suites: synthetic motions stored with the package, so that a study runs without any recording."""
 
 from __future__ import annotations
 
+import csv
+import io
 from pathlib import Path
+from typing import Final, Literal
 
-from seismass.errors import RecordFormatError
+from seismass._values import brief, refusal
+from seismass.errors import InvalidOption, RecordFormatError
+from seismass.records.read import read_record
+from seismass.records.record import Record
 from seismass.records.suite import Suite, read_suite
+
+BuiltinName = Literal["eleven", "seven"]
+
+_SUITES: Final = {"eleven": ("built-in suite of eleven", "suite.csv"), "seven": ("built-in suite", "seven.csv")}
+"""Name of each suite as results show it, and the list of its motions."""
 
 
 def data_directory() -> Path:
@@ -20,6 +31,41 @@ def data_directory() -> Path:
     return place
 
 
-def builtin_suite() -> Suite:
-    """Return the seven synthetic motions that `seismass.records.synthetic` made; none is a recording."""
-    return Suite("built-in suite", read_suite(data_directory() / "synthetic" / "suite.csv").records)
+def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
+    """Return the synthetic motions that `seismass.records.synthetic` made; none is a recording.
+
+    Parameters
+    ----------
+    suite : {"eleven", "seven"}
+        "eleven": all of them, as many as ASCE 7-16 asks for. "seven": the first seven, as many as ASCE 7-10 asks for.
+        The numbers that this project publishes, and the commands and `assess` by default, are with those.
+
+    Raises
+    ------
+    InvalidOption
+        Another name.
+    """
+    found = next((listed for key, listed in _SUITES.items() if key == suite), None)
+    if found is None:
+        raise refusal(InvalidOption, "suite", "built-in motions", " or ".join(map(repr, _SUITES)), brief(suite))
+    name, listed = found
+    return Suite(name, read_suite(data_directory() / "synthetic" / listed).records)
+
+
+def builtin_record(name: str) -> Record:
+    """Return one of the built-in synthetic motions by its name, "synthetic-1" to "synthetic-11".
+
+    Raises
+    ------
+    InvalidOption
+        No built-in motion has that name.
+    """
+    folder = data_directory() / "synthetic"
+    rows = csv.DictReader(io.StringIO((folder / "suite.csv").read_text(encoding="utf-8")))
+    listed = {Path(row["file"]).stem: row for row in rows}
+    row = next((row for key, row in listed.items() if key == name), None)
+    if row is None:
+        first, *_, last = listed
+        raise refusal(InvalidOption, "name", "built-in motion", f"one from {first} to {last}", brief(name))
+    record = read_record(folder / row["file"])
+    return record.replace(remarks=(*record.remarks, row["note"]))

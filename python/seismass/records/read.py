@@ -1,18 +1,30 @@
-"""Reading one record file, whatever its format."""
+"""Reading the records of one file, whatever its format."""
 
 from __future__ import annotations
 
+import hashlib
 import math
 import os
 from pathlib import Path
-from typing import Literal
+from typing import Any, Final, Literal, TypeAlias
 
 from seismass._values import as_number, as_path, brief
 from seismass.errors import RecordFormatError
-from seismass.records.at2 import looks_like_at2, parse_at2
-from seismass.records.columns import parse_columns
+from seismass.records.checks import suspicions
+from seismass.records.formats import BY_NAME, COLUMNS, Arguments, Channel, Format, NotRead, known_binary, recognise
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS
+from seismass.units import ACCELERATION_UNITS, unit_by_name
+
+FormatName: TypeAlias = Literal["at2", "cosmos", "csmip", "esm", "knet", "smc", "columns"]
+
+HEAD_BYTES: Final = 8192
+"""A format is known by so much of a file."""
+
+MOST_NULS: Final = 4
+"""A text whose header is padded has no more zero bytes than this."""
+
+LARGEST_BYTES: Final = 512 * 1024 * 1024
+"""No record is larger: 100 million samples as text."""
 
 
 def read_record(
@@ -20,31 +32,37 @@ def read_record(
     *,
     dt: float | None = None,
     unit: str | None = None,
-    format: Literal["at2", "columns"] | None = None,
+    format: FormatName | None = None,
     skip: int | None = None,
+    channel: int | str | None = None,
 ) -> Record:
     r"""Read a ground motion record; accelerations come back in m/s2.
 
     Parameters
     ----------
     path : path-like
-        A PEER .AT2 file of any vintage, or text of one column (acceleration) or two (time, acceleration).
+        A file of PEER (.AT2, any vintage), COSMOS (V1, V2), CSMIP (V1, V2), ESM, K-NET or KiK-net, USGS SMC, or text of
+        one column (acceleration) or two (time, acceleration). The format is found in the content.
     dt : float, optional
         Time step (s). One column needs it unless the file states it. For .AT2 it refines a step that the header
         rounded to four decimals (.0039 for 1/256 s). It must agree with what the file says.
-    unit : {"g", "m/s2", "cm/s2"}, optional
-        Unit of the accelerations in the file. .AT2 files are in g unless their header states another. Text has no
-        default, a wrong one being wrong by a factor of ten: it must be given unless the header states it. It must agree
-        with what the file says, where that is one of the three.
-    format : {"at2", "columns"}, optional
-        By default .AT2 by suffix or by its header, else columns.
+    unit : {"g", "m/s2", "cm/s2", "gal"}, optional
+        Unit of the accelerations in the file; spellings such as "cm/s^2", "cm/sec2" or "Gal" are understood. .AT2 files
+        are in g unless their header states another. Text has no default, a wrong one being wrong by a factor of ten: it
+        must be given unless the header states it. It must agree with what the file says, where that is one of these.
+    format : {"at2", "cosmos", "csmip", "esm", "knet", "smc", "columns"}, optional
+        By default what the content shows, and else columns.
     skip : int, optional
         Columns only: how many rows of numbers before the data are not data (see `parse_columns`).
+    channel : int or str, optional
+        Which of several channels of a file (COSMOS, CSMIP): its number there, or its component. Needed where there are
+        several.
 
     Raises
     ------
     RecordFormatError
-        The file is missing, empty, damaged, cut off, not in the format, or contradicts itself or the arguments.
+        The file is missing, empty, damaged, cut off, of a format that is known and not read, or contradicts itself or
+        the arguments; or it has several channels and `channel` names none of them.
 
     Examples
     --------
@@ -55,32 +73,138 @@ def read_record(
     >>> read_record(file)
     <Record ramp: 3 x 0.01 s, PGA 0.1020 g>
     """
+    channels = _read(path, dt, unit, format, skip)
+    if channel is None and len(channels) == 1:
+        return channels[0].record
+    file = as_path(path, "record", RecordFormatError).name
+    there = f"{len(channels)}: " + ", ".join(f"{one.label} ({one.record.component or '?'})" for one in channels)
+    if channel is None:
+        raise RecordFormatError(f"channel of {file} must be given, the file has {there}; got none")
+    wanted = str(channel).strip().lower()
+    found = [one for one in channels if one.label.lower() == wanted]
+    found = found or [one for one in channels if one.record.component.lower() == wanted]
+    if len(found) != 1:
+        raise RecordFormatError(f"channel of {file} must be one of {there}; got {brief(channel)}")
+    return found[0].record
+
+
+def read_records(
+    path: str | os.PathLike[str],
+    *,
+    dt: float | None = None,
+    unit: str | None = None,
+    format: FormatName | None = None,
+    skip: int | None = None,
+) -> tuple[Record, ...]:
+    """Read every acceleration of a file, vertical ones included, in the order of the file.
+
+    Parameters
+    ----------
+    path, dt, unit, format, skip
+        As for `read_record`.
+
+    Raises
+    ------
+    RecordFormatError
+        As for `read_record`; one damaged channel is enough.
+    """
+    return tuple(one.record for one in _read(path, dt, unit, format, skip))
+
+
+def _read(path: Any, dt: Any, unit: Any, format: Any, skip: Any) -> tuple[Channel, ...]:
     source = as_path(path, "record", RecordFormatError)
     if dt is not None:
         dt = as_number(dt, "dt", source.name, RecordFormatError)
         if not (math.isfinite(dt) and dt > 0.0):
             raise RecordFormatError(f"dt of {source.name} must be a positive number; got {dt}")
-    units = tuple(ACCELERATION_UNITS)
-    if unit is not None and unit not in units:
-        raise RecordFormatError(f"unit of {source.name} must be one of {', '.join(units)}; got {brief(unit)}")
-    if format not in (None, "at2", "columns"):
-        raise RecordFormatError(f"format of {source.name} must be at2 or columns; got {brief(format)}")
-    text = read_text(source)
-    if format == "at2" or (format is None and (source.suffix.lower() == ".at2" or looks_like_at2(text))):
-        if skip is not None:
-            raise RecordFormatError(f"skip of {source.name} must be left out for an .AT2 file; got {brief(skip)}")
-        return parse_at2(text, source, dt=dt, unit=unit)
-    return parse_columns(text, source, dt=dt, unit=unit, skip=skip)
+    name = unit_by_name(unit) if isinstance(unit, str) else None
+    if unit is not None and name is None:
+        raise RecordFormatError(
+            f"unit of {source.name} must be one of {', '.join(ACCELERATION_UNITS)}; got {brief(unit)}"
+        )
+    if format is not None and (not isinstance(format, str) or format not in BY_NAME):
+        raise RecordFormatError(f"format of {source.name} must be one of {', '.join(BY_NAME)}; got {brief(format)}")
+    content = read_bytes(source)
+    text = decoded(content, source)
+    reader = BY_NAME[format] if format is not None else format_of(text[:HEAD_BYTES], source)
+    channels = reader.parse(text, source, Arguments(dt, name, skip))
+    digest = hashlib.sha256(content).hexdigest()
+    return tuple(
+        Channel(
+            one.label,
+            one.record.replace(
+                sha256=digest, remarks=one.record.remarks + suspicions(one.record, unit_given=name is not None)
+            ),
+        )
+        for one in channels
+    )
 
 
-def read_text(source: Path) -> str:
-    """Return the text of a record file, with any line ends and with UTF-8 or Latin-1 letters."""
+def format_of(head: str, source: Path) -> Format:
+    """Return the format that the head of a text shows; columns, or .AT2 by its suffix, where it shows none.
+
+    Raises
+    ------
+    NotRead
+        It is known and not read.
+    """
+    found = recognise(head)
+    if isinstance(found, Format):
+        return found
+    if found is not None:
+        name, instead = found
+        raise NotRead(f"format of {source.name} must be one that is read; got {name}: {instead}")
+    return BY_NAME["at2"] if source.suffix.lower() in (".at2", ".vt2", ".dt2") else COLUMNS
+
+
+def read_bytes(source: Path) -> bytes:
+    """Return the bytes of a record file.
+
+    Raises
+    ------
+    RecordFormatError
+        It cannot be read, is binary, or is too large for a record.
+    """
     try:
-        content = source.read_bytes()
+        with source.open("rb") as file:
+            head = file.read(HEAD_BYTES)
+            refuse_binary(head, source)
+            size = os.fstat(file.fileno()).st_size
+            if size > LARGEST_BYTES:
+                raise RecordFormatError(f"size of {source.name} must be at most {LARGEST_BYTES} bytes; got {size}")
+            content = head + file.read()
     except OSError as error:
         raise RecordFormatError(
             f"record file must be a file that can be read; got {source} ({error.strerror or error})"
         ) from error
+    return content
+
+
+def refuse_binary(head: bytes, source: Path) -> None:
+    """Refuse a file that its first bytes show to be binary, by its name where that is known."""
+    known = known_binary(head)
+    if known is not None:
+        name, instead = known
+        raise NotRead(f"content of {source.name} must be text; got {name}: {instead}")
+
+
+def read_text(source: Path) -> str:
+    """Return the text of a record file, with any line ends and with UTF-8 or Latin-1 letters."""
+    return decoded(read_bytes(source), source)
+
+
+def decoded(content: bytes, source: Path) -> str:
+    """Return bytes as text without blank ends.
+
+    Raises
+    ------
+    RecordFormatError
+        They are binary, or there is nothing but blanks.
+    """
+    if b"\0" in content and content[:HEAD_BYTES].isascii():  # some SMC files are padded, and so is their station code
+        content = content.rstrip(b"\0\x1a\r\n\t ") or content
+        if content.count(b"\0", 0, HEAD_BYTES) <= MOST_NULS:
+            content = content[:HEAD_BYTES].replace(b"\0", b" ") + content[HEAD_BYTES:]
     if b"\0" in content:
         raise RecordFormatError(f"content of {source.name} must be text; got binary data")
     try:

@@ -1,20 +1,30 @@
-"""One component of ground motion: accelerations in m/s2 at a fixed step, and what its source says about them."""
+"""One component of ground motion: accelerations in m/s2 at a fixed step, and what its source says about them.
+
+What is computed from the samples stands in intensity.py, what changes them in processing.py.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seismass._values import Value, as_array, as_number, brief, frozen, refusal
 from seismass.errors import InvalidMotion
+from seismass.records import intensity
 from seismass.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+
     from seismass.simulate import Motion
 
 
@@ -118,6 +128,23 @@ class Record(Value):
         """Time of each sample (s), shape (samples,)."""
         return frozen(np.arange(self.samples) * self.dt)
 
+    @cached_property
+    def _integrals(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        velocity, displacement = intensity.integrals(self.acceleration, self.dt)
+        velocity.setflags(write=False)
+        displacement.setflags(write=False)
+        return velocity, displacement
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Ground velocity at the samples (m/s), from rest, shape (samples,): the exact integral of linear pieces."""
+        return self._integrals[0]
+
+    @property
+    def displacement(self) -> NDArray[np.float64]:
+        """Ground displacement at the samples (m), from rest, shape (samples,): the exact integral of the velocity."""
+        return self._integrals[1]
+
     @property
     def pga(self) -> float:
         """Largest absolute ground acceleration (m/s2)."""
@@ -127,6 +154,60 @@ class Record(Value):
     def pga_g(self) -> float:
         """Largest absolute ground acceleration, as a fraction of g."""
         return self.pga / STANDARD_GRAVITY
+
+    @cached_property
+    def pgv(self) -> float:
+        """Largest absolute ground velocity (m/s) in continuous time: it is quadratic between samples."""
+        return float(intensity.peak_velocity(self.acceleration, self.dt, self.velocity))
+
+    @cached_property
+    def pgd(self) -> float:
+        """Largest absolute ground displacement (m) in continuous time: it is cubic between samples."""
+        return float(intensity.peak_displacement(self.acceleration, self.dt, self.velocity, self.displacement))
+
+    @property
+    def arias(self) -> float:
+        """Arias intensity (m/s): pi/(2 g) times the integral of a^2, exact for linear pieces; Arias (1970)."""
+        return float(intensity.build_up(self.acceleration, self.dt)[-1])
+
+    @property
+    def cav(self) -> float:
+        """Cumulative absolute velocity (m/s): the integral of |a|, exact where a changes sign within a step."""
+        return intensity.cumulative_absolute_velocity(self.acceleration, self.dt)
+
+    @property
+    def d5_75(self) -> float:
+        """Time (s) from 5 to 75 % of the Arias intensity."""
+        return self.significant_duration(0.05, 0.75)
+
+    @property
+    def d5_95(self) -> float:
+        """Time (s) from 5 to 95 % of the Arias intensity; Trifunac and Brady (1975)."""
+        return self.significant_duration(0.05, 0.95)
+
+    def significant_duration(self, start: float = 0.05, end: float = 0.95) -> float:
+        """Return the time (s) between two shares of the Arias intensity, with exact crossings within steps.
+
+        Raises
+        ------
+        InvalidOption
+            The shares are not in order between 0 and 1.
+        """
+        return intensity.significant_duration(self.acceleration, self.dt, start, end)
+
+    def bracketed_duration(self, threshold_g: float = intensity.BRACKET_G) -> float:
+        """Return the time (s) from the first to the last crossing of a threshold (g) of |a|; 0 where it is not reached.
+
+        Raises
+        ------
+        InvalidOption
+            The threshold is not a positive number.
+        """
+        return intensity.bracketed_duration(self.acceleration, self.dt, threshold_g)
+
+    def measures(self) -> dict[str, float]:
+        """Return peaks, intensities, durations and ends by name; `intensity_table` says their units."""
+        return intensity.measures(self)
 
     @property
     def motion(self) -> Motion:
@@ -141,11 +222,33 @@ class Record(Value):
         with np.errstate(over="ignore"):  # the new record refuses what overflows
             acceleration = self.acceleration * number
             vertical = None if self.vertical is None else self.vertical * number
-        return self.replace(acceleration=acceleration, vertical=vertical)
+        return self._changed(f"scaled by {number:.6g}", acceleration=acceleration, vertical=vertical)
 
     def time_scaled(self, factor: float) -> Record:
-        """Return the record with its time step multiplied by `factor` > 0, as for a model at reduced scale."""
-        return self.replace(dt=self.dt * _number("factor", factor, "time-scaled record", positive=True))
+        """Return the record with its time step multiplied by `factor` > 0; accelerations stay as they are."""
+        number = _number("factor", factor, "time-scaled record", positive=True)
+        return self._changed(f"time step multiplied by {number:.6g}", dt=self.dt * number)
+
+    def similitude(self, length_ratio: float = 15.0) -> Record:
+        """Return the record for a model at reduced scale under the same gravity and accelerations (Froude similitude).
+
+        Lengths of the model are those of the prototype over `length_ratio`, and times over its root. Accelerations are
+        unchanged, so that friction, which compares them with g, is modelled at full scale; velocities become those of
+        the prototype over the root of the ratio, displacements those over the ratio.
+
+        Parameters
+        ----------
+        length_ratio : float, default 15
+            Length of the prototype over that of the model; 15 is the shaking table of the paper.
+
+        Raises
+        ------
+        InvalidMotion
+            The ratio is not a positive number.
+        """
+        ratio = _number("length_ratio", length_ratio, "similitude", positive=True)
+        said = f"time step over sqrt({ratio:g}) for a model at 1:{ratio:g}, accelerations unchanged"
+        return self._changed(said, dt=self.dt / math.sqrt(ratio))
 
     def with_duration(self, duration: float) -> Record:
         """Return the record up to the sample nearest to `duration` (s), as `Motion.with_duration` does.
@@ -156,7 +259,35 @@ class Record(Value):
             The duration is negative or not finite.
         """
         changed = self.motion.with_duration(duration)
-        return self.replace(acceleration=changed.acceleration, vertical=changed.vertical)
+        what = "cut" if changed.samples < self.samples else "continued at zero"
+        said = f"{what} to {changed.duration:g} s"
+        return self._changed(said, acceleration=changed.acceleration, vertical=changed.vertical)
+
+    def resampled(self, dt: float) -> Record:
+        """Return the record at another time step; see `seismass.records.processing.resampled`."""
+        from seismass.records.processing import resampled
+
+        return resampled(self, dt)
+
+    def baseline_corrected(self, order: int = 1, fit: Literal["velocity", "acceleration"] = "velocity") -> Record:
+        """Return the record less a polynomial; see `seismass.records.processing.baseline_corrected`."""
+        from seismass.records.processing import baseline_corrected
+
+        return baseline_corrected(self, order, fit)
+
+    def band_passed(
+        self,
+        low_hz: float | None,
+        high_hz: float | None,
+        order: int = 4,
+        *,
+        taper: float = 0.01,
+        keep_pads: bool = False,
+    ) -> Record:
+        """Return the record within a band of frequencies; see `seismass.records.processing.band_passed`."""
+        from seismass.records.processing import band_passed
+
+        return band_passed(self, low_hz, high_hz, order, taper=taper, keep_pads=keep_pads)
 
     def with_vertical(self, vertical: Record) -> Record:
         """Return the record with the accelerations of `vertical` beside its own, both cut to the shorter.
@@ -174,14 +305,42 @@ class Record(Value):
                 f"got {vertical.dt:g} s"
             )
         samples = min(self.samples, vertical.samples)
-        remarks = self.remarks
+        record = self
         if self.samples != vertical.samples:
-            remarks += (f"cut to {samples} samples: {self.samples} horizontal, {vertical.samples} vertical",)
-        return self.replace(
-            acceleration=self.acceleration[:samples],
-            vertical=vertical.acceleration[:samples],
-            remarks=remarks,
-        )
+            cut = f"cut to {samples} samples: {self.samples} horizontal, {vertical.samples} vertical"
+            record = self.replace(remarks=(*self.remarks, cut))
+        said = f"vertical accelerations of {vertical.name or 'another record'} set beside it"
+        return record._changed(said, acceleration=self.acceleration[:samples], vertical=vertical.acceleration[:samples])
+
+    def _changed(self, said: str, **changes: Any) -> Record:
+        """Return another record, with a step added to its history."""
+        return self.replace(history=(*self.history, said), **changes)
+
+    def plot(
+        self, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None
+    ) -> Figure | SubFigure:
+        """Draw acceleration, velocity, displacement and the Arias build-up with D5-95; nothing is shown on a screen.
+
+        Parameters
+        ----------
+        figure : Figure or SubFigure, optional
+            What to draw into; by default a new figure.
+        axes : sequence of four Axes, optional
+            Axes to draw into instead, top to bottom.
+
+        Returns
+        -------
+        Figure or SubFigure
+            The one drawn into; `figure.savefig(path)` writes it, and a notebook shows it.
+        """
+        from seismass.report.record_figure import record_figure  # matplotlib is slow to import
+
+        return record_figure(self, figure=figure, axes=axes)
+
+    def _repr_html_(self) -> str:
+        from seismass.report.record_html import record_html
+
+        return record_html(self)
 
 
 def _number(parameter: str, value: Any, what: str, *, positive: bool) -> float:

@@ -1,4 +1,4 @@
-"""Suites of records: a directory of .AT2 files or a CSV that lists files, with what was taken and what was left out."""
+"""Suites of records: a directory of record files or a CSV that lists them, with what was taken and what left out."""
 
 from __future__ import annotations
 
@@ -15,17 +15,33 @@ import polars as pl
 
 from seismass._values import as_path, brief, printable, refusal
 from seismass.errors import InvalidMotion, RecordFormatError
-from seismass.records.read import read_record, read_text
+from seismass.records.formats import COLUMNS, NotRead
+from seismass.records.formats.directions import is_vertical
+from seismass.records.read import (
+    HEAD_BYTES,
+    decoded,
+    format_of,
+    read_record,
+    read_records,
+    read_text,
+    refuse_binary,
+)
 from seismass.records.record import Record
+from seismass.units import stated_unit
 
-_VERTICAL_WORDS = {"UP", "VER", "VERT", "VERTICAL", "DOWN", "DWN", "UD"}
 _VERTICAL_NAME = re.compile(
     r"[-_.](?:UP|VERT?|VERTICAL|DWN|UD)(?![A-Z0-9])"  # a word of the name: BRA-UP, ERZ-UP__copy
     r"|[-_.][VZ]$"  # a letter at its end: 1059-V
     r"|(?:UP|VERT?|DWN|[BH][NH]Z)\.?$",  # joined to a station code: HECVER, TCUUP.
     re.IGNORECASE,
 )
-_COLUMNS = ("number", "file", "name", "event", "station", "component", "dt", "unit", "scale", "note")
+_SAID_BY_NAME = "files are read by name or from a list, where their units can be given"
+_NUMBERS = re.compile(r"[\s\d.,;+-]*\d[\d.,;+\s-]*(?:[eEdD][+-]?\d+[\d.,;+\seEdD-]*)?")
+
+LARGEST_COLUMNS = 64 * 1024 * 1024
+"""Text of columns above so many bytes is left to be read by name."""
+
+_COLUMNS = ("number", "file", "channel", "name", "event", "station", "component", "dt", "unit", "scale", "note")
 
 
 @dataclass(frozen=True)
@@ -137,10 +153,12 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     Parameters
     ----------
     path : path-like
-        A directory: every .AT2 file in it and below (any case of the suffix), sorted by path; vertical components are
-        left out by file name (-UP, VER, -V, ...) and by header. Files of other kinds are left out with the reason;
-        hidden ones are not looked at. Or a CSV with a column `file`, relative to the CSV, one row per record in the
-        order to keep; its columns `name`, `event`, `station`, `component` replace what the files say, `dt` and `unit`
+        A directory: every file in it and below that shows a record format (see `read_record`), and text of columns that
+        states its unit and step, sorted by path, every horizontal channel of each. Vertical components are left out by
+        header and by file name (-UP, VER, -V, ...), files of other kinds with the reason; hidden ones are not looked
+        at. Or a CSV with a column `file`, relative to the CSV, one row per record in the order to keep, and a column
+        `channel` for files of several; its columns `name`, `event`, `station`, `component` replace what the files say,
+        `dt` and `unit`
         are passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the remarks; a
         `number` is for the reader. Other columns are not used, and named in the remarks of the suite. A vertical
         component in the list is an error: by header, by `component`, and by file name unless `component` is given.
@@ -149,7 +167,7 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     ------
     RecordFormatError
         A missing path, no record in it, a CSV without the column or that lists a file twice, a vertical component or a
-        scale that is no finite number, or any .AT2 file that cannot be read: none is dropped silently.
+        scale that is no finite number, or any file of a record format that is damaged: none is dropped silently.
     """
     source = as_path(path, "suite", RecordFormatError)
     if source.is_dir():
@@ -167,42 +185,94 @@ def _read_directory(directory: Path) -> Suite:
     records: list[Record] = []
     excluded: list[Excluded] = []
     for file in files:
-        if file.suffix.lower() != ".at2":
-            excluded.append(Excluded(file, _reason_of_kind(file)))
+        read = _read_file(file)
+        if isinstance(read, str):
+            excluded.append(Excluded(file, read))
             continue
-        record = read_record(file)
-        reason = _vertical_reason(record)
-        if reason:
-            excluded.append(Excluded(file, reason))
-        else:
-            records.append(record)
+        for record in read:
+            reason = _vertical_reason(record)
+            if reason:
+                excluded.append(Excluded(file, reason if len(read) == 1 else f"{record.name}: {reason}"))
+            else:
+                records.append(record)
     if not records:
         raise RecordFormatError(
-            f"records of directory {directory} must be at least one horizontal .AT2 file; got {_counted(excluded)}"
+            f"records of directory {directory} must be at least one horizontal record; got {_counted(excluded)}"
         )
-    return Suite(printable(directory.resolve().name), tuple(records), tuple(excluded))
+    return Suite(printable(directory.resolve().name), tuple(_with_copies(records)), tuple(excluded))
+
+
+def _read_file(file: Path) -> tuple[Record, ...] | str:
+    """Return the records of a file, or why it is left out.
+
+    Raises
+    ------
+    RecordFormatError
+        It shows a record format and is damaged.
+    """
+    quantity = {".vt2": "velocities", ".dt2": "displacements"}.get(file.suffix.lower())
+    if quantity:
+        return f"not read: {printable(file.suffix)} files hold {quantity}"
+    try:
+        with file.open("rb") as opened:
+            head = opened.read(HEAD_BYTES)
+            size = os.fstat(opened.fileno()).st_size
+        refuse_binary(head, file)
+        if b"\0" in head:
+            return "not read: binary data"
+        if not head.strip():
+            return read_records(file) if file.suffix.lower() == ".at2" else "not read: an empty file"
+        text = decoded(head, file)
+        reader = format_of(text, file)
+        if reader is COLUMNS:
+            return _read_columns(file, text, size)
+        return read_records(file)
+    except NotRead as error:
+        return f"not read: {error}"
+    except OSError as error:
+        return f"not read: {error.strerror or error}"
+
+
+def _read_columns(file: Path, head: str, size: int) -> tuple[Record, ...] | str:
+    """Read text of columns whose head states a unit and has numbers; other text is no record."""
+    suffix = printable(file.suffix)
+    kind = f"not read: {suffix} {_SAID_BY_NAME}" if suffix else f"not read: files without a suffix {_SAID_BY_NAME[6:]}"
+    lines = head.splitlines()[:-1] if size > len(head) else head.splitlines()
+    header: list[str] = []
+    for line in lines:
+        if _NUMBERS.fullmatch(line):
+            break
+        header.append(line)
+    if len(header) == len(lines) or stated_unit("\n".join(header)) is None or size > LARGEST_COLUMNS:
+        return kind
+    try:
+        return read_records(file)
+    except RecordFormatError as error:
+        return f"not read: {error}"
+
+
+def _with_copies(records: list[Record]) -> Iterator[Record]:
+    """Yield the records, those of files that are byte for byte the same as an earlier one with a remark."""
+    first: dict[str, Record] = {}
+    for record in records:
+        original = first.setdefault(record.sha256, record)
+        if original.source != record.source and original.source is not None:
+            copy = f"the same file as {printable(original.source.name)}"
+            record = record.replace(remarks=(*record.remarks, copy))
+        yield record
 
 
 def _is_hidden(file: Path) -> bool:
     return any(part.startswith(".") for part in file.parts)
 
 
-def _reason_of_kind(file: Path) -> str:
-    """Why a file that is no .AT2 file is not read."""
-    suffix = printable(file.suffix)
-    quantity = {".vt2": "velocities", ".dt2": "displacements"}.get(suffix.lower())
-    if quantity:
-        return f"not read: {suffix} files hold {quantity}"
-    kind = f"{suffix} files are" if suffix else "files without a suffix are"
-    return f"not read: {kind} read by name or from a list, where their units can be given"
-
-
 def _counted(excluded: list[Excluded]) -> str:
     """What is in a directory without a record."""
-    vertical = sum(item.file.suffix.lower() == ".at2" for item in excluded)
-    others = len(excluded) - vertical
-    beside = f" and {others} files of other kinds, which are read by name or from a list" if others else ""
-    return f"{vertical} .AT2 files, {vertical} of them vertical{beside}"
+    others = [item for item in excluded if "vertical component" not in item.reason]
+    beside = ""
+    if others:
+        beside = f" and {len(others)} other files, {printable(others[0].file.name)} {others[0].reason}"
+    return f"{len(excluded) - len(others)} vertical components{beside}"
 
 
 def _read_list(source: Path) -> Suite:
@@ -217,20 +287,25 @@ def _read_list(source: Path) -> Suite:
             f"columns of {source.name} must include `file`, with at least one row; got {', '.join(columns) or 'no row'}"
         )
     records: list[Record] = []
-    seen: dict[Path, int] = {}
+    seen: dict[tuple[Path, str], int] = {}
     for number, row in enumerate(rows, start=1):
         cells = {column: cell.strip() for column, cell in row.items() if column}
         if not cells["file"]:
             raise RecordFormatError(f"file of {source.name}, row {number}, must be a path; got an empty cell")
         file = source.parent / cells["file"]
-        first = seen.setdefault(file.resolve(), number)
+        first = seen.setdefault((file.resolve(), cells.get("channel", "")), number)
         if first != number:
             raise RecordFormatError(
                 f"file of {source.name}, row {number}, must be listed once; got {cells['file']}, also in row {first}"
             )
-        record = read_record(file, dt=_cell_number(cells, "dt", source, number), unit=cells.get("unit") or None)
+        record = read_record(
+            file,
+            dt=_cell_number(cells, "dt", source, number),
+            unit=cells.get("unit") or None,
+            channel=cells.get("channel") or None,
+        )
         for component in (record.component, cells.get("component", "")):
-            if _is_vertical_component(component):
+            if is_vertical(component):
                 raise RecordFormatError(
                     f"file of {source.name}, row {number}, must be a horizontal component; "
                     f"got {cells['file']}, component {component}"
@@ -266,7 +341,7 @@ def _cell_number(cells: dict[str, str], column: str, source: Path, row: int) -> 
 
 def _vertical_reason(record: Record) -> str | None:
     """Return why a record is a vertical component, or None."""
-    if _is_vertical_component(record.component):
+    if is_vertical(record.component):
         return f"vertical component by its header: {record.component}"
     if _has_vertical_name(record):
         return f"vertical component by its name: {record.name}"
@@ -275,8 +350,3 @@ def _vertical_reason(record: Record) -> str | None:
 
 def _has_vertical_name(record: Record) -> bool:
     return _VERTICAL_NAME.search(record.name) is not None
-
-
-def _is_vertical_component(component: str) -> bool:
-    words = re.findall(r"[A-Z0-9]+", component.upper())
-    return bool(words) and (words[0] in {"V", "Z", "U"} or bool(_VERTICAL_WORDS.intersection(words)))

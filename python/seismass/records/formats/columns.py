@@ -6,23 +6,21 @@ the data that are not data (a scale and the step, a count and the step) are reco
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seismass._values import as_count, printable
 from seismass.errors import RecordFormatError
-from seismass.records.headers import refuse_other_quantity, stated_points, stated_step
-from seismass.records.numbers import is_cut_off, is_number, last_digit, to_float
+from seismass.records.formats.common import Arguments, Channel, Format, NotRead
+from seismass.records.formats.headers import other_quantity, stated_points, stated_step
+from seismass.records.formats.numbers import is_cut_off, is_number, to_float
+from seismass.records.formats.pairs import uniform_step
 from seismass.records.record import Record
 from seismass.units import ACCELERATION_UNITS, stated_unit, unknown_unit
-
-UNIFORMITY: Final = 0.05
-"""Largest departure of a time from uniform sampling, in steps: times are printed rounded."""
 
 SHORTEST_STEP: Final = 1e-4
 LONGEST_STEP: Final = 0.1
@@ -31,8 +29,14 @@ LONGEST_STEP: Final = 0.1
 OUTSTANDING: Final = 5.0
 """A first number larger than the early samples by this factor is no sample unless the caller says so."""
 
+FIRST_TIME: Final = 1.5
+"""A first time is 0 or one step, or there was something before it."""
+
+NO_COUNT: Final = "the file states no number of points: a missing end would not show"
+
 _COMMENT = ("#", "%", "//", "!")
-_SEPARATORS = re.compile(r"[,;\s]+")
+_SEPARATORS: Final = str.maketrans(",;", "  ")
+_CHARACTERS: Final = frozenset("+-.0123456789Ee")
 
 
 @dataclass(frozen=True)
@@ -72,7 +76,9 @@ def parse_columns(
         a file that is cut off, or first numbers that look like no samples but could be.
     """
     table = _read_table(text, source.name)
-    refuse_other_quantity(table.text, table.file)
+    other = other_quantity(table.text)
+    if other:
+        raise NotRead(f"quantity of {table.file} must be acceleration; got {other}")
     remarks: list[str] = []
     if skip is None:
         table, step_before = _without_first_numbers(table, dt, remarks)
@@ -83,7 +89,7 @@ def parse_columns(
         table = _Table(table.file, table.text, table.rows[left_out:], table.line_numbers[left_out:])
         step_before = None
     columns = _column_count(table)
-    values = np.array([[to_float(token) for token in row] for row in table.rows], dtype=np.float64)
+    values = np.array([to_float(token) for row in table.rows for token in row], dtype=np.float64).reshape(-1, columns)
     wrong = np.flatnonzero(~np.isfinite(values).all(axis=1))
     if len(wrong):
         raise RecordFormatError(f"line {table.line_numbers[wrong[0]]} of {table.file} must be finite; got infinity")
@@ -93,11 +99,17 @@ def parse_columns(
             f"last number of {table.file} must be written as the others are; got {last[-1]!r}: the file is cut off"
         )
     points = stated_points(table.text)
+    if points is None and not any("number of points" in remark for remark in remarks):
+        remarks.append(NO_COUNT)
     if points not in (None, len(values)):
         raise RecordFormatError(f"points of {table.file} must be {points}, as its header says; got {len(values)}")
     steps = {"dt": dt, "header": stated_step(table.text, table.file), "first numbers": step_before}
     if columns == 2:
-        steps["times"] = _uniform_step(values[:, 0], table)
+        if abs(values[0, 0]) > FIRST_TIME * (values[-1, 0] - values[0, 0]) / max(len(values) - 1, 1):
+            remarks.append(f"the first time is {values[0, 0]:g} s: a beginning may be missing; it is taken as zero")
+        steps["times"] = uniform_step(
+            values[:, 0], [row[0] for row in table.rows], table.file, table.line_numbers, rounding=False
+        )
     return Record(
         acceleration=values[:, -1] * ACCELERATION_UNITS[_unit(table, unit)],
         dt=_step(table, steps, len(values)),
@@ -108,27 +120,54 @@ def parse_columns(
     )
 
 
+def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
+    record = parse_columns(text, source, dt=arguments.dt, unit=arguments.unit, skip=arguments.skip)
+    return (Channel("1", record),)
+
+
+COLUMNS: Final = Format("columns", "text of columns", lambda _: True, _parse)
+
+
 def _read_table(text: str, file: str) -> _Table:
+    lines = text.splitlines()
     header: list[str] = []
+    start = len(lines)
+    for index, line in enumerate(lines):
+        tokens = line.translate(_SEPARATORS).split()
+        if tokens and not line.lstrip().startswith(_COMMENT) and all(map(is_number, tokens)):
+            start = index
+            break
+        if tokens:
+            header.append(line.strip())
     rows: list[list[str]] = []
     line_numbers: list[int] = []
-    for number, line in enumerate(text.splitlines(), start=1):
-        stripped = line.strip()
-        if not stripped:
-            continue
-        tokens = [token for token in _SEPARATORS.split(stripped) if token]
-        if stripped.startswith(_COMMENT) or not (rows or all(map(is_number, tokens))):
-            header.append(stripped)
-            continue
-        wrong = next((token for token in tokens if not is_number(token)), None)
-        if wrong is not None:
-            raise RecordFormatError(f"line {number} of {file} must be numbers; got {wrong[:40]!r}")
-        rows.append(tokens)
-        line_numbers.append(number)
+    for number, line in enumerate(lines[start:], start=start + 1):
+        tokens = line.translate(_SEPARATORS).split()
+        if line.lstrip().startswith(_COMMENT):
+            header.append(line.strip())
+        elif tokens:
+            rows.append(tokens)
+            line_numbers.append(number)
+    _check_numbers(rows, line_numbers, file)
     if not rows:
         got = f"{header[0][:60]!r}" if header else "an empty file"
         raise RecordFormatError(f"content of {file} must be lines of one or two numbers; got {got}")
     return _Table(file, "\n".join(header), rows, line_numbers)
+
+
+def _check_numbers(rows: list[list[str]], line_numbers: list[int], file: str) -> None:
+    """Refuse the first token that is no number, with its line."""
+    tokens = list(chain.from_iterable(rows))
+    try:
+        if set("".join(tokens)) <= _CHARACTERS:
+            list(map(float, tokens))
+            return
+    except ValueError:
+        pass
+    for number, row in zip(line_numbers, rows, strict=True):
+        wrong = next((token for token in row if not is_number(token)), None)
+        if wrong is not None:
+            raise RecordFormatError(f"line {number} of {file} must be numbers; got {wrong[:40]!r}")
 
 
 def _column_count(table: _Table) -> int:
@@ -181,32 +220,6 @@ def _without_first_numbers(table: _Table, dt: float | None, remarks: list[str]) 
     kind = "number of points" if is_count else "scale"
     remarks.append(f"first numbers {first} and {second} taken as {kind} and step, not as samples")
     return _Table(table.file, table.text, rows[taken:], table.line_numbers[taken:]), step
-
-
-def _uniform_step(times: NDArray[np.float64], table: _Table) -> float:
-    if len(times) < 2:
-        raise RecordFormatError(f"times of {table.file} must be at least two, to give a step; got {len(times)}")
-    span = float(times[-1] - times[0])
-    step = span / (len(times) - 1)
-    if not step > 0.0:
-        raise RecordFormatError(f"times of {table.file} must increase; got {times[0]:g} s first, {times[-1]:g} s last")
-    off = np.abs(times - (times[0] + step * np.arange(len(times))))
-    worst = int(np.argmax(off))
-    if off[worst] > UNIFORMITY * step:
-        raise RecordFormatError(
-            f"times of {table.file} must be uniform, here {step:.6g} s apart; "
-            f"got {times[worst]:g} s in line {table.line_numbers[worst]}, {off[worst]:.3g} s off"
-        )
-    # The shortest step that gives every time back to its last printed digit: 0.01, not 0.010000000000000002.
-    half_digit = 0.5 * np.array([last_digit(row[0]) for row in table.rows])
-    half_digit[0] = half_digit.min()  # a first time of "0" is no rounder than the others
-    margin = half_digit + 1e-12 * span
-    for digits in range(1, 17):
-        short = float(f"{step:.{digits}g}")
-        start = times - short * np.arange(len(times))
-        if np.max(start - margin) <= np.min(start + margin):
-            return short
-    return step
 
 
 def _step(table: _Table, steps: dict[str, float | None], samples: int) -> float:

@@ -6,7 +6,7 @@ import re
 from typing import Final
 
 from seismass.errors import RecordFormatError
-from seismass.records.numbers import NUMBER, to_float
+from seismass.records.formats.numbers import NUMBER, to_float
 
 SHORTEST_STEP: Final = 1e-5
 LONGEST_STEP: Final = 1.0
@@ -23,7 +23,10 @@ _STEP = re.compile(
     r"[ \t]*(?:(?=$|[,;)\]](?!\d)|(?!ms|milli)\w+[ \t]*[=:])|(?P<after>[^\s,;)\]]*))",
     re.IGNORECASE | re.MULTILINE,
 )
-_POINTS = re.compile(r"\bNDATA[ \t]*[=:][ \t]*(\d{1,9})\b", re.IGNORECASE)
+_POINTS = re.compile(
+    r"\b(?:NDATA|NPTS|(?:number|no\.?)[ \t]+of[ \t]+(?:data[ \t]+)?(?:points|samples|data))[ \t]*[=:][ \t]*(\d{1,9})\b",
+    re.IGNORECASE,
+)
 _ACCELERATION = re.compile(r"(?<![a-z])acc(?:el(?:erations?)?)?(?![a-z])", re.IGNORECASE)
 # The velocity of shear waves is one of the site.
 _OTHER_QUANTITY = re.compile(r"(?<![a-z])(?<!wave[ -])(?:velocity|velocities|displacements?)(?![a-z])", re.IGNORECASE)
@@ -63,14 +66,7 @@ def stated_points(text: str) -> int | None:
     return int(match[1]) if match else None
 
 
-def refuse_other_quantity(text: str, file: str) -> None:
-    """Refuse a header that speaks of velocity or displacement and of no acceleration.
-
-    Raises
-    ------
-    RecordFormatError
-        It does.
-    """
+def other_quantity(text: str) -> str | None:
+    """Return what a header names where it speaks of velocity or displacement and of no acceleration, else None."""
     quantity = _OTHER_QUANTITY.search(text)
-    if quantity and not _ACCELERATION.search(text):
-        raise RecordFormatError(f"quantity of {file} must be acceleration; got {quantity.group().lower()}")
+    return quantity.group().lower() if quantity and not _ACCELERATION.search(text) else None

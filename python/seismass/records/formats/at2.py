@@ -14,8 +14,10 @@ import numpy as np
 
 from seismass._values import printable
 from seismass.errors import RecordFormatError
-from seismass.records.headers import refuse_other_quantity, step_in_seconds
-from seismass.records.numbers import is_cut_off, is_number, parse_numbers, to_float
+from seismass.records.formats.common import Arguments, Channel, Format, NotRead, refuse_skip
+from seismass.records.formats.directions import azimuth_of
+from seismass.records.formats.headers import other_quantity, step_in_seconds
+from seismass.records.formats.numbers import is_cut_off, is_number, parse_numbers, to_float
 from seismass.records.record import Record
 from seismass.units import ACCELERATION_UNITS, stated_unit, unknown_unit
 
@@ -35,6 +37,7 @@ _COUNTS = (
         r"^\s*(?P<points>\d{1,9})[,\s]+(?P<step>[\d.]+(?:E[+-]?\d+)?)[,\s]+(?P<unit>)NPTS\s*,?\s*DT", re.IGNORECASE
     ),
 )
+_STATION_OF = re.compile(r"\(([A-Z]{2,8}) STATION \w+\)")
 _SYNTHETIC = re.compile(r"\bSYNTHETIC\b", re.IGNORECASE)
 
 
@@ -75,12 +78,14 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
     line_of_counts, points, step, step_unit = counts
     titles = [line.strip() for line in lines[:line_of_counts]]
     header = "\n".join(titles)
-    refuse_other_quantity(next((title for title in reversed(titles) if title), ""), file)
+    _refuse_other_quantity(titles, source)
     remarks: list[str] = []
     seconds = step_in_seconds(step, step_unit, file)
     written = f"{step} s" if seconds == to_float(step) else f"{step} {step_unit}"
     exact_dt = _agreed_step(seconds, dt, written, file, remarks)
     unit = _agreed_unit(header, unit, file)
+    if unit != "g":
+        remarks.append(f"accelerations are in {unit}; those of the PEER database are in g")
 
     numbered = enumerate(lines[line_of_counts + 1 :], start=line_of_counts + 2)
     tokens, values = parse_numbers(numbered, file)
@@ -108,11 +113,35 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
         event=event,
         station=station,
         component=component,
+        azimuth=azimuth_of(component),
+        network=_network(header),
         source=source,
         unit=unit,
         synthetic=bool(_SYNTHETIC.search(header)),
         remarks=tuple(remarks),
     )
+
+
+def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
+    refuse_skip(arguments, AT2.title, source.name)
+    return (Channel("1", parse_at2(text, source, dt=arguments.dt, unit=arguments.unit)),)
+
+
+AT2: Final = Format("at2", ".AT2", looks_like_at2, _parse)
+
+
+def _refuse_other_quantity(titles: list[str], source: Path) -> None:
+    """Refuse the velocities and displacements that the PEER database gives beside the accelerations."""
+    other = other_quantity(next((title for title in reversed(titles) if title), ""))
+    instead = "read the .AT2 file beside it"
+    if other:
+        raise NotRead(f"quantity of {source.name} must be acceleration; got {other}: {instead}")
+    by_suffix = {".vt2": "velocity", ".dt2": "displacement"}.get(source.suffix.lower())
+    if by_suffix:
+        raise NotRead(
+            f"quantity of {source.name} must be acceleration; got a {source.suffix} file, which holds {by_suffix}: "
+            + instead
+        )
 
 
 def _find_counts(lines: list[str]) -> tuple[int, int, str, str] | None:
@@ -147,6 +176,12 @@ def _agreed_unit(header: str, unit: str | None, file: str) -> str:
             f"unit of {file} must be one of {', '.join(ACCELERATION_UNITS)}, or be given; got {unknown!r} in its header"
         )
     return unit or stated or "g"
+
+
+def _network(header: str) -> str:
+    """Return the network of a title such as "... 360 (CDMG STATION 24461)"."""
+    match = _STATION_OF.search(header)
+    return match[1] if match else ""
 
 
 def _titles(titles: list[str]) -> tuple[str, str, str]:

@@ -16,6 +16,8 @@ NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][+-]?\d+)?"
 _FIELD = re.compile(r"[+-]?\d*\.\d+(?:[EeDd][+-]\d\d)?")
 _PARTS = re.compile(r"[+-]?\d*\.?(?P<decimals>\d*)(?:[EeDd][+-]?(?P<exponent>\d*))?")
 _NUMBER = re.compile(NUMBER)
+_NO_EXPONENT: Final = frozenset("+-.0123456789")
+_CHARACTERS: Final = frozenset("+-.0123456789Ee")
 
 FEWEST_TO_JUDGE_BY: Final = 50
 """Below so many numbers the last one may be shorter than all others by chance."""
@@ -35,6 +37,13 @@ def last_digit(token: str) -> float:
     """Return the unit of the last digit of a number: 0.01 for 1.20, 1e-05 for 1.2E-04."""
     mantissa, _, exponent = token.upper().replace("D", "E").partition("E")
     return float(10.0 ** min(float(exponent or 0) - len(mantissa.partition(".")[2]), 300.0))
+
+
+def last_digits(tokens: Sequence[str]) -> NDArray[np.float64]:
+    """Return the unit of the last digit of each number, shape (len(tokens),)."""
+    if set("".join(tokens)) <= _NO_EXPONENT:
+        return 10.0 ** -np.array([len(token) - 1 - token.find(".") if "." in token else 0.0 for token in tokens])
+    return np.array([last_digit(token) for token in tokens])
 
 
 def split_touching(token: str) -> list[str] | None:
@@ -68,6 +77,26 @@ def parse_numbers(lines: Iterable[tuple[int, str]], file: str) -> tuple[list[str
     RecordFormatError
         Something that is not a number, with its line.
     """
+    numbered = list(lines)
+    tokens: list[str] = []
+    for _, line in numbered:
+        tokens.extend(line.split())
+    try:
+        # The set of characters leaves out what float() takes beside numbers: nan, inf, 1_000.
+        plain = set("".join(tokens)) <= _CHARACTERS
+        values = np.array(list(map(float, tokens)) if plain else [], dtype=np.float64)
+    except ValueError:
+        plain = False
+    if not plain:
+        tokens = _split_fields(numbered, file)
+        values = np.array([to_float(token) for token in tokens], dtype=np.float64)
+    wrong = np.flatnonzero(~np.isfinite(values))
+    if len(wrong):
+        raise RecordFormatError(f"numbers of {file} must be finite; got {tokens[wrong[0]]!r}")
+    return tokens, values
+
+
+def _split_fields(lines: Iterable[tuple[int, str]], file: str) -> list[str]:
     tokens: list[str] = []
     for number, line in lines:
         for token in line.split():
@@ -78,25 +107,21 @@ def parse_numbers(lines: Iterable[tuple[int, str]], file: str) -> tuple[list[str
             if not fields:
                 raise RecordFormatError(f"line {number} of {file} must be numbers; got {token[:40]!r}")
             tokens.extend(fields)
-    values = np.array([to_float(token) for token in tokens], dtype=np.float64)
-    wrong = np.flatnonzero(~np.isfinite(values))
-    if len(wrong):
-        raise RecordFormatError(f"numbers of {file} must be finite; got {tokens[wrong[0]]!r}")
-    return tokens, values
+    return tokens
 
 
-def is_cut_off(tokens: Sequence[str]) -> bool:
+def is_cut_off(tokens: Sequence[str], *, short_zero: bool = True) -> bool:
     """Whether the last number looks cut off: fewer decimals or exponent digits than any other number of the file.
 
     The first half of "0.4751E-01" is a clean number and a false peak. Where an exponent is there, so are all decimals
-    before it, however few: "1e-05" is whole.
+    before it, however few: "1e-05" is whole. A last zero may be written shorter where `short_zero` says so.
     """
-    if len(tokens) <= FEWEST_TO_JUDGE_BY or to_float(tokens[-1]) == 0.0:
+    if len(tokens) <= FEWEST_TO_JUDGE_BY or (short_zero and to_float(tokens[-1]) == 0.0):
         return False
     (last_decimals, last_exponent) = _shape(tokens[-1])
-    shapes = [_shape(token) for token in tokens[:-1]]
-    too_few_decimals = last_exponent == 0 and last_decimals < min(d for d, _ in shapes)
-    return too_few_decimals or last_exponent < min(e for _, e in shapes)
+    before = tokens[:-1]
+    too_few_decimals = last_exponent == 0 and all(last_decimals < _shape(token)[0] for token in before)
+    return too_few_decimals or all(last_exponent < _shape(token)[1] for token in before)
 
 
 def _shape(token: str) -> tuple[int, int]:

@@ -1,0 +1,181 @@
+"""`seismass pulse`: whether a record, a pair or the pairs of a folder have a velocity pulse."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seismass.commands.options import positive_count, warn_left_out
+from seismass.units import ACCELERATION_UNITS
+
+if TYPE_CHECKING:
+    from seismass.pulses import OrientationScan, PulseResult
+    from seismass.records import Pair, Record
+
+_EPILOG = """examples:
+  seismass pulse RSN767_LOMAP_G03000.AT2 RSN767_LOMAP_G03090.AT2 --plot pulse.png
+  seismass pulse RSN767_LOMAP_G03000.AT2 RSN767_LOMAP_G03090.AT2 --orientations 36
+  seismass pulse RSN1106_KOBE_KJM000.AT2 --json
+  seismass pulse records/
+
+Two components are judged by Shahi and Baker (2014), one by Baker (2007); --orientations judges every direction of two
+by Baker (2007). Needs PyWavelets: pip install seismass[pulses].
+exit codes: 0 done, 2 bad input"""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the subcommand to those of the `seismass` command."""
+    parser = subparsers.add_parser(
+        "pulse",
+        help="velocity pulses of near-fault records",
+        description="Whether a record is pulse-like, with the indicator, the test of early arrival and the pulse "
+        "period.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "first",
+        type=Path,
+        metavar="RECORD",
+        help="a horizontal component, a file with both, or a folder, of which every pair is judged",
+    )
+    parser.add_argument("second", type=Path, nargs="?", metavar="RECORD2", help="the other horizontal component")
+    parser.add_argument(
+        "--method",
+        choices=("baker2007", "shahi_baker2014"),
+        help="baker2007 judges each component alone (default for one), shahi_baker2014 two together (for two)",
+    )
+    parser.add_argument(
+        "--orientations",
+        type=positive_count,
+        metavar="N",
+        help="judge N directions of two components by Baker (2007), evenly from 0 to 180 degrees",
+    )
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="write a figure, .png or .svg")
+    parser.add_argument("--dt", type=float, metavar="S", help="time step of records whose files do not state it, s")
+    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of records whose files state none")
+    parser.add_argument("--json", action="store_true", help="print the results as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the classes; return the exit code.
+
+    Raises
+    ------
+    InvalidOption
+        Options that do not go together, or a figure of another suffix.
+    """
+    from seismass.errors import InvalidOption
+
+    if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
+        raise InvalidOption(f"--plot of seismass pulse must be a .png or .svg file; got {args.plot}")
+    if args.orientations is not None and args.method == "shahi_baker2014":
+        raise InvalidOption("--method of seismass pulse must be baker2007 with --orientations; got shahi_baker2014")
+    groups = _groups(args)
+    results: list[PulseResult | OrientationScan] = [one for group in groups for one in _judged(group, args)]
+    if args.plot is not None:
+        if len(results) != 1:
+            raise InvalidOption(f"--plot of seismass pulse must be of one result; got {len(results)}")
+        from seismass.report.figures import save_figure
+
+        save_figure(results[0].plot(), "svg" if args.plot.suffix.lower() == ".svg" else "png", args.plot)
+    if args.json:
+        print(json.dumps([_document(one) for one in results], indent=2))
+    else:
+        print("\n".join(one.text for one in results))
+    return 0
+
+
+def _groups(args: argparse.Namespace) -> list[Record | Pair]:
+    """What is judged: one component, two, or every pair of a folder; says on standard error what is in no pair.
+
+    Raises
+    ------
+    InvalidOption
+        A second record, a step or a unit beside a folder, or a number of components that are neither one nor two.
+    InvalidMotion
+        A folder without a pair.
+    """
+    from seismass.errors import InvalidMotion, InvalidOption
+    from seismass.records import Pair, Suite, find_pairs, read_record
+
+    if args.first.is_dir():
+        for name, value in (("RECORD2", args.second), ("--dt", args.dt), ("--unit", args.unit)):
+            if value is not None:
+                raise InvalidOption(f"{name} of seismass pulse must be left out for a folder; got {value}")
+        pairs = find_pairs(args.first)
+        if not len(pairs):
+            raise InvalidMotion(f"pairs of {args.first} must be at least one; got none in {len(pairs.excluded)} files")
+        warn_left_out(Suite(pairs.name, (), pairs.excluded))
+        return list(pairs)
+    options: dict[str, Any] = {"dt": args.dt, "unit": args.unit}
+    if args.second is not None:
+        return [Pair.from_records(read_record(args.first, **options), read_record(args.second, **options))]
+    return [_one_file(args.first, options)]
+
+
+def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
+    """The one record of a file, or the pair of its two horizontal channels."""
+    from seismass.errors import InvalidOption
+    from seismass.records import Pair, read_records
+    from seismass.records.formats.directions import is_vertical
+
+    records = read_records(path, **options)
+    if len(records) == 1:
+        return records[0]
+    level = [record for record in records if not is_vertical(record.component)]
+    if len(level) != 2:
+        there = ", ".join(record.component or "?" for record in records)
+        raise InvalidOption(
+            f"channels of {path.name} must be one, or two horizontal ones; got {len(records)} ({there}): "
+            "read_record(channel=...) takes them apart"
+        )
+    return Pair.from_records(*level)
+
+
+def _judged(given: Record | Pair, args: argparse.Namespace) -> list[PulseResult | OrientationScan]:
+    from seismass.errors import InvalidOption
+    from seismass.pulses import baker2007, baker2007_orientations, shahi_baker2014
+    from seismass.records import Record
+
+    if isinstance(given, Record):
+        for name, asked in (
+            ("--orientations", args.orientations is not None),
+            ("--method shahi_baker2014", args.method == "shahi_baker2014"),
+        ):
+            if asked:
+                raise InvalidOption(f"{name} of seismass pulse must be given two components; got one")
+        return [baker2007(given)]
+    if args.orientations is not None:
+        return [baker2007_orientations(given, orientations=args.orientations)]
+    if args.method == "baker2007":
+        return [baker2007(given.first), baker2007(given.second)]
+    return [shahi_baker2014(given)]
+
+
+def _document(result: PulseResult | OrientationScan) -> dict[str, Any]:
+    """A result as JSON has it: SI units, degrees; the histories are in Python's `history_table`."""
+    from seismass.pulses import PulseResult
+
+    if isinstance(result, PulseResult):
+        return {
+            "method": result.method,
+            "records": list(result.names),
+            "is_pulse": result.is_pulse,
+            "kind": result.chosen.kind,
+            "period": result.period,
+            "candidate": result.chosen.number,
+            "candidates": result.table().to_dicts(),
+            "remarks": list(result.remarks),
+        }
+    return {
+        "method": result.results[0].method,
+        "records": list(result.names),
+        "pulses": result.pulses,
+        "ambiguous": result.ambiguous,
+        "orientations": result.table().to_dicts(),
+        "remarks": list(result.remarks),
+    }

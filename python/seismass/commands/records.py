@@ -1,0 +1,203 @@
+"""`seismass records`: what record files hold, and which of the paper's seven records a folder has."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from seismass.commands.options import _is_list, read_records
+from seismass.units import ACCELERATION_UNITS
+
+if TYPE_CHECKING:
+    from seismass.records import Record, Suite
+
+_UNREADABLE_LISTED: Final = 20
+_EPILOG = """examples:
+  seismass records RSN767_LOMAP_G03000.AT2
+  seismass records records/ --json
+  seismass records column.txt --dt 0.01 --unit cm/s2
+  seismass records --find Downloads/
+  seismass records
+
+Without a path: the seven records of the paper's Table 1, and how to get them.
+exit codes: 0 done, 2 bad input"""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the subcommand to those of the `seismass` command."""
+    parser = subparsers.add_parser(
+        "records",
+        help="what record files hold; the paper's seven records in a folder",
+        description="A table of the records in a file, a folder or a list: labels, points, step, peaks, Arias "
+        "intensity, duration and what is odd about them. With --find: which of the paper's seven records a folder "
+        "holds, judged by header and content.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "path", type=Path, nargs="?", metavar="PATH", help="a record, a folder, or a CSV with a column `file`"
+    )
+    parser.add_argument("--find", type=Path, metavar="DIR", help="look there for the paper's seven records")
+    parser.add_argument("--dt", type=float, metavar="S", help="time step of a record whose file does not state it, s")
+    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of a record whose file states none")
+    parser.add_argument("--json", action="store_true", help="print everything as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print the table or the report; return the exit code.
+
+    Raises
+    ------
+    InvalidOption
+        Both a path and --find are given, or --dt or --unit without a path.
+    """
+    from seismass.errors import InvalidOption
+
+    if args.path is not None and args.find is not None:
+        raise InvalidOption(f"PATH of seismass records must be left out where --find is given; got {args.path}")
+    if args.path is None:
+        for name, value in (("--dt", args.dt), ("--unit", args.unit)):
+            if value is not None:
+                raise InvalidOption(f"{name} of seismass records must be left out without PATH; got {value}")
+        return _find(args.find, args.json) if args.find is not None else _catalogue(args.json)
+    suite = _read(args.path, args.dt, args.unit)
+    if args.json:
+        unreadable = [{"file": str(one.file), "reason": one.reason} for one in suite.excluded]
+        document = {"name": suite.name, "records": _rows(suite), "not_read": unreadable, "remarks": list(suite.remarks)}
+        print(json.dumps(document, indent=2, allow_nan=False))
+        return 0
+    print("\n".join(_table(suite)))
+    return 0
+
+
+def _read(path: Path, dt: float | None, unit: str | None) -> Suite:
+    """The records of a path; of a file every channel, vertical ones too, and of a folder every file.
+
+    What cannot be read stands among what is left out, since the command is there to look.
+    """
+    from seismass._values import printable
+    from seismass.errors import InvalidOption, RecordFormatError
+    from seismass.records import Excluded, Suite
+    from seismass.records import read_records as read_channels
+
+    if not path.is_dir():
+        if _is_list(path):
+            return read_records(path, dt=dt, unit=unit)
+        return Suite(path.stem, read_channels(path, dt=dt, unit=unit))
+    for name, value in (("--dt", dt), ("--unit", unit)):
+        if value is not None:
+            raise InvalidOption(f"{name} of {path.name} must be left out for a folder of records; got {value}")
+    found: list[Record] = []
+    excluded: list[Excluded] = []
+    for file in sorted(file for file in path.rglob("*") if file.is_file()):
+        if any(part.startswith(".") for part in file.relative_to(path).parts):
+            continue
+        try:
+            found += read_channels(file)
+        except RecordFormatError as error:
+            excluded.append(Excluded(file, str(error)))
+    if not found:
+        raise RecordFormatError(
+            f"records of folder {printable(str(path))} must be at least one; got {len(excluded)} files that are none"
+        )
+    return Suite(printable(path.resolve().name), tuple(found), tuple(excluded))
+
+
+def _rows(suite: Suite) -> list[dict[str, Any]]:
+    """One document per record: labels and measures, with the remarks of its reader and those on its ends."""
+    from seismass.records import intensity_table
+
+    rows = []
+    for row, record in zip(intensity_table(suite).iter_rows(named=True), suite, strict=True):
+        numbers = {
+            name: None if isinstance(value, float) and not math.isfinite(value) else value
+            for name, value in row.items()
+        }
+        rows.append(
+            numbers
+            | {
+                "azimuth": record.azimuth,
+                "network": record.network,
+                "synthetic": record.synthetic,
+                "file": None if record.source is None else str(record.source),
+                "sha256": record.sha256,
+                "remarks": [*record.remarks, *row["remarks"]],
+            }
+        )
+    return rows
+
+
+def _table(suite: Suite) -> list[str]:
+    from seismass._values import printable
+
+    rows = _rows(suite)
+    width = max(len(printable(row["name"])) for row in rows)
+    head = (
+        f"{'':3} {'record':{width}}  {'comp.':8} {'points':>6} {'dt (s)':>7} {'PGA (g)':>8} {'PGV (cm/s)':>10} "
+        f"{'Arias (m/s)':>11} {'D5-95 (s)':>9}  event, station"
+    )
+    lines = [f"{suite.name}: {len(suite)} {'record' if len(suite) == 1 else 'records'}", *suite.remarks, "", head]
+    for row in rows:
+        label = ", ".join(text for text in (row["event"], row["station"]) if text)
+        duration = "-" if row["d5_95"] is None else f"{row['d5_95']:.2f}"
+        lines.append(
+            f"{row['motion']:>3} {printable(row['name']):{width}}  {row['component'][:8]:8} {row['samples']:>6} "
+            f"{row['dt']:>7g} {row['pga_g']:>8.4f} {100.0 * row['pgv']:>10.2f} {row['arias']:>11.3f} {duration:>9}  "
+            f"{label}".rstrip()
+        )
+        lines += [f"{'':5}{remark}" for remark in row["remarks"]]
+    if suite.excluded:
+        lines += ["", f"not read: {len(suite.excluded)} {'file' if len(suite.excluded) == 1 else 'files'}"]
+        lines += [f"  {printable(one.file.name)}: {one.reason}" for one in suite.excluded[:_UNREADABLE_LISTED]]
+        if len(suite.excluded) > _UNREADABLE_LISTED:
+            lines.append(f"  and {len(suite.excluded) - _UNREADABLE_LISTED} more")
+    return lines
+
+
+def _find(folder: Path, as_json: bool) -> int:
+    from seismass.records import find_catalogue
+
+    found = find_catalogue(folder)
+    if as_json:
+        document = {
+            "folder": str(found.folder),
+            "looked_at": found.looked_at,
+            "complete": list(found.complete),
+            "missing": list(found.missing),
+            "records": found.summary().to_dicts(),
+            "files": found.table().to_dicts(),
+        }
+        print(json.dumps(document, indent=2))
+    else:
+        print(found.text)
+    return 0
+
+
+def _catalogue(as_json: bool) -> int:
+    from seismass.records.catalogue import TERMS, catalogue
+
+    rows = catalogue().to_dicts()
+    if as_json:
+        print(json.dumps(rows, indent=2))
+        return 0
+    print("The seven records of the paper's Table 1 (magnitude, distance and pulse period as printed there)\n")
+    for row in rows:
+        pulse = "no pulse" if row["pulse_period"] is None else f"pulse of {row['pulse_period']:g} s"
+        print(
+            f"{row['number']}  {row['event']}, {row['station']}: M {row['magnitude']:g}, {row['distance_km']:g} km, "
+            f"{pulse}; RSN{row['rsn']}"
+        )
+        if row["nga_magnitude"] is not None:
+            print(
+                f"   NGA-West2 flatfile: M {row['nga_magnitude']:g}, closest distance {row['nga_distance_km']:g} km, "
+                f"Vs30 {row['nga_vs30']:g} m/s"
+            )
+        if row["remark"]:
+            print(f"   {row['remark']}")
+        print(f"   {row['how_to_get']}")
+    print(f"\n{TERMS}")
+    return 0

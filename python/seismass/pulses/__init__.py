@@ -1,0 +1,19 @@
+"""Velocity pulses of near-fault motions: Baker (2007) on one component, Shahi and Baker (2014) on two.
+
+Needs PyWavelets for the db4 wavelet: pip install seismass[pulses].
+"""
+
+from seismass.pulses.baker2007 import baker2007, baker2007_orientations, pulse_indicator_2007
+from seismass.pulses.result import Candidate, OrientationScan, PulseResult
+from seismass.pulses.shahi_baker2014 import pulse_indicator_2014, shahi_baker2014
+
+__all__ = [
+    "Candidate",
+    "OrientationScan",
+    "PulseResult",
+    "baker2007",
+    "baker2007_orientations",
+    "pulse_indicator_2007",
+    "pulse_indicator_2014",
+    "shahi_baker2014",
+]

@@ -1,0 +1,140 @@
+"""The db4 wavelet of pulse identification: its continuous transform and one scaled wavelet as a history.
+
+PyWavelets gives the wavelet and is imported on first use. Its own continuous transform takes no db4, so that this one
+is built from the integral of the wavelet, as MATLAB's `cwt` is, by convolution through FFT.
+"""
+
+from __future__ import annotations
+
+import functools
+from typing import Any, Final
+
+import numpy as np
+
+from seismass._values import FloatArray, frozen
+from seismass.errors import MissingPackage
+
+WAVELET: Final = "db4"
+SUPPORT: Final = 7
+"""Width of the wavelet in units of its scale."""
+PERIOD_OF_SCALE: Final = 1.4
+"""Period of the wavelet over scale times step: one over its centre frequency, 5/7."""
+_LEVEL: Final = 4
+"""Level of the wavelet that is subtracted (Shahi and Baker, 2014): sixteen points per unit, linear between them."""
+_FINE_LEVEL: Final = 10
+
+
+def _pywt() -> Any:
+    try:
+        import pywt
+    except ImportError as error:
+        raise MissingPackage(
+            "PyWavelets of pulse identification must be installed (pip install seismass[pulses]); "
+            f"got {str(error) or 'no such package'}"
+        ) from error
+    return pywt
+
+
+@functools.cache
+def _wavelet(level: int) -> tuple[FloatArray, FloatArray]:
+    """Places from 0 to 7 and values of the wavelet of unit energy there."""
+    _, psi, places = _pywt().Wavelet(WAVELET).wavefun(level)
+    return frozen(places), frozen(psi)
+
+
+@functools.cache
+def _integral() -> FloatArray:
+    """Integral of the wavelet from 0 to each of 1024 points per unit."""
+    places, psi = _wavelet(_FINE_LEVEL)
+    return frozen(np.cumsum(psi) * (places[1] - places[0]))
+
+
+@functools.lru_cache(maxsize=128)
+def _filter(scale: int) -> FloatArray:
+    """Weights of a transform at one scale, shape (7 scale,): the integral of the wavelet over each sample.
+
+    As MATLAB's `cwt` forms them, which takes the integral at the point before, so that published periods are met to the
+    sample.
+    """
+    points = np.arange(SUPPORT * scale + 1) * 2**_FINE_LEVEL // scale
+    return frozen(np.diff(_integral()[points]) * np.sqrt(scale))
+
+
+def _before(scale: int) -> int:
+    """Weights before the one that is centred on a sample."""
+    return SUPPORT * scale // 2
+
+
+def _convolved(velocity: FloatArray, scale: int, mode: str) -> FloatArray:
+    from scipy.signal import fftconvolve  # slow to import
+
+    return np.asarray(fftconvolve(velocity, _filter(scale)[::-1], mode=mode))
+
+
+def transform(velocity: FloatArray, scale: int) -> FloatArray:
+    """Return the wavelet coefficient centred on each sample, at one scale.
+
+    Parameters
+    ----------
+    velocity : ndarray, shape (samples,)
+        The history, taken as zero before and after.
+    scale : int
+        Scale of the wavelet in samples.
+
+    Returns
+    -------
+    ndarray, shape (samples,)
+        Sum of the history times the wavelet of unit energy, in the unit of the history times the root of a sample.
+    """
+    after = SUPPORT * scale - 1 - _before(scale)
+    return _convolved(velocity, scale, "full")[after:][: len(velocity)]
+
+
+def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> FloatArray:
+    """Return the coefficients at one scale, centred on the samples from `first` to `last`, both included.
+
+    As `transform`, of what the wavelets there touch alone.
+    """
+    start = first - _before(scale)
+    stop = last - _before(scale) + SUPPORT * scale
+    touched = velocity[max(0, start) : stop]
+    padded = np.pad(touched, (max(0, -start), max(0, stop - len(velocity))))
+    return _convolved(padded, scale, "valid")
+
+
+def coefficient(velocity: FloatArray, scale: int, sample: int) -> float:
+    """Return the one coefficient at a scale that is centred on a sample."""
+    start = sample - _before(scale)
+    first, last = max(0, start), min(len(velocity), start + SUPPORT * scale)
+    return float(velocity[first:last] @ _filter(scale)[first - start : last - start])
+
+
+def wavelet_history(samples: int, scale: int, sample: int) -> FloatArray:
+    """Return the wavelet of unit energy centred on a sample, as a history.
+
+    Parameters
+    ----------
+    samples : int
+        Length of the history.
+    scale : int
+        Scale of the wavelet in samples.
+    sample : int
+        Where its centre is.
+
+    Returns
+    -------
+    ndarray, shape (samples,)
+        The wavelet of level 4, linear between its points, divided by the root of the scale.
+    """
+    places, psi = _wavelet(_LEVEL)
+    at = (np.arange(samples) - sample) / scale + 0.5 * SUPPORT
+    return np.asarray(np.interp(at, places, psi, left=0.0, right=0.0) / np.sqrt(scale))
+
+
+def approximation_energy(velocity: FloatArray) -> float:
+    """Return the energy of the approximation coefficients of one level of the discrete transform.
+
+    Half the frequencies are in it, and nearly all the energy of a velocity.
+    """
+    approximation, _ = _pywt().dwt(velocity, WAVELET)
+    return float(np.sum(np.square(approximation)))

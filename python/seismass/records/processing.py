@@ -1,0 +1,250 @@
+"""Steps that change the samples of a record on purpose: baseline, filter, resampling. Each is kept in its history.
+
+The vertical component is processed in the same way as the horizontal one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any, Final, Literal
+
+import numpy as np
+
+from seismass._values import FloatArray, as_count, as_number, brief, refusal
+from seismass.errors import InvalidOption
+from seismass.records.record import Record
+
+HIGHEST_ORDER: Final = 10
+"""Of baselines and filters; above it neither is stable or meant."""
+LONGEST_PERIODS: Final = 10.0
+"""Longest period of a filter's corner as a multiple of the duration: below its frequency a record says nothing."""
+LARGEST_TERM: Final = 10_000
+"""Largest of the two whole numbers whose ratio is that of two steps."""
+
+
+def baseline_corrected(record: Record, order: int = 1, fit: Literal["velocity", "acceleration"] = "velocity") -> Record:
+    """Return a record less the polynomial of time that fits it best.
+
+    Parameters
+    ----------
+    record : Record
+        The record; its motion starts from rest at its first sample, before and after.
+    order : int, default 1
+        Degree of the polynomial subtracted from the acceleration, 0 to 10: 0 is a constant, 1 a line.
+    fit : {"velocity", "acceleration"}
+        What is fitted by least squares over the samples. For "velocity" the integral of the polynomial is fitted to the
+        velocity (as Boore, 2001, fits parts of it); what is left is the residual of that fit, so that velocity no
+        longer drifts. For "acceleration" the polynomial itself is fitted, which for degree 0 removes the mean.
+
+    Returns
+    -------
+    Record
+        Its first acceleration is no longer zero in general: the correction acts from the first sample on.
+
+    Raises
+    ------
+    InvalidOption
+        A degree or quantity out of range, or a record of fewer samples than the polynomial has coefficients and one.
+
+    Notes
+    -----
+    The polynomial is subtracted at the samples and is linear between them as the record is; the fit of velocities takes
+    its exact integral. Boore (2001), Bull. Seism. Soc. Am. 91:1199-1211.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> drifting = sm.Record([0.5, 1.5, -0.5, 0.5], dt=0.01)
+    >>> drifting.baseline_corrected(0, fit="acceleration").acceleration
+    array([ 0.,  1., -1.,  0.])
+    """
+    degree = as_count(order, "order", "baseline correction", InvalidOption)
+    if degree > HIGHEST_ORDER:
+        raise refusal(InvalidOption, "order", "baseline correction", f"at most {HIGHEST_ORDER}", brief(order))
+    if fit not in ("velocity", "acceleration"):
+        raise refusal(InvalidOption, "fit", "baseline correction", "velocity or acceleration", brief(fit))
+    if record.samples < degree + 2:
+        requirement = f"at least {degree + 2} for a polynomial of degree {degree}"
+        raise refusal(InvalidOption, "samples", "baseline correction", requirement, str(record.samples))
+    # Legendre polynomials span those of time and keep the fit well conditioned.
+    terms = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, record.samples), degree).T
+    fitted = np.array([_integral(term, record.dt) for term in terms]) if fit == "velocity" else terms
+
+    def corrected(acceleration: FloatArray) -> FloatArray:
+        wanted = _integral(acceleration, record.dt) if fit == "velocity" else acceleration
+        coefficients = np.linalg.lstsq(fitted.T, wanted, rcond=None)[0]
+        left: FloatArray = acceleration - coefficients @ terms
+        return left
+
+    return _both(record, corrected, f"baseline of degree {degree} fitted to the {fit} and removed")
+
+
+def band_passed(
+    record: Record,
+    low_hz: float | None,
+    high_hz: float | None,
+    order: int = 4,
+    *,
+    taper: float = 0.01,
+    keep_pads: bool = False,
+) -> Record:
+    """Return a record within a band of frequencies, by a Butterworth filter without phase shift.
+
+    The ends are tapered by half cosines, zeros are added before and after, and the filter is run forwards and backwards
+    (`scipy.signal.sosfiltfilt`), so that its gain is 1/2 (-6 dB) at the corners and falls with twice the order.
+
+    Parameters
+    ----------
+    record : Record
+        The record.
+    low_hz, high_hz : float or None
+        Corner frequencies (Hz); None leaves that side open. The low one must be at least a tenth of one over the
+        duration, the high one below the Nyquist frequency 1/(2 dt).
+    order : int, default 4
+        Order of the filter in one direction at each corner, 1 to 10.
+    taper : float, default 0.01
+        Share of the record that is tapered at each end, 0 to 0.5. A remark says where that reduces the largest
+        acceleration.
+    keep_pads : bool
+        The zeros added at each end last 1.5 times the order over the lowest corner. They hold the filter's transients:
+        with them (the record becomes longer, and its motion starts later) velocity and displacement are consistent with
+        the filtered acceleration (Boore, 2005). Without them, as databases ship records, displacement may drift.
+
+    Raises
+    ------
+    InvalidOption
+        No corner, one out of its range, or corners in the wrong order; an order or taper out of range.
+
+    Notes
+    -----
+    Boore (2005), Bull. Seism. Soc. Am. 95:745-750; Boore and Bommer (2005), Soil Dyn. Earthq. Eng. 25:93-115.
+    """
+    from scipy import signal  # slow to import
+
+    poles = as_count(order, "order", "band-pass filter", InvalidOption, least=1)
+    if poles > HIGHEST_ORDER:
+        raise refusal(InvalidOption, "order", "band-pass filter", f"at most {HIGHEST_ORDER}", brief(order))
+    share = as_number(taper, "taper", "band-pass filter", InvalidOption)
+    if not 0.0 <= share <= 0.5:
+        raise refusal(InvalidOption, "taper", "band-pass filter", "a share from 0 to 0.5", brief(taper))
+    low, high = _corners(record, low_hz, high_hz)
+    kind, corners = {
+        (False, True): ("lowpass", high),
+        (True, False): ("highpass", low),
+        (True, True): ("bandpass", [low, high]),
+    }[low is not None, high is not None]
+    sections = signal.butter(poles, corners, kind, fs=1.0 / record.dt, output="sos")
+    tapered = round(share * (record.samples - 1))
+    rise = 0.5 * (1.0 - np.cos(np.pi * np.arange(tapered) / max(tapered, 1)))
+    lowest = low if low is not None else high
+    assert lowest is not None
+    pad = math.ceil(1.5 * poles / (lowest * record.dt))
+
+    def filtered(acceleration: FloatArray) -> FloatArray:
+        padded = np.pad(acceleration, pad)
+        padded[pad : pad + tapered] *= rise
+        padded[len(padded) - pad - tapered : len(padded) - pad] *= rise[::-1]
+        passed: FloatArray = signal.sosfiltfilt(sections, padded, padtype=None)
+        return passed if keep_pads else passed[pad : pad + record.samples]
+
+    band = f"above {low:g} Hz" if high is None else f"below {high:g} Hz" if low is None else f"{low:g} to {high:g} Hz"
+    pads = "kept" if keep_pads else "removed again"
+    said = (
+        f"filtered {band}: Butterworth of order {poles} forwards and backwards, ends tapered over {tapered} samples, "
+        f"{pad} zeros at each end {pads}"
+    )
+    changed = _both(record, filtered, said)
+    peak = int(np.argmax(np.abs(record.acceleration)))
+    if tapered and not tapered <= peak < record.samples - tapered:
+        changed = changed.replace(remarks=(*changed.remarks, "the taper reduced its largest acceleration"))
+    return changed
+
+
+def resampled(record: Record, dt: float) -> Record:
+    """Return a record at another time step.
+
+    Parameters
+    ----------
+    record : Record
+        The record.
+    dt : float
+        New step (s). Where it divides the old one, samples are added on the straight lines between the old ones: the
+        same motion. Otherwise the samples are taken for those of a band-limited motion and interpolated, with what is
+        above the lower of the two Nyquist frequencies filtered out (`scipy.signal.resample_poly`); a remark says what
+        that does to PGA.
+
+    Raises
+    ------
+    InvalidOption
+        The step is not a positive number, or is in no ratio of whole numbers up to 10000 to the old one.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.Record([0.0, 1.0, 0.0], dt=0.02).resampled(0.01).acceleration
+    array([0. , 0.5, 1. , 0.5, 0. ])
+    """
+    step = as_number(dt, "dt", "resampled record", InvalidOption)
+    if not (math.isfinite(step) and step > 0.0):
+        raise refusal(InvalidOption, "dt", "resampled record", "a positive number", brief(dt))
+    ratio = Fraction(record.dt / step).limit_denominator(LARGEST_TERM)
+    if ratio.numerator > LARGEST_TERM or abs(float(ratio) * step - record.dt) > 1e-9 * record.dt:
+        requirement = f"in a ratio of whole numbers up to {LARGEST_TERM} to its step, {record.dt:g} s"
+        raise refusal(InvalidOption, "dt", "resampled record", requirement, f"{step:g} s")
+    if ratio == 1:
+        return record
+    if ratio.denominator == 1:
+        times = ratio.numerator
+        finer = np.arange((record.samples - 1) * times + 1) / times
+        at = np.arange(record.samples)
+        said = f"resampled from {record.dt:g} to {step:g} s on the lines between samples: the same motion"
+        return _both(record, lambda acceleration: np.interp(finer, at, acceleration), said, dt=step)
+    from scipy import signal  # slow to import
+
+    def interpolated(acceleration: FloatArray) -> FloatArray:
+        samples: FloatArray = signal.resample_poly(acceleration, ratio.numerator, ratio.denominator)
+        return samples
+
+    said = f"resampled from {record.dt:g} to {step:g} s by band-limited interpolation ({ratio})"
+    changed = _both(record, interpolated, said, dt=step)
+    if record.pga == 0.0:
+        return changed
+    loss = 100.0 * (changed.pga / record.pga - 1.0)
+    remark = f"resampling from {record.dt:g} to {step:g} s changed PGA from {record.pga_g:.4f} g by {loss:+.2f} %"
+    return changed.replace(remarks=(*changed.remarks, remark))
+
+
+def _both(record: Record, change: Callable[[FloatArray], FloatArray], said: str, **others: Any) -> Record:
+    """The record with both components changed, and what was done."""
+    vertical = None if record.vertical is None else change(record.vertical)
+    return record.replace(
+        acceleration=change(record.acceleration), vertical=vertical, history=(*record.history, said), **others
+    )
+
+
+def _integral(acceleration: FloatArray, dt: float) -> FloatArray:
+    velocity = np.zeros(len(acceleration))
+    np.cumsum(0.5 * dt * (acceleration[:-1] + acceleration[1:]), out=velocity[1:])
+    return velocity
+
+
+def _corners(record: Record, low_hz: float | None, high_hz: float | None) -> tuple[float | None, float | None]:
+    """Corner frequencies in order and within what the record holds."""
+    owner = f"band-pass filter of {record.name or 'a record'}"
+    low, high = (
+        None if value is None else as_number(value, name, owner, InvalidOption)
+        for name, value in (("low_hz", low_hz), ("high_hz", high_hz))
+    )
+    if low is None and high is None:
+        raise refusal(InvalidOption, "corners", owner, "one frequency or two", "none")
+    nyquist = 0.5 / record.dt
+    least = 1.0 / (LONGEST_PERIODS * record.samples * record.dt)
+    for name, value in (("low_hz", low), ("high_hz", high)):
+        if value is not None and not least <= value < nyquist:
+            requirement = f"from {least:.3g} Hz, a tenth of one over the duration, to below {nyquist:g} Hz, 1/(2 dt)"
+            raise refusal(InvalidOption, name, owner, requirement, f"{value:g}")
+    if low is not None and high is not None and low >= high:
+        raise refusal(InvalidOption, "low_hz", owner, f"below high_hz, {high:g}", f"{low:g}")
+    return low, high

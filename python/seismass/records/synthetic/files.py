@@ -1,0 +1,72 @@
+"""Files of the built-in suite: .AT2 with the word SYNTHETIC first, and the lists of the seven and of all eleven."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Final
+
+from seismass.records.record import Record
+from seismass.records.synthetic.seven import RECIPES, Recipe, generate
+from seismass.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
+from seismass.units import STANDARD_GRAVITY
+
+ALL_RECIPES: Final = (*RECIPES, *SITE_RECIPES)
+
+LISTS: Final = {"seven.csv": RECIPES, "suite.csv": ALL_RECIPES}
+"""Lists of motions and what they name, in order."""
+
+
+def version(recipe: Recipe | SiteRecipe) -> int:
+    """Return the version of the generator that a recipe is for, as the first line of its file gives it."""
+    return 1 if isinstance(recipe, Recipe) else 2
+
+
+def made(recipe: Recipe | SiteRecipe) -> Record:
+    """Make the motion of a recipe."""
+    return generate(recipe) if isinstance(recipe, Recipe) else generate_site(recipe)
+
+
+def at2_text(record: Record, generator: int = 1) -> str:
+    """Return the record as an .AT2 file in units of g, labelled as synthetic in its first line.
+
+    Version 1 of the generator has eight digits of each number, version 2 seven decimals: 1e-7 g is far above what
+    machines differ by, which eight digits of a small number are not.
+    """
+    rows = record.acceleration / STANDARD_GRAVITY + 0.0  # no minus sign before a zero
+    if generator > 1:
+        rows = rows.round(7) + 0.0
+    header = (
+        f"SYNTHETIC MOTION, NOT A RECORDING (seismass generator, version {generator})",
+        f"{record.event}, {record.station}, {record.component}",
+        "ACCELERATION TIME SERIES IN UNITS OF G",
+        f"NPTS= {record.samples:6d}, DT= {record.dt:9.5f} SEC",
+    )
+    form = "16.7E" if generator == 1 else "12.7f"
+    lines = ("".join(f"{value:{form}}" for value in rows[i : i + 5]) for i in range(0, len(rows), 5))
+    return "\n".join((*header, *lines)) + "\n"
+
+
+def write_motion(directory: Path, recipe: Recipe | SiteRecipe) -> None:
+    """Write the motion of a recipe as an .AT2 file."""
+    text = at2_text(made(recipe), version(recipe))
+    (directory / f"{recipe.name}.AT2").write_text(text, encoding="utf-8", newline="\n")
+
+
+def write_list(file: Path, recipes: Iterable[Recipe | SiteRecipe]) -> None:
+    """Write a list of motions as `read_suite` takes it."""
+    with file.open("w", newline="", encoding="utf-8") as stream:
+        rows = csv.writer(stream, lineterminator="\n")
+        rows.writerow(("number", "event", "station", "file", "note"))
+        for recipe in recipes:
+            rows.writerow((recipe.number, "synthetic", "none", f"{recipe.name}.AT2", recipe.note))
+
+
+def write_suite(directory: Path) -> None:
+    """Write every motion as an .AT2 file, and the lists that name them in order."""
+    directory.mkdir(parents=True, exist_ok=True)
+    for recipe in ALL_RECIPES:
+        write_motion(directory, recipe)
+    for name, recipes in LISTS.items():
+        write_list(directory / name, recipes)

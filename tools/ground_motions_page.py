@@ -1,0 +1,228 @@
+"""Writes docs/ground_motions.md: measures, pairs and RotD spectra of recordings, beside the NGA-West2 flatfile.
+
+Usage: SEISMASS_SHARED=... python tools/ground_motions_page.py
+The recordings are not part of this project: SEISMASS_SHARED names the folder that holds them. The table of other
+programs is written by benchmarks/ground_motions.py and kept as it is.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+import seismass as sm
+
+ROOT: Final = Path(__file__).parents[1]
+PAGE: Final = ROOT / "docs" / "ground_motions.md"
+FLATFILE: Final = Path("records/reference/nga_w2_selected.csv")
+LENGTH_RATIO: Final = 15.0
+FILTER: Final = (0.2, 25.0)
+FILTERED: Final = "RSN6_IMPVALL.I_I-ELC180-hor1"
+
+
+@dataclass(frozen=True)
+class Listed:
+    """A pair at hand that the flatfile lists: its RotD50 there, peaks in m/s2, m/s and m, spectrum in m/s2."""
+
+    sequence: int
+    pair: sm.Pair
+    periods: NDArray[np.float64]
+    spectrum: NDArray[np.float64]
+    peaks: dict[str, float]
+
+
+def listed_pairs(shared: Path, pairs: sm.Pairs) -> list[Listed]:
+    """Return the pairs that the flatfile lists, by record sequence number."""
+    flat = pl.read_csv(shared / FLATFILE, infer_schema_length=0)
+    columns = [column for column in flat.columns if re.fullmatch(r"T\d+\.\d+S", column)]
+    periods = np.array([float(column[1:-1]) for column in columns])
+    found = []
+    for pair in pairs:
+        match = re.match(r"RSN(\d+)", pair.name)
+        rows = flat.filter(pl.col("Record Sequence Number") == (match[1] if match else ""))
+        if match is None or rows.height == 0:
+            continue
+        row = rows.row(0, named=True)
+        if (float(row["Damping (%)"]), float(row["RotD percentile"])) != (5.0, 50.0):
+            raise SystemExit(f"RSN{match[1]}: not RotD50 at 5 % damping")
+        spectrum = np.array([float(row[column]) for column in columns]) * sm.STANDARD_GRAVITY
+        peaks = {
+            "pga": float(row["PGA (g)"]) * sm.STANDARD_GRAVITY,
+            "pgv": 0.01 * float(row["PGV (cm/sec)"]),
+            "pgd": 0.01 * float(row["PGD (cm)"]),
+        }
+        found.append(Listed(int(match[1]), pair, periods, spectrum, peaks))
+    return sorted(found, key=lambda item: item.sequence)
+
+
+def table(header: tuple[str, ...], rows: list[tuple[str, ...]], left: int = 1) -> str:
+    """Return a table whose first columns are of words."""
+    lines = [header, tuple("---" if column < left else "---:" for column in range(len(header))), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def measures_table(shared: Path) -> str:
+    """Return the measures of the paper's components."""
+    measured = sm.intensity_table(sm.read_suite(shared / "records" / "paper_seven.csv"))
+    header = ("record", "PGA (g)", "PGV (m/s)", "PGD (m)", "Arias (m/s)", "D5-75 (s)", "D5-95 (s)", "CAV (m/s)",
+              "bracketed (s)")  # fmt: skip
+    names = ("pga_g", "pgv", "pgd", "arias", "d5_75", "d5_95", "cav", "bracketed")
+    digits = (4, 3, 3, 3, 2, 2, 2, 2)
+    rows = [
+        (f"{row['name'].partition('__')[0]}", *(f"{row[name]:.{n}f}" for name, n in zip(names, digits, strict=True)))
+        for row in measured.iter_rows(named=True)
+    ]
+    return table(header, rows)
+
+
+def pairs_table(pairs: sm.Pairs) -> str:
+    """Return the pairs that were found."""
+    rows = []
+    for pair in pairs:
+        said = "not stated" if pair.azimuths is None else " / ".join(f"{azimuth:g}" for azimuth in pair.azimuths)
+        files = ("yes" if pair.vertical is not None else "no", str(pair.samples), f"{pair.dt:g}")
+        peaks = [f"{record.pga_g:.5f}" for record in (pair.first, pair.second)]
+        rows.append((pair.name, said, *files, *peaks, str(sum("samples of its pair" in one or "zeros" in one
+                                                              for one in pair.remarks))))  # fmt: skip
+    header = ("pair", "azimuths", "vertical", "samples", "dt (s)", "PGA 1 (g)", "PGA 2 (g)", "components aligned")
+    return table(header, rows)
+
+
+def flatfile_tables(listed: list[Listed]) -> str:
+    """Return the differences by record and by period, with the words on them."""
+    rows, differences = [], []
+    for item in listed:
+        ours = sm.rotd(item.pair, item.periods)
+        apart = 100.0 * (ours[50] / item.spectrum - 1.0)
+        peaks = [100.0 * (ours.peaks[name][1] / item.peaks[name] - 1.0) for name in ("pga", "pgv", "pgd")]
+        differences.append(apart)
+        most = int(np.argmax(np.abs(apart)))
+        at = int(np.argmin(np.abs(item.periods - 1.0)))
+        rows.append(
+            (
+                f"RSN{item.sequence} {item.pair.station}",
+                f"{item.pair.dt:g}",
+                *(signed(value) for value in peaks),
+                f"{signed(float(np.median(apart)))}",
+                f"{signed(float(apart[most]))} at {item.periods[most]:g} s",
+                f"{ours[100][at] / ours[50][at]:.3f}",
+                "" if ours.azimuth is None else f"{ours.azimuth[at]:.0f}",
+            )
+        )
+    all_of_them = np.array(differences)
+    header = ("record", "dt (s)", "PGA", "PGV", "PGD", "spectrum, median", "largest", "RotD100/50 at 1 s",
+              "its azimuth")  # fmt: skip
+    by_period = [
+        (f"{period:g}", *(signed(float(value)) for value in (column.min(), np.median(column), column.max())))
+        for period, column in zip(listed[0].periods, all_of_them.T, strict=True)
+    ]
+    worst = np.unravel_index(np.argmax(all_of_them), all_of_them.shape)
+    item, period = listed[int(worst[0])], float(listed[0].periods[int(worst[1])])
+    least, largest = signed(float(all_of_them.min())), signed(float(all_of_them.max()))
+    long_periods = np.abs(all_of_them[:, listed[0].periods >= 1.0]).max()
+    return (
+        f"Differences of ours from the flatfile (%), RotD50, {len(listed)} pairs at {all_of_them.shape[1]} periods:\n\n"
+        f"{table(header, rows)}\n\n"
+        f"{table(('period (s)', 'least', 'median', 'largest'), by_period, 0)}\n\n"
+        f"The least difference is {least} %, the largest {largest} % (RSN{item.sequence} at {period:g} s, "
+        f"{period / item.pair.dt:.0f} samples a period): the\nflatfile's are peaks at samples, as the table of other "
+        "programs shows, and ours in continuous time. From 1 s on the two\n"
+        f"agree within {long_periods:.2f} %."
+    )
+
+
+def similitude_table(shared: Path) -> str:
+    """Return what the paper's components are on a table at reduced scale."""
+    rows = []
+    for record in sm.read_suite(shared / "records" / "paper_seven.csv"):
+        model = record.similitude(LENGTH_RATIO)
+        rows.append(
+            (
+                record.name.partition("__")[0],
+                f"{record.dt:g}",
+                f"{1000.0 * model.dt:.4f}",
+                f"{record.duration:.2f}",
+                f"{model.duration:.2f}",
+                f"{model.pga_g:.4f}",
+                f"{100.0 * model.pgv:.2f}",
+                f"{1000.0 * model.pgd:.2f}",
+            )
+        )
+    header = ("record", "dt (s)", "dt of the model (ms)", "duration (s)", "of the model (s)", "PGA (g), both",
+              "PGV of the model (cm/s)", "PGD of the model (mm)")  # fmt: skip
+    return table(header, rows)
+
+
+def processing_table(shared: Path) -> str:
+    """Return what filtering with and without pads and baselines does to one component."""
+    record = sm.read_record(next((shared / "records").glob(f"*/{FILTERED}.AT2")))
+    drifting = record.replace(acceleration=record.acceleration + 0.002 * sm.STANDARD_GRAVITY)
+    made = {
+        "as it is": record,
+        f"{FILTER[0]:g} to {FILTER[1]:g} Hz, pads removed": record.band_passed(*FILTER),
+        f"{FILTER[0]:g} to {FILTER[1]:g} Hz, pads kept": record.band_passed(*FILTER, keep_pads=True),
+        "with 0.002 g added": drifting,
+        "that, baseline of degree 1 fitted to the velocity": drifting.baseline_corrected(1),
+        "that, mean removed": drifting.baseline_corrected(0, fit="acceleration"),
+    }
+    rows = [
+        (
+            what,
+            str(one.samples),
+            f"{one.pga_g:.4f}",
+            f"{one.pgv:.3f}",
+            f"{one.pgd:.3f}",
+            f"{one.velocity[-1]:z.4f}",
+            f"{one.displacement[-1]:z.3f}",
+        )
+        for what, one in made.items()
+    ]
+    header = ("RSN6, 180", "samples", "PGA (g)", "PGV (m/s)", "PGD (m)", "end velocity (m/s)", "end displacement (m)")
+    return table(header, rows)
+
+
+def signed(value: float) -> str:
+    """Return a difference with its sign; without one where it rounds to zero."""
+    text = f"{value:+z.2f}"
+    return "0.00" if text == "+0.00" else text
+
+
+def with_tables(page: str, tables: dict[str, str]) -> str:
+    """Return the page with each table between its markers."""
+    for key, text in tables.items():
+        first, last = f"<!-- {key} -->", f"<!-- end of {key} -->"
+        before, found, rest = page.partition(first)
+        if not found:
+            raise SystemExit(f"{PAGE.name} has no mark {first}")
+        page = f"{before}{first}\n{text}\n{last}{rest.partition(last)[2]}"
+    return page
+
+
+def page(shared: Path) -> str:
+    """Return the page with its tables made anew."""
+    pairs = sm.find_pairs(shared / "records")
+    return with_tables(
+        PAGE.read_text(encoding="utf-8"),
+        {
+            "measures": measures_table(shared),
+            "pairs": pairs_table(pairs),
+            "flatfile": flatfile_tables(listed_pairs(shared, pairs)),
+            "processing": processing_table(shared),
+            "similitude": similitude_table(shared),
+        },
+    )
+
+
+if __name__ == "__main__":
+    folder = os.environ.get("SEISMASS_SHARED")
+    if not folder:
+        sys.exit(__doc__)
+    PAGE.write_text(page(Path(folder)), encoding="utf-8")
