@@ -11,7 +11,7 @@ from seismass.scaling.oscillator import deformation_ratio
 
 G = 9.80665
 TARGET = sm.TargetSpectrum.asce7()
-SUITE = list(sm.builtin_suite())
+SUITE = list(sm.builtin_suite("seven"))
 STEP = sm.Motion(np.ones(600), 0.01)
 
 
@@ -223,6 +223,12 @@ def test_scaling_by_a_building_is_that_of_its_oscillator() -> None:
         damping=oscillator.damping,
     )
     np.testing.assert_array_equal(found.factors, again.factors)
+    assert again.second_mode_ratio is None
+    at = float(building.periods[1])
+    expected = found.factors * sm.response_spectrum(SUITE, [at])[:, 0] / TARGET(at)
+    # The damping of the oscillator is 0.05 but for rounding.
+    np.testing.assert_allclose(found.second_mode_ratio, expected, rtol=1e-10)
+    assert found.table()["second_mode_ratio"].to_list() == found.second_mode_ratio.tolist()
     elastic = sm.scale_modal_pushover(SUITE, TARGET, sm.Building.uniform(3, 0.6))
     np.testing.assert_allclose(elastic.factors, sm.scale_sa_t1(SUITE, TARGET, 0.6).factors, rtol=1e-10)
 

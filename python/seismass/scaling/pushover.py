@@ -47,6 +47,10 @@ class PushoverScaling(ScalingResult):
         D_t (m).
     deformations : ndarray, shape (motions,)
         Peak deformation of the oscillator under each motion with its factor (m).
+    second_mode_ratio : ndarray, shape (motions,), or None
+        Scaled pseudo-acceleration at T2 over the target there, for a building of two storeys or more: how far the
+        second, elastic mode is from its target, by which Kalkan and Chopra rank records for buildings in which it
+        matters. None without a building, or where the target does not cover T2.
     roots : tuple of ndarray
         All factors of each motion that were found to reach the target, increasing; the one nearest 1 in the logarithm
         is taken.
@@ -58,10 +62,11 @@ class PushoverScaling(ScalingResult):
     target_deformation: float = 0.0
     deformations: FloatArray = field(default_factory=lambda: frozen([]))
     roots: tuple[FloatArray, ...] = ()
+    second_mode_ratio: FloatArray | None = None
 
     def table(self) -> pl.DataFrame:
         """Return the table of `ScalingResult` with the deformation (m), over the target, and all factors found."""
-        return (
+        table = (
             super()
             .table()
             .with_columns(
@@ -70,6 +75,9 @@ class PushoverScaling(ScalingResult):
                 roots=pl.Series([roots.tolist() for roots in self.roots], dtype=pl.List(pl.Float64)),
             )
         )
+        if self.second_mode_ratio is None:
+            return table
+        return table.with_columns(second_mode_ratio=pl.Series(self.second_mode_ratio))
 
 
 def scale_modal_pushover(
@@ -173,6 +181,7 @@ def scale_modal_pushover(
     roots = search.roots(wanted)
     factors = np.array([found[np.argmin(np.abs(np.log(found)))] for found in roots])
     reached = search.deformations(np.arange(len(suite)), factors)
+    second = None if building is None else _second_mode(building, suite, target, factors, oscillator.damping, threads)
     notes = _notes(compared.names, roots, deformation, strength, oscillator, corner)
     return PushoverScaling(
         **compared.content("modal pushover", factors, 1.0, notes),
@@ -182,7 +191,24 @@ def scale_modal_pushover(
         target_deformation=wanted,
         deformations=frozen(reached),
         roots=tuple(frozen(found) for found in roots),
+        second_mode_ratio=second,
     )
+
+
+def _second_mode(
+    building: Building,
+    suite: list[GroundMotion],
+    target: TargetSpectrum,
+    factors: FloatArray,
+    damping: float,
+    threads: int | None,
+) -> FloatArray | None:
+    """Scaled over target pseudo-acceleration at the second period."""
+    if building.storeys == 1 or not target.shortest <= building.periods[1] <= target.longest:
+        return None
+    at = float(building.periods[1])
+    ordinates = response_spectrum(suite, [at], damping, threads=threads)[:, 0]
+    return frozen(factors * ordinates / float(target(at)))
 
 
 def _given_oscillator(
