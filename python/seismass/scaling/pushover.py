@@ -14,7 +14,7 @@ from seismass.errors import InvalidOption, SimulationError
 from seismass.scaling.oscillator import FirstModeOscillator, deformation_ratio, first_mode_oscillator
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import checked_target, positive_number, suite_spectra
-from seismass.scene import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE, Building
+from seismass.scene import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE, Building, Scene
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.spectra.oscillators import Oscillators
 from seismass.units import STANDARD_GRAVITY
@@ -107,8 +107,8 @@ def scale_modal_pushover(
     target : TargetSpectrum
         Elastic design spectrum.
     building : Building, optional
-        Shear building; its pushover under s = m phi_1 gives the oscillator (`first_mode_oscillator`). Without it the
-        oscillator is given by the next arguments.
+        Shear building; its pushover under s = m phi_1 gives the oscillator (`first_mode_oscillator`), without P-Delta.
+        Without a building the oscillator is given by the next arguments.
     period : float, optional
         Period T1 of the oscillator (s); 1 by default.
     yield_coefficient : float, optional
@@ -183,6 +183,7 @@ def scale_modal_pushover(
     reached = search.deformations(np.arange(len(suite)), factors)
     second = None if building is None else _second_mode(building, suite, target, factors, oscillator.damping, threads)
     notes = _notes(compared.names, roots, deformation, strength, oscillator, corner)
+    notes += [] if building is None else _p_delta_notes(building)
     return PushoverScaling(
         **compared.content("modal pushover", factors, 1.0, notes),
         oscillator=oscillator,
@@ -259,6 +260,16 @@ def _notes(
             listed = ", ".join(f"{value:.4g}" for value in several)
             found.append(f"motion {number} ({name}) reaches the target deformation at several factors: {listed}")
     return found
+
+
+def _p_delta_notes(building: Building) -> list[str]:
+    """Say that P-Delta is left out of the pushover, and how much it is."""
+    share = Scene(building).geometric_stiffness / building.stiffness
+    largest = float(np.max(share))
+    if largest == 0.0:
+        return []
+    storey = int(np.argmax(share)) + 1
+    return [f"P-Delta is left out of the pushover: P/h is up to {100.0 * largest:.2g} % of k (storey {storey})"]
 
 
 class _Search:
