@@ -63,7 +63,7 @@ def test_scaled_motions_reach_the_target_in_a_simulation(deformation: str) -> No
         # The factor is known to 1e-10; the deformation follows it within a few times that.
         assert drift == pytest.approx(found.target_deformation, rel=2e-9)
     np.testing.assert_allclose(found.deformations, found.target_deformation, rtol=2e-9)
-    np.testing.assert_allclose(found.table()["deformation_over_target"], 1.0, rtol=2e-9)
+    np.testing.assert_allclose(found.diagnostics()["deformation_over_target"], 1.0, rtol=2e-9)
 
 
 def test_median_is_that_of_the_suite_at_the_elastic_target() -> None:
@@ -237,7 +237,7 @@ def test_scaling_by_a_building_is_that_of_its_oscillator() -> None:
     expected = found.factors * sm.response_spectrum(SUITE, [at])[:, 0] / TARGET(at)
     # The damping of the oscillator is 0.05 but for rounding.
     np.testing.assert_allclose(found.second_mode_ratio, expected, rtol=1e-10)
-    assert found.table()["second_mode_ratio"].to_list() == found.second_mode_ratio.tolist()
+    assert found.diagnostics()["second_mode_ratio"].to_list() == found.second_mode_ratio.tolist()
     elastic = sm.scale_modal_pushover(SUITE, TARGET, sm.Building.uniform(3, 0.6))
     np.testing.assert_allclose(elastic.factors, sm.scale_sa_t1(SUITE, TARGET, 0.6).factors, rtol=1e-10)
 

@@ -197,7 +197,7 @@ def _write_table(path: Path, scaling: ScalingResult) -> None:
 
     from seismass.files import write_table, written_whole
 
-    table = scaling.table()
+    table = scaling.diagnostics()
     if "roots" in table.columns:
         roots = [" ".join(f"{root:.12g}" for root in several) for several in table["roots"]]
         table = table.with_columns(roots=pl.Series(roots))
@@ -212,7 +212,7 @@ def _document(
     chosen: Selection | None,
     remarks: tuple[str, ...],
 ) -> dict[str, Any]:
-    rows = zip(scaling.table().to_dicts(), suite, strict=True)
+    rows = zip(scaling.diagnostics().to_dicts(), suite, strict=True)
     return {
         "suite": suite.name,
         "target": target.label,
@@ -251,7 +251,7 @@ def _print(
         f"SF2 = {scaling.common:.6f}\n"
     )
     print("     SF1       SF        misfit  largest record")
-    rows = zip(scaling.table().iter_rows(named=True), scaling.largest_misfit, suite, strict=True)
+    rows = zip(scaling.diagnostics().iter_rows(named=True), scaling.largest_misfit, suite, strict=True)
     for row, largest, record in rows:
         print(
             f"{row['motion']:>3}  {row['individual_factor']:<8.5f}  {row['factor']:<8.5f}  {row['misfit']:<6.3f}  "

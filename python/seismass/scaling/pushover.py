@@ -64,11 +64,11 @@ class PushoverScaling(ScalingResult):
     roots: tuple[FloatArray, ...] = ()
     second_mode_ratio: FloatArray | None = None
 
-    def table(self) -> pl.DataFrame:
-        """Return the table of `ScalingResult` with the deformation (m), over the target, and all factors found."""
+    def diagnostics(self) -> pl.DataFrame:
+        """Return those of `ScalingResult` with the deformation (m), over the target, and all factors found."""
         table = (
             super()
-            .table()
+            .diagnostics()
             .with_columns(
                 deformation=pl.Series(self.deformations),
                 deformation_over_target=pl.Series(self.deformations / self.target_deformation),
