@@ -119,9 +119,7 @@ class ScalingResult:
 
     def diagnostics(self) -> pl.DataFrame:
         """Return the rows of `table` with `misfit` and `largest_misfit`, and what else the method knows of a motion."""
-        return self.table().with_columns(
-            misfit=pl.Series(self.misfit), largest_misfit=pl.Series(self.largest_misfit)
-        )
+        return self.table().with_columns(misfit=pl.Series(self.misfit), largest_misfit=pl.Series(self.largest_misfit))
 
     @property
     def remarks(self) -> tuple[str, ...]:
