@@ -114,8 +114,8 @@ def study_table(target: sm.TargetSpectrum) -> tuple[str, str]:
     head = ("occupancy", "suite", "largest underestimation", "where", "median", "16 to 84 %", "without one motion")
     words = (
         "What eleven in place of seven do to the study (`seismass study --suite eleven`): its largest underestimation "
-        f"of drift moves by {moved:.0f} percentage points at most. Each is the largest of 108 storeys, and the motion by "
-        "motion scatter beside it is wider than that."
+        f"of drift moves by {moved:.0f} percentage points at most. Each is the largest of 108 storeys, and the motion "
+        "by motion scatter beside it is wider than that."
     )
     return table(head, rows), words
 
