@@ -47,6 +47,43 @@ def test_a_csv_is_a_list_where_it_has_a_column_of_files(
     np.testing.assert_allclose(table["psa_g"], expected, rtol=1e-5)
 
 
+def test_true_acceleration_is_printed_in_g(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert spectrum(folder / "two.csv", "--kind", "sa", "--damping", 0.1) == 0
+    table = pl.read_csv(capsys.readouterr().out.encode())
+    expected = sm.response_spectrum(sm.Motion(SAMPLES, 0.01), PERIODS, 0.1, "acceleration")[0] / 9.80665
+    np.testing.assert_allclose(table["sa_g"], expected, rtol=1e-5)  # of six decimals in the file
+
+
+def test_inelastic_spectra_are_printed(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert spectrum(folder / "two.csv", "--ductility", 2, 4, "--overstrength", 1, "--second-slope", 0) == 0
+    table = pl.read_csv(capsys.readouterr().out.encode())
+    found = sm.inelastic_spectrum(
+        sm.Motion(SAMPLES, 0.01), PERIODS, ductility=[2, 4], overstrength=1.0, second_slope=0.0
+    )
+    np.testing.assert_allclose(table["strength"], found.strength.ravel(), rtol=1e-4)
+    assert table["period"].to_list() == [0.2, 0.5, 0.2, 0.5]
+    assert table["damping"].to_list() == [0.05] * 4
+    assert spectrum(folder / "two.csv", "--strength", 0.02, "--damping", 0.02, 0.05) == 0
+    table = pl.read_csv(capsys.readouterr().out.encode())
+    assert table["damping"].to_list() == [0.02, 0.02, 0.05, 0.05]
+    assert (table["strength"] == 0.02).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--overstrength", 1], "--overstrength of spectrum must be left out without --strength or --ductility; got 1"),
+        (["--strength", 0.1, "--kind", "sd"], "--kind of spectrum must be left out with --strength or --ductility"),
+        (["--ductility", 0.5], "ductility of inelastic spectrum must be at least 1; got 0.5"),
+    ],
+)
+def test_options_that_do_not_fit_are_refused(
+    folder: Path, capsys: pytest.CaptureFixture[str], options: list[object], message: str
+) -> None:
+    assert spectrum(folder / "two.csv", *options) == 2
+    assert message in capsys.readouterr().err
+
+
 def test_what_the_file_does_not_state_is_asked_for(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert spectrum(folder / "one.txt", "--unit", "cm/s2") == 2
     assert "dt of one.txt must be given" in capsys.readouterr().err

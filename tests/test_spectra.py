@@ -97,6 +97,36 @@ def test_stiff_oscillators_follow_the_ground() -> None:
     assert sm.response_spectrum(record, [period])[0, 0] == pytest.approx(record.pga, abs=2.0 * overshoot)
 
 
+@pytest.mark.parametrize("damping", [0.0, 0.05, 0.3])
+def test_true_acceleration_is_that_of_a_fine_sampling_from_above(damping: float) -> None:
+    motion, period, parts = noise(), 0.4, 128
+    w, h = 2.0 * np.pi / period, motion.dt / 128
+    generator = np.zeros((4, 4))
+    generator[0, 1] = 1.0
+    generator[1] = [-(w**2), -2.0 * damping * w, -1.0, 0.0]
+    generator[2, 3] = 1.0
+    propagator = expm(generator * h)
+    samples = np.concatenate([motion.acceleration, np.zeros(int(2.0 * period / motion.dt))])
+    state, peak = np.zeros(2), 0.0
+    for before, after in itertools.pairwise(samples):
+        full = np.array([*state, before, (after - before) / motion.dt])
+        for _ in range(parts):
+            full = propagator @ full
+            peak = max(peak, abs(w**2 * full[0] + 2.0 * damping * w * full[1]))
+        state = full[:2]
+    exact = float(sm.response_spectrum(motion, [period], damping, "acceleration")[0, 0])
+    # Second order in the sampling: peaks of a curve whose second derivative is below w^2 + 2 zeta w/dt times the peak.
+    missed = (w**2 + 2.0 * damping * w / motion.dt) * (exact + motion.pga) * h**2
+    assert peak <= exact * (1.0 + 1e-12)
+    assert exact - peak <= missed
+
+
+def test_true_acceleration_without_damping_is_the_pseudo_acceleration() -> None:
+    motion, periods = noise(), [0.05, 0.4, 2.0]
+    expected = sm.response_spectrum(motion, periods, 0.0)
+    np.testing.assert_allclose(sm.response_spectrum(motion, periods, 0.0, "acceleration"), expected, rtol=1e-12)
+
+
 @given(factor=st.floats(-8.0, 8.0).filter(lambda x: abs(x) > 1e-3), period=st.floats(0.02, 5.0))
 def test_spectra_are_linear_in_amplitude(factor: float, period: float) -> None:
     motion = noise(100)

@@ -55,11 +55,23 @@ from seismass.records import (
     rotd,
     synthetic_motion,
 )
-from seismass.scaling import ScalingResult, scale_asce7_10
+from seismass.scaling import (
+    FirstModeOscillator,
+    PushoverScaling,
+    ScalingResult,
+    Selection,
+    first_mode_oscillator,
+    scale_asce7_10,
+    scale_asce7_16,
+    scale_least_squares,
+    scale_modal_pushover,
+    scale_sa_t1,
+    select_records,
+)
 from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
 from seismass.scene_file import SceneFile, read_scene
 from seismass.simulate import Motion, Response, instruction_set, simulate
-from seismass.spectra import TargetSpectrum, response_spectrum
+from seismass.spectra import InelasticSpectrum, TargetSpectrum, inelastic_spectrum, mean_spectrum, response_spectrum
 from seismass.units import STANDARD_GRAVITY
 
 __version__ = _kernel.VERSION
@@ -73,8 +85,10 @@ __all__ = [
     "EffectiveMass",
     "EffectiveMassMap",
     "EffectiveMassParameters",
+    "FirstModeOscillator",
     "FrictionPair",
     "Grid",
+    "InelasticSpectrum",
     "InvalidBuildingFile",
     "InvalidMotion",
     "InvalidOption",
@@ -89,6 +103,7 @@ __all__ = [
     "Pair",
     "Pairs",
     "PulseResult",
+    "PushoverScaling",
     "Rayleigh",
     "Record",
     "RecordFormatError",
@@ -98,6 +113,7 @@ __all__ = [
     "Scene",
     "SceneFile",
     "SeismassError",
+    "Selection",
     "SimulationError",
     "Suite",
     "SyntheticParameters",
@@ -119,13 +135,16 @@ __all__ = [
     "effective_mass_of_design",
     "find_catalogue",
     "find_pairs",
+    "first_mode_oscillator",
     "friction_pair",
     "friction_table",
+    "inelastic_spectrum",
     "instruction_set",
     "intensity_table",
     "live_load_uncertainty",
     "lognormal",
     "long_table",
+    "mean_spectrum",
     "read_building",
     "read_pair",
     "read_record",
@@ -135,6 +154,11 @@ __all__ = [
     "response_spectrum",
     "rotd",
     "scale_asce7_10",
+    "scale_asce7_16",
+    "scale_least_squares",
+    "scale_modal_pushover",
+    "scale_sa_t1",
+    "select_records",
     "shahi_baker2014",
     "simulate",
     "simulate_many",

@@ -161,7 +161,13 @@ def target_remarks(target: TargetSpectrum) -> tuple[str, ...]:
     ('S_DS of the target spectrum is 107 g, above 10 g: spectral accelerations are in g, not per cent',)
     """
     parameters = target.parameters
-    ordinates = {"S_DS": parameters["sds_g"]} if "sds_g" in parameters else {"largest Sa": max(parameters["sa_g"])}
+    if "sds_g" in parameters:
+        ordinates = {"S_DS": parameters["sds_g"]}
+    elif "sa_g" in parameters:
+        ordinates = {"largest Sa": max(parameters["sa_g"])}
+    else:
+        periods = np.geomspace(max(target.shortest, 0.01), min(target.longest, 10.0), 100)
+        ordinates = {"largest Sa": float(np.max(target(periods))) / STANDARD_GRAVITY}
     return tuple(
         f"{name} of the target spectrum is {value:.4g} g, above {MAX_ORDINATE:g} g: "
         "spectral accelerations are in g, not per cent"

@@ -8,6 +8,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from seismass.commands.targets import TARGET_HELP, target_of
+
 if TYPE_CHECKING:
     from seismass.records import Suite
     from seismass.records.builtin import BuiltinName
@@ -20,7 +22,7 @@ def add_motion_options(parser: argparse.ArgumentParser) -> None:
     """Add --records, --suite, --target, --sds, --sd1, --tl and --period."""
     motions = parser.add_argument_group("motions")
     add_records_options(motions)
-    motions.add_argument("--target", type=Path, metavar="CSV", help="target spectrum: period (s), Sa (g)")
+    motions.add_argument("--target", metavar="TARGET", help=TARGET_HELP)
     motions.add_argument("--sds", type=positive_option, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
     motions.add_argument("--sd1", type=positive_option, metavar="G", help="S_D1, g (0.61)")
     motions.add_argument(
@@ -146,7 +148,7 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
     Raises
     ------
     InvalidOption
-        A CSV is given together with a number of the ASCE 7 shape, or T_L is below T_S.
+        --target is given together with a number of the ASCE 7 shape, T_L is below T_S, or as `target_of` says.
     """
     from seismass.errors import InvalidOption
     from seismass.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
@@ -158,7 +160,7 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
                 raise InvalidOption(
                     f"{name} of target spectrum must be left out where --target is given; got {value:g}"
                 )
-        return TargetSpectrum.from_csv(args.target)
+        return target_of(str(args.target))
     defaults = {"sds": DEFAULT_SDS_G, "sd1": DEFAULT_SD1_G, "tl": DEFAULT_TL}
     sds, sd1, tl = (defaults[name] if value is None else value for name, value in given.items())
     return TargetSpectrum.asce7(sds, sd1, tl)

@@ -1,16 +1,43 @@
-"""`seismass scale`: factors of a suite by the amplitude scaling of ASCE/SEI 7-10."""
+"""`seismass scale`: factors of a suite by one of six methods, and the choice of records before."""
 
 from __future__ import annotations
 
 import argparse
 import json
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, Literal
 
-from seismass.commands.options import add_motion_options, left_out, read_motions, read_target, warn_left_out
+from seismass.commands.options import (
+    add_motion_options,
+    left_out,
+    positive_option,
+    read_motions,
+    read_target,
+    warn_left_out,
+)
 
+if TYPE_CHECKING:
+    from seismass.records import Suite
+    from seismass.scaling import ScalingResult, Selection
+    from seismass.scene import Building
+    from seismass.spectra import TargetSpectrum
+
+METHODS: Final = ("asce7-10", "asce7-16", "least-squares", "least-squares-linear", "sa-t1", "mps")
+_PUSHOVER: Final = ("reduction", "yield_coefficient", "overstrength", "second_slope", "third_slope", "deformation")
 _EPILOG = """examples:
   seismass scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6
   seismass scale --records records/ --target uniform_hazard.csv --json
+  seismass scale --records records/ --target ec8:1:C:0.3 --select 7 --plot scaling.png
+  seismass scale --records records/ --method asce7-16 --select 11 --csv factors.csv
+  seismass scale --method mps --reduction 4 --period 1.0
+  seismass scale --method mps --building warehouse.toml
+
+methods:
+  asce7-10              mean not below the target from 0.2 T to 1.5 T
+  asce7-16              mean not below 0.9 of it from 0.2 T (or the period of 90 % of the mass) to 2 T; 11 motions
+  least-squares         each motion closest to the target in the logarithm; -linear: in the ordinates
+  sa-t1                 each motion at the target at T
+  mps                   modal pushover: the inelastic first-mode oscillator reaches the target deformation
 
 exit codes: 0 done, 2 bad input"""
 
@@ -19,53 +46,204 @@ def add_parser(subparsers: Any) -> None:
     """Add the subcommand to those of the `seismass` command."""
     parser = subparsers.add_parser(
         "scale",
-        help="scale a suite to a target spectrum (ASCE 7-10)",
-        description="Factors by which the mean spectrum of a suite is not below the target at 100 periods from 0.2 T "
-        "to 1.5 T.",
+        help="scale a suite to a target spectrum",
+        description="Factors by which a suite is scaled to a target spectrum, with the misfit of each motion.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add_motion_options(parser)
-    parser.add_argument("--json", action="store_true", help="print factors and spectra as JSON")
+    method = parser.add_argument_group("method")
+    method.add_argument("--method", choices=METHODS, default="asce7-10", help="how to scale (asce7-10); see below")
+    method.add_argument(
+        "--building",
+        type=Path,
+        metavar="FILE",
+        help="building file that gives T and modes (asce7-16) or pushover (mps)",
+    )
+    method.add_argument(
+        "--lowest-period", type=positive_option, metavar="S", help="period of 90 %% of the mass, s (asce7-16)"
+    )
+    method.add_argument(
+        "--reduction", type=positive_option, metavar="R", help="A_t(T) over the yield acceleration (mps)"
+    )
+    method.add_argument("--yield-coefficient", type=positive_option, metavar="C", help="yield acceleration, g (mps)")
+    method.add_argument("--overstrength", type=float, metavar="OMEGA", help="second yield over the first (mps: 2)")
+    method.add_argument("--second-slope", type=float, metavar="R2", help="slope after the first yield (mps: 0.05)")
+    method.add_argument("--third-slope", type=float, metavar="R3", help="slope after the second yield (mps: 0)")
+    method.add_argument(
+        "--deformation", choices=("ratio", "median"), help="target deformation: C_R or the suite's median (mps: ratio)"
+    )
+    selection = parser.add_argument_group("selection")
+    selection.add_argument(
+        "--select", type=_count_option, metavar="N", help="take the N records whose mean shape is closest to the target"
+    )
+    selection.add_argument("--max-per-event", type=_count_option, metavar="K", help="most of one event (2)")
+    selection.add_argument("--max-per-station", type=_count_option, metavar="K", help="most of one recording (1)")
+    output = parser.add_argument_group("output")
+    output.add_argument("--json", action="store_true", help="print factors and spectra as JSON")
+    output.add_argument("--csv", type=Path, metavar="FILE", help="write the table of factors and misfits")
+    output.add_argument("--plot", type=Path, metavar="FILE", help="draw the spectra, .png or .svg")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Print the factors; return the exit code."""
     from seismass.plausibility import motion_remarks, target_remarks
-    from seismass.scaling import scale_asce7_10
+    from seismass.scaling import select_records
 
+    _check_options(args)
     target = read_target(args)
-    suite = read_motions(args)
-    scaling = scale_asce7_10(suite, target, args.period)
+    suite, chosen = read_motions(args), None
+    building = _building(args, target)
+    period = args.period if building is None else float(building.periods[0])
+    if args.select is not None:
+        limits = {name: getattr(args, name) for name in ("max_per_event", "max_per_station") if getattr(args, name)}
+        longest = 2.0 if args.method == "asce7-16" else 1.5
+        chosen = select_records(suite, target, args.select, period=period, period_range=(0.2, longest), **limits)
+        suite = chosen.suite
+    scaling = _scaled(args, suite, target, building)
     remarks = (*motion_remarks(suite), *target_remarks(target), *scaling.remarks)
+    if args.csv is not None:
+        _write_table(args.csv, scaling)
+    if args.plot is not None:
+        from seismass.files import written_whole
+        from seismass.report.figures import save_figure
+
+        kind: Literal["png", "svg"] = "svg" if args.plot.suffix.lower() == ".svg" else "png"
+        with written_whole(args.plot) as temporary:
+            save_figure(scaling.plot(suite, target), kind, temporary)
     if args.json:
         warn_left_out(suite)
-        rows = zip(scaling.table().to_dicts(), suite, strict=True)
-        document = {
-            "suite": suite.name,
-            "target": target.label,
-            "common_factor": scaling.common,
-            "governing_period": scaling.governing_period,
-            "remarks": [*suite.remarks, *remarks],
-            "motions": [{**row, "remarks": list(record.remarks)} for row, record in rows],
-            "spectrum": scaling.spectrum_table().to_dict(as_series=False),
-        }
-        print(json.dumps(document, indent=2))
-        return 0
+        print(json.dumps(_document(suite, target, scaling, chosen, remarks), indent=2))
+    else:
+        _print(suite, target, scaling, chosen, remarks)
+    return 0
+
+
+def _check_options(args: argparse.Namespace) -> None:
+    """Refuse options that the method, or a scaling without selection, does not use."""
+    from seismass.errors import InvalidOption
+
+    used = {"asce7-16": {"building", "lowest_period"}, "mps": {"building", *_PUSHOVER}}.get(args.method, set())
+    for name in ("building", "lowest_period", *_PUSHOVER):
+        if getattr(args, name) is not None and name not in used:
+            option = name.replace("_", "-")
+            raise InvalidOption(f"--{option} of scale must be left out with {args.method}; got {getattr(args, name)}")
+    if args.building is not None:
+        for name in ("lowest_period", *_PUSHOVER[:-1]):
+            if getattr(args, name) is not None:
+                option = name.replace("_", "-")
+                raise InvalidOption(f"--{option} of scale must be left out with --building; got {getattr(args, name)}")
+    for name in ("max_per_event", "max_per_station"):
+        if getattr(args, name) is not None and args.select is None:
+            option = name.replace("_", "-")
+            raise InvalidOption(f"--{option} of scale must be left out without --select; got {getattr(args, name)}")
+    if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
+        raise InvalidOption(f"--plot of scale must be a file with the suffix .png or .svg; got {args.plot}")
+
+
+def _building(args: argparse.Namespace, target: TargetSpectrum) -> Building | None:
+    if args.building is None:
+        return None
+    from seismass.building_file import read_building
+
+    return read_building(args.building).structure(target)
+
+
+def _scaled(args: argparse.Namespace, suite: Suite, target: TargetSpectrum, building: Building | None) -> ScalingResult:
+    from seismass import scaling
+
+    if args.method == "asce7-10":
+        return scaling.scale_asce7_10(suite, target, args.period)
+    if args.method == "asce7-16":
+        period = args.period if building is None else None
+        return scaling.scale_asce7_16(suite, target, period, building=building, lowest_period=args.lowest_period)
+    if args.method == "sa-t1":
+        return scaling.scale_sa_t1(suite, target, args.period)
+    if args.method == "mps":
+        given = {name: getattr(args, name) for name in _PUSHOVER if getattr(args, name) is not None}
+        period = args.period if building is None else None
+        return scaling.scale_modal_pushover(suite, target, building, period=period, **given)
+    space: Any = "linear" if args.method.endswith("linear") else "log"
+    return scaling.scale_least_squares(suite, target, args.period, space=space)
+
+
+def _write_table(path: Path, scaling: ScalingResult) -> None:
+    import polars as pl
+
+    from seismass.files import write_table, written_whole
+
+    table = scaling.table()
+    if "roots" in table.columns:
+        roots = [" ".join(f"{root:.12g}" for root in several) for several in table["roots"]]
+        table = table.with_columns(roots=pl.Series(roots))
+    with written_whole(path) as temporary:
+        write_table(table, "csv", temporary)
+
+
+def _document(
+    suite: Suite,
+    target: TargetSpectrum,
+    scaling: ScalingResult,
+    chosen: Selection | None,
+    remarks: tuple[str, ...],
+) -> dict[str, Any]:
+    rows = zip(scaling.table().to_dicts(), suite, strict=True)
+    return {
+        "suite": suite.name,
+        "target": target.label,
+        "method": scaling.method,
+        "period": scaling.period,
+        "common_factor": scaling.common,
+        "governing_period": scaling.governing_period,
+        "least_ratio": scaling.least_ratio,
+        "largest_ratio": scaling.largest_ratio,
+        "mean_misfit": scaling.mean_misfit,
+        "remarks": [*suite.remarks, *remarks],
+        "motions": [{**row, "remarks": list(record.remarks)} for row, record in rows],
+        "spectrum": scaling.spectrum_table().to_dict(as_series=False),
+        **({} if chosen is None else {"selection": chosen.table.to_dicts()}),
+    }
+
+
+def _print(
+    suite: Suite,
+    target: TargetSpectrum,
+    scaling: ScalingResult,
+    chosen: Selection | None,
+    remarks: tuple[str, ...],
+) -> None:
     print(f"suite   {suite.name}: {len(suite)} motions")
     for line in left_out(suite):
         print(f"        {line}")
     print(f"target  {target.label}")
+    print(f"method  {scaling.method}, T = {scaling.period:g} s")
     for remark in remarks:
         print(f"remark  {remark}")
+    touches = "touches the target" if scaling.method == "ASCE 7-10" else f"is {scaling.least_ratio:.4f} of the target"
     print(
         f"range   {len(scaling.periods)} periods from {scaling.periods[0]:g} to {scaling.periods[-1]:g} s; "
-        f"the mean touches the target at {scaling.governing_period:.4g} s; SF2 = {scaling.common:.6f}\n"
+        f"the mean {touches} at {scaling.governing_period:.4g} s, at most {scaling.largest_ratio:.3f} of it; "
+        f"SF2 = {scaling.common:.6f}\n"
     )
-    print("     SF1       SF       record")
-    for row, record in zip(scaling.table().iter_rows(named=True), suite, strict=True):
-        print(f"{row['motion']:>3}  {row['individual_factor']:<8.5f}  {row['factor']:<8.5f} {row['record']}")
+    print("     SF1       SF        misfit  largest record")
+    rows = zip(scaling.table().iter_rows(named=True), scaling.largest_misfit, suite, strict=True)
+    for row, largest, record in rows:
+        print(
+            f"{row['motion']:>3}  {row['individual_factor']:<8.5f}  {row['factor']:<8.5f}  {row['misfit']:<6.3f}  "
+            f"{largest:<6.3f}  {row['record']}"
+        )
         for remark in record.remarks:
-            print(f"{'':26}{remark}")
-    return 0
+            print(f"{'':42}{remark}")
+    print("\nmisfit: root mean square, and largest, of |ln(scaled/target)| over the range")
+    if chosen is not None:
+        print("\nnot chosen")
+        for row in chosen.table.filter(chosen.table["step"].is_null()).iter_rows(named=True):
+            print(f"{row['number']:>3}  misfit {row['misfit']:<6.3f} {row['record']}: {row['reason']}")
+
+
+def _count_option(text: str) -> int:
+    """Return a whole number of at least 1."""
+    if not (text.isdecimal() and int(text) >= 1):
+        raise argparse.ArgumentTypeError(f"must be a whole number of at least 1; got {text!r}")
+    return int(text)

@@ -1,23 +1,39 @@
-"""`seismass spectrum`: elastic response spectra of records as a table."""
+"""`seismass spectrum`: elastic and inelastic response spectra of records as a table."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.options import read_records, warn_left_out, warn_remarks
+from seismass.commands.options import positive_option, read_records, warn_left_out, warn_remarks
 from seismass.units import ACCELERATION_UNITS
 
-_KINDS = {"psa": "pseudo_acceleration", "psv": "pseudo_velocity", "sd": "displacement"}
+if TYPE_CHECKING:
+    import polars as pl
+
+    from seismass.records import Suite
+    from seismass.spectra import Kind
+
+_KINDS: Final[dict[str, Kind]] = {
+    "psa": "pseudo_acceleration",
+    "psv": "pseudo_velocity",
+    "sd": "displacement",
+    "sa": "acceleration",
+}
+_IN_G: Final = ("psa", "sa")
+_SPRING: Final = ("overstrength", "second_slope", "third_slope")
 _EPILOG = """examples:
   seismass spectrum record.AT2 --damping 0.02 0.05
   seismass spectrum column.txt --dt 0.01 --unit cm/s2
   seismass spectrum suite.csv --periods 0.2 1.0 --kind sd
   seismass spectrum records/ > spectra.csv
+  seismass spectrum record.AT2 --strength 0.1 0.2
+  seismass spectrum record.AT2 --ductility 2 4 --overstrength 1 --second-slope 0
 
-Columns: motion (number from 1), record, damping, period (s) and the ordinate: psa_g (g), psv (m/s) or sd (m).
+Columns: motion (number from 1), record, damping, period (s) and the ordinate: psa_g, sa_g (g), psv (m/s) or sd (m).
+Inelastic: strength (V_y/W), ductility, displacement (m), elastic_strength and reduction (R) instead.
 exit codes: 0 done, 2 bad input"""
 
 
@@ -26,7 +42,8 @@ def add_parser(subparsers: Any) -> None:
     parser = subparsers.add_parser(
         "spectrum",
         help="response spectra of records, as CSV",
-        description="Elastic response spectra, exact for acceleration that is linear between samples, printed as CSV.",
+        description="Response spectra, exact for acceleration that is linear between samples, printed as CSV: elastic, "
+        "or inelastic for given strengths or ductilities.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -42,26 +59,53 @@ def add_parser(subparsers: Any) -> None:
         "--periods", type=float, nargs="+", metavar="T", help="periods, s (default: 100 from 0.01 to 10, geometric)"
     )
     parser.add_argument("--damping", type=float, nargs="+", default=[0.05], metavar="Z", help="ratios (0.05)")
-    parser.add_argument("--kind", choices=tuple(_KINDS), default="psa", help="ordinate (psa)")
+    parser.add_argument(
+        "--kind", choices=tuple(_KINDS), help="ordinate (psa); sa is the true, absolute acceleration of the mass"
+    )
+    inelastic = parser.add_argument_group("inelastic spectra")
+    level = inelastic.add_mutually_exclusive_group()
+    level.add_argument("--strength", type=positive_option, nargs="+", metavar="C", help="strengths V_y/W")
+    level.add_argument("--ductility", type=positive_option, nargs="+", metavar="MU", help="ductility demands")
+    inelastic.add_argument("--overstrength", type=float, metavar="OMEGA", help="second yield over the first (2)")
+    inelastic.add_argument("--second-slope", type=float, metavar="R2", help="slope after the first yield (0.05)")
+    inelastic.add_argument("--third-slope", type=float, metavar="R3", help="slope after the second yield (0)")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Print the table; return the exit code."""
     import numpy as np
+
+    from seismass.errors import InvalidOption
+
+    inelastic = args.strength is not None or args.ductility is not None
+    unused = ("kind",) if inelastic else _SPRING
+    for name in unused:
+        if getattr(args, name) is not None:
+            when = "with --strength or --ductility" if inelastic else "without --strength or --ductility"
+            option = name.replace("_", "-")
+            raise InvalidOption(f"--{option} of spectrum must be left out {when}; got {getattr(args, name)}")
+    suite = read_records(args.records, dt=args.dt, unit=args.unit)
+    warn_left_out(suite)
+    warn_remarks(suite)
+    periods = np.geomspace(0.01, 10.0, 100) if args.periods is None else np.array(args.periods)
+    table = _inelastic(suite, periods, args) if inelastic else _elastic(suite, periods, args)
+    sys.stdout.write(table.write_csv())
+    return 0
+
+
+def _elastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataFrame:
+    import numpy as np
     import polars as pl
 
     from seismass.spectra import response_spectrum
     from seismass.units import STANDARD_GRAVITY
 
-    suite = read_records(args.records, dt=args.dt, unit=args.unit)
-    warn_left_out(suite)
-    warn_remarks(suite)
-    periods = np.geomspace(0.01, 10.0, 100) if args.periods is None else np.array(args.periods)
-    spectra = response_spectrum(suite, periods, args.damping, _KINDS[args.kind])  # type: ignore[arg-type]
-    name, unit = ("psa_g", STANDARD_GRAVITY) if args.kind == "psa" else (args.kind, 1.0)
+    kind = args.kind or "psa"
+    spectra = response_spectrum(suite, periods, args.damping, _KINDS[kind])
+    name, unit = (f"{kind}_g", STANDARD_GRAVITY) if kind in _IN_G else (kind, 1.0)
     shape = spectra.shape
-    table = pl.DataFrame(
+    return pl.DataFrame(
         {
             "motion": np.repeat(np.arange(1, len(suite) + 1), shape[1] * shape[2]),
             "record": np.repeat([record.name for record in suite], shape[1] * shape[2]),
@@ -70,5 +114,17 @@ def run(args: argparse.Namespace) -> int:
             name: spectra.ravel() / unit,
         }
     )
-    sys.stdout.write(table.write_csv())
-    return 0
+
+
+def _inelastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataFrame:
+    import polars as pl
+
+    from seismass.spectra import inelastic_spectrum
+
+    springs = {name: getattr(args, name) for name in _SPRING if getattr(args, name) is not None}
+    levels = {"strength": args.strength, "ductility": args.ductility}
+    tables = []
+    for ratio in args.damping:
+        found = inelastic_spectrum(suite, periods, **levels, damping=ratio, **springs)
+        tables.append(found.table().insert_column(2, pl.Series("damping", [ratio] * found.strength.size)))
+    return pl.concat(tables)

@@ -49,6 +49,7 @@ def _integral() -> FloatArray:
     return frozen(np.cumsum(psi) * (places[1] - places[0]))
 
 
+@functools.lru_cache(maxsize=128)
 def _filter(scale: int) -> FloatArray:
     """Weights of a transform at one scale, shape (7 scale,): the integral of the wavelet over each sample.
 

@@ -237,7 +237,8 @@ _FLATFILE: Final = {1787: (7.13, 11.66, 726.0), 767: (6.93, 12.82, 349.85), 161:
 _ODD: Final = (
     "",
     "the two horizontals have 7997 and 7998 points",
-    "the two horizontals have 7576 and 7575 points",
+    "the table's pulse period is that of the fault-normal component (4.22 s by Baker, 2007, at the flatfile's strike "
+    "of 323 degrees); the pair has 4.40 s. The two horizontals have 7576 and 7575 points",
     "RSN1612; its neighbour RSN1611 is Lamont 1058",
     "the table has no pulse, but every component has one, of 2.66 s for the pair: the 2.6 s of the row below fits "
     "here. The table writes Erzinkan, NGA-West2 Erzican; the horizontals have 4262 and 4156 points",

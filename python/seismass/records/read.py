@@ -20,6 +20,9 @@ FormatName: TypeAlias = Literal["at2", "cosmos", "csmip", "esm", "knet", "smc", 
 HEAD_BYTES: Final = 8192
 """A format is known by so much of a file."""
 
+MOST_NULS: Final = 4
+"""A text whose header is padded has no more zero bytes than this."""
+
 LARGEST_BYTES: Final = 512 * 1024 * 1024
 """No record is larger: 100 million samples as text."""
 
@@ -198,6 +201,10 @@ def decoded(content: bytes, source: Path) -> str:
     RecordFormatError
         They are binary, or there is nothing but blanks.
     """
+    if b"\0" in content and content[:HEAD_BYTES].isascii():  # some SMC files are padded, and so is their station code
+        content = content.rstrip(b"\0\x1a\r\n\t ") or content
+        if content.count(b"\0", 0, HEAD_BYTES) <= MOST_NULS:
+            content = content[:HEAD_BYTES].replace(b"\0", b" ") + content[HEAD_BYTES:]
     if b"\0" in content:
         raise RecordFormatError(f"content of {source.name} must be text; got binary data")
     try:

@@ -84,6 +84,8 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
     written = f"{step} s" if seconds == to_float(step) else f"{step} {step_unit}"
     exact_dt = _agreed_step(seconds, dt, written, file, remarks)
     unit = _agreed_unit(header, unit, file)
+    if unit != "g":
+        remarks.append(f"accelerations are in {unit}; those of the PEER database are in g")
 
     numbered = enumerate(lines[line_of_counts + 1 :], start=line_of_counts + 2)
     tokens, values = parse_numbers(numbered, file)

@@ -29,6 +29,9 @@ LONGEST_STEP: Final = 0.1
 OUTSTANDING: Final = 5.0
 """A first number larger than the early samples by this factor is no sample unless the caller says so."""
 
+FIRST_TIME: Final = 1.5
+"""A first time is 0 or one step, or there was something before it."""
+
 NO_COUNT: Final = "the file states no number of points: a missing end would not show"
 
 _COMMENT = ("#", "%", "//", "!")
@@ -102,6 +105,8 @@ def parse_columns(
         raise RecordFormatError(f"points of {table.file} must be {points}, as its header says; got {len(values)}")
     steps = {"dt": dt, "header": stated_step(table.text, table.file), "first numbers": step_before}
     if columns == 2:
+        if abs(values[0, 0]) > FIRST_TIME * (values[-1, 0] - values[0, 0]) / max(len(values) - 1, 1):
+            remarks.append(f"the first time is {values[0, 0]:g} s: a beginning may be missing; it is taken as zero")
         steps["times"] = uniform_step(
             values[:, 0], [row[0] for row in table.rows], table.file, table.line_numbers, rounding=False
         )

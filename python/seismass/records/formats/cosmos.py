@@ -22,7 +22,7 @@ from seismass.records.formats.common import (
     agreed_unit,
     refuse_skip,
 )
-from seismass.records.formats.directions import azimuth_of, is_vertical
+from seismass.records.formats.directions import azimuth_of, direction_remark, is_vertical
 from seismass.records.formats.fixed import Block, header_values, layout_of, read_block
 from seismass.records.formats.peaks import StatedPeak, check_peak, digit_of_peak
 from seismass.records.record import Record
@@ -205,9 +205,13 @@ def _channel(raw: _Raw, source: Path, arguments: Arguments, number: int, several
     place = _CHANNEL.search("\n".join(raw.text[1:]))
     scnl = _SCNL.search(raw.comments)
     component, azimuth = _direction(raw, place, scnl)
-    code = _CODE.search(raw.text[4]) if len(raw.text) > 4 else None
+    code = _known(raw.whole[53])
+    contradiction = direction_remark(component, code or None, tuple(_SPECIAL_AZIMUTHS))
+    if contradiction:
+        remarks.append(contradiction)
+    place_code = _CODE.search(raw.text[4]) if len(raw.text) > 4 else None
     names = raw.text[4][40:].strip() if len(raw.text) > 4 else ""
-    station = (scnl or code or {"station": ""})["station"]
+    station = (scnl or place_code or {"station": ""})["station"]
     label = place["number"] if place and place["number"].isdecimal() else str(number)
     event = raw.text[1].strip() if len(raw.text) > 1 else ""
     record = Record(
@@ -218,7 +222,7 @@ def _channel(raw: _Raw, source: Path, arguments: Arguments, number: int, several
         station=", ".join(part for part in (station, names) if part),
         component=component,
         azimuth=azimuth,
-        network=(scnl or code or {"network": ""})["network"],
+        network=(scnl or place_code or {"network": ""})["network"],
         source=source,
         unit=unit,
         remarks=tuple(remarks),

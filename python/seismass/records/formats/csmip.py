@@ -26,8 +26,8 @@ from seismass.records.formats.common import (
     agreed_unit,
     refuse_skip,
 )
-from seismass.records.formats.directions import azimuth_of
-from seismass.records.formats.fixed import Layout, layout_of, read_block
+from seismass.records.formats.directions import azimuth_of, direction_remark
+from seismass.records.formats.fixed import Layout, header_values, layout_of, read_block
 from seismass.records.formats.numbers import is_number, last_digit
 from seismass.records.formats.pairs import uniform_step
 from seismass.records.formats.peaks import StatedPeak, check_peak, digit_of_peak
@@ -64,6 +64,12 @@ _HEADER_V1: Final = (13, 27)
 _HEADER_V2: Final = (25, 45)
 """Lines of text, and all lines before the data."""
 
+_INTEGERS: Final = Layout(16, 5, True)
+_ANGLE: Final = 26
+_NO_ANGLE: Final = (0.0, -1.0, -999.0)
+_VERTICAL: Final = (500, 600)
+"""Integer 27 is the direction: degrees, 500 for up, 600 for down; 0 or less where it is not given."""
+
 _PAIRS: Final = Layout(10, 7)
 _DEFAULT_V2: Final = Layout(8, 10)
 _DEFAULT_V1: Final = Layout(8, 9)
@@ -92,6 +98,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     lines = text.splitlines()
     at = 0
     starts: list[tuple[list[str], _Data, bool]] = []
+    angles: list[float | None] = []
     while at < len(lines):
         if not lines[at].strip():
             at += 1
@@ -107,6 +114,8 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         titles = lines[at : at + text_lines]
         if len(lines) <= at + header_lines:
             raise RecordFormatError(f"header of {file} must be {header_lines} lines; got {len(lines) - at}")
+        whole = header_values(lines, at + text_lines, 2, _INTEGERS)
+        angles.append(whole[_ANGLE] if len(whole) > _ANGLE and whole[_ANGLE] not in _NO_ANGLE else None)
         data = _read_data(lines, at + header_lines, titles, corrected, file)
         at = data.end
         if corrected:
@@ -123,8 +132,8 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     if len(set(labels)) < len(labels):
         raise RecordFormatError(f"channels of {file} must have different numbers; got {', '.join(labels)}")
     return tuple(
-        _channel(titles, data, ended, source, arguments, label, several)
-        for label, (titles, data, ended) in zip(labels, starts, strict=True)
+        _channel(titles, data, ended, angle, source, arguments, label, several)
+        for label, (titles, data, ended), angle in zip(labels, starts, angles, strict=True)
     )
 
 
@@ -212,6 +221,7 @@ def _channel(
     titles: list[str],
     data: _Data,
     ended: bool,
+    angle: float | None,
     source: Path,
     arguments: Arguments,
     label: str,
@@ -245,6 +255,9 @@ def _channel(
         remarks.append(f"the station has {channels[1]} channels; this file has one")
     place = _CHANNEL.search("\n".join(titles[5:9]))
     component = " ".join(place["component"].split()) if place else ""
+    contradiction = direction_remark(component, angle, _VERTICAL)
+    if contradiction:
+        remarks.append(contradiction)
     return Channel(
         label,
         Record(
@@ -268,7 +281,7 @@ def _event(line: str, fallback: str) -> str:
         re.sub(r"^(?:RECORD|RCRD) OF\s+", "", part.strip(), flags=re.IGNORECASE) for part in re.split(r"\s{2,}", line)
     ]
     unique = list(dict.fromkeys(part for part in parts if part))
-    return ", ".join(unique) or fallback.strip()
+    return fallback.strip() if "RENADIC" in line or not unique else ", ".join(unique)
 
 
 def _station(lines: list[str]) -> str:

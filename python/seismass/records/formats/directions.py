@@ -13,7 +13,7 @@ _WORDS: Final = {
 }
 _DEGREES = re.compile(r"(\d{1,3})(?:\.0*)?\s*(?:DEG(?:REES?)?)?(?:\s*\(.*)?", re.IGNORECASE)
 _QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])", re.IGNORECASE)
-_SEED = re.compile(r"[A-Z][HNGLP]([NEZ])")
+_SEED = re.compile(r"[A-Z][HNGLP]([NEZ])\d{0,2}")
 _UP: Final = frozenset({"UP", "U", "V", "Z", "UD", "VER", "VERT", "VERTICAL", "DOWN", "DWN"})
 
 
@@ -39,11 +39,30 @@ def azimuth_of(component: str) -> float | None:
     return _WORDS.get(re.sub(r"[^A-Z]", "", text))
 
 
+def direction_remark(component: str, number: float | None, vertical_codes: tuple[int, ...]) -> str | None:
+    """Return a remark where a header's text and its integer disagree on the direction of a component.
+
+    Parameters
+    ----------
+    component : str
+        As the text names it.
+    number : float, optional
+        The integer header's degrees or code; None where it is missing.
+    vertical_codes : tuple of int
+        What the format writes for vertical components.
+    """
+    azimuth = azimuth_of(component)
+    if number is None or (azimuth is None and not is_vertical(component)):
+        return None
+    agrees = number in vertical_codes if azimuth is None else 0.0 <= number <= 360.0 and number % 360.0 == azimuth
+    return None if agrees else f"direction is {component} in the text of the header and {number:g} in its integers"
+
+
 def is_vertical(component: str) -> bool:
     """Whether a component is one of the vertical direction: UP, V, U-D, UD2, HNZ, "VERTICAL COMP"."""
     words = re.findall(r"[A-Z0-9]+", component.upper())
     if not words:
         return False
-    if words[0] in {"V", "Z", "U"} or re.fullmatch(r"[A-Z][HNGL]Z|UD[12]", words[0]):
+    if words[0] in {"V", "Z", "U"} or re.fullmatch(r"[A-Z][HNGLP]Z\d{0,2}|UD[12]", words[0]):
         return True
     return any(word in _UP and len(word) > 1 for word in words)

@@ -69,7 +69,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     tokens, values = parse_numbers(enumerate(lines[start:], start=start + 1), file)
     if len(values) != int(count) or not len(values):
         raise RecordFormatError(f"points of {file} must be {count}, as its header says; got {len(values)}")
-    if is_cut_off(tokens):
+    if is_cut_off(tokens, short_zero=False):
         raise RecordFormatError(
             f"last number of {file} must be written as the others are; got {tokens[-1]!r}: the file is cut off"
         )

@@ -70,6 +70,7 @@ _LINES: Final[tuple[tuple[re.Pattern[str], str, str], ...]] = tuple(
         (r"\s*(?:RESPONSE|FOURIER) SPECTR\w+.*\(Format v", "COSMOS V3 (spectra)", "read its V1 or V2 file"),
         (r"TIMESERIES \S+_\S*,.*samples.*sps", "ASCII time series of FDSN", _CONVERT),
         (r"\s*(?:-?\d*\.\d+\s+){4}-?\d*\.\d+\s*\n(?=(?:.*\n){0,24}?.*-12345(?:\.0+)?\b)", "alphanumeric SAC", _CONVERT),
+        (r"(?s).{0,600}?UNITS=CM/SEC\*\*2, CM/SEC, AND CM", "USGS text of three quantities", _NETWORK),
         (r"(?s).{0,600}?EUROPEAN STRONG[- ]MOTION DATA", "ISESD", _NETWORK),
     )
 )

@@ -91,12 +91,13 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     if direction is None:
         raise RecordFormatError(f"Dir. of {file} must be one of {', '.join(_DIRECTIONS)}; got {header['Dir.'][:20]!r}")
     counts = _read_counts(lines[len(_KEYS) :], file)
-    _check_duration(header["Duration Time(s)"], len(counts), dt, file)
+    remarks: list[str] = []
+    _check_duration(header["Duration Time(s)"], len(counts), dt, file, remarks)
 
     per_count = float(scale[1]) / int(scale[2])
     mean = float(np.mean(counts))
     gal = (counts - mean) * per_count
-    remarks = [f"mean of {mean:.1f} counts ({mean * per_count:.4g} gal) removed, as the format asks"]
+    remarks.append(f"mean of {mean:.1f} counts ({mean * per_count:.4g} gal) removed, as the format asks")
     # The header rounds the peak, and its mean may be that of whole counts.
     check_peak(gal, StatedPeak(header["Max. Acc. (gal)"], signed=False), dt, 2.0 * per_count, file, remarks)
     component, azimuth = direction
@@ -140,9 +141,12 @@ def _read_counts(lines: list[str], file: str) -> np.ndarray[tuple[int], np.dtype
         raise RecordFormatError(f"counts of {file} must be whole numbers; got {wrong[:40]!r}") from None
 
 
-def _check_duration(written: str, points: int, dt: float, file: str) -> None:
+def _check_duration(written: str, points: int, dt: float, file: str, remarks: list[str]) -> None:
+    """Refuse a duration that is a second off; remark one that is not the exact length, as all of NIED's are."""
     if not is_number(written):
         raise RecordFormatError(f"Duration Time(s) of {file} must be a number; got {written[:20]!r}")
+    if abs(float(written) - points * dt) > 1e-6:
+        remarks.append(f"{points} points last {points * dt:g} s; the header gives {written} s")
     if abs(float(written) - points * dt) >= PARTS_OF_A_SECOND:
         raise RecordFormatError(
             f"points of {file} must last {written} s, as its header says; got {points}, which last {points * dt:g} s"

@@ -110,13 +110,13 @@ def _split_fields(lines: Iterable[tuple[int, str]], file: str) -> list[str]:
     return tokens
 
 
-def is_cut_off(tokens: Sequence[str]) -> bool:
+def is_cut_off(tokens: Sequence[str], *, short_zero: bool = True) -> bool:
     """Whether the last number looks cut off: fewer decimals or exponent digits than any other number of the file.
 
     The first half of "0.4751E-01" is a clean number and a false peak. Where an exponent is there, so are all decimals
-    before it, however few: "1e-05" is whole.
+    before it, however few: "1e-05" is whole. A last zero may be written shorter where `short_zero` says so.
     """
-    if len(tokens) <= FEWEST_TO_JUDGE_BY or to_float(tokens[-1]) == 0.0:
+    if len(tokens) <= FEWEST_TO_JUDGE_BY or (short_zero and to_float(tokens[-1]) == 0.0):
         return False
     (last_decimals, last_exponent) = _shape(tokens[-1])
     before = tokens[:-1]

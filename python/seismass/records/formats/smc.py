@@ -67,14 +67,15 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         )
     whole = header_values(lines, _TEXT, _INTEGERS, Layout(8, 10, True))
     reals = header_values(lines, _TEXT + _INTEGERS, _REALS, Layout(5, 15))
-    if any(number is None or number % 1.0 for number in whole) or any(number is None for number in reals):
+    sound = len(whole) == 8 * _INTEGERS and len(reals) == 5 * _REALS
+    if not sound or any(number is None or number % 1.0 for number in whole) or None in reals:
         raise RecordFormatError(f"header of {file} must be {_INTEGERS} lines of integers and {_REALS} of reals")
     missing = whole[0]
     comments, points = int(whole[15] or 0), int(whole[16] or 0)
     first = _TEXT + _INTEGERS + _REALS
-    if comments < 0 or any(not line.startswith("|") for line in lines[first : first + comments]):
+    if not 0 <= comments < len(lines) - first or any(not line.startswith("|") for line in lines[first:][:comments]):
         raise RecordFormatError(f"comments of {file} must be {comments} lines that start with |, as its header says")
-    if len(lines) > first + comments and lines[first + comments].startswith("|"):
+    if lines[first + comments].startswith("|"):
         raise RecordFormatError(f"comments of {file} must be {comments}, as its header says; got more")
     block = read_block(lines, first + comments, points, _DATA, file)
     remarks: list[str] = []

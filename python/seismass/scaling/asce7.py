@@ -1,0 +1,208 @@
+"""Amplitude scaling of ASCE/SEI 7: that of 7-10 for two-dimensional analysis, and the preset of 7-16 and 7-22."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any, Final
+
+import numpy as np
+
+from seismass._values import FloatArray, brief, frozen, refusal
+from seismass.design import vibration_modes
+from seismass.errors import InvalidOption
+from seismass.scaling.result import ScalingResult
+from seismass.scaling.suite import SuiteSpectra, positive_number, positive_period, suite_spectra
+from seismass.scene import Building
+from seismass.simulate import Motion
+from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
+
+SHARE_7_16: Final = 0.9
+"""Least mean over target, ASCE/SEI 7-16, 16.2.3.2."""
+MOTIONS_7_16: Final = 11
+"""Least number of motions, 16.2.2."""
+MASS_7_16: Final = 0.9
+"""Share of the mass that the modes down to the lower end of the range take part with, 16.2.3.1."""
+DIRECTIONS: Final = 180
+"""Directions over half a turn in which the spectrum of a pair is taken."""
+
+
+def scale_asce7_10(
+    records: Iterable[GroundMotion],
+    target: TargetSpectrum,
+    period: float = 1.0,
+    *,
+    damping: float = 0.05,
+    period_range: tuple[float, float] = (0.2, 1.5),
+    count: int = 100,
+    threads: int | None = None,
+) -> ScalingResult:
+    """Return the unique factors by which the mean spectrum of a suite is not below the target at `count` periods.
+
+    Parameters
+    ----------
+    records : iterable of Record or Motion
+        The suite; at least three motions, as the standard asks.
+    target : TargetSpectrum
+        Design spectrum.
+    period : float
+        Fundamental period T (s) for which the suite is scaled.
+    damping : float
+        Ratio of critical damping of the spectra.
+    period_range : tuple of float
+        Range of the comparison as multiples of T.
+    count : int
+        Periods in the range, in geometric spacing, ends included, at which the mean is compared. The factors depend on
+        it a little: between two of them the mean may be below the target by some tenths of a per cent.
+    threads : int, optional
+        Number of threads; default all cores.
+
+    Raises
+    ------
+    InvalidOption
+        An argument is out of its range, or the range of periods leaves that of the target.
+    InvalidMotion
+        Fewer than three motions, or one without any acceleration.
+
+    Notes
+    -----
+    ASCE/SEI 7-10, 16.1.3.1: the mean of the 5 % damped spectra is not less than the design spectrum from 0.2 T to
+    1.5 T. The standard leaves the factors open; these are the two-step ones of Reyes and Kalkan (2012), Earthquake
+    Spectra 28:1205, in the logarithm: ln SF1_i = mean over T_j of ln A_t - ln A_i, then SF2 = max over T_j of A_t over
+    the mean of SF1_i A_i.
+    """
+    suite = suite_spectra(
+        records,
+        target,
+        period,
+        damping=damping,
+        period_range=period_range,
+        count=count,
+        threads=threads,
+        least=(3, "ASCE/SEI 7-10, 16.1.3"),
+    )
+    individual = suite.log_factors()
+    return suite.result("ASCE 7-10", individual, suite.common_factor(individual, 1.0))
+
+
+def scale_asce7_16(
+    records: Iterable[Any],
+    target: TargetSpectrum,
+    period: float | None = None,
+    *,
+    building: Building | None = None,
+    lowest_period: float | None = None,
+    damping: float = 0.05,
+    longest: float = 2.0,
+    count: int = 100,
+    threads: int | None = None,
+) -> ScalingResult:
+    """Return the factors by which the mean spectrum of a suite is nowhere below 90 % of the target, as ASCE 7-16 asks.
+
+    Parameters
+    ----------
+    records : iterable of Record or Motion, or of Pair
+        At least eleven. The spectrum of a pair is its largest over 180 directions in plan (maximum direction); the
+        factor is that of both its components. A motion has its own spectrum.
+    target : TargetSpectrum
+        The standard's is MCE_R in the maximum direction.
+    period : float, optional
+        First period T (s); by default that of the building, and 1 s without one.
+    building : Building, optional
+        Its modes say which period takes part with 90 % of the mass.
+    lowest_period : float, optional
+        That period (s), where no building is given. The range begins at it where it is below 0.2 T, else at 0.2 T.
+    damping : float
+        Ratio of critical damping of the spectra.
+    longest : float
+        Upper end of the range as a multiple of T; the standard permits a lower one, down to 1.5, where it is justified.
+    count : int
+        Periods in the range, in geometric spacing, ends included.
+    threads : int, optional
+        Number of threads; default all cores.
+
+    Raises
+    ------
+    InvalidOption
+        An argument is out of its range, the range leaves that of the target, or a period is given beside a building.
+    InvalidMotion
+        Fewer than eleven motions, or one without any acceleration.
+
+    Notes
+    -----
+    ASCE/SEI 7-16, 16.2.3, which 7-22 keeps. The individual factors are those of `scale_asce7_10`, the standard leaves
+    them open. What the result cannot honour is in its `notes`.
+    """
+    if building is not None and not isinstance(building, Building):
+        raise refusal(InvalidOption, "building", "scaling", "a Building", brief(building))
+    if building is not None and (period is not None or lowest_period is not None):
+        name = "period" if period is not None else "lowest_period"
+        value = period if period is not None else lowest_period
+        raise refusal(InvalidOption, name, "scaling", "left out where a building is given", brief(value))
+    if building is not None:
+        period, lowest_period = float(building.periods[0]), _period_of_mass(building)
+    fundamental = positive_period(1.0 if period is None else period)
+    upper = positive_number(longest, "longest")
+    if upper < 1.5:
+        raise refusal(InvalidOption, "longest", "scaling", "at least 1.5 (ASCE/SEI 7-16, 16.2.3.1)", f"{upper:g}")
+    lowest = np.inf if lowest_period is None else positive_number(lowest_period, "lowest_period")
+    single = hasattr(records, "acceleration") or not isinstance(records, Iterable)
+    given: list[Any] = as_motions(records, "scaling") if single else list(records)
+    pairs = [item for item in given if hasattr(item, "at_angles")]
+    motions = [item.first if hasattr(item, "at_angles") else item for item in given]
+    suite = suite_spectra(
+        motions,
+        target,
+        fundamental,
+        damping=damping,
+        period_range=(min(0.2, lowest / fundamental), upper),
+        count=count,
+        threads=threads,
+        least=(MOTIONS_7_16, "ASCE/SEI 7-16, 16.2.2"),
+    )
+    if pairs:
+        suite = _of_pairs(suite, given, threads)
+    individual = suite.log_factors()
+    common = suite.common_factor(individual, SHARE_7_16)
+    return suite.result("ASCE 7-16", individual, common, _notes(len(pairs), len(motions), lowest_period is None))
+
+
+def _notes(pairs: int, motions: int, without_modes: bool) -> list[str]:
+    """What a two-dimensional model cannot honour of the standard, and what is left to the user."""
+    found = []
+    if pairs < motions:
+        found.append(
+            f"{motions - pairs} of {motions} are single components: ASCE 7-16 scales the maximum-direction spectra of "
+            "pairs, which are above those of a component as recorded, so these factors are larger than the standard's"
+        )
+    found.append(
+        "the target of ASCE 7-16 is MCE_R in the maximum direction, 1.5 times the design spectrum; the one given is "
+        "taken as it is"
+    )
+    found.append(
+        "near a fault the standard keeps fault-normal and fault-parallel components apart and asks for a fitting share "
+        "of motions with a velocity pulse; a model in one plane takes one component and cannot honour that"
+    )
+    if without_modes:
+        found.append("the range begins at 0.2 T; the period of 90 % of the mass, if it is shorter, was not given")
+    return found
+
+
+def _of_pairs(suite: SuiteSpectra, given: list[Any], threads: int | None) -> SuiteSpectra:
+    """The suite with the maximum-direction spectra and the names of pairs."""
+    spectra, names = suite.spectra.copy(), list(suite.names)
+    turns = np.arange(DIRECTIONS) * (180.0 / DIRECTIONS)
+    for index, item in enumerate(given):
+        if hasattr(item, "at_angles"):
+            directions = [Motion(row, item.dt) for row in item.at_angles(turns)]
+            ordinates = response_spectrum(directions, suite.periods, suite.damping, threads=threads)
+            spectra[index] = ordinates.max(axis=0)
+            names[index] = item.name or names[index]
+    return replace(suite, spectra=frozen(spectra), names=tuple(names))
+
+
+def _period_of_mass(building: Building) -> float:
+    """Period (s) of the mode with which the modes together have 90 % of the mass."""
+    modes = vibration_modes(building.mass, building.stiffness)
+    total: FloatArray = np.cumsum(modes.effective_mass) / building.mass.sum()
+    return float(modes.periods[int(np.searchsorted(total, MASS_7_16 * (1.0 - 1e-12)))])

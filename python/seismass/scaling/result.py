@@ -1,0 +1,157 @@
+"""What every scaling method gives back: factors, scaled spectra beside the target, and how good they are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import polars as pl
+
+from seismass._values import FloatArray, frozen
+from seismass.plausibility import scaling_remarks
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from seismass.spectra import GroundMotion, TargetSpectrum
+
+
+@dataclass(frozen=True, eq=False)
+class ScalingResult:
+    """Factors of a suite, and the spectra that they follow from.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the records.
+    individual : ndarray, shape (motions,)
+        SF1: the factor of each motion by itself; for ASCE 7 it brings the motion as close to the target as one factor
+        can, in the logarithm.
+    common : float
+        SF2: lifts the mean spectrum until it is not below the target, or the share of it that is asked for, at any of
+        the periods. 1 for methods that look at each motion alone.
+    factors : ndarray, shape (motions,)
+        SF1 SF2, by which accelerations are multiplied.
+    periods : ndarray, shape (periods,)
+        Periods (s) of the comparison.
+    target, mean : ndarray, shape (periods,)
+        Target and mean scaled pseudo-acceleration (m/s2) there.
+    spectra : ndarray, shape (motions, periods)
+        Scaled pseudo-acceleration of each motion (m/s2) there.
+    governing_period : float
+        Period (s) at which the mean is lowest beside the target; for ASCE 7 it touches what is asked for there.
+    method : str
+        Name of the method.
+    period : float
+        Period T (s) for which the suite is scaled.
+    damping : float
+        Ratio of critical damping of the spectra.
+    target_label : str
+        What the target is.
+    notes : tuple of str
+        What the method assumes or cannot honour, as sentences.
+    """
+
+    names: tuple[str, ...]
+    individual: FloatArray
+    common: float
+    factors: FloatArray
+    periods: FloatArray
+    target: FloatArray
+    mean: FloatArray
+    spectra: FloatArray
+    governing_period: float
+    method: str = "ASCE 7-10"
+    period: float = 1.0
+    damping: float = 0.05
+    target_label: str = ""
+    notes: tuple[str, ...] = ()
+
+    @property
+    def misfit(self) -> FloatArray:
+        """Root mean square over the periods of ln(scaled/target) of each motion, shape (motions,)."""
+        return frozen(np.sqrt(np.mean(self._log_ratio() ** 2, axis=1)))
+
+    @property
+    def largest_misfit(self) -> FloatArray:
+        """Largest absolute ln(scaled/target) of each motion, shape (motions,)."""
+        return frozen(np.max(np.abs(self._log_ratio()), axis=1))
+
+    @property
+    def mean_misfit(self) -> float:
+        """Root mean square over the periods of ln(mean/target)."""
+        return float(np.sqrt(np.mean(np.log(self.mean / self.target) ** 2)))
+
+    @property
+    def least_ratio(self) -> float:
+        """Least mean/target over the periods."""
+        return float(np.min(self.mean / self.target))
+
+    @property
+    def largest_ratio(self) -> float:
+        """Largest mean/target over the periods."""
+        return float(np.max(self.mean / self.target))
+
+    @property
+    def log_scatter(self) -> FloatArray:
+        """Standard deviation of ln of the scaled spectra between the motions, shape (periods,); zero for one motion."""
+        if len(self.names) == 1:
+            return frozen(np.zeros(len(self.periods)))
+        return frozen(np.std(np.log(self.spectra), axis=0, ddof=1))
+
+    def _log_ratio(self) -> FloatArray:
+        ratio: FloatArray = np.log(self.spectra / self.target)
+        return ratio
+
+    def table(self) -> pl.DataFrame:
+        """Return one row per motion: number, name, SF1, SF2, their product, and the two misfits."""
+        return pl.DataFrame(
+            {
+                "motion": np.arange(1, len(self.names) + 1, dtype=np.uint32),
+                "record": list(self.names),
+                "individual_factor": self.individual,
+                "common_factor": np.full(len(self.names), self.common),
+                "factor": self.factors,
+                "misfit": self.misfit,
+                "largest_misfit": self.largest_misfit,
+            }
+        )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the method assumes, and what is unlikely about the factors and the mean spectrum, as sentences."""
+        return (*self.notes, *scaling_remarks(self))
+
+    def spectrum_table(self) -> pl.DataFrame:
+        """Return one row per period: target, mean scaled pseudo-acceleration (m/s2), their ratio, and the scatter.
+
+        `p16` and `p84` are the geometric mean of the motions over and times exp(`log_scatter`).
+        """
+        middle = np.exp(np.mean(np.log(self.spectra), axis=0))
+        spread = np.exp(self.log_scatter)
+        return pl.DataFrame(
+            {
+                "period": self.periods,
+                "target": self.target,
+                "mean": self.mean,
+                "ratio": self.mean / self.target,
+                "p16": middle / spread,
+                "p84": middle * spread,
+                "log_scatter": self.log_scatter,
+            }
+        )
+
+    def plot(self, records: Iterable[GroundMotion] | None = None, target: TargetSpectrum | None = None) -> Figure:
+        """Return a figure of the scaled spectra, their mean and scatter, and the target, as the paper's Fig. 1.
+
+        Parameters
+        ----------
+        records, target : optional
+            The suite and the target that were scaled: spectra are then drawn beyond the range of the comparison, which
+            is marked. The result itself has them within it.
+        """
+        from seismass.report.scaling_figure import scaling_figure  # matplotlib takes a quarter of a second
+
+        return scaling_figure(self, records, target)

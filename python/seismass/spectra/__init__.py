@@ -1,0 +1,22 @@
+"""Response spectra of ground motions, elastic and inelastic, and target spectra to scale them to."""
+
+from seismass.spectra.asce7 import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, MULTI_PERIODS
+from seismass.spectra.elastic import Kind, mean_spectrum, response_spectrum
+from seismass.spectra.inelastic import InelasticSpectrum, inelastic_spectrum
+from seismass.spectra.motions import GroundMotion, as_motions
+from seismass.spectra.target import TargetSpectrum
+
+__all__ = [
+    "DEFAULT_SD1_G",
+    "DEFAULT_SDS_G",
+    "DEFAULT_TL",
+    "MULTI_PERIODS",
+    "GroundMotion",
+    "InelasticSpectrum",
+    "Kind",
+    "TargetSpectrum",
+    "as_motions",
+    "inelastic_spectrum",
+    "mean_spectrum",
+    "response_spectrum",
+]

@@ -1,0 +1,113 @@
+"""Elastic response spectra: exact for acceleration that is linear between samples, at the periods asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Final, Literal, TypeAlias, cast, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from seismass import _kernel
+from seismass._values import FloatArray, as_array, as_count, as_number, brief, refusal
+from seismass.errors import InvalidOption
+from seismass.spectra.motions import GroundMotion, as_motions, held
+
+Kind: TypeAlias = Literal["pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"]
+"""Ordinate of a spectrum: w^2 D (m/s2), D (m) or w D (m/s) of the peak relative displacement D, or the peak of the
+absolute acceleration (m/s2)."""
+
+_POWER_OF_FREQUENCY: Final = {"displacement": 0, "pseudo_velocity": 1, "pseudo_acceleration": 2}
+
+
+def response_spectrum(
+    motions: GroundMotion | Iterable[GroundMotion],
+    periods: ArrayLike,
+    damping: float | Sequence[float] = 0.05,
+    kind: Kind = "pseudo_acceleration",
+    *,
+    threads: int | None = None,
+) -> FloatArray:
+    """Return elastic response spectra, exact for acceleration that is linear between samples.
+
+    Peaks are taken in continuous time, from rest at the first sample to the end of the free vibration that follows the
+    motion, which goes to zero over one step after its last sample.
+
+    Parameters
+    ----------
+    motions : Record, Motion or iterable of them
+        One motion counts as a suite of one.
+    periods : array_like, shape (periods,)
+        Natural periods (s), from a thousandth of the time step; each is solved for, none is interpolated.
+    damping : float or sequence of float
+        Ratios of critical damping, at least 0 and below 1.
+    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}
+        Ordinate, in m/s2, m, m/s or m/s2. The last is the largest absolute acceleration of the mass, spring and damper
+        together; without damping it is the pseudo-acceleration.
+    threads : int, optional
+        Number of threads; default all cores. The result does not depend on it.
+
+    Returns
+    -------
+    ndarray, shape (motions, periods), or (motions, damping, periods) for a sequence of ratios
+        Spectral ordinates.
+
+    Raises
+    ------
+    InvalidOption
+        A period, ratio, kind or number of threads out of its range.
+    InvalidMotion
+        No motion, or something that is none.
+
+    Notes
+    -----
+    Nigam and Jennings (1969), Bull. Seism. Soc. Am. 59:909-922.
+
+    Examples
+    --------
+    A step of 1 m/s2 on an undamped oscillator: twice the static displacement.
+
+    >>> import seismass as sm
+    >>> step = sm.Motion([1.0] * 200, dt=0.01)
+    >>> sm.response_spectrum(step, [0.5, 1.0], damping=0.0)
+    array([[2., 2.]])
+    """
+    if kind not in get_args(Kind):
+        raise refusal(InvalidOption, "kind", "spectrum", "one of " + ", ".join(get_args(Kind)), brief(kind))
+    at = as_array(periods, "periods", "spectrum", InvalidOption)
+    if len(at) == 0:
+        raise refusal(InvalidOption, "periods", "spectrum", "a list of at least one period", "none")
+    ratios = as_array(damping, "damping", "spectrum", InvalidOption, or_number=True)
+    if ratios.size == 0:
+        raise refusal(InvalidOption, "damping", "spectrum", "a number or a list of at least one ratio", "none")
+    workers = None if threads is None else as_count(threads, "threads", "spectrum", InvalidOption, least=1)
+    given = [held(motion, number) for number, motion in enumerate(as_motions(motions, "spectrum"), start=1)]
+    if kind == "acceleration":
+        ordinates = np.asarray(_kernel.oscillator_peaks(given, at, np.atleast_1d(ratios), workers)[2])
+    else:
+        peaks = np.asarray(_kernel.response_spectra(given, at, np.atleast_1d(ratios), workers))
+        ordinates = peaks * (2.0 * np.pi / at) ** _POWER_OF_FREQUENCY[kind]
+    return ordinates[:, 0, :] if ratios.ndim == 0 else ordinates
+
+
+def mean_spectrum(
+    motions: Iterable[GroundMotion],
+    factors: ArrayLike,
+    periods: ArrayLike,
+    damping: float = 0.05,
+    *,
+    threads: int | None = None,
+) -> FloatArray:
+    """Return the mean pseudo-acceleration spectrum (m/s2) of motions times their factors, shape (periods,)."""
+    ratio = as_number(damping, "damping", "mean spectrum", InvalidOption)
+    spectra = response_spectrum(motions, periods, ratio, threads=threads)
+    scale = as_array(factors, "factors", "mean spectrum", InvalidOption)
+    if len(scale) != len(spectra):
+        raise refusal(
+            InvalidOption,
+            "factors",
+            "mean spectrum",
+            f"a list of {len(spectra)} values, one per motion",
+            f"{len(scale)}",
+        )
+    return cast(FloatArray, np.mean(scale[:, None] * spectra, axis=0))

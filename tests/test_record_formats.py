@@ -1,0 +1,553 @@
+"""Formats of record files: each read as its rules say, by content, with labels, channels, header peaks and refusals.
+
+The files are made up by tools/record_files.py from the formats' rules; recordings are in test_record_readings.py.
+"""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import io
+import os
+import runpy
+import struct
+import time
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from seismass.errors import RecordFormatError
+from seismass.records import Record, read_record, read_records, read_suite
+from seismass.records.checks import suspicions
+from seismass.records.formats import FORMATS, NotRead, recognise
+from seismass.records.formats.directions import azimuth_of, is_vertical
+from seismass.records.formats.fixed import layout_of
+from seismass.units import STANDARD_GRAVITY, unit_by_name
+
+ROOT = Path(__file__).parents[1]
+MADE = runpy.run_path(str(ROOT / "tools" / "record_files.py"))
+FILES: dict[str, bytes] = dict(MADE["files"]())
+FUZZ = runpy.run_path(str(ROOT / "tools" / "fuzz_records.py"))
+POINTS: int = MADE["POINTS"]
+DT: float = MADE["DT"]
+
+# file, unit in it, resolution of its samples (m/s2), and component, azimuth, network, station of each channel
+READ: list[tuple[str, str, float, list[tuple[str, float | None, str, str]]]] = [
+    ("made.AT2", "g", 1e-7, [("90", 90.0, "", "Nowhere")]),
+    ("made_v2.cosmos", "cm/s2", 1e-7, [("90 deg", 90.0, "XX", "NOW, Nowhere"), ("Up", None, "XX", "NOW, Nowhere")]),
+    ("made_v1.cosmos", "cm/s2", 1e-7, [("90 deg", 90.0, "XX", "NOW, Nowhere")]),
+    ("made.V2", "cm/s2", 1e-5, [("90 DEG", 90.0, "CGS", "00001, NOWHERE"), ("UP", None, "CGS", "00001, NOWHERE")]),
+    ("made.V1", "g", 1e-5, [("90 DEG", 90.0, "CGS", "00001, NOWHERE"), ("UP", None, "CGS", "00001, NOWHERE")]),
+    ("made_pairs.V1", "g", 1e-3, [("90 DEG", 90.0, "CGS", "00001, NOWHERE")]),
+    ("made.ASC", "cm/s2", 1e-8, [("HNE", 90.0, "XX", "NOW, Nowhere")]),
+    ("made.EW", "cm/s2", 1e-5, [("E-W", 90.0, "K-NET", "NOW001")]),
+    ("made.UD2", "cm/s2", 1e-5, [("UD2", None, "KiK-net", "NOW001")]),
+    ("made.smc", "cm/s2", 1e-4, [("45", 45.0, "XXXX", "NOW0A, Nowhere")]),
+    ("made_fixed.smc", "cm/s2", 1e-7, [("45", 45.0, "XXXX", "NOW0A, Nowhere")]),
+    ("made_pairs.smc", "cm/s2", 1e-4, [("45", 45.0, "XXXX", "NOW0A, Nowhere")]),
+    ("made.txt", "cm/s2", 1e-7, [("", None, "", "")]),
+    ("made.csv", "g", 1e-5, [("", None, "", "")]),
+]
+
+
+def put(folder: Path, name: str, content: str | bytes | None = None) -> Path:
+    """Write one of the made files, or a content, under a name."""
+    path = folder / name
+    path.write_bytes(FILES[name] if content is None else content if isinstance(content, bytes) else content.encode())
+    return path
+
+
+@pytest.mark.parametrize(("name", "unit", "resolution", "channels"), READ, ids=[row[0] for row in READ])
+@pytest.mark.parametrize("suffix", ["", ".txt", ".dat"])
+def test_a_format_is_read_whatever_its_suffix(
+    tmp_path: Path,
+    name: str,
+    unit: str,
+    resolution: float,
+    channels: list[tuple[str, float | None, str, str]],
+    suffix: str,
+) -> None:
+    file = put(tmp_path, name + suffix, FILES[name])
+    records = read_records(file)
+    assert [(r.component, r.azimuth, r.network, r.station) for r in records] == channels
+    for number, record in enumerate(records):
+        points = 200 if name in ("made.EW", "made.UD2") else POINTS
+        assert (record.samples, record.unit, record.source) == (points, unit, file)
+        assert record.dt == pytest.approx(DT, rel=1e-12)
+        assert record.sha256 == hashlib.sha256(FILES[name]).hexdigest()
+        expected = np.array(MADE["motion"](number, points)) * 0.01
+        if "removed" in " ".join(record.remarks):  # K-NET's mean
+            expected -= expected.mean()
+        assert np.max(np.abs(record.acceleration - expected)) <= resolution
+
+
+def test_every_format_has_a_made_file_and_knows_no_other() -> None:
+    known: dict[str, set[str]] = {}
+    for name, content in FILES.items():
+        found = recognise(content.decode()[:8192])
+        assert not isinstance(found, tuple), name
+        known.setdefault(found.name if found else "columns", set()).add(name)
+        others = [one.name for one in FORMATS[:-1] if one is not found and one.recognises(content.decode()[:8192])]
+        assert others == [], name
+    assert set(known) == {one.name for one in FORMATS}
+
+
+def test_labels_of_events(tmp_path: Path) -> None:
+    events = {name: read_records(put(tmp_path, name))[0].event for name in FILES}
+    assert events["made.AT2"] == "Made Up, 1/1/2000"
+    assert events["made_v2.cosmos"] == "Made Up Earthquake of Sat Jan 1, 2000 00:00 UTC"
+    assert events["made.V2"] == events["made.V1"] == "MADE UP EARTHQUAKE, JAN 1, 2000 00:00 UTC"
+    assert events["made.ASC"] == "MADE_UP, 20000101 000000"
+    assert events["made.EW"] == "2000/01/01 00:00:00, M 6.0"
+    assert events["made.smc"] == "2000 01 01 0000 MADE UP"
+
+
+def test_channels_are_asked_for_by_number_or_component(tmp_path: Path) -> None:
+    for name, label in (("made_v2.cosmos", "90 deg"), ("made.V2", "90 DEG"), ("made.V1", "90 DEG")):
+        file = put(tmp_path, name)
+        with pytest.raises(RecordFormatError, match=rf"channel of {name} must be given, .* 2: 1 \({label}\), 2 \(U"):
+            read_record(file)
+        first, second = read_records(file)
+        assert (
+            read_record(file, channel=1) == read_record(file, channel="1") == read_record(file, channel=label) == first
+        )
+        assert read_record(file, channel="up") == read_record(file, channel=2) == second
+        assert first.name == f"{file.stem} channel 1"
+        for wrong in (0, 3, "N", True, 1.5):
+            with pytest.raises(RecordFormatError, match=rf"channel of {name} must be one of 2: .*; got"):
+                read_record(file, channel=wrong)  # type: ignore[arg-type]
+    assert read_record(put(tmp_path, "made.ASC"), channel="HNE").component == "HNE"
+
+
+def test_a_damaged_channel_refuses_the_file(tmp_path: Path) -> None:
+    lines = FILES["made.V2"].decode().splitlines(keepends=True)
+    second = next(at for at, line in enumerate(lines) if at > 10 and line.startswith("CORRECTED"))
+    broken = [
+        line.replace("POINTS OF ACCEL", "POINTS OF ACC.") if at > second else line for at, line in enumerate(lines)
+    ]
+    with pytest.raises(RecordFormatError, match=r"must give the points, step and unit of its accelerations"):
+        read_records(put(tmp_path, "made.V2", "".join(broken)))
+
+
+def swapped(old: str, new: str) -> Callable[[str], str]:
+    """Return a change of the first place where `old` stands."""
+
+    def change(text: str) -> str:
+        assert old in text
+        return text.replace(old, new, 1)
+
+    return change
+
+
+def without_line(start: str) -> Callable[[str], str]:
+    """Return a change that leaves out the first line with this beginning."""
+
+    def change(text: str) -> str:
+        lines = text.splitlines(keepends=True)
+        at = next(index for index, line in enumerate(lines) if line.lstrip().startswith(start))
+        return "".join(lines[:at] + lines[at + 1 :])
+
+    return change
+
+
+def with_last_line(text: str) -> Callable[[str], str]:
+    return lambda content: content + text
+
+
+WRONG: list[tuple[str, Callable[[str], str], str]] = [
+    ("made_v2.cosmos", swapped("pts, approx    4", "pts, approx    9"), r"points of .* must last 9 s, .*; got 203"),
+    (
+        "made_v2.cosmos",
+        swapped("     203 accel", "     204 accel"),
+        r"line \d+ of .* must be 4 numbers of 10 characters",
+    ),
+    ("made_v2.cosmos", swapped("(04)", "(02)"), r"unit of .* must be stated alike .*; got codes \[2, 4\]"),
+    (
+        "made_v2.cosmos",
+        swapped("units=cm/sec2", "units=g"),
+        r"unit of .* stated alike by word and code; got g and cm/s2",
+    ),
+    ("made_v2.cosmos", swapped("(8F10.5)", "(8X10.5)"), r"format of the numbers of .* must be one as \(8F10.3\)"),
+    ("made_v2.cosmos", swapped("(8F10.5)", "(7F10.5)"), r"line \d+ of .* must be 7 numbers of 10 characters; got 80"),
+    ("made_v2.cosmos", swapped("    -999\n", "    xxxx\n"), r"value 10 of the integer header .* must be a number"),
+    ("made_v2.cosmos", without_line("|<SCNL>"), r"comments of .* must be 1 lines that start with \|"),
+    ("made_v2.cosmos", with_last_line("1.0\n"), r"line \d+ of .* must begin a channel"),
+    ("made_v2.cosmos", swapped("   20.000000", "   40.000000"), r"points of .* must last 4.06 s"),
+    (
+        "made.V2",
+        swapped("-169.204", "-168.204"),
+        r"peak of made.V2 must be -168.204 at 2.22 s, .*; got -169.204 at 2.22",
+    ),
+    (
+        "made.V2",
+        swapped("   203 POINTS OF INSTR", "   204 POINTS OF INSTR"),
+        r"points of .* must be 204, .*; got 203 before",
+    ),
+    ("made.V2", swapped("SEC.  (UNITS: CM/SEC/SEC)", "SEC.  (UNITS: FT/SEC2)"), r"unit of made.V2 must be cm/s2 or g"),
+    ("made.V2", swapped("AT  .020 SEC", "AT  .010 SEC"), r"record length of made.V2 must be 4.040 s"),
+    ("made.V2", without_line("203 POINTS OF VELOC"), r"must begin its VELOC data"),
+    (
+        "made.V2",
+        swapped("203 POINTS OF DISPL", "190 POINTS OF DISPL"),
+        r"points of made.V2 must be 203 of each quantity",
+    ),
+    ("made.V1", swapped("NO. OF POINTS =    203", "NO. OF POINTS =    302"), r"points of made.V1 must be 302"),
+    ("made.V1", swapped("MAX  =   -.173", "MAX  =    .153"), r"peak of made.V1 must be .153 at 2.22 s.*; got -0.17254"),
+    ("made_pairs.V1", swapped("  .060", "  .065"), r"times of made_pairs.V1 must be uniform.*read its corrected file"),
+    ("made.ASC", swapped("NDATA: 203", "NDATA: 230"), r"points of made.ASC must be 230"),
+    ("made.ASC", swapped("DURATION_S: 4.040", "DURATION_S: 9.040"), r"duration of made.ASC must be 9.040 s"),
+    ("made.ASC", swapped("UNITS: cm/s^2", "UNITS: cm/s"), r"UNITS of made.ASC must be an acceleration"),
+    ("made.ASC", swapped("UNITS: cm/s^2", "UNITS: m/s^2"), r"peak of made.ASC must be -169.*"),
+    (
+        "made.ASC",
+        swapped("INTERVAL_S: 0.02", "INTERVAL_S: soon"),
+        r"SAMPLING_INTERVAL_S of .* must be a number; got 'soon",
+    ),
+    ("made.ASC", without_line("USER3:"), r"header of made.ASC must be 64 keys, .*; got 63"),
+    ("made.EW", swapped("3920(gal)", "3290(gal)"), r"peak of made.EW must be 167.696, .*; got"),
+    ("made.EW", swapped("50Hz", "100Hz"), r"points of made.EW must last 4 s, .*; got 200, which last 2 s"),
+    ("made.EW", swapped("50Hz", "50kHz"), r"Sampling Freq\(Hz\) of made.EW must be as 100Hz; got '50kHz'"),
+    ("made.EW", swapped("E-W", "W-E"), r"Dir. of made.EW must be one of N-S, .*; got 'W-E'"),
+    ("made.EW", swapped("(gal)/", "(mgal)/"), r"Scale Factor of made.EW must be as"),
+    ("made.EW", without_line("Mag."), r"line 5 of made.EW must be its 'Mag.'"),
+    ("made.smc", swapped("203", "202"), r"line \d+ of made.smc must be 2 numbers of 10 characters; got 30"),
+    ("made.smc", swapped("    -32768         2\n", "    -32768         3\n"), r"comments of made.smc must be 3 lines"),
+    (
+        "made.smc",
+        swapped("    -32768         2\n", "    -32768         1\n"),
+        r"comments of made.smc must be 1, .* more",
+    ),
+    ("made.smc", with_last_line(" 1.0000E+0\n"), r"points of made.smc must be 203, as its header says; got more"),
+    ("made_pairs.smc", swapped(" 2.0000E-2", " 2.5000E-2"), r"times of made_pairs.smc must be uniform.*volume 2"),
+    ("made.txt", swapped("npts: 203", "npts: 205"), r"points of made.txt must be 205, as its header says; got 203"),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "message"), WRONG)
+def test_a_file_that_contradicts_itself_is_refused(
+    tmp_path: Path, name: str, change: Callable[[str], str], message: str
+) -> None:
+    file = put(tmp_path, name, change(FILES[name].decode()))
+    with pytest.raises(RecordFormatError, match=message):
+        read_records(file)
+
+
+def test_arguments_must_agree_with_a_header(tmp_path: Path) -> None:
+    for name in ("made_v2.cosmos", "made.V2", "made.ASC", "made.EW", "made.smc"):
+        file = put(tmp_path, name)
+        assert read_records(file, dt=DT, unit="gal") == read_records(file)
+        with pytest.raises(RecordFormatError, match=rf"dt of {name} must agree with its header, .*; got 0.01 s"):
+            read_records(file, dt=0.01)
+        with pytest.raises(RecordFormatError, match=rf"unit of {name} must be that of its header, cm/s2; got g"):
+            read_records(file, unit="g")
+        with pytest.raises(RecordFormatError, match=rf"skip of {name} must be left out for an? .* file; got 1"):
+            read_records(file, skip=1)
+        with pytest.raises(RecordFormatError):
+            read_records(file, format="at2")
+
+
+def test_the_time_of_a_peak_that_differs_is_remarked(tmp_path: Path) -> None:
+    file = put(tmp_path, "made.V2", FILES["made.V2"].replace(b"AT    2.220   SEC", b"AT    3.220   SEC", 1))
+    assert "the peak is at 2.22 s; the header gives 3.22 s" in read_records(file)[0].remarks
+
+
+def test_a_peak_without_its_sign_is_remarked(tmp_path: Path) -> None:
+    file = put(tmp_path, "made.V2", FILES["made.V2"].replace(b"=  -169.204", b"=   169.204", 1))
+    assert any("the peak is negative" in remark for remark in read_records(file)[0].remarks)
+
+
+def test_remarks_say_what_a_reader_did(tmp_path: Path) -> None:
+    remarks = {name: " ".join(read_records(put(tmp_path, name))[0].remarks) for name in FILES}
+    assert "mean of" in remarks["made.EW"] and "removed" in remarks["made.EW"]
+    assert "pairs of time and acceleration" in remarks["made_pairs.smc"]
+    for name in ("made.V1", "made_pairs.V1", "made_v1.cosmos", "made_pairs.smc"):
+        assert "uncorrected" in remarks[name]
+    for name in ("made.AT2", "made_v2.cosmos", "made.V2", "made.ASC", "made.smc", "made.txt"):
+        assert remarks[name] == ""
+    assert "borehole" in read_record(put(tmp_path, "made.EW1", MADE["knet"](direction="2"))).remarks[1]
+
+
+@pytest.mark.parametrize("name", sorted(FILES))
+def test_no_prefix_of_a_file_is_accepted_in_silence(tmp_path: Path, name: str) -> None:
+    """A cut file is refused, gives the whole record, or has a remark; only the time column of made.csv has no count."""
+    content = FILES[name]
+    whole = read_records(put(tmp_path, name))
+    ends = sorted({*range(1, len(content), 97), *(at + 1 for at, byte in enumerate(content) if byte == 10)})
+    accepted = 0
+    for end in ends[-120:] + ends[:-120:5]:
+        try:
+            records = read_records(put(tmp_path, name, content[:end]))
+        except RecordFormatError:
+            continue
+        same = len(records) == len(whole) and all(
+            np.array_equal(a.acceleration, b.acceleration) for a, b in zip(records, whole, strict=True)
+        )
+        accepted += not same
+        assert same or any(r.remarks for r in records), end
+    if name == "made.csv":
+        assert accepted > 100
+    else:  # whole channels of the files with two; K-NET says whole seconds, so that a line less has a remark
+        assert accepted <= 3 * (len(whole) - 1) + 20 * (name in ("made.EW", "made.UD2"))
+
+
+def test_mutated_files_have_no_defect() -> None:
+    """A small run of tools/fuzz_records.py on the made files; the large one is in docs/records.md."""
+    tally = FUZZ["fuzz"](1500, 3, None)
+    assert tally.total == 1500
+    assert [(source, outcome) for source, outcome, _ in tally.defects] == []
+    outcomes = {outcome for _, outcome in tally.counts}
+    assert {"refused", "same", "remark", "value", "order"} <= outcomes
+
+
+NAMED: list[tuple[str, bytes, str]] = [
+    (
+        "a.VT2",
+        MADE["at2"](quantity="VELOCITY").encode(),
+        r"quantity of a.VT2 must be acceleration; got velocity: read the",
+    ),
+    (
+        "a.dt2",
+        MADE["at2"]().encode(),
+        r"quantity of a.dt2 must be acceleration; got a .dt2 file, which holds displacement",
+    ),
+    (
+        "a.mseed",
+        b"000001D AB12 00HNZCE\x07\xe2\x00\xf1" + bytes(600),
+        r"content of a.mseed must be text; got miniSEED: con",
+    ),
+    ("a.ms", b"MS\x03\x00" + bytes(60), r"got miniSEED 3"),
+    ("a.seed", b"000001V 010009402.3121970,001" + b" " * 60, r"got SEED"),
+    ("a.sac", bytes(304) + struct.pack("<i", 6) + bytes(400), r"got SAC"),
+    ("b.sac", bytes(304) + struct.pack(">i", 6) + bytes(400), r"got SAC"),
+    ("a.gse", b"BEGIN GSE2.0\nMSG_TYPE DATA\n", r"got GSE2"),
+    ("b.gse", b"WID2 1990/04/07 00:07:33.000 CRLZ  HHZ\n", r"got GSE2"),
+    ("a.h5", b"\x89HDF\r\n\x1a\n" + bytes(64), r"got HDF5 \(ASDF"),
+    ("a.mat", b"MATLAB 5.0 MAT-file, Platform: GLNXA64" + bytes(90), r"got MATLAB"),
+    ("a.xls", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(64), r"got Excel \(.xls\): save the sheet as CSV"),
+    ("a.gz", gzip.compress(FILES["made.AT2"]), r"got gzip: unpack it"),
+    ("a.pdf", b"%PDF-1.4\n", r"got PDF: read the data file"),
+    (
+        "a.AT2",
+        b"<!DOCTYPE html>\n<html><body>Sign in</body></html>",
+        r"got HTML page: download the file itself, signed in",
+    ),
+    ("a.xml", b'<?xml version="1.0"?>\n<a/>', r"got XML"),
+    ("a.json", b'{\n "a": 1}', r"got JSON"),
+    ("a.V2A", b"Corrected accelerogram 20180212_211554_WPWS_20 GNS Science\nSite WPWS\n", r"got GeoNet V1A or V2A"),
+    ("a.V1A", b"Uncorrected accelerogram 20161113_110256_HSES_20 GNS Science\n", r"got GeoNet V1A or V2A"),
+    ("a.txt", b"STRONG GROUND MOTION RECORDS OF TURKIYE\r\nPLACE : X\r\n", r"got NSMN \(AFAD\) text: read its ESM"),
+    ("a.V1", b"* VOL1DS FILE:  5520/01\nInst Type = SSA-2\n", r"got BHRC"),
+    ("a.dat", b"#Earthquake Information\n#Origin Time(GMT+08): 2018\n", r"got CWB"),
+    ("a.012", b"*" * 80 + b"\n            INSTITUTO DE INGENIERIA, UNAM\n", r"got UNAM"),
+    ("a.s0a", b"CORRECTED ACCELEROGRAM  IIBB127  94.610.0 COMP N08W   FILE   0  CORRESPONDING T\n", r"got USC volume"),
+    ("a.y0a", b"FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\n", r"got USC volume"),
+    (
+        "a.V3",
+        b"RESPONSE AND FOURIER AMPLITUDE SPECTRA OF\nCORRECTED ACCELEROGRAM\n",
+        r"got CSMIP V3 \(spectra\): read its V1",
+    ),
+    ("a.lfs", b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", r"got Git LFS pointer"),
+    ("a.smc", MADE["smc"](kind="3 VELOCITY").encode(), r"quantity of a.smc must be an .* accelerogram; got velocity"),
+    ("a.ASC", MADE["esm"](DATA_TYPE="VELOCITY").encode(), r"quantity of a.ASC must be acceleration; got velocity"),
+    (
+        "a.v0c",
+        MADE["cosmos"](channels=1)
+        .replace("units=cm/sec2(04)", "units=counts(50)")
+        .replace("       4     120", "      50     120")
+        .encode(),
+        r"unit of a.v0c must be that of an acceleration; got counts \(V0\)",
+    ),
+    (
+        "a.vel",
+        MADE["cosmos"](channels=1)
+        .replace("Corrected acceleration", "Corrected velocity    ")
+        .replace("       2       1       4", "       2       2       5")
+        .replace("acceleration pts", "velocity pts")
+        .replace("cm/sec2(04)", "cm/sec(05)")
+        .encode(),
+        r"quantity of a.vel must be acceleration; got corrected velocity",
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "content", "message"), NAMED, ids=[row[0] for row in NAMED])
+def test_a_known_kind_is_refused_by_its_name(tmp_path: Path, name: str, content: bytes, message: str) -> None:
+    with pytest.raises(NotRead, match=message):
+        read_records(put(tmp_path, name, content))
+
+
+def test_archives_and_sheets_are_told_apart(tmp_path: Path) -> None:
+    for member, message in (("a.AT2", "got ZIP: unpack it"), ("[Content_Types].xml", r"got Excel \(.xlsx\): save")):
+        held = io.BytesIO()
+        with zipfile.ZipFile(held, "w") as archive:
+            archive.writestr(member, "x")
+        with pytest.raises(NotRead, match=message):
+            read_record(put(tmp_path, "a.zip", held.getvalue()))
+
+
+def test_units_are_understood_in_their_spellings(tmp_path: Path) -> None:
+    for name, known in (
+        ("gal", "cm/s2"),
+        ("Gal", "cm/s2"),
+        ("cm/s^2", "cm/s2"),
+        ("cm/sec/sec", "cm/s2"),
+        ("CM/SEC**2", "cm/s2"),
+        ("m/s²", "m/s2"),
+        ("m/sec2", "m/s2"),
+        ("G", "g"),
+        ("mg", None),
+        ("ft/s2", None),
+        ("cm/s", None),
+        ("g m/s2", None),
+        ("", None),
+    ):
+        assert unit_by_name(name) == known, name
+    file = put(tmp_path, "a.txt", "0.1\n-0.2\n0.3\n")
+    for unit in ("gal", "cm/s2", "Gals"):
+        record = read_record(file, dt=0.01, unit=unit)
+        assert (record.unit, record.pga) == ("cm/s2", pytest.approx(0.003, rel=1e-15))
+    assert read_record(put(tmp_path, "b.txt", "acceleration (gal)\n1\n2\n"), dt=0.01).pga == pytest.approx(
+        0.02, rel=1e-15
+    )
+
+
+@pytest.mark.parametrize(
+    ("component", "azimuth", "vertical"),
+    [
+        ("90", 90.0, False),
+        ("000", 0.0, False),
+        ("360 (CDMG STATION 24461)", 0.0, False),
+        (" 90 DEG", 90.0, False),
+        ("361", None, False),
+        ("N36E", 36.0, False),
+        ("S16W", 196.0, False),
+        ("N10W", 350.0, False),
+        ("S80E", 100.0, False),
+        ("EAST", 90.0, False),
+        ("N-S", 0.0, False),
+        ("HNE", 90.0, False),
+        ("BHN00", 0.0, False),
+        ("HN1", None, False),
+        ("H1", None, False),
+        ("LONGITUDINAL", None, False),
+        ("UP", None, True),
+        ("U-D", None, True),
+        ("UD1", None, True),
+        ("HNZ", None, True),
+        ("BHZ10", None, True),
+        ("VERTICAL COMP", None, True),
+        ("", None, False),
+    ],
+)
+def test_directions(component: str, azimuth: float | None, vertical: bool) -> None:
+    assert azimuth_of(component) == azimuth
+    assert is_vertical(component) is vertical
+
+
+@pytest.mark.parametrize(
+    ("edit", "columns", "width"),
+    [("(8F10.3)", 8, 10), ("(1E15.6)", 1, 15), ("(10I8)", 10, 8), ("8(1pe10.4e1)", 8, 10), ("(1P,5E14.6)", 5, 14)],
+)
+def test_formats_of_fortran(edit: str, columns: int, width: int) -> None:
+    layout = layout_of(edit, "a")
+    assert (layout.columns, layout.width, layout.integers) == (columns, width, "I" in edit)
+
+
+def noise(samples: int = 2000, dt: float = 0.01) -> Record:
+    """Return an enveloped noise of some Hz with its peak inside."""
+    rng = np.random.default_rng(1)
+    smooth = np.convolve(rng.normal(size=samples + 6), np.ones(7) / 7.0, mode="valid")
+    return Record(smooth * np.sin(np.linspace(0.0, np.pi, samples)) ** 2, dt)
+
+
+def test_suspicious_samples_are_remarked() -> None:
+    sound = noise()
+    assert suspicions(sound, unit_given=True) == ()
+    a = sound.acceleration
+
+    def remark(samples: np.ndarray, unit_given: bool = False) -> str:
+        return " ".join(suspicions(Record(samples, 0.01), unit_given=unit_given))
+
+    assert "the largest acceleration is the last sample" in remark(np.append(a, -1.2 * sound.pga))
+    assert "PGA 6 g is above 5 g: the unit, m/s2, is doubtful" in remark(a * 6.0 * STANDARD_GRAVITY / sound.pga)
+    assert "is very small" in remark(a * 1e-4, unit_given=True)
+    assert remark(a * 1e-4) == ""
+    assert "an offset was not removed" in remark(a + 0.3 * sound.pga)
+    assert remark(0.0 * a) == "every sample is zero"
+    spiked = a.copy()
+    spiked[700] = 10.0 * sound.pga
+    assert "sample 701 (t = 7 s) stands out" in remark(spiked)
+    displacement = np.cumsum(np.cumsum(a - a.mean())) * 1e-4
+    assert "velocity or displacement in place of acceleration" in remark(displacement)
+
+
+def test_a_folder_takes_every_format_and_says_what_it_leaves_out(tmp_path: Path) -> None:
+    for name in FILES:
+        put(tmp_path, name)
+    put(tmp_path, "copy.AT2", FILES["made.AT2"])
+    put(tmp_path, "page.AT2.html", "<html></html>")
+    put(tmp_path, "a.vel", NAMED[-1][1])
+    put(tmp_path, "list.csv", "file,dt\nmade.AT2,0.02\n")
+    put(tmp_path, "unknown.txt", FILES["made.txt"].replace(b"gal", b"ft/s2"))
+    suite = read_suite(tmp_path)
+    taken = {record.name for record in suite}
+    assert taken == {
+        "copy", "made", "made channel 1", "made.EW", "made_fixed", "made_pairs", "made_v1", "made_v2 channel 1",
+    }  # fmt: skip
+    left = {item.file.name: item.reason for item in suite.excluded}
+    assert left["made.V2"] == "made channel 2: vertical component by its header: UP"
+    assert left["made.UD2"] == "vertical component by its header: UD2"
+    assert "got HTML page" in left["page.AT2.html"]
+    assert "got corrected velocity" in left["a.vel"]
+    assert left["list.csv"].startswith("not read: .csv files are read by name or from a list")
+    assert left["unknown.txt"].startswith("not read: .txt files are read by name")
+    copies = [record for record in suite if any("the same file as" in remark for remark in record.remarks)]
+    assert [(record.name, record.remarks[-1]) for record in copies] == [("made", "the same file as copy.AT2")]
+    put(tmp_path, "broken.V2", FILES["made.V2"][:9000])
+    with pytest.raises(RecordFormatError, match=r"of broken.V2 must"):
+        read_suite(tmp_path)
+
+
+def test_a_list_names_the_channel(tmp_path: Path) -> None:
+    put(tmp_path, "made.V2")
+    put(tmp_path, "list.csv", "file,channel\nmade.V2,1\n")
+    suite = read_suite(tmp_path / "list.csv")
+    assert (len(suite), suite[0].azimuth, suite.remarks) == (1, 90.0, ())
+    put(tmp_path, "list.csv", "file,channel\nmade.V2,2\n")
+    with pytest.raises(RecordFormatError, match=r"must be a horizontal component; got made.V2, component UP"):
+        read_suite(tmp_path / "list.csv")
+
+
+def test_large_foreign_files_cost_a_folder_nothing(tmp_path: Path) -> None:
+    """Files of 4 GB (sparse) are known by their first bytes; the limit of 2 s leaves room for a loaded machine."""
+    put(tmp_path, "made.AT2")
+    for name, head in (("a.bin", b"\0" * 9), ("a.txt", b"1 2 3\n" * 2000), ("a.log", b"words (g)\n" * 2000)):
+        file = put(tmp_path, name, head)
+        os.truncate(file, 4 * 2**30)
+    start = time.process_time()
+    suite = read_suite(tmp_path)
+    assert time.process_time() - start < 2.0
+    assert len(suite) == 1
+    assert {item.file.name for item in suite.excluded} == {"a.bin", "a.txt", "a.log"}
+    with pytest.raises(RecordFormatError, match=r"size of a.txt must be at most \d+ bytes; got 4294967296"):
+        read_record(tmp_path / "a.txt", unit="g", dt=0.01)
+
+
+def test_reading_time_grows_with_the_size_only(tmp_path: Path) -> None:
+    """Ten times the samples take about ten times as long; 40 would show a quadratic part on any machine."""
+    times = []
+    for points in (8000, 80_000):
+        values = "".join(f"{0.01 * np.sin(0.37 * index):.7f}\n" for index in range(points))
+        file = put(tmp_path, "a.txt", "# acceleration (g)\n" + values)
+        best = min(_seconds(file) for _ in range(3))
+        times.append(best)
+    assert times[1] < 40.0 * times[0]
+
+
+def _seconds(file: Path) -> float:
+    start = time.process_time()
+    read_record(file, dt=0.01)
+    return time.process_time() - start
