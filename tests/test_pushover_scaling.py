@@ -11,7 +11,7 @@ from seismass.scaling.oscillator import deformation_ratio
 
 G = 9.80665
 TARGET = sm.TargetSpectrum.asce7()
-SUITE = list(sm.builtin_suite())
+SUITE = list(sm.builtin_suite("seven"))
 STEP = sm.Motion(np.ones(600), 0.01)
 
 

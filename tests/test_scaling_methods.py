@@ -11,7 +11,7 @@ from seismass.scaling.asce7 import DIRECTIONS
 
 G = 9.80665
 TARGET = sm.TargetSpectrum.asce7()
-SUITE = list(sm.builtin_suite())
+SUITE = list(sm.builtin_suite("seven"))
 ELEVEN = [*SUITE[:7], *(record.time_scaled(1.3).replace(name=f"slow {record.name}") for record in SUITE[:4])]
 
 

@@ -93,7 +93,7 @@ def run(args: argparse.Namespace) -> int:
 
     _check_options(args)
     target = read_target(args)
-    suite, chosen = read_motions(args), None
+    suite, chosen = read_motions(args, "eleven" if args.method == "asce7-16" else "seven"), None
     building = _building(args, target)
     period = args.period if building is None else float(building.periods[0])
     if args.select is not None:
