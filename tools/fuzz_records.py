@@ -51,7 +51,7 @@ OUTCOMES = {
     "fewer": "fewer channels, each as in the unchanged file",
     "remark": "different samples or step, with a remark that the unchanged file has not",
     "no count": "another number of samples in text of columns that states none, as a remark says of any such file",
-    "value": "the same number of samples, some of other values (a digit, a sign, the last of a scale): nothing contradicts",
+    "value": "the same number of samples, some of other values (a digit, a sign, end of a scale): nothing contradicts",
     "order": "the same number of samples, lines or columns of them in another order or in place of others",
     "step": "another step: a digit of the only step that the file states",
     "defect: silent": "**defect**: different without a remark",

@@ -32,6 +32,7 @@ from seismass.errors import (
 from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
 from seismass.long_table import long_table
+from seismass.matching import MatchedRecord, MatchedSuite, match_spectrum, match_suite
 from seismass.own_building import OwnBuilding
 from seismass.pulses import OrientationScan, PulseResult, baker2007, baker2007_orientations, shahi_baker2014
 from seismass.records import (
@@ -95,6 +96,8 @@ __all__ = [
     "InvalidScene",
     "InvalidSceneFile",
     "LiveLoadUncertainty",
+    "MatchedRecord",
+    "MatchedSuite",
     "MissingPackage",
     "Motion",
     "NearFaultPulse",
@@ -144,6 +147,8 @@ __all__ = [
     "live_load_uncertainty",
     "lognormal",
     "long_table",
+    "match_spectrum",
+    "match_suite",
     "mean_spectrum",
     "read_building",
     "read_pair",

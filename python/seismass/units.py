@@ -16,7 +16,8 @@ _SPELLINGS: Final = {
     **dict.fromkeys(("gal", "gals", "(gal)"), "cm/s2"),
 }
 _PER_SECOND_SQUARED = re.compile(
-    r"([a-z]+)[ \t]*/[ \t]*s(?:ec)?(?:[ \t]*/[ \t]*s(?:ec)?(?![a-z])|[ \t]*(?:\*\*|\^)?[ \t]*(?:2(?![\d.])|²))",
+    r"(?<![a-z])([a-z]+)[ \t]*/[ \t]*s(?:ec)?"
+    r"(?:[ \t]*/[ \t]*s(?:ec)?(?![a-z])|[ \t]*(?:\*\*|\^)?[ \t]*(?:2(?![\d.])|²))",
     re.IGNORECASE,
 )
 _GAL = re.compile(r"\bgals?\b", re.IGNORECASE)

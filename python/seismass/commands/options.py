@@ -42,7 +42,7 @@ def add_records_options(group: argparse._ArgumentGroup) -> None:
         "--records",
         type=Path,
         metavar="PATH",
-        help="folder of .AT2 files, or a CSV with a column `file` (default: built-in synthetic motions)",
+        help="folder of record files, or a CSV with a column `file` (default: built-in synthetic motions)",
     )
     group.add_argument(
         "--suite",
@@ -73,21 +73,21 @@ def read_motions(args: argparse.Namespace, default: BuiltinName = "seven") -> Su
 
 
 def read_records(path: Path, *, dt: float | None = None, unit: str | None = None) -> Suite:
-    """Return the records that a path names: a folder, a CSV with a column `file`, or else one record.
+    """Return the records that a path names: a folder, a CSV with a column `file`, or else one file.
 
     Raises
     ------
     InvalidOption
         A step or a unit is given for more than one record: a list has columns for them.
     RecordFormatError
-        As for `read_suite` and `read_record`.
+        As for `read_suite` and `read_records`.
     """
     from seismass.errors import InvalidOption
-    from seismass.records import Suite, read_record, read_suite
+    from seismass.records import read_suite
+    from seismass.records.suite import suite_of_file
 
     if not (path.is_dir() or _is_list(path)):
-        record = read_record(path, dt=dt, unit=unit)
-        return Suite(record.name, (record,))
+        return suite_of_file(path, dt=dt, unit=unit)
     for name, value in (("--dt", dt), ("--unit", unit)):
         if value is not None:
             raise InvalidOption(

@@ -51,9 +51,9 @@ def suspicions(record: Record, *, unit_given: bool) -> tuple[str, ...]:
     elif record.pga_g < SMALLEST_PGA_G and unit_given:
         remarks.append(f"PGA {record.pga_g:.2g} g is very small: the unit, {record.unit}, is doubtful")
     if record.samples >= 100:
-        mean = float(np.mean(samples))
-        if abs(mean) > LARGEST_MEAN * peak:
-            remarks.append(f"mean is {100.0 * abs(mean) / peak:.0f} % of the peak: an offset was not removed")
+        mean = abs(float(np.mean(samples / peak)))
+        if mean > LARGEST_MEAN:
+            remarks.append(f"mean is {100.0 * mean:.0f} % of the peak: an offset was not removed")
         frequency = _mean_frequency(record)
         if frequency < SLOWEST:
             remarks.append(
@@ -68,7 +68,8 @@ def suspicions(record: Record, *, unit_given: bool) -> tuple[str, ...]:
 
 def _mean_frequency(record: Record) -> float:
     """Return the rms slope over the rms of a record about its mean, by 2 pi (Hz); infinite for a constant one."""
-    samples = record.acceleration - np.mean(record.acceleration)
+    samples = record.acceleration / record.pga
+    samples = samples - np.mean(samples)
     rms = float(np.sqrt(np.mean(np.square(samples))))
     slope = float(np.sqrt(np.mean(np.square(np.diff(samples))))) / record.dt
     return slope / (2.0 * np.pi * rms) if rms > 0.0 else float("inf")
@@ -76,13 +77,13 @@ def _mean_frequency(record: Record) -> float:
 
 def _spike(record: Record) -> str | None:
     """Return a remark on the one sample that stands out from its neighbours."""
-    samples = record.acceleration
+    samples = record.acceleration / record.pga
     out = np.abs(samples[1:-1] - 0.5 * (samples[:-2] + samples[2:]))
     at = int(np.argmax(out))
     others = out.copy()
     others[max(at - 1, 0) : at + 2] = 0.0
     next_largest = float(np.max(others))
-    if out[at] > SPIKE * next_largest and out[at] > 0.5 * record.pga:
+    if out[at] > SPIKE * next_largest and out[at] > 0.5:
         return (
             f"sample {at + 2} (t = {(at + 1) * record.dt:.6g} s) stands out from its neighbours as no other does: "
             "a spike, or a damaged number"

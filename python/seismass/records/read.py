@@ -8,8 +8,10 @@ import os
 from pathlib import Path
 from typing import Any, Final, Literal, TypeAlias
 
+import numpy as np
+
 from seismass._values import as_number, as_path, brief
-from seismass.errors import RecordFormatError
+from seismass.errors import InvalidMotion, RecordFormatError
 from seismass.records.checks import suspicions
 from seismass.records.formats import BY_NAME, COLUMNS, Arguments, Channel, Format, NotRead, known_binary, recognise
 from seismass.records.record import Record
@@ -23,8 +25,8 @@ HEAD_BYTES: Final = 8192
 MOST_NULS: Final = 4
 """A text whose header is padded has no more zero bytes than this."""
 
-LARGEST_BYTES: Final = 512 * 1024 * 1024
-"""No record is larger: 100 million samples as text."""
+LARGEST_BYTES: Final = 64 * 1024 * 1024
+"""No record is larger: some five million samples as text, seven hours at 200 a second."""
 
 
 def read_record(
@@ -127,7 +129,11 @@ def _read(path: Any, dt: Any, unit: Any, format: Any, skip: Any) -> tuple[Channe
     content = read_bytes(source)
     text = decoded(content, source)
     reader = BY_NAME[format] if format is not None else format_of(text[:HEAD_BYTES], source)
-    channels = reader.parse(text, source, Arguments(dt, name, skip))
+    try:
+        with np.errstate(over="ignore"):  # a record refuses what overflows
+            channels = reader.parse(text, source, Arguments(dt, name, skip))
+    except InvalidMotion as error:
+        raise RecordFormatError(f"samples of {source.name} must be those of a motion; got: {error}") from error
     digest = hashlib.sha256(content).hexdigest()
     return tuple(
         Channel(

@@ -16,6 +16,7 @@ import polars as pl
 from seismass._values import as_path, brief, printable, refusal
 from seismass.errors import InvalidMotion, RecordFormatError
 from seismass.records.formats import COLUMNS, NotRead
+from seismass.records.formats.columns import is_row_of_numbers
 from seismass.records.formats.directions import is_vertical
 from seismass.records.read import (
     HEAD_BYTES,
@@ -36,9 +37,7 @@ _VERTICAL_NAME = re.compile(
     re.IGNORECASE,
 )
 _SAID_BY_NAME = "files are read by name or from a list, where their units can be given"
-_NUMBERS = re.compile(r"[\s\d.,;+-]*\d[\d.,;+\s-]*(?:[eEdD][+-]?\d+[\d.,;+\seEdD-]*)?")
-
-LARGEST_COLUMNS = 64 * 1024 * 1024
+LARGEST_COLUMNS = 32 * 1024 * 1024
 """Text of columns above so many bytes is left to be read by name."""
 
 _COLUMNS = ("number", "file", "channel", "name", "event", "station", "component", "dt", "unit", "scale", "note")
@@ -158,10 +157,10 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
         header and by file name (-UP, VER, -V, ...), files of other kinds with the reason; hidden ones are not looked
         at. Or a CSV with a column `file`, relative to the CSV, one row per record in the order to keep, and a column
         `channel` for files of several; its columns `name`, `event`, `station`, `component` replace what the files say,
-        `dt` and `unit`
-        are passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the remarks; a
-        `number` is for the reader. Other columns are not used, and named in the remarks of the suite. A vertical
-        component in the list is an error: by header, by `component`, and by file name unless `component` is given.
+        `dt` and `unit` are passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the
+        remarks; a `number` is for the reader. Other columns are not used, and named in the remarks of the suite. A
+        vertical component in the list is an error: by header, by `component`, and by file name unless `component` is
+        given.
 
     Raises
     ------
@@ -175,6 +174,25 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     if source.suffix.lower() == ".csv":
         return _read_list(source)
     raise RecordFormatError(f"suite of records must be a directory or a .csv file; got {source}")
+
+
+def suite_of_file(path: Path, *, dt: float | None = None, unit: str | None = None) -> Suite:
+    """Return the one record of a file, vertical or not, or the horizontal channels of a file of several.
+
+    Raises
+    ------
+    RecordFormatError
+        As for `read_records`, or all of several channels are vertical.
+    """
+    records = read_records(path, dt=dt, unit=unit)
+    if len(records) == 1:
+        return Suite(records[0].name, records)
+    taken = tuple(record for record in records if not _vertical_reason(record))
+    if not taken:
+        raise RecordFormatError(f"channels of {path.name} must be at least one horizontal; got {len(records)} vertical")
+    reasons = ((record.name, _vertical_reason(record)) for record in records)
+    left_out = tuple(Excluded(path, f"{name}: {reason}") for name, reason in reasons if reason)
+    return Suite(printable(path.stem), taken, left_out)
 
 
 def _read_directory(directory: Path) -> Suite:
@@ -240,7 +258,7 @@ def _read_columns(file: Path, head: str, size: int) -> tuple[Record, ...] | str:
     lines = head.splitlines()[:-1] if size > len(head) else head.splitlines()
     header: list[str] = []
     for line in lines:
-        if _NUMBERS.fullmatch(line):
+        if is_row_of_numbers(line):
             break
         header.append(line)
     if len(header) == len(lines) or stated_unit("\n".join(header)) is None or size > LARGEST_COLUMNS:

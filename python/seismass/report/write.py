@@ -21,13 +21,17 @@ FIGURE_FILE: Final = re.compile(
 """Names of the files of a study's figures; another file of a folder is not touched."""
 
 
+_METHODS: Final = {"ASCE 7-10": "ASCE/SEI 7-10, 16.1.3.1, two-step factors in the logarithm"}
+"""Methods of scaling as study.json names them; others by their own name."""
+
+
 def study_metadata(result: StudyResult) -> dict[str, Any]:
     """Return the metadata with scaling and findings, as study.json holds them and `--json` prints them."""
     scaling = result.scaling
     return {
         **result.metadata,
         "scaling": {
-            "method": "ASCE/SEI 7-10, 16.1.3.1, two-step factors in the logarithm",
+            "method": _METHODS.get(scaling.method, scaling.method),
             "common_factor": scaling.common,
             "periods": [scaling.periods[0], scaling.periods[-1], len(scaling.periods)],
             "governing_period": scaling.governing_period,

@@ -112,6 +112,8 @@ SCALING_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     "individual_factor": ("1", "SF1: closest to the target in the logarithm"),
     "common_factor": ("1", "SF2: lifts the mean until it is not below the target at any period of the scaling"),
     "factor": ("1", "SF1 times SF2, by which accelerations are multiplied"),
+    "misfit": ("1", "root mean square of ln(scaled spectrum / target) over the periods of the scaling"),
+    "largest_misfit": ("1", "largest of its absolute values there"),
 }
 
 SENSITIVITY_COLUMNS: Final[dict[str, tuple[str, str]]] = {

@@ -10,7 +10,9 @@ import numpy as np
 import polars as pl
 
 from seismass.design import Combination
+from seismass.matching import match_suite
 from seismass.records import Suite
+from seismass.scaling import ScalingResult, scale_modal_pushover
 from seismass.spectra import TargetSpectrum
 from seismass.study.buildings import MODELS
 from seismass.study.columns import SENSITIVITY_COLUMNS
@@ -27,6 +29,22 @@ OVERSTRENGTHS: Final = (1.0, 1.5, 3.0)
 TILTS: Final = (-0.3, 0.3)
 """Powers of the period (s) by which the target is multiplied: less and more demand at long periods, equal at 1 s."""
 SCALING_PERIODS: Final = (0.5, 1.5)
+MATCHED_RANGE: Final = (0.2, 1.5)
+"""Range of periods that motions are matched in, as multiples of the period of scaling."""
+MOTIONS: Final = "motions"
+"""The choice how motions are brought to the target."""
+
+
+@dataclass(frozen=True)
+class _Change:
+    """One choice, its setting, and the study with it alone changed."""
+
+    choice: str
+    setting: str
+    parameters: StudyParameters
+    target: TargetSpectrum
+    suite: Suite
+    scaling: ScalingResult | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,19 +89,19 @@ def study_sensitivity(
         As for `run_study`.
     """
     chosen = StudyParameters() if parameters is None else parameters
-    changes = list(_changes(chosen, target))
+    changes = [*_changes(chosen, target, suite), *_motion_changes(chosen, target, suite, threads)]
     as_is = run_study(suite, target, chosen, threads=threads)
     own = drifts_of(as_is.responses, len(suite))
     rows = _rows(AS_IS, "", as_is, own, np.mean)
     of_base: dict[str, Drifts] = {chosen.damping_base: own}
-    for number, (choice, setting, changed, spectrum) in enumerate(changes, start=1):
+    for number, change in enumerate(changes, start=1):
         if progress is not None:
             progress(number, len(changes) + 1)
-        result = run_study(suite, spectrum, changed, threads=threads)
+        result = run_study(change.suite, change.target, change.parameters, scaling=change.scaling, threads=threads)
         drifts = drifts_of(result.responses, len(suite))
-        rows += _rows(choice, setting, result, drifts, np.mean)
-        if choice == DAMPING_BASE:
-            of_base[changed.damping_base] = drifts
+        rows += _rows(change.choice, change.setting, result, drifts, np.mean)
+        if change.choice == DAMPING_BASE:
+            of_base[change.parameters.damping_base] = drifts
             if len(of_base) == len(get_args(DampingBase)):
                 mixed = {**of_base["loaded"], "code": of_base["own"]["code"]}
                 rows += _rows(DAMPING_BASE, "loaded, of the code model its own", as_is, mixed, np.mean)
@@ -101,33 +119,62 @@ def study_sensitivity(
     return Sensitivity(table, as_is.metadata)
 
 
-def _changes(
-    chosen: StudyParameters, target: TargetSpectrum
-) -> Iterator[tuple[str, str, StudyParameters, TargetSpectrum]]:
-    """Choice, setting, parameters and target; settings that are the study's own are left out."""
+def _changes(chosen: StudyParameters, target: TargetSpectrum, suite: Suite) -> Iterator[_Change]:
+    """Changes of parameters and of the target; settings that are the study's own are left out."""
+
+    def changed(choice: str, setting: str, spectrum: TargetSpectrum = target, **parameters: Any) -> _Change:
+        return _Change(choice, setting, replace(chosen, **parameters), spectrum, suite)
+
     for slope in SECOND_SLOPES:
         if slope != chosen.second_slope:
             third = min(chosen.third_slope, slope)
-            yield "r2", f"{slope:g}", replace(chosen, second_slope=slope, third_slope=third), target
+            yield changed("r2", f"{slope:g}", second_slope=slope, third_slope=third)
     if chosen.third_slope != chosen.second_slope:
-        yield "r3", f"{chosen.second_slope:g}, as r2", replace(chosen, third_slope=chosen.second_slope), target
+        yield changed("r3", f"{chosen.second_slope:g}, as r2", third_slope=chosen.second_slope)
     for factor in OVERSTRENGTHS:
         if factor != chosen.overstrength:
-            yield "Omega", f"{factor:g}", replace(chosen, overstrength=factor), target
+            yield changed("Omega", f"{factor:g}", overstrength=factor)
     at_r1 = not chosen.yield_at_r1
-    yield "R = 1", "yields at V_e" if at_r1 else "elastic", replace(chosen, yield_at_r1=at_r1), target
+    yield changed("R = 1", "yields at V_e" if at_r1 else "elastic", yield_at_r1=at_r1)
     other: Combination = "cqc" if chosen.combination == "srss" else "srss"
-    yield "combination", other.upper(), replace(chosen, combination=other), target
+    yield changed("combination", other.upper(), combination=other)
     for base in get_args(DampingBase):
         if base != chosen.damping_base:
-            yield DAMPING_BASE, base, replace(chosen, damping_base=base), target
+            yield changed(DAMPING_BASE, base, damping_base=base)
     if not chosen.p_delta:
-        yield "P-Delta", f"storeys of {chosen.height:g} m", replace(chosen, p_delta=True), target
+        yield changed("P-Delta", f"storeys of {chosen.height:g} m", p_delta=True)
     for power in TILTS:
-        yield "target shape", f"times (T/1 s)^{power:g}", chosen, target.tilted(power)
+        yield changed("target shape", f"times (T/1 s)^{power:g}", target.tilted(power))
     for period in SCALING_PERIODS:
         if period != chosen.scaling_period:
-            yield "scaling period", f"{period:g} s", replace(chosen, scaling_period=period), target
+            yield changed("scaling period", f"{period:g} s", scaling_period=period)
+
+
+def _motion_changes(
+    chosen: StudyParameters, target: TargetSpectrum, suite: Suite, threads: int | None
+) -> Iterator[_Change]:
+    """Changes of how motions are brought to the target: factors of modal pushover, and matched motions.
+
+    The oscillator of modal pushover has the period for which the study scales and the springs of its storeys, one setting
+    for each R above 1. Matched motions are scaled like those of the study, so that their mean is not below the target.
+    """
+    for reduction in chosen.response_modification:
+        if reduction > 1.0:
+            scaling = scale_modal_pushover(
+                suite,
+                target,
+                period=chosen.scaling_period,
+                reduction=reduction,
+                overstrength=chosen.overstrength,
+                second_slope=chosen.second_slope,
+                third_slope=chosen.third_slope,
+                damping=chosen.damping,
+                threads=threads,
+            )
+            yield _Change(MOTIONS, f"modal pushover, R_y = {reduction:g}", chosen, target, suite, scaling)
+    shortest, longest = (chosen.scaling_period * multiple for multiple in MATCHED_RANGE)
+    matched = match_suite(suite, target, periods=(shortest, longest), damping=chosen.damping, threads=threads)
+    yield _Change(MOTIONS, f"matched, {shortest:g} to {longest:g} s", chosen, target, matched.suite)
 
 
 def _heaviest(result: StudyResult) -> list[int]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from seismass._values import printable
 from seismass.errors import RecordFormatError
-from seismass.records.formats.common import Arguments, Channel, Format, NotRead, refuse_skip
+from seismass.records.formats.common import LINE_WIDTH, Arguments, Channel, Format, NotRead, refuse_skip
 from seismass.records.formats.directions import azimuth_of
 from seismass.records.formats.headers import other_quantity, step_in_seconds
 from seismass.records.formats.numbers import is_cut_off, is_number, parse_numbers, to_float
@@ -76,7 +76,7 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
             f"header of {file} must give NPTS and DT in its first {HEADER_LINES} lines, as .AT2 files do; got {got!r}"
         )
     line_of_counts, points, step, step_unit = counts
-    titles = [line.strip() for line in lines[:line_of_counts]]
+    titles = [line.strip()[:LINE_WIDTH] for line in lines[:line_of_counts]]
     header = "\n".join(titles)
     _refuse_other_quantity(titles, source)
     remarks: list[str] = []
@@ -148,7 +148,7 @@ def _find_counts(lines: list[str]) -> tuple[int, int, str, str] | None:
     """Return the index of the line with the counts, the points, and the step as written with its unit."""
     for index, line in enumerate(lines[:HEADER_LINES]):
         for pattern in _COUNTS:
-            match = pattern.search(line)
+            match = pattern.search(line[:LINE_WIDTH])
             if match and is_number(match["step"]):
                 return index, int(match["points"]), match["step"], match["unit"] or ""
     return None

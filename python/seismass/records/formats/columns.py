@@ -7,11 +7,12 @@ the data that are not data (a scale and the step, a count and the step) are reco
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import chain
+from itertools import islice
 from pathlib import Path
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seismass._values import as_count, printable
 from seismass.errors import RecordFormatError
@@ -29,6 +30,12 @@ LONGEST_STEP: Final = 0.1
 OUTSTANDING: Final = 5.0
 """A first number larger than the early samples by this factor is no sample unless the caller says so."""
 
+EARLY: Final = 22
+"""Rows that are looked at to tell first numbers from samples."""
+
+HEADER_CHARACTERS: Final = 10_000
+"""A header says what it has to say in so much text."""
+
 FIRST_TIME: Final = 1.5
 """A first time is 0 or one step, or there was something before it."""
 
@@ -41,12 +48,35 @@ _CHARACTERS: Final = frozenset("+-.0123456789Ee")
 
 @dataclass(frozen=True)
 class _Table:
-    """The rows of numbers of a file, the text around them, and what was decided about the first rows."""
+    """The rows of numbers of a file as lines, the text around them, and where they begin in the file."""
 
     file: str
     text: str
-    rows: list[list[str]]
-    line_numbers: list[int]
+    rows: list[str]
+    lines: list[str]
+    start: int
+    left_out: int = 0
+
+    def row(self, index: int) -> list[str]:
+        """Return the numbers of a row as written."""
+        return _split(self.rows[index])
+
+    def line_number(self, index: int) -> int:
+        """Return the line of a row, as editors count them."""
+        numbered = (number for number, line in enumerate(self.lines, start=1) if number > self.start and _is_row(line))
+        return next(islice(numbered, index + self.left_out, None))
+
+    def without(self, count: int) -> _Table:
+        """Return the table without its first rows."""
+        return _Table(self.file, self.text, self.rows[count:], self.lines, self.start, self.left_out + count)
+
+
+def _split(line: str) -> list[str]:
+    return line.translate(_SEPARATORS).split()
+
+
+def _is_row(line: str) -> bool:
+    return not line.lstrip().startswith(_COMMENT) and bool(line.translate(_SEPARATORS).strip())
 
 
 def parse_columns(
@@ -86,14 +116,14 @@ def parse_columns(
         left_out = as_count(skip, "skip", table.file, RecordFormatError)
         if left_out >= len(table.rows):
             raise RecordFormatError(f"skip of {table.file} must be between 0 and {len(table.rows) - 1}; got {left_out}")
-        table = _Table(table.file, table.text, table.rows[left_out:], table.line_numbers[left_out:])
-        step_before = None
-    columns = _column_count(table)
-    values = np.array([to_float(token) for row in table.rows for token in row], dtype=np.float64).reshape(-1, columns)
+        table, step_before = table.without(left_out), None
+    tokens, numbers = _numbers(table)
+    columns = _column_count(table, len(tokens))
+    values = numbers.reshape(-1, columns)
     wrong = np.flatnonzero(~np.isfinite(values).all(axis=1))
     if len(wrong):
-        raise RecordFormatError(f"line {table.line_numbers[wrong[0]]} of {table.file} must be finite; got infinity")
-    last = [row[-1] for row in table.rows]
+        raise RecordFormatError(f"line {table.line_number(int(wrong[0]))} of {table.file} must be finite; got infinity")
+    last = tokens[columns - 1 :: columns]
     if is_cut_off(last):
         raise RecordFormatError(
             f"last number of {table.file} must be written as the others are; got {last[-1]!r}: the file is cut off"
@@ -107,9 +137,7 @@ def parse_columns(
     if columns == 2:
         if abs(values[0, 0]) > FIRST_TIME * (values[-1, 0] - values[0, 0]) / max(len(values) - 1, 1):
             remarks.append(f"the first time is {values[0, 0]:g} s: a beginning may be missing; it is taken as zero")
-        steps["times"] = uniform_step(
-            values[:, 0], [row[0] for row in table.rows], table.file, table.line_numbers, rounding=False
-        )
+        steps["times"] = uniform_step(values[:, 0], tokens[::2], table.file, table.line_number, rounding=False)
     return Record(
         acceleration=values[:, -1] * ACCELERATION_UNITS[_unit(table, unit)],
         dt=_step(table, steps, len(values)),
@@ -128,57 +156,68 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
 COLUMNS: Final = Format("columns", "text of columns", lambda _: True, _parse)
 
 
+def is_row_of_numbers(line: str) -> bool:
+    """Whether a line is one of numbers alone, which ends a header."""
+    return _is_row(line) and all(map(is_number, _split(line)))
+
+
 def _read_table(text: str, file: str) -> _Table:
     lines = text.splitlines()
     header: list[str] = []
     start = len(lines)
     for index, line in enumerate(lines):
-        tokens = line.translate(_SEPARATORS).split()
-        if tokens and not line.lstrip().startswith(_COMMENT) and all(map(is_number, tokens)):
+        if is_row_of_numbers(line):
             start = index
             break
-        if tokens:
+        if line.strip():
             header.append(line.strip())
-    rows: list[list[str]] = []
-    line_numbers: list[int] = []
-    for number, line in enumerate(lines[start:], start=start + 1):
-        tokens = line.translate(_SEPARATORS).split()
-        if line.lstrip().startswith(_COMMENT):
-            header.append(line.strip())
-        elif tokens:
-            rows.append(tokens)
-            line_numbers.append(number)
-    _check_numbers(rows, line_numbers, file)
+    body = lines[start:]
+    if any(mark in line for line in body for mark in "#%/!"):
+        rows = [line for line in body if _is_row(line)]
+        header.extend(line.strip() for line in body if line.lstrip().startswith(_COMMENT))
+    else:
+        rows = [line for line in body if line and not line.isspace()]
     if not rows:
         got = f"{header[0][:60]!r}" if header else "an empty file"
         raise RecordFormatError(f"content of {file} must be lines of one or two numbers; got {got}")
-    return _Table(file, "\n".join(header), rows, line_numbers)
+    table = _Table(file, "\n".join(header)[:HEADER_CHARACTERS], rows, lines, start)
+    for index in range(min(len(rows), EARLY)):
+        _check_row(table, index)
+    return table
 
 
-def _check_numbers(rows: list[list[str]], line_numbers: list[int], file: str) -> None:
-    """Refuse the first token that is no number, with its line."""
-    tokens = list(chain.from_iterable(rows))
-    try:
-        if set("".join(tokens)) <= _CHARACTERS:
-            list(map(float, tokens))
-            return
-    except ValueError:
-        pass
-    for number, row in zip(line_numbers, rows, strict=True):
-        wrong = next((token for token in row if not is_number(token)), None)
-        if wrong is not None:
-            raise RecordFormatError(f"line {number} of {file} must be numbers; got {wrong[:40]!r}")
+def _check_row(table: _Table, index: int) -> None:
+    wrong = next((token for token in table.row(index) if not is_number(token)), None)
+    if wrong is not None:
+        raise RecordFormatError(f"line {table.line_number(index)} of {table.file} must be numbers; got {wrong[:40]!r}")
 
 
-def _column_count(table: _Table) -> int:
-    columns = len(table.rows[-1]) if len(table.rows) > 1 else len(table.rows[0])
-    for number, row in zip(table.line_numbers, table.rows, strict=True):
-        if len(row) not in (1, 2):
-            raise RecordFormatError(f"line {number} of {table.file} must be one or two numbers; got {len(row)}")
-        if len(row) != columns:
+def _numbers(table: _Table) -> tuple[list[str], NDArray[np.float64]]:
+    """Return all numbers as written and as values; the first token that is none is refused with its line."""
+    tokens = "\n".join(table.rows).translate(_SEPARATORS).split()
+    if set("".join(tokens)) <= _CHARACTERS:
+        try:
+            return tokens, np.fromiter(map(float, tokens), np.float64, len(tokens))
+        except ValueError:
+            pass
+    for index in range(len(table.rows)):
+        _check_row(table, index)
+    return tokens, np.fromiter(map(to_float, tokens), np.float64, len(tokens))
+
+
+def _column_count(table: _Table, numbers: int) -> int:
+    columns = len(table.row(-1))
+    if columns == 1 and numbers == len(table.rows):
+        return 1
+    for index in range(len(table.rows)):
+        found = len(table.row(index))
+        if found not in (1, 2):
+            where = table.line_number(index)
+            raise RecordFormatError(f"line {where} of {table.file} must be one or two numbers; got {found}")
+        if found != columns:
             raise RecordFormatError(
-                f"line {number} of {table.file} must be {columns} number{'s' * (columns > 1)}, as the last line is; "
-                f"got {len(row)}"
+                f"line {table.line_number(index)} of {table.file} must be {columns} number{'s' * (columns > 1)}, "
+                f"as the last line is; got {found}"
             )
     return columns
 
@@ -190,7 +229,7 @@ def _without_first_numbers(table: _Table, dt: float | None, remarks: list[str]) 
     follows or a scale of 1: no record starts at exactly 1 and goes on so. With another scale that stands out from the
     samples the file is refused, because nothing says whether they are to be multiplied by it.
     """
-    rows = table.rows
+    rows = [table.row(index) for index in range(min(len(table.rows), EARLY))]
     if len(rows) > 2 and len(rows[0]) == 2:
         taken = 1
         first, second = rows[0]
@@ -202,24 +241,24 @@ def _without_first_numbers(table: _Table, dt: float | None, remarks: list[str]) 
     scale, step = to_float(first), to_float(second)
     if not (SHORTEST_STEP <= step <= LONGEST_STEP and scale > 0.0):
         return table, None
-    is_count = scale == len(rows) - taken
+    is_count = scale == len(table.rows) - taken
     if len(rows[0]) != len(rows[taken]):
         stands_out = True
     elif taken == 1:
         stands_out = scale >= to_float(rows[1][0])  # a time before the first time
     else:
-        stands_out = is_count or scale == 1.0 or scale > OUTSTANDING * max(abs(to_float(row[0])) for row in rows[2:22])
+        stands_out = is_count or scale == 1.0 or scale > OUTSTANDING * max(abs(to_float(row[0])) for row in rows[2:])
     if not stands_out:
         return table, None
     if not (is_count or scale == 1.0):
         raise RecordFormatError(
             f"first numbers of {table.file} must be samples, or the number of points or a scale of 1 and the step; "
-            f"got {first} and {second} before {len(rows) - taken} rows: say skip={taken} to leave them out or skip=0 "
-            "to take them as samples"
+            f"got {first} and {second} before {len(table.rows) - taken} rows: say skip={taken} to leave them out or "
+            "skip=0 to take them as samples"
         )
     kind = "number of points" if is_count else "scale"
     remarks.append(f"first numbers {first} and {second} taken as {kind} and step, not as samples")
-    return _Table(table.file, table.text, rows[taken:], table.line_numbers[taken:]), step
+    return table.without(taken), step
 
 
 def _step(table: _Table, steps: dict[str, float | None], samples: int) -> float:

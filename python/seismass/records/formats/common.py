@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 from seismass.errors import RecordFormatError
 from seismass.records.record import Record
 from seismass.units import ACCELERATION_UNITS
 
-SAME_STEP = 1e-6
+LINE_WIDTH: Final = 400
+"""Lines of headers have 80 characters, some a little more; what stands further right is not looked at."""
+
+SAME_STEP: Final = 1e-6
 """Two steps that differ by less, relatively, are the same."""
 
 

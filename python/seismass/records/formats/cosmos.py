@@ -14,6 +14,7 @@ from typing import Final
 from seismass._values import printable
 from seismass.errors import RecordFormatError
 from seismass.records.formats.common import (
+    LINE_WIDTH,
     Arguments,
     Channel,
     Format,
@@ -53,6 +54,9 @@ _UNITS: Final = {2: "g", 4: "cm/s2", 10: "cm/s2"}
 _OTHER_UNITS: Final = {5: "cm/s", 6: "cm", 7: "in/s2", 8: "in/s", 9: "in", 11: "mg", 12: "micro g", 50: "counts"}
 _SPECIAL_AZIMUTHS: Final = {400: "UP", 401: "DOWN", 402: "VERTICAL"}
 
+_NEEDED: Final = {"integer": 76, "real": 65}
+"""Values that are looked at; the format has 100 of each."""
+
 MISSING: Final = -999.0
 
 
@@ -72,7 +76,7 @@ class _Raw:
 
 
 def _recognises(head: str) -> bool:
-    return _FIRST.match(head.lstrip()) is not None
+    return _FIRST.match(head.lstrip()[:LINE_WIDTH]) is not None
 
 
 def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
@@ -98,21 +102,12 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
 
 
 def _is_acceleration(raw: _Raw) -> bool:
-    what = raw.data["what"].lower()
-    return (
-        ("accel" in raw.kind.lower() or "accel" in what)
-        and "spectr" not in raw.kind.lower()
-        and raw.whole[1]
-        in (
-            1.0,
-            MISSING,
-            None,
-        )
-    )
+    words = f"{raw.kind} {raw.data['what']}".lower()
+    return "accel" in words and "spectr" not in words and raw.whole[1] in (1.0, MISSING)
 
 
 def _read_channel(lines: list[str], start: int, file: str) -> tuple[_Raw, int]:
-    first = _FIRST.match(lines[start].lstrip())
+    first = _FIRST.match(lines[start].lstrip()[:LINE_WIDTH])
     if first is None:
         raise RecordFormatError(
             f"line {start + 1} of {file} must begin a channel, as 'Corrected acceleration (Format v01.20 ...'; "
@@ -121,24 +116,24 @@ def _read_channel(lines: list[str], start: int, file: str) -> tuple[_Raw, int]:
     at = start + int(first["lines"])
     whole, at = _read_header(lines, at, "integer", file)
     reals, at = _read_header(lines, at, "real", file)
-    comments = _COMMENTS.match(lines[at]) if at < len(lines) else None
+    comments = _COMMENTS.match(lines[at][:LINE_WIDTH]) if at < len(lines) else None
     text = ""
     if comments is not None:
         count = int(comments["count"])
-        text = "\n".join(lines[at + 1 : at + 1 + count])
+        text = "\n".join(line[:LINE_WIDTH] for line in lines[at + 1 : at + 1 + count])
         if any(not line.lstrip().startswith("|") for line in lines[at + 1 : at + 1 + count]):
             raise RecordFormatError(
                 f"comments of {file} must be {count} lines that start with |, from line {at + 2} on"
             )
         at += 1 + count
-    data = _DATA.match(lines[at]) if at < len(lines) else None
+    data = _DATA.match(lines[at][:LINE_WIDTH]) if at < len(lines) else None
     if data is None:
         got = lines[at].strip()[:60] if at < len(lines) else "the end of the file"
         raise RecordFormatError(
             f"line {at + 1} of {file} must give the points, unit and format of the data; got {got!r}"
         )
     block = read_block(lines, at + 1, int(data["count"]), layout_of(data["edit"], file), file)
-    data_line = lines[at]
+    data_line = lines[at][:LINE_WIDTH]
     at = block.end
     ended = at < len(lines) and _END.fullmatch(lines[at]) is not None
     if at < len(lines) and not ended and lines[at].strip():
@@ -147,7 +142,7 @@ def _read_channel(lines: list[str], start: int, file: str) -> tuple[_Raw, int]:
         )
     raw = _Raw(
         first["kind"].strip(),
-        lines[start : start + int(first["lines"])],
+        [line[:LINE_WIDTH] for line in lines[start : start + int(first["lines"])]],
         whole,
         reals,
         text,
@@ -160,7 +155,7 @@ def _read_channel(lines: list[str], start: int, file: str) -> tuple[_Raw, int]:
 
 
 def _read_header(lines: list[str], at: int, what: str, file: str) -> tuple[list[float | None], int]:
-    match = _BLOCK.match(lines[at]) if at < len(lines) else None
+    match = _BLOCK.match(lines[at][:LINE_WIDTH]) if at < len(lines) else None
     if match is None or match["what"].lower() != what:
         got = lines[at].strip()[:60] if at < len(lines) else "the end of the file"
         raise RecordFormatError(
@@ -169,8 +164,11 @@ def _read_header(lines: list[str], at: int, what: str, file: str) -> tuple[list[
     rows, count = int(match["rows"]), int(match["count"])
     layout = layout_of(match["edit"], file)
     numbers = header_values(lines, at + 1, rows, layout)[:count]
-    if not 65 <= count <= rows * layout.columns or len(numbers) < count or at + rows >= len(lines):
-        raise RecordFormatError(f"{what} header of {file} must be {count} values in {rows} lines; got {len(numbers)}")
+    if not _NEEDED[what] <= count <= rows * layout.columns or len(numbers) < count or at + rows >= len(lines):
+        raise RecordFormatError(
+            f"{what} header of {file} must be at least {_NEEDED[what]} values, {count} in {rows} lines; "
+            f"got {len(numbers)}"
+        )
     if any(number is None for number in numbers):
         wrong = numbers.index(None)
         raise RecordFormatError(f"value {wrong + 1} of the {what} header of {file} must be a number; got none")

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from seismass._values import printable
 from seismass.errors import RecordFormatError
 from seismass.records.formats.common import (
+    LINE_WIDTH,
     Arguments,
     Channel,
     Format,
@@ -89,7 +90,7 @@ class _Data:
 
 
 def _recognises(head: str) -> bool:
-    return _FIRST.match(head) is not None and ("CHAN" in head.upper())
+    return _FIRST.match(head[:LINE_WIDTH]) is not None and ("CHAN" in head.upper())
 
 
 def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
@@ -103,7 +104,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         if not lines[at].strip():
             at += 1
             continue
-        first = _FIRST.match(lines[at])
+        first = _FIRST.match(lines[at][:LINE_WIDTH])
         if first is None:
             raise RecordFormatError(
                 f"line {at + 1} of {file} must begin a channel, as 'CORRECTED ACCELEROGRAM'; "
@@ -111,7 +112,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
             )
         corrected = first["un"] is None
         text_lines, header_lines = _HEADER_V2 if corrected else _HEADER_V1
-        titles = lines[at : at + text_lines]
+        titles = [line[:LINE_WIDTH] for line in lines[at : at + text_lines]]
         if len(lines) <= at + header_lines:
             raise RecordFormatError(f"header of {file} must be {header_lines} lines; got {len(lines) - at}")
         whole = header_values(lines, at + text_lines, 2, _INTEGERS)
@@ -121,7 +122,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         if corrected:
             at = _pass_over(lines, at, len(data.values), file)
         ended = at < len(lines) and _END.fullmatch(lines[at]) is not None
-        if at < len(lines) and lines[at].strip() and not ended and _FIRST.match(lines[at]) is None:
+        if at < len(lines) and lines[at].strip() and not ended and _FIRST.match(lines[at][:LINE_WIDTH]) is None:
             raise RecordFormatError(
                 f"line {at + 1} of {file} must end its channel; got {lines[at].strip()[:40]!r}: more data than points"
             )
@@ -143,7 +144,7 @@ def _label(titles: list[str], number: int) -> str:
 
 
 def _read_data(lines: list[str], at: int, titles: list[str], corrected: bool, file: str) -> _Data:
-    match = _DATA.match(lines[at])
+    match = _DATA.match(lines[at][:LINE_WIDTH])
     header = "\n".join(titles)
     if match is None and not corrected:
         return _read_pairs(lines, at, header, file)
@@ -200,7 +201,7 @@ def _read_pairs(lines: list[str], at: int, header: str, file: str) -> _Data:
 def _pass_over(lines: list[str], at: int, points: int, file: str) -> int:
     """Return the index of the line after velocities and displacements, whose points must be as many."""
     for what in ("VELOC", "DISPL"):
-        match = _DATA.match(lines[at]) if at < len(lines) else None
+        match = _DATA.match(lines[at][:LINE_WIDTH]) if at < len(lines) else None
         if match is None or (match["what"] or "").upper() != what:
             got = lines[at].strip()[:40] if at < len(lines) else "the end of the file"
             raise RecordFormatError(f"line {at + 1} of {file} must begin its {what} data; got {got!r}")
@@ -254,7 +255,8 @@ def _channel(
     if channels and not several and int(channels[1]) > 1:
         remarks.append(f"the station has {channels[1]} channels; this file has one")
     place = _CHANNEL.search("\n".join(titles[5:9]))
-    component = " ".join(place["component"].split()) if place else ""
+    # The place in a building may stand further right.
+    component = re.split(r"\s{2,}", place["component"].strip())[0] if place else ""
     contradiction = direction_remark(component, angle, _VERTICAL)
     if contradiction:
         remarks.append(contradiction)

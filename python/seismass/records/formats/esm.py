@@ -29,6 +29,7 @@ from seismass.units import ACCELERATION_UNITS, stated_unit
 
 _KEY = re.compile(r"[A-Z][A-Z0-9_/^-]*(?=:)")
 _LINES_OF_HEADER: Final = 64
+_NEEDED: Final = ("STATION_CODE", "SAMPLING_INTERVAL_S", "NDATA", "UNITS")
 
 
 def _recognises(head: str) -> bool:
@@ -48,15 +49,19 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         if match[0] in header:
             raise RecordFormatError(f"{match[0]} of {file} must be stated once; got it again in line {start + 1}")
         header[match[0]] = line[match.end() + 1 :].strip()
+    missing = [key for key in _NEEDED if key not in header]
+    if missing:
+        raise RecordFormatError(f"header of {file} must have {', '.join(_NEEDED)}; got none of {', '.join(missing)}")
+    remarks: list[str] = []
     if len(header) != _LINES_OF_HEADER:
-        raise RecordFormatError(f"header of {file} must be {_LINES_OF_HEADER} keys, as DYNA 1.x has; got {len(header)}")
+        remarks.append(f"header has {len(header)} keys, where DYNA 1.x has {_LINES_OF_HEADER}")
     kind = header.get("DATA_TYPE", "").upper()
     if kind not in ("ACCELERATION", ""):
         raise NotRead(f"quantity of {file} must be acceleration; got {kind.lower()}: read the .ACC.ASC file beside it")
-    unit = stated_unit(f"units: {header.get('UNITS', '')}")
+    unit = stated_unit(f"units: {header.get('UNITS', '')[:40]}")
     if unit is None:
         raise RecordFormatError(
-            f"UNITS of {file} must be an acceleration in cm/s^2; got {header.get('UNITS', 'none')!r}"
+            f"UNITS of {file} must be an acceleration in cm/s^2; got {header.get('UNITS', 'none')[:40]!r}"
         )
     unit = agreed_unit(unit, arguments.unit, file)
     written = header.get("SAMPLING_INTERVAL_S", "")
@@ -64,7 +69,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         raise RecordFormatError(f"SAMPLING_INTERVAL_S of {file} must be a number; got {written!r}")
     dt = agreed_step(step_in_seconds(written, "s", file), arguments.dt, f"{written} s", file)
     count = header.get("NDATA", "")
-    if not count.isdecimal():
+    if not re.fullmatch(r"\d{1,9}", count):
         raise RecordFormatError(f"NDATA of {file} must be a whole number; got {count!r}")
     tokens, values = parse_numbers(enumerate(lines[start:], start=start + 1), file)
     if len(values) != int(count) or not len(values):
@@ -74,7 +79,6 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
             f"last number of {file} must be written as the others are; got {tokens[-1]!r}: the file is cut off"
         )
     _check_duration(header.get("DURATION_S", ""), len(values), dt, file)
-    remarks: list[str] = []
     peak = StatedPeak(header.get("PGA_CM/S^2", ""), header.get("TIME_PGA_S", ""), 0.01 / ACCELERATION_UNITS[unit])
     check_peak(values, peak, dt, digit_of_peak(values, tokens), file, remarks)
     stream, code, name = header.get("STREAM", ""), header.get("STATION_CODE", ""), header.get("STATION_NAME", "")

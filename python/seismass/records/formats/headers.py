@@ -17,7 +17,7 @@ _PER_SECOND: Final = {
     **dict.fromkeys(("ms", "msec", "msecs", "millisecond", "milliseconds"), 1000.0),
 }
 _STEP = re.compile(
-    r"(?:\b(?:dt|delta[ \t]*t|time[ \t]*step)\b[ \t]*(?:[(\[](?P<before>[^)\]\n]*)[)\]])?|\bSAMPLING_INTERVAL_S)"
+    r"(?:\b(?:dt|delta[ \t]*t|time[ \t]*step)\b[ \t]*(?:[(\[](?P<before>[^)\]\n]{0,30})[)\]])?|\bSAMPLING_INTERVAL_S)"
     rf"[ \t]*[=:][ \t]*(?P<step>{NUMBER})"
     # What ends a step: the line, a separator, another key, or else its unit.
     r"[ \t]*(?:(?=$|[,;)\]](?!\d)|(?!ms|milli)\w+[ \t]*[=:])|(?P<after>[^\s,;)\]]*))",

@@ -53,8 +53,8 @@ _DIRECTIONS: Final = {
     "5": ("EW2", 90.0),
     "6": ("UD2", None),
 }
-_SCALE = re.compile(r"([\d.]+)\s*\(gal\)\s*/\s*(\d+)", re.IGNORECASE)
-_RATE = re.compile(r"([\d.]+)\s*Hz", re.IGNORECASE)
+_SCALE = re.compile(r"([\d.]{1,20})\s*\(gal\)\s*/\s*(\d{1,18})", re.IGNORECASE)
+_RATE = re.compile(r"([\d.]{1,20})\s*Hz", re.IGNORECASE)
 _COUNTS: Final = frozenset(" \t\r\n-+0123456789")
 
 PARTS_OF_A_SECOND: Final = 1.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
@@ -19,7 +19,7 @@ def uniform_step(
     times: NDArray[np.float64],
     written: Sequence[str],
     file: str,
-    line_numbers: Sequence[int] | None = None,
+    line_number: Callable[[int], int] | None = None,
     *,
     rounding: bool = True,
 ) -> float:
@@ -32,8 +32,8 @@ def uniform_step(
         The same as the file writes them.
     file : str
         Named in errors.
-    line_numbers : sequence of int, optional
-        Lines of the times, for errors.
+    line_number : callable, optional
+        Gives the line of a time by its index, for errors.
     rounding : bool
         Whether half the last digit of a time is allowed beside `UNIFORMITY`, as where steps of 5 ms are printed in ms.
 
@@ -54,7 +54,7 @@ def uniform_step(
     excess = off - UNIFORMITY * step - (2.0 * half_digit if rounding else 0.0)
     worst = int(np.argmax(excess))
     if excess[worst] > 1e-9 * span:
-        where = f"line {line_numbers[worst]}" if line_numbers is not None else f"sample {worst + 1}"
+        where = f"line {line_number(worst)}" if line_number is not None else f"sample {worst + 1}"
         raise RecordFormatError(
             f"times of {file} must be uniform, here {step:.6g} s apart; "
             f"got {times[worst]:g} s in {where}, {off[worst]:.3g} s off"

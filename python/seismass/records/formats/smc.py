@@ -15,6 +15,7 @@ import numpy as np
 from seismass._values import printable
 from seismass.errors import RecordFormatError
 from seismass.records.formats.common import (
+    LINE_WIDTH,
     Arguments,
     Channel,
     Format,
@@ -35,7 +36,7 @@ _TEXT: Final = 11
 _INTEGERS: Final = 6
 _REALS: Final = 10
 _DATA: Final = Layout(8, 10)
-_KIND = re.compile(r"(?P<level>\d*)\s*(?P<kind>[A-Z][A-Z ]*?)\s*", re.IGNORECASE)
+_KIND = re.compile(r"\d*\s*(?P<kind>[A-Z]+(?: [A-Z]+)*)", re.IGNORECASE)
 _STATION = re.compile(r"station\s*=\s*(?P<name>.*?)\s*component\s*=\s*(?P<component>.*)", re.IGNORECASE)
 _SOURCE = re.compile(r"data source\s*=\s*(.*)", re.IGNORECASE)
 
@@ -44,21 +45,15 @@ MISSING_REAL: Final = 1e30
 
 
 def _recognises(head: str) -> bool:
-    lines = head.splitlines()[: _TEXT + 1]
-    return (
-        len(lines) > _TEXT
-        and lines[1].startswith("*")
-        and lines[_TEXT - 1].startswith("*")
-        and "station =" in head
-        and (lines[0].startswith("*") or _KIND.fullmatch(lines[0]) is not None)
-    )
+    lines = head.splitlines()
+    return len(lines) > _TEXT and lines[5].startswith("station =") and lines[7].startswith("inst type")
 
 
 def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
     file = source.name
     refuse_skip(arguments, SMC.title, file)
     lines = text.splitlines()
-    kind = _KIND.fullmatch(lines[0])
+    kind = _KIND.match(lines[0].strip()[:LINE_WIDTH])
     quantity = kind["kind"].lower() if kind else "a record of no volume"
     if "accelerogram" not in quantity:
         raise NotRead(
@@ -96,13 +91,13 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         remarks.append("uncorrected accelerogram: neither filtered nor corrected for its baseline")
     if whole[17] == 1:
         remarks.append("the header flags a problem, which its comments describe")
-    station = _STATION.match(lines[5].strip())
+    station = _STATION.match(lines[5].strip()[:LINE_WIDTH])
     component = station["component"].strip() if station else ""
     horizontal = whole[13]
     azimuth = azimuth_of(component)
     if azimuth is None and not is_vertical(component) and horizontal not in (missing, None) and whole[12] == 90:
         azimuth = float(horizontal or 0.0) % 360.0
-    agency = _SOURCE.search(lines[7])
+    agency = _SOURCE.search(lines[7][:LINE_WIDTH])
     record = Record(
         acceleration=block.values * ACCELERATION_UNITS["cm/s2"],
         dt=dt,

@@ -1,0 +1,193 @@
+"""`seismass match`: records adjusted in the time domain to a target spectrum."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seismass.commands.options import positive_option, read_records, read_target, warn_left_out, warn_remarks
+from seismass.commands.targets import TARGET_HELP
+from seismass.units import ACCELERATION_UNITS
+
+if TYPE_CHECKING:
+    from seismass.matching import MatchedSuite
+
+_EPILOG = """examples:
+  seismass match record.AT2 --out matched.AT2 --plot matched.png
+  seismass match record.AT2 --target uniform_hazard.csv --range 0.1 3.0
+  seismass match suite.csv --target ec8:1:C:0.3 --out matched/ --json
+
+--out names a file of .AT2 or .csv for one record, else a folder: a file per record and a list suite.csv, which
+--records of other commands takes. A record that is not matched within the tolerance is written too, and said.
+exit codes: 0 done, 1 a record is not matched within the tolerance, 2 bad input"""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the subcommand to those of the `seismass` command."""
+    parser = subparsers.add_parser(
+        "match",
+        help="match records to a target spectrum",
+        description="Records adjusted by wavelets in the time domain until their spectra are the target, without drift "
+        "of velocity or displacement.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "records",
+        type=Path,
+        metavar="PATH",
+        help="a record, a folder of records, or a CSV with a column `file`",
+    )
+    parser.add_argument("--dt", type=positive_option, metavar="S", help="time step of a record that states none, s")
+    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of a record whose file states none")
+    parser.add_argument("--target", metavar="TARGET", help=TARGET_HELP)
+    parser.add_argument("--sds", type=positive_option, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
+    parser.add_argument("--sd1", type=positive_option, metavar="G", help="S_D1, g (0.61)")
+    parser.add_argument("--tl", type=positive_option, metavar="S", help="T_L, s (8)")
+    parser.add_argument(
+        "--range",
+        type=positive_option,
+        nargs=2,
+        default=[0.2, 1.5],
+        metavar=("T1", "T2"),
+        help="periods that are matched, s (0.2 1.5)",
+    )
+    parser.add_argument("--damping", type=positive_option, default=0.05, metavar="Z", help="ratio of damping (0.05)")
+    parser.add_argument(
+        "--tolerance", type=positive_option, default=0.03, metavar="E", help="largest misfit at any period (0.03)"
+    )
+    parser.add_argument("--iterations", type=int, default=40, metavar="N", help="most passes (40)")
+    parser.add_argument(
+        "--scale",
+        type=_scale_option,
+        default="least_squares",
+        metavar="HOW",
+        help="how a record is scaled first: least_squares, none, or a factor (least_squares)",
+    )
+    parser.add_argument(
+        "--pad",
+        type=_time_option,
+        nargs=2,
+        default=[0.0, 0.0],
+        metavar=("HEAD", "TAIL"),
+        help="zeros added before and behind each record, s (0 0)",
+    )
+    parser.add_argument("--out", type=Path, metavar="PATH", help="file or folder for the matched records")
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="figure, .png or .svg; numbered for several records")
+    parser.add_argument("--json", action="store_true", help="print the result as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Match, print and write; return the exit code."""
+    from seismass.matching import match_suite
+
+    _check_outputs(args)
+    target = read_target(args)
+    suite = read_records(args.records, dt=args.dt, unit=args.unit)
+    matched = match_suite(
+        suite,
+        target,
+        periods=args.range,
+        damping=args.damping,
+        tolerance=args.tolerance,
+        max_iterations=args.iterations,
+        scale=args.scale,
+        padding=tuple(args.pad),
+    )
+    warn_left_out(suite)
+    warn_remarks(suite)
+    if args.out is not None:
+        _write(matched, args.out)
+    if args.plot is not None:
+        _plot(matched, args.plot)
+    if args.json:
+        rows = [
+            {**row, "remarks": list(one.remarks), "history": list(one.record.history)}
+            for row, one in zip(matched.table().to_dicts(), matched, strict=True)
+        ]
+        document = {
+            "suite": suite.name,
+            "target": target.label,
+            "range": list(args.range),
+            "damping": args.damping,
+            "tolerance": args.tolerance,
+            "converged": matched.converged,
+            "remarks": list(matched.suite.remarks),
+            "motions": rows,
+        }
+        print(json.dumps(document, indent=2))
+    else:
+        print("\n".join(one.text() for one in matched), end="")
+        if len(matched) > 1:
+            print(f"\nremark  {matched.suite.remarks[-1]}")
+    return 0 if matched.converged else 1
+
+
+def _check_outputs(args: argparse.Namespace) -> None:
+    """Refuse names of files that cannot be meant, before anything is computed."""
+    from seismass.errors import InvalidOption
+
+    if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
+        raise InvalidOption(f"--plot of match must be a name that ends in .png or .svg; got {args.plot.name}")
+
+
+def _write(matched: MatchedSuite, out: Path) -> None:
+    """One record to the file that is named, or all to a folder with a list."""
+    import polars as pl
+
+    from seismass.errors import InvalidOption
+    from seismass.files import write_table, written_whole
+    from seismass.matching.files import SUFFIXES
+
+    if out.suffix.lower() in SUFFIXES:
+        if len(matched) > 1:
+            raise InvalidOption(f"--out of match must be a folder for {len(matched)} records; got {out}")
+        matched[0].write(out)
+        return
+    out.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for number, one in enumerate(matched, start=1):
+        file = f"{number:03d}_{one.record.name or 'record'}.AT2"
+        one.write(out / file)
+        said = "; ".join(one.record.history)
+        labels = {"event": one.record.event, "station": one.record.station, "component": one.record.component}
+        rows.append({"number": number, "file": file, "name": one.record.name, **labels, "note": said})
+    with written_whole(out / "suite.csv") as temporary:
+        write_table(pl.DataFrame(rows), "csv", temporary)
+
+
+def _plot(matched: MatchedSuite, path: Path) -> None:
+    """Draw each record, to files with a number where there are several."""
+    from seismass.files import written_whole
+    from seismass.report.figures import save_figure
+
+    for number, one in enumerate(matched, start=1):
+        file = path if len(matched) == 1 else path.with_name(f"{path.stem}_{number:03d}{path.suffix}")
+        with written_whole(file) as temporary:
+            save_figure(one.plot(), "png" if path.suffix.lower() == ".png" else "svg", temporary)
+
+
+def _scale_option(text: str) -> str | float:
+    if text in ("least_squares", "none"):
+        return text
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.0
+    if not (math.isfinite(number) and number != 0.0):
+        raise argparse.ArgumentTypeError(f"must be least_squares, none or a factor other than 0; got {text!r}")
+    return number
+
+
+def _time_option(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = -1.0
+    if not 0.0 <= number < math.inf:
+        raise argparse.ArgumentTypeError(f"must be a time of at least 0 s; got {text!r}")
+    return number

@@ -1,0 +1,6 @@
+"""Spectral matching in the time domain: records adjusted to a target spectrum without drift."""
+
+from seismass.matching.match import match_spectrum, match_suite
+from seismass.matching.result import MatchedRecord, MatchedSuite, Misfit
+
+__all__ = ["MatchedRecord", "MatchedSuite", "Misfit", "match_spectrum", "match_suite"]

@@ -1,0 +1,189 @@
+"""Damped oscillators under acceleration that is linear between samples: response, extrema, and what one sample adds.
+
+The recurrence is exact (Nigam and Jennings 1969, Bull. Seism. Soc. Am. 59:909-922), here as a digital filter of second
+order. By linearity the displacement at an instant is a sum over samples; its weights are the rows of `influence`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+from seismass._values import FloatArray
+
+UNDERSHOOT: Final = 0.6
+"""Share of an extremum that the samples beside it reach at least, with four samples or more in a period."""
+
+
+@dataclass(frozen=True)
+class Extrema:
+    """Local extrema of the relative displacement of oscillators, those of one after those of another.
+
+    Attributes
+    ----------
+    oscillator : ndarray of int, shape (extrema,)
+        Index of the oscillator.
+    step : ndarray of int, shape (extrema,)
+        The extremum is at time (step + fraction) dt.
+    fraction : ndarray, shape (extrema,)
+        From 0 to 1.
+    value : ndarray, shape (extrema,)
+        Displacement with its sign (m).
+    largest : ndarray of bool, shape (extrema,)
+        Whether it is the largest of its oscillator.
+    """
+
+    oscillator: NDArray[np.int64]
+    step: NDArray[np.int64]
+    fraction: FloatArray
+    value: FloatArray
+    largest: NDArray[np.bool_]
+
+
+class Oscillators:
+    """Oscillators of one damping at one time step.
+
+    Parameters
+    ----------
+    periods : ndarray, shape (periods,)
+        Natural periods (s), at least four time steps.
+    damping : float
+        Ratio of critical damping, from 0 and below 1.
+    dt : float
+        Time step (s).
+    """
+
+    def __init__(self, periods: FloatArray, damping: float, dt: float) -> None:
+        self.periods, self.damping, self.dt = periods, damping, dt
+        self.omega = omega = 2.0 * np.pi / periods
+        self.rate = rate = omega * complex(-damping, np.sqrt(1.0 - damping * damping))
+        # Displacement under a ramp of acceleration t from rest: -(t/w^2 - 2 z/w^3) - Re(free exp(rate t)).
+        self.free = 2.0 * damping / omega**3 + 1j * (1.0 - 2.0 * damping * damping) / (omega**2 * rate.imag)
+        # Amplitude of the free vibration after a sample of 1 m/s2: a second difference of exponentials in closed form.
+        self.weight = -self.free * 4.0 * np.sinh(0.5 * rate * dt) ** 2 / dt
+        pole = np.exp(rate * dt)
+        back, further = -2.0 * pole.real, np.abs(pole) ** 2
+        # Displacement at the instant of such a sample and at the two after it.
+        at = self._ramp(np.arange(len(periods)), np.full(len(periods), dt)) / dt
+        after, later = (self.weight * pole).real, (self.weight * pole * pole).real
+        self.numerator = np.array([at, after + back * at, later + back * after + further * at]).T
+        self.denominator = np.array([np.ones(len(periods)), back, further]).T
+        # Displacement at the end of a step: by what is there at its start, and by the acceleration at both ends.
+        step = -1.0 / omega**2 - (self.free * rate * pole).real  # by a constant acceleration of 1 m/s2
+        decay, angle = np.exp(rate.real * dt), rate.imag * dt
+        self.from_displacement = decay * (np.cos(angle) - rate.real / rate.imag * np.sin(angle))
+        self.from_velocity = decay * np.sin(angle) / rate.imag
+        self.from_start, self.from_end = step - at, at
+
+    def response(self, index: int, acceleration: FloatArray) -> FloatArray:
+        """Return the relative displacement (m) of one oscillator at the samples, from rest at the first."""
+        numerator = self.numerator[index]
+        # There is no ramp before the first sample, as the filter has it.
+        start = acceleration[0] * np.array([-numerator[0], self.from_start[index] - numerator[1]])
+        moved, _ = lfilter(numerator, self.denominator[index], acceleration, zi=start)
+        return np.asarray(moved)
+
+    def extrema(self, acceleration: FloatArray, share: float, most: int) -> Extrema:
+        """Return the extrema of each oscillator, in continuous time and with one period of free vibration at the end.
+
+        Parameters
+        ----------
+        acceleration : ndarray, shape (samples,)
+            Acceleration (m/s2).
+        share : float
+            Extrema below this share of the largest of their oscillator are left out.
+        most : int
+            Largest number for one oscillator: the largest are kept, the largest first.
+        """
+        longest = int(np.ceil(self.periods.max() / self.dt)) + 3
+        samples = np.concatenate([acceleration, np.zeros(longest)])
+        rows: list[Any] = []
+        for number, period in enumerate(self.periods):
+            end = len(acceleration) + int(np.ceil(period / self.dt)) + 3
+            moved = self.response(number, samples[:end])
+            size = np.abs(moved)
+            peak = (size[1:-2] >= size[:-3]) & (size[1:-2] > size[2:-1])
+            at = np.flatnonzero(peak & (size[1:-2] >= UNDERSHOOT * share * size.max())) + 1
+            rows.append((np.full(len(at), number), at, moved[at - 1], moved[at], moved[at + 1]))
+        index, at, before, here, after = (np.concatenate(part) for part in zip(*rows, strict=True))
+        # In the step after the sample where |u| still grows at it, else in the one before it.
+        velocity = self._velocity(index, samples[at], samples[at + 1], here, after)
+        earlier = velocity * here < 0.0
+        step, start = at - earlier, np.where(earlier, before, here)
+        end_of_step = np.where(earlier, here, after)
+        fraction, value = self._turn(index, samples[step], samples[step + 1], start, end_of_step)
+        order = np.lexsort((-np.abs(value), index))
+        index, step, fraction, value = index[order], step[order], fraction[order], value[order]
+        firsts = np.flatnonzero(np.diff(index, prepend=-1))
+        counts = np.diff(firsts, append=len(index))
+        rank = np.arange(len(index)) - np.repeat(firsts, counts)
+        kept = (rank < most) & (np.abs(value) >= share * np.repeat(np.abs(value[firsts]), counts))
+        return Extrema(index[kept], step[kept], fraction[kept], value[kept], (rank == 0)[kept])
+
+    def influence(self, extrema: Extrema, first: int, last: int) -> FloatArray:
+        """Return what each sample adds to the displacement at each extremum (m per m/s2), shape (extrema, samples).
+
+        Parameters
+        ----------
+        extrema : Extrema
+            Of these oscillators.
+        first, last : int
+            The samples from `first` up to, not including, `last`. Sample 0 counts as one with a step before it, which
+            the first sample of a motion has not.
+        """
+        rows = np.zeros((len(extrema.value), last - first))
+        within = extrema.fraction * self.dt
+        after = self._ramp(extrema.oscillator, within) / self.dt
+        here = self._ramp(extrema.oscillator, within + self.dt) / self.dt - 2.0 * after
+        turn = np.exp(self.rate[extrema.oscillator] * within)
+        farthest = int(extrema.step.max()) - first + 1
+        lags = self.dt * np.arange(1, max(farthest, 1))
+        known, table = -1, np.empty(0, dtype=complex)
+        for number, (row, index, step) in enumerate(zip(rows, extrema.oscillator, extrema.step, strict=True)):
+            if index != known:
+                known, table = int(index), self.weight[index] * np.exp(self.rate[index] * lags)
+            end = min(int(step), last)  # samples before the step are one step or more before the extremum
+            if end > first:
+                before = table[step - end : step - first]
+                row[: end - first] = (before.real * turn[number].real - before.imag * turn[number].imag)[::-1]
+            if first <= step < last:
+                row[step - first] = here[number]
+            if first <= step + 1 < last:
+                row[step + 1 - first] = after[number]
+        return rows
+
+    def _ramp(self, index: NDArray[np.int64], time: FloatArray) -> FloatArray:
+        """Displacement at times from 0 on under an acceleration of 1 m/s3 times the time."""
+        omega = self.omega[index]
+        linear = time / omega**2 - 2.0 * self.damping / omega**3
+        return np.asarray(-linear - (self.free[index] * np.exp(self.rate[index] * time)).real)
+
+    def _velocity(
+        self, index: NDArray[np.int64], start: FloatArray, end: FloatArray, here: FloatArray, after: FloatArray
+    ) -> FloatArray:
+        """Velocity at the start of a step, from the accelerations and the displacements at its two ends."""
+        forced = self.from_start[index] * start + self.from_end[index] * end
+        return np.asarray((after - self.from_displacement[index] * here - forced) / self.from_velocity[index])
+
+    def _turn(
+        self, index: NDArray[np.int64], start: FloatArray, end: FloatArray, here: FloatArray, after: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Where within a step the velocity is zero, as a fraction of the step, and the displacement there."""
+        omega, rate = self.omega[index], self.rate[index]
+        # u = level + drift t + Re(swing exp(rate t)): static displacement under the linear acceleration, and the rest.
+        drift = -(end - start) / self.dt / omega**2
+        level = -start / omega**2 - 2.0 * self.damping / omega * drift
+        real = here - level
+        velocity = self._velocity(index, start, end, here, after)
+        swing = real - 1j * (velocity - drift - rate.real * real) / rate.imag
+        time = np.full(len(index), 0.5 * self.dt)
+        for _ in range(6):  # Newton; a step is at most a quarter of a period
+            turning = swing * rate * np.exp(rate * time)
+            curvature = (turning * rate).real
+            curvature = np.where(curvature == 0.0, 1.0, curvature)
+            time = np.clip(time - (drift + turning.real) / curvature, 0.0, self.dt)
+        return time / self.dt, level + drift * time + (swing * np.exp(rate * time)).real

@@ -1,0 +1,94 @@
+"""Wavelets that are added to a record: cosines in a window that closes, which leave no velocity and no displacement.
+
+Each is the second difference of a displacement that is zero at its ends, so that it is free of drift to rounding.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seismass._values import FloatArray
+
+WINDOW_POWER: Final = 6
+"""The window is (1 - x^2) to this power: close to a Gaussian exp(-6 x^2), with five derivatives that close."""
+LEAST_HALF_WIDTH: Final = 0.75
+"""Half-width of a window, in periods, below which its centre is moved away from the end of the record instead."""
+
+
+def half_width(periods: FloatArray) -> FloatArray:
+    """Return the half-width of the window (s) of a wavelet of each period.
+
+    Al Atik and Abrahamson (2010), equation 16: a Gaussian exp(-(t/gamma)^2) with gamma = 1.178 f^-0.93. The window
+    (1 - x^2)^n that closes at x = 1 is close to it for a half-width of gamma sqrt(n).
+    """
+    return np.asarray(1.178 * periods**0.93 * np.sqrt(WINDOW_POWER))
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Wavelets at their places in a record.
+
+    Attributes
+    ----------
+    samples : ndarray, shape (wavelets, last - first)
+        Acceleration per unit of amplitude: that of a cosine of amplitude 1 at the centre, nearly.
+    first, last : int
+        The samples of the record from `first` up to, not including, `last` hold all that is not zero.
+    starts, ends : ndarray of int, shape (wavelets,)
+        The same for each wavelet.
+    shortened : ndarray of bool, shape (wavelets,)
+        Whether an end of the record made the window narrower or moved it.
+    """
+
+    samples: FloatArray
+    first: int
+    last: int
+    starts: NDArray[np.int64]
+    ends: NDArray[np.int64]
+    shortened: NDArray[np.bool_]
+
+
+def place(crest: FloatArray, periods: FloatArray, damping: float, dt: float, samples: int) -> Placed:
+    """Return wavelets of `samples` samples that are zero at the first and the last, and whose drift is zero.
+
+    The displacement is -cos(w (t - crest)) (1 - x^2)^6 / w^2 with w the damped frequency and x = (t - centre) over the
+    half-width; centre and crest are the same unless an end of the record is closer than the window is wide. The samples
+    of acceleration are its second differences: those of a piecewise-linear acceleration a with sum(a) = 0 and
+    sum(a t) = 0, whose velocity and displacement at the end are exactly zero.
+
+    Parameters
+    ----------
+    crest : ndarray, shape (wavelets,)
+        Time (s) of the crest of the cosine.
+    periods : ndarray, shape (wavelets,)
+        Natural periods (s) of the oscillators that they are for.
+    damping : float
+        Their damping.
+    dt : float
+        Time step (s).
+    samples : int
+        Samples of the record, at least 5.
+    """
+    inner = (samples - 3) * dt  # from the second sample to the last but one
+    least = np.minimum(LEAST_HALF_WIDTH * periods, 0.5 * inner)
+    centre = np.clip(crest, dt + least, dt + inner - least)
+    half = np.minimum(half_width(periods), np.minimum(centre - dt, dt + inner - centre))
+    frequency = 2.0 * np.pi / periods * np.sqrt(1.0 - damping * damping)
+    # One sample more on each side of the window, on which the second difference may differ from zero.
+    starts = np.maximum(np.ceil((centre - half) / dt).astype(int) - 1, 0)
+    ends = np.minimum(np.floor((centre + half) / dt).astype(int) + 2, samples)
+    first, last = int(starts.min()), int(ends.max())
+    placed = np.zeros((len(periods), last - first))
+    for row, start, end, middle, width, phase, omega in zip(
+        placed, starts, ends, centre, half, crest, frequency, strict=True
+    ):
+        time = dt * np.arange(start - 1, end + 1)
+        window = np.maximum(1.0 - ((time - middle) / width) ** 2, 0.0)
+        displacement = (window * window * window) ** 2 * np.cos(omega * (time - phase))
+        row[start - first : end - first] = -np.diff(displacement, n=2) / (omega * dt) ** 2
+    moved = (half < half_width(periods) * (1.0 - 1e-9)) | (centre != crest)
+    return Placed(placed, first, last, starts, ends, moved)
