@@ -47,8 +47,8 @@ def add_records_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--suite",
         choices=("seven", "eleven"),
-        help="built-in synthetic motions, where --records is left out: seven as ASCE 7-10 asks for, and the published "
-        "numbers are with (default), or eleven as ASCE 7-16 does",
+        help="built-in synthetic motions, where --records is left out: seven as ASCE 7-10 asks for, with which the "
+        "published numbers are (default), or eleven as ASCE 7-16 does (default of scaling by it)",
     )
 
 
