@@ -155,8 +155,9 @@ def _motion_changes(
 ) -> Iterator[_Change]:
     """Changes of how motions are brought to the target: factors of modal pushover, and matched motions.
 
-    The oscillator of modal pushover has the period for which the study scales and the springs of its storeys, one setting
-    for each R above 1. Matched motions are scaled like those of the study, so that their mean is not below the target.
+    The oscillator of modal pushover has the period for which the study scales and the springs of its storeys, one
+    setting for each R above 1. Matched motions are scaled like those of the study, so that their mean is not below the
+    target.
     """
     for reduction in chosen.response_modification:
         if reduction > 1.0:
