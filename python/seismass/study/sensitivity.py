@@ -31,6 +31,8 @@ TILTS: Final = (-0.3, 0.3)
 SCALING_PERIODS: Final = (0.5, 1.5)
 MATCHED_RANGE: Final = (0.2, 1.5)
 """Range of periods that motions are matched in, as multiples of the period of scaling."""
+MATCHED_TOLERANCE: Final = 0.05
+"""Largest misfit of their spectra: what records of practice are matched to, in a few passes."""
 MOTIONS: Final = "motions"
 """The choice how motions are brought to the target."""
 
@@ -174,8 +176,21 @@ def _motion_changes(
             )
             yield _Change(MOTIONS, f"modal pushover, R_y = {reduction:g}", chosen, target, suite, scaling)
     shortest, longest = (chosen.scaling_period * multiple for multiple in MATCHED_RANGE)
-    matched = match_suite(suite, target, periods=(shortest, longest), damping=chosen.damping, threads=threads)
-    yield _Change(MOTIONS, f"matched, {shortest:g} to {longest:g} s", chosen, target, matched.suite)
+    matched = match_suite(
+        suite,
+        target,
+        periods=(shortest, longest),
+        damping=chosen.damping,
+        tolerance=MATCHED_TOLERANCE,
+        threads=threads,
+    )
+    yield _Change(
+        MOTIONS,
+        f"matched, {100.0 * MATCHED_TOLERANCE:g} %, {shortest:g} to {longest:g} s",
+        chosen,
+        target,
+        matched.suite,
+    )
 
 
 def _heaviest(result: StudyResult) -> list[int]:
