@@ -11,7 +11,6 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import irfft, next_fast_len, rfft
 
 from seismass._values import FloatArray, frozen
 from seismass.errors import MissingPackage
@@ -70,6 +69,8 @@ def _before(scale: int) -> int:
 @functools.lru_cache(maxsize=64)
 def _spectrum(scale: int, size: int) -> NDArray[np.complex128]:
     """Conjugate Fourier transform of the weights: products with it are correlations."""
+    from scipy.fft import rfft  # slow to import
+
     return np.asarray(np.conj(rfft(_filter(scale), size)))
 
 
@@ -96,6 +97,8 @@ def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> F
 
     As `transform`, of what the wavelets there touch alone.
     """
+    from scipy.fft import irfft, next_fast_len, rfft  # slow to import
+
     start = first - _before(scale)
     stop = last - _before(scale) + SUPPORT * scale
     touched = velocity[max(0, start) : stop]
