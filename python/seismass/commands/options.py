@@ -86,7 +86,7 @@ def read_records(path: Path, *, dt: float | None = None, unit: str | None = None
     from seismass.records import read_suite
     from seismass.records.suite import suite_of_file
 
-    if not (path.is_dir() or _is_list(path)):
+    if not (path.is_dir() or is_list(path)):
         return suite_of_file(path, dt=dt, unit=unit)
     for name, value in (("--dt", dt), ("--unit", unit)):
         if value is not None:
@@ -96,7 +96,7 @@ def read_records(path: Path, *, dt: float | None = None, unit: str | None = None
     return read_suite(path)
 
 
-def _is_list(path: Path) -> bool:
+def is_list(path: Path) -> bool:
     """Whether a .csv file lists records; one that is a record has no column `file`."""
     from seismass.records.read import read_text
 

@@ -17,7 +17,7 @@ from seismass.records.formats.directions import azimuth_of
 from seismass.records.pair import Pair
 from seismass.records.record import Record
 from seismass.records.rotation import between
-from seismass.records.suite import Excluded, _is_hidden, _read_file, _vertical_reason
+from seismass.records.suite import Excluded, is_hidden, read_file, vertical_reason
 
 _SEQUENCE: Final = re.compile(r"^RSN(\d+)(?!\d)", re.IGNORECASE)
 _DIRECTION: Final = re.compile(
@@ -109,13 +109,13 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
     if not directory.is_dir():
         raise RecordFormatError(f"folder of pairs must be a directory; got {printable(str(directory))}")
     files = sorted(
-        file for file in directory.rglob("*") if file.is_file() and not _is_hidden(file.relative_to(directory))
+        file for file in directory.rglob("*") if file.is_file() and not is_hidden(file.relative_to(directory))
     )
     excluded: list[Excluded] = []
     groups: dict[tuple[str, ...], list[Record]] = {}
     for file in files:
         try:
-            read = _read_file(file)
+            read = read_file(file)
         except RecordFormatError as error:
             read = str(error)
         if isinstance(read, str):
@@ -154,7 +154,7 @@ def _stem(name: str) -> str:
 
 def _sorted_out(records: list[Record]) -> list[list[Record]]:
     """One group, or several by name where it has more than two horizontals: instruments of one station."""
-    if sum(_vertical_reason(record) is None for record in records) <= 2:
+    if sum(vertical_reason(record) is None for record in records) <= 2:
         return [records]
     groups: dict[str, list[Record]] = {}
     for record in records:
@@ -164,8 +164,8 @@ def _sorted_out(records: list[Record]) -> list[list[Record]]:
 
 def _pair(records: list[Record], lengths: Literal["shorter", "padded"]) -> tuple[list[Pair], list[Excluded]]:
     """The pair that a group makes, and what is left of it."""
-    horizontal = [record for record in records if _vertical_reason(record) is None]
-    vertical = [record for record in records if _vertical_reason(record) is not None]
+    horizontal = [record for record in records if vertical_reason(record) is None]
+    vertical = [record for record in records if vertical_reason(record) is not None]
     if len(horizontal) != 2:
         alone = "no second horizontal component beside it"
         several = f"{len(horizontal)} horizontal components that belong together: read_pair takes two by name"
