@@ -21,7 +21,7 @@ from typing import Any, Final
 import numpy as np
 
 import seismass as sm
-from environment import cpu
+from environment import summary
 from scenes import FloatArray
 from seismass.records import Record
 
@@ -159,7 +159,7 @@ def text(shared: Path, *, quick: bool) -> str:
         "between the samples. pyrotd multiplies\nby transfer functions in the frequency domain, where a record repeats "
         "without rest unless zeros are added.\n\n"
         f"Measures of the {2 * len(listed)} horizontal components, which eqsig sums over samples:\n\n{measured}\n\n"
-        f"{cpu()}; Python {sys.version.split()[0]}, numpy {np.__version__}."
+        f"{summary(('numpy', 'eqsig', 'pyrotd'))}."
     )
 
 

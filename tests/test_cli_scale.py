@@ -12,15 +12,8 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 
-SUITE = sm.builtin_suite()
+SUITE = sm.builtin_suite("seven")
 TARGET = sm.TargetSpectrum.asce7()
-BUILDING = """
-[building]
-name = "small"
-period = 0.5
-[[building.storeys]]
-mass_t = 100
-"""
 
 
 def scaled(capsys: pytest.CaptureFixture[str], *options: object) -> dict:
@@ -69,11 +62,31 @@ def test_methods_are_those_of_the_library(
 
 
 def test_asce7_16_asks_for_eleven(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["scale", "--method", "asce7-16"]) == 2
+    assert main(["scale", "--method", "asce7-16", "--suite", "seven"]) == 2
     assert "at least eleven motions (ASCE/SEI 7-16, 16.2.2); got 7" in capsys.readouterr().err
+    # The built-in suite of eleven is taken where none is named.
+    built_in = scaled(capsys, "--method", "asce7-16")
+    assert [row["record"] for row in built_in["motions"]] == [record.name for record in sm.builtin_suite("eleven")]
+    assert built_in["least_ratio"] == pytest.approx(0.9, abs=1e-12)
     document = scaled(capsys, "--method", "asce7-16", "--records", folder, "--lowest-period", 0.1)
     assert document["least_ratio"] == pytest.approx(0.9, abs=1e-12)
     assert document["spectrum"]["period"][0] == pytest.approx(0.1, rel=1e-12)
+
+
+def test_pairs_of_a_folder_are_scaled_in_their_maximum_direction(
+    shared: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = shared / "records" / "fema_p695_far_field"
+    document = scaled(capsys, "--method", "asce7-16", "--pairs", "--records", folder)
+    pairs = sm.find_pairs(folder)
+    assert [row["record"] for row in document["motions"]] == [pair.name for pair in pairs]
+    found = sm.scale_asce7_16(pairs, TARGET)
+    assert [row["factor"] for row in document["motions"]] == found.factors.tolist()
+    assert found.least_ratio == pytest.approx(0.9, abs=1e-12)
+    # RotD100 of a pair by the function of its own.
+    expected = found.factors[3] * sm.rotd(pairs[3], found.periods)[100]
+    np.testing.assert_allclose(found.spectra[3], expected, rtol=1e-12)
+    assert "single components" not in " ".join(document["remarks"])
 
 
 def test_selection_names_what_was_not_chosen(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -110,15 +123,11 @@ def test_a_building_gives_period_and_pushover(tmp_path: Path, capsys: pytest.Cap
     file.write_text(capsys.readouterr().out)
     own = sm.read_building(file)
     target = sm.TargetSpectrum.asce7(0.8, 0.5)
-    structure = own.structure(target).replace(gravity_load=None)
-    options = ["--method", "mps", "--building", file, "--sds", 0.8, "--sd1", 0.5]
-    if own.structure(target).gravity_load is None:
-        document = scaled(capsys, *options)
-        expected = sm.scale_modal_pushover(SUITE, target, structure)
-        assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
-    else:
-        assert main(["scale", *map(str, options)]) == 2
-        assert "building of pushover must be one without P-Delta" in capsys.readouterr().err
+    expected = sm.scale_modal_pushover(SUITE, target, own.structure(target))
+    document = scaled(capsys, "--method", "mps", "--building", file, "--sds", 0.8, "--sd1", 0.5)
+    assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
+    assert document["period"] == pytest.approx(own.period(), rel=1e-12)
+    assert any(remark.startswith("P-Delta is left out") for remark in document["remarks"])
 
 
 @pytest.mark.parametrize(
@@ -130,6 +139,11 @@ def test_a_building_gives_period_and_pushover(tmp_path: Path, capsys: pytest.Cap
         (
             ["--method", "mps", "--building", "b.toml", "--reduction", "4"],
             "--reduction of scale must be left out with --building; got 4.0",
+        ),
+        (["--pairs"], "--pairs of scale must be left out without --method asce7-16 and --records; got it"),
+        (
+            ["--pairs", "--method", "asce7-16", "--records", ".", "--select", "3"],
+            "--select of scale must be left out with --pairs; got 3",
         ),
         (["--max-per-event", "3"], "--max-per-event of scale must be left out without --select; got 3"),
         (["--plot", "figure.pdf"], "--plot of scale must be a file with the suffix .png or .svg; got figure.pdf"),

@@ -2,6 +2,8 @@
 
 import re
 import shlex
+import subprocess
+import sys
 import tomllib
 from importlib import metadata
 from pathlib import Path
@@ -37,6 +39,14 @@ def test_every_error_is_a_seismass_error_and_the_builtin_one() -> None:
         assert issubclass(error, ValueError)
     assert issubclass(seismass.SimulationError, seismass.SeismassError)
     assert issubclass(seismass.SimulationError, RuntimeError)
+
+
+def test_import_leaves_what_is_slow_to_import_for_when_it_is_used() -> None:
+    """`import seismass` in a fresh process brings NumPy and Polars, and no SciPy, Matplotlib or PyWavelets."""
+    program = "import sys, seismass; print(*sorted({name.partition('.')[0] for name in sys.modules}))"
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
+    assert {"numpy", "polars"} <= set(found)
+    assert not {"scipy", "matplotlib", "pywt"} & set(found)
 
 
 def test_readme_code_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -238,8 +238,8 @@ def test_plot_draws_into_what_it_is_given() -> None:
     assert lines[1] - lines[0] == pytest.approx(record.d5_95, rel=1e-12)
     figure = Figure(layout="constrained")
     left, right = figure.subfigures(1, 2)
-    assert record.plot(figure=left) is left
+    assert record.plot(figure=left) is figure
     axes = right.subplots(4, 1)
-    assert record.plot(axes=axes) is right
+    assert record.plot(axes=axes) is figure
     assert len(figure.axes) == 8
     np.testing.assert_array_equal(axes[1].lines[0].get_ydata(), record.velocity)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 import re
 import runpy
+import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -144,6 +146,7 @@ def test_each_component_is_changed_alike(plane: Any) -> None:
         (("A_ERZ-EW__x", "A_ERZ-NS__y"), (90.0, 0.0), "A_ERZ"),
         (("AOM0011801241951", "AOM0011801241951"), (90.0, 0.0), "AOM0011801241951"),
         (("CLW-LN", "CLW-TR"), (None, None), "CLW"),
+        (("ce1 channel 1", "ce1 channel 3"), (90.0, 0.0), "ce1"),
         (("12", "11"), (None, None), "12 + 11"),
         (("", ""), (None, None), ""),
     ],
@@ -206,10 +209,16 @@ def test_what_makes_no_pair_is_said(tmp_path: Path) -> None:
         ("RSN6_A_X090", "90", 0.01),
         ("RSN6_A_Y000", "0", 0.01),
         ("RSN6_A_Y090", "90", 0.01),
+        *((f"RSN7.{line}{level}", f"{line}{level}", 0.01) for line in ("EW", "NS", "UD") for level in "12"),
     ):
         at2(tmp_path, f"{name}.AT2", f"Quake, 1/1/2000, Town, {component}", dt=dt)
     found = find_pairs(tmp_path)
-    assert [pair.name for pair in found] == ["RSN5_A_X", "RSN6_A_X", "RSN6_A_Y"]
+    assert [pair.name for pair in found] == ["RSN5_A_X", "RSN6_A_X", "RSN6_A_Y", "RSN7", "RSN7"]
+    borehole, surface = found.pairs[3:]
+    assert [[record.name for record in pair] for pair in (borehole, surface)] == [
+        ["RSN7.EW1", "RSN7.NS1", "RSN7.UD1"],
+        ["RSN7.EW2", "RSN7.NS2", "RSN7.UD2"],
+    ]
     assert found[0].vertical is None
     reasons = {item.file.stem: item.reason for item in found.excluded}
     assert (
@@ -247,6 +256,16 @@ def test_every_shared_folder_gives_its_pairs(shared: Path) -> None:
     # The header's peaks of SOURCES.md.
     hector = find_pairs(shared / "records" / "01_Hector_Mine_1999_Hector")[0]
     assert [round(record.pga_g, 5) for record in (hector.first, hector.second)] == [0.26547, 0.32819]
+
+
+def test_channels_of_one_file_make_a_triple(shared: Path) -> None:
+    """Three channels of a CSMIP file: two horizontals and the vertical."""
+    found = find_pairs(shared / "record_formats" / "csmip")
+    assert [(pair.name, pair.azimuths, len(pair)) for pair in found] == [
+        ("BadHeader", (0.0, 90.0), 3),
+        ("ce36456p_CE36456", (90.0, 0.0), 3),
+    ]
+    assert found.excluded == ()
 
 
 def test_rotd_of_a_line() -> None:
@@ -338,6 +357,21 @@ def test_documentation_has_the_peers() -> None:
     text = (ROOT / "docs" / "ground_motions.md").read_text(encoding="utf-8")
     assert re.search(r"\| eqsig [\d.]+, 10 samples a period \| 0\.00 to 0\.00 \|", text)
     assert re.search(r"\| pyrotd [\d.]+ \|", text)
+
+
+def test_benchmark_marks_what_is_absent(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its own row has no differences from its own spectra, and programs that are not installed are said."""
+    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
+    monkeypatch.setitem(sys.modules, "eqsig.sdof", None)
+    benchmark = runpy.run_path(str(ROOT / "benchmarks" / "ground_motions.py"))
+    record = sm.builtin_suite()[0].with_duration(5.0)
+    pair = Pair.from_records(record, record.replace(acceleration=record.acceleration[::-1]))
+    periods = np.array([0.02, 0.1, 0.5, 2.0])
+    listed = [SimpleNamespace(pair=pair, periods=periods, spectrum=rotd(pair, periods)[50])]
+    rows = benchmark["spectra_rows"](listed, lambda value: f"{value:.2f}")
+    assert len(rows) == len(benchmark["PROGRAMS"])
+    assert rows[0][1:6] == ("0.00 to 0.00",) * 4 + ("0.00",)
+    assert all(row[0].startswith("eqsig: absent") and len(row) == len(rows[0]) for row in rows[1:3])
 
 
 @pytest.mark.parametrize(

@@ -394,6 +394,32 @@ def test_what_is_no_pair_is_refused() -> None:
             baker2007_orientations(first, second, orientations=orientations)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("factor", [1e-150, 1e150])
+def test_peaks_whose_squares_are_no_numbers_are_refused(factor: float) -> None:
+    with pytest.raises(InvalidMotion, match=r"peak velocity of record made must be between 1e-100 and 1e\+100 m/s"):
+        baker2007(record(noise(1, 0.3)).scaled(factor))
+
+
+@pytest.mark.parametrize("samples", [2, 3, 9, 50])
+@pytest.mark.parametrize("dt", [0.01, 0.1, 0.17])
+def test_the_shortest_records_are_judged(samples: int, dt: float) -> None:
+    first = sm.Record(np.cos(1.7 * np.arange(samples)), dt)
+    second = sm.Record(np.sin(0.6 + np.arange(samples)), dt)
+    for result in (baker2007(first), shahi_baker2014(first, second)):
+        assert np.isfinite(result.indicator)
+        assert 1 <= len(result.candidates) <= 5
+        doubtful = result.chosen.period > 0.5 * (samples - 1) * dt
+        assert any("is above half the record" in remark for remark in result.remarks) == doubtful
+
+
+def test_a_drift_of_the_baseline_is_said() -> None:
+    """A velocity that ends far from zero may pass for a pulse: 0.5 m/s of a peak of about 0.6 m/s."""
+    drifting = noise(3, 0.3) + 0.5 * np.clip((TIME - 5.0) / 20.0, 0.0, 1.0)
+    for result in (baker2007(record(drifting)), shahi_baker2014(record(drifting), record(noise(4, 0.3), "other"))):
+        (remark,) = [remark for remark in result.remarks if "baseline" in remark]
+        assert remark.startswith("made ends with a velocity of 0.5")
+
+
 def test_short_records_and_fine_steps_are_taken() -> None:
     """Shorter than the wavelets, and a step at which not every scale is tried: the wavelet is still found."""
     few = sm.Record(np.sin(np.arange(30.0)), DT)

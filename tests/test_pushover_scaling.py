@@ -11,7 +11,7 @@ from seismass.scaling.oscillator import deformation_ratio
 
 G = 9.80665
 TARGET = sm.TargetSpectrum.asce7()
-SUITE = list(sm.builtin_suite())
+SUITE = list(sm.builtin_suite("seven"))
 STEP = sm.Motion(np.ones(600), 0.01)
 
 
@@ -63,7 +63,7 @@ def test_scaled_motions_reach_the_target_in_a_simulation(deformation: str) -> No
         # The factor is known to 1e-10; the deformation follows it within a few times that.
         assert drift == pytest.approx(found.target_deformation, rel=2e-9)
     np.testing.assert_allclose(found.deformations, found.target_deformation, rtol=2e-9)
-    np.testing.assert_allclose(found.table()["deformation_over_target"], 1.0, rtol=2e-9)
+    np.testing.assert_allclose(found.diagnostics()["deformation_over_target"], 1.0, rtol=2e-9)
 
 
 def test_median_is_that_of_the_suite_at_the_elastic_target() -> None:
@@ -203,6 +203,15 @@ def test_elastoplastic_storeys_give_an_elastoplastic_oscillator() -> None:
     assert (found.overstrength, found.second_slope, found.third_slope) == (1.0, 0.0, 0.0)
 
 
+def test_p_delta_is_left_out_and_said() -> None:
+    plain = sm.Building.uniform(2, 0.5, mass=1e5, yield_shear_over_weight=0.2)
+    heavy = plain.replace(geometric_stiffness=[0.02 * plain.stiffness[0], 0.01 * plain.stiffness[1]])
+    assert sm.first_mode_oscillator(heavy) == sm.first_mode_oscillator(plain)
+    note = "P-Delta is left out of the pushover: P/h is up to 2 % of k (storey 1)"
+    assert note in sm.scale_modal_pushover(SUITE[:2], TARGET, heavy).remarks
+    assert not any("P-Delta" in remark for remark in sm.scale_modal_pushover(SUITE[:2], TARGET, plain).remarks)
+
+
 def test_damping_of_the_first_mode() -> None:
     building = sm.Building.uniform(3, 0.6, mass=1e5, damping=sm.Rayleigh(0.03, (1, 3)))
     assert sm.first_mode_oscillator(building).damping == pytest.approx(0.03, rel=1e-9)
@@ -223,6 +232,12 @@ def test_scaling_by_a_building_is_that_of_its_oscillator() -> None:
         damping=oscillator.damping,
     )
     np.testing.assert_array_equal(found.factors, again.factors)
+    assert again.second_mode_ratio is None
+    at = float(building.periods[1])
+    expected = found.factors * sm.response_spectrum(SUITE, [at])[:, 0] / TARGET(at)
+    # The damping of the oscillator is 0.05 but for rounding.
+    np.testing.assert_allclose(found.second_mode_ratio, expected, rtol=1e-10)
+    assert found.diagnostics()["second_mode_ratio"].to_list() == found.second_mode_ratio.tolist()
     elastic = sm.scale_modal_pushover(SUITE, TARGET, sm.Building.uniform(3, 0.6))
     np.testing.assert_allclose(elastic.factors, sm.scale_sa_t1(SUITE, TARGET, 0.6).factors, rtol=1e-10)
 
@@ -244,11 +259,6 @@ def test_scaling_by_a_building_is_that_of_its_oscillator() -> None:
             {"building": sm.Building.uniform(2, 0.5), "reduction": 2.0},
             sm.InvalidOption,
             "reduction of scaling must be left out where a building is given; got 2.0",
-        ),
-        (
-            {"building": sm.Building.uniform(2, 0.5, mass=1e5, geometric_stiffness=1e4)},
-            sm.InvalidOption,
-            "building of pushover must be one without P-Delta; got one with P-Delta",
         ),
         ({"records": [], "reduction": 2.0}, sm.InvalidMotion, "motions of scaling must be at least one Record or"),
         (

@@ -11,7 +11,7 @@ from seismass.scaling.asce7 import DIRECTIONS
 
 G = 9.80665
 TARGET = sm.TargetSpectrum.asce7()
-SUITE = list(sm.builtin_suite())
+SUITE = list(sm.builtin_suite("seven"))
 ELEVEN = [*SUITE[:7], *(record.time_scaled(1.3).replace(name=f"slow {record.name}") for record in SUITE[:4])]
 
 
@@ -127,7 +127,7 @@ def test_misfits_and_scatter() -> None:
     np.testing.assert_allclose(table["p84"] / table["p16"], np.exp(2.0 * found.log_scatter), rtol=1e-12)
     middle = np.exp(ratio.mean(axis=0)) * found.target
     np.testing.assert_allclose(np.sqrt(table["p84"] * table["p16"]), middle, rtol=1e-12)
-    assert found.table()["misfit"].to_list() == found.misfit.tolist()
+    assert found.diagnostics()["misfit"].to_list() == found.misfit.tolist()
     assert (sm.scale_sa_t1(SUITE[0], TARGET).log_scatter == 0.0).all()
 
 

@@ -329,7 +329,7 @@ def test_sensitivity_changes_one_choice_at_a_time() -> None:
 
 def test_a_study_takes_factors_of_another_scaling() -> None:
     """The same factors give the same drifts; other factors, another digest; a wrong number of them is refused."""
-    suite = sm.builtin_suite()
+    suite = sm.builtin_suite("seven")
     own = run_study(suite, TARGET, SMALL)
     scaling = sm.scale_asce7_10(suite, TARGET, SMALL.scaling_period)
     given = run_study(suite, TARGET, SMALL, scaling=scaling)

@@ -135,7 +135,7 @@ def test_high_pass_takes_off_long_periods_only() -> None:
 
 
 @pytest.mark.parametrize("pulse", [None, sm.NearFaultPulse(2.0, 0.4, 5.0)], ids=["no pulse", "pulse"])
-@pytest.mark.parametrize("seed", [0, 1, 2, -5])
+@pytest.mark.parametrize("seed", [0, 1, 2, 3])
 def test_motion_ends_at_rest_where_it_started(seed: int, pulse: sm.NearFaultPulse | None) -> None:
     record = sm.synthetic_motion(dataclasses.replace(USUAL, pulse=pulse), seed, 0.01)
     velocity = np.concatenate(
@@ -143,7 +143,7 @@ def test_motion_ends_at_rest_where_it_started(seed: int, pulse: sm.NearFaultPuls
     )
     displacement = np.cumsum(velocity) * record.dt
     end_velocity, end_displacement = end_state(record.acceleration, record.dt)
-    # Rounding of sums of 2500 numbers
+    # Rounding of sums of 3200 numbers
     assert abs(end_velocity) < 1e-12 and abs(end_displacement) < 1e-11
     assert record.acceleration[0] == 0.0
     # At rest, not merely passing through zero: the last second has next to nothing of the peaks.
@@ -202,6 +202,7 @@ def test_intensity_after_the_high_pass_is_a_little_less() -> None:
         ({"damping": 1.0}, "damping of synthetic motion must be between 0 and 1; got 1"),
         ({"damping": 0.0}, "damping of synthetic motion must be a positive number; got 0.0"),
         ({"corner": 0.0}, "corner of synthetic motion must be a positive number; got 0.0"),
+        ({"corner": 4.0}, "corner of synthetic motion must be below the frequency, 4 Hz; got 4 Hz"),
         ({"pulse": 2.0}, "pulse of synthetic motion must be a NearFaultPulse or None; got 2.0"),
     ],
 )
@@ -214,12 +215,14 @@ def test_parameters_out_of_range_are_refused(change: dict[str, Any], message: st
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((USUAL, 1.5, 0.01), "seed of synthetic motion must be a whole number; got 1.5"),
-        ((USUAL, True, 0.01), "seed of synthetic motion must be a whole number; got True"),
+        ((USUAL, 1.5, 0.01), "seed of synthetic motion must be a whole number of at least 0; got 1.5"),
+        ((USUAL, True, 0.01), "seed of synthetic motion must be a whole number of at least 0; got True"),
+        # `random.Random` takes the absolute value, so that -5 would be 5 again.
+        ((USUAL, -5, 0.01), "seed of synthetic motion must be a whole number of at least 0; got -5"),
         ((USUAL, 1, 0.0), "dt of synthetic motion must be positive and at most 0.02041 s"),
         ((USUAL, 1, 0.05), "dt of synthetic motion must be positive and at most 0.02041 s"),
         ((USUAL, 1, math.nan), "dt of synthetic motion must be positive and at most 0.02041 s"),
-        ((USUAL, 1, 1e-9), "duration of synthetic motion must be at most 10000000 samples"),
+        ((USUAL, 1, 1e-9), "duration of synthetic motion must be at most 1000000 samples"),
         (("M 7", 1, 0.01), "parameters of synthetic motion must be a SyntheticParameters; got 'M 7'"),
     ],
 )

@@ -13,7 +13,7 @@ from seismass.plausibility import target_remarks
 from seismass.spectra import MULTI_PERIODS
 
 G = 9.80665
-SUITE = sm.builtin_suite()
+SUITE = sm.builtin_suite("seven")
 STEP = sm.Motion(np.ones(300), 0.01)
 
 

@@ -8,7 +8,6 @@ from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.linalg import eigh_tridiagonal
 
 from seismass._values import FloatArray, as_array, as_number, brief, frozen, refusal
 from seismass.errors import InvalidOption, InvalidScene
@@ -78,6 +77,8 @@ def vibration_modes(mass: ArrayLike, stiffness: ArrayLike) -> Modes:
     if len(m) != len(k):
         requirement = f"a list of {len(m)} values, one per storey"
         raise refusal(InvalidScene, "stiffness", "building", requirement, f"{len(k)} values")
+    from scipy.linalg import eigh_tridiagonal  # slow to import
+
     # M^(-1/2) K M^(-1/2) is symmetric and tridiagonal.
     diagonal = (k + np.append(k[1:], 0.0)) / m
     beside = -k[1:] / np.sqrt(m[1:] * m[:-1])

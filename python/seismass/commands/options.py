@@ -47,8 +47,8 @@ def add_records_options(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--suite",
         choices=("seven", "eleven"),
-        help="built-in synthetic motions, where --records is left out: seven as ASCE 7-10 asks for, and the published "
-        "numbers are with (default), or eleven as ASCE 7-16 does",
+        help="built-in synthetic motions, where --records is left out: seven as ASCE 7-10 asks for, with which the "
+        "published numbers are (default), or eleven as ASCE 7-16 does (default of scaling by it)",
     )
 
 
@@ -86,7 +86,7 @@ def read_records(path: Path, *, dt: float | None = None, unit: str | None = None
     from seismass.records import read_suite
     from seismass.records.suite import suite_of_file
 
-    if not (path.is_dir() or _is_list(path)):
+    if not (path.is_dir() or is_list(path)):
         return suite_of_file(path, dt=dt, unit=unit)
     for name, value in (("--dt", dt), ("--unit", unit)):
         if value is not None:
@@ -96,7 +96,7 @@ def read_records(path: Path, *, dt: float | None = None, unit: str | None = None
     return read_suite(path)
 
 
-def _is_list(path: Path) -> bool:
+def is_list(path: Path) -> bool:
     """Whether a .csv file lists records; one that is a record has no column `file`."""
     from seismass.records.read import read_text
 

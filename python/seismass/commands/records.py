@@ -8,7 +8,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.options import _is_list, read_records
+from seismass.commands.options import is_list, read_records
 from seismass.units import ACCELERATION_UNITS
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def _read(path: Path, dt: float | None, unit: str | None) -> Suite:
     from seismass.records import read_records as read_channels
 
     if not path.is_dir():
-        if _is_list(path):
+        if is_list(path):
             return read_records(path, dt=dt, unit=unit)
         return Suite(path.stem, read_channels(path, dt=dt, unit=unit))
     for name, value in (("--dt", dt), ("--unit", unit)):

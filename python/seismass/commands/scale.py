@@ -17,7 +17,7 @@ from seismass.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from seismass.records import Suite
+    from seismass.records import Pairs, Suite
     from seismass.scaling import ScalingResult, Selection
     from seismass.scene import Building
     from seismass.spectra import TargetSpectrum
@@ -29,6 +29,7 @@ _EPILOG = """examples:
   seismass scale --records records/ --target uniform_hazard.csv --json
   seismass scale --records records/ --target ec8:1:C:0.3 --select 7 --plot scaling.png
   seismass scale --records records/ --method asce7-16 --select 11 --csv factors.csv
+  seismass scale --records records/ --method asce7-16 --pairs
   seismass scale --method mps --reduction 4 --period 1.0
   seismass scale --method mps --building warehouse.toml
 
@@ -64,6 +65,9 @@ def add_parser(subparsers: Any) -> None:
         "--lowest-period", type=positive_option, metavar="S", help="period of 90 %% of the mass, s (asce7-16)"
     )
     method.add_argument(
+        "--pairs", action="store_true", help="pairs of horizontals of the folder, in maximum direction (asce7-16)"
+    )
+    method.add_argument(
         "--reduction", type=positive_option, metavar="R", help="A_t(T) over the yield acceleration (mps)"
     )
     method.add_argument("--yield-coefficient", type=positive_option, metavar="C", help="yield acceleration, g (mps)")
@@ -93,15 +97,16 @@ def run(args: argparse.Namespace) -> int:
 
     _check_options(args)
     target = read_target(args)
-    suite, chosen = read_motions(args), None
+    suite, scaled = _motions(args)
+    chosen = None
     building = _building(args, target)
     period = args.period if building is None else float(building.periods[0])
     if args.select is not None:
         limits = {name: getattr(args, name) for name in ("max_per_event", "max_per_station") if getattr(args, name)}
         longest = 2.0 if args.method == "asce7-16" else 1.5
         chosen = select_records(suite, target, args.select, period=period, period_range=(0.2, longest), **limits)
-        suite = chosen.suite
-    scaling = _scaled(args, suite, target, building)
+        suite = scaled = chosen.suite
+    scaling = _scaled(args, scaled, target, building)
     remarks = (*motion_remarks(suite), *target_remarks(target), *scaling.remarks)
     if args.csv is not None:
         _write_table(args.csv, scaling)
@@ -111,13 +116,26 @@ def run(args: argparse.Namespace) -> int:
 
         kind: Literal["png", "svg"] = "svg" if args.plot.suffix.lower() == ".svg" else "png"
         with written_whole(args.plot) as temporary:
-            save_figure(scaling.plot(suite, target), kind, temporary)
+            figure = scaling.plot() if args.pairs else scaling.plot(suite, target)
+            save_figure(figure, kind, temporary)
     if args.json:
         warn_left_out(suite)
         print(json.dumps(_document(suite, target, scaling, chosen, remarks), indent=2))
     else:
         _print(suite, target, scaling, chosen, remarks)
     return 0
+
+
+def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
+    """The records as they are listed, and what is scaled; of a pair the first component stands for it."""
+    if not args.pairs:
+        suite = read_motions(args, "eleven" if args.method == "asce7-16" else "seven")
+        return suite, suite
+    from seismass.records import Suite, find_pairs
+
+    pairs = find_pairs(args.records)
+    listed = tuple(pair.first.replace(name=pair.name, remarks=pair.remarks) for pair in pairs)
+    return Suite(pairs.name, listed, pairs.excluded), pairs
 
 
 def _check_options(args: argparse.Namespace) -> None:
@@ -138,6 +156,11 @@ def _check_options(args: argparse.Namespace) -> None:
         if getattr(args, name) is not None and args.select is None:
             option = name.replace("_", "-")
             raise InvalidOption(f"--{option} of scale must be left out without --select; got {getattr(args, name)}")
+    if args.pairs:
+        if args.method != "asce7-16" or args.records is None:
+            raise InvalidOption("--pairs of scale must be left out without --method asce7-16 and --records; got it")
+        if args.select is not None:
+            raise InvalidOption(f"--select of scale must be left out with --pairs; got {args.select}")
     if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
         raise InvalidOption(f"--plot of scale must be a file with the suffix .png or .svg; got {args.plot}")
 
@@ -150,7 +173,8 @@ def _building(args: argparse.Namespace, target: TargetSpectrum) -> Building | No
     return read_building(args.building).structure(target)
 
 
-def _scaled(args: argparse.Namespace, suite: Suite, target: TargetSpectrum, building: Building | None) -> ScalingResult:
+def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, building: Building | None) -> ScalingResult:
+    """Scale a Suite, or Pairs by the method that takes them."""
     from seismass import scaling
 
     if args.method == "asce7-10":
@@ -173,7 +197,7 @@ def _write_table(path: Path, scaling: ScalingResult) -> None:
 
     from seismass.files import write_table, written_whole
 
-    table = scaling.table()
+    table = scaling.diagnostics()
     if "roots" in table.columns:
         roots = [" ".join(f"{root:.12g}" for root in several) for several in table["roots"]]
         table = table.with_columns(roots=pl.Series(roots))
@@ -188,7 +212,7 @@ def _document(
     chosen: Selection | None,
     remarks: tuple[str, ...],
 ) -> dict[str, Any]:
-    rows = zip(scaling.table().to_dicts(), suite, strict=True)
+    rows = zip(scaling.diagnostics().to_dicts(), suite, strict=True)
     return {
         "suite": suite.name,
         "target": target.label,
@@ -227,7 +251,7 @@ def _print(
         f"SF2 = {scaling.common:.6f}\n"
     )
     print("     SF1       SF        misfit  largest record")
-    rows = zip(scaling.table().iter_rows(named=True), scaling.largest_misfit, suite, strict=True)
+    rows = zip(scaling.diagnostics().iter_rows(named=True), scaling.largest_misfit, suite, strict=True)
     for row, largest, record in rows:
         print(
             f"{row['motion']:>3}  {row['individual_factor']:<8.5f}  {row['factor']:<8.5f}  {row['misfit']:<6.3f}  "

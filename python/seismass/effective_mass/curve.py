@@ -11,7 +11,6 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import bisect, brentq
 
 from seismass._values import FloatArray, as_array, brief, refusal
 from seismass.errors import InvalidOption
@@ -91,6 +90,8 @@ def refined_root(difference: Callable[[float], float], bracket: tuple[float, flo
 
     A model that collapses differs by infinity, from which no interpolation can be made: then the bracket is halved.
     """
+    from scipy.optimize import bisect, brentq  # slow to import
+
     low, high = bracket
     ends = difference(low), difference(high)
     for share, value in zip(bracket, ends, strict=True):

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, Final, Protocol, runtime_checkable
 import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
-from scipy import stats
 
 from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_number, as_path, brief, refusal
@@ -56,6 +55,8 @@ def lognormal(median: float, sigma: float) -> Distribution:
     centre, spread = (as_number(value, name, "lognormal", InvalidOption) for name, value in _pair(median, sigma))
     if not (centre > 0.0 and spread > 0.0 and np.isfinite([centre, spread]).all()):
         raise refusal(InvalidOption, "median and sigma", "lognormal", "positive", f"{centre:g} and {spread:g}")
+    from scipy import stats  # slow to import
+
     frozen: Distribution = stats.lognorm(s=spread, scale=centre)
     return frozen
 
@@ -67,6 +68,8 @@ def beta(mean: float, deviation: float) -> Distribution:
         requirement = "between 0 and 1, and a standard deviation above 0 and below sqrt(mean (1 - mean))"
         raise refusal(InvalidOption, "mean", "beta", requirement, f"{centre:g} and {spread:g}")
     total = centre * (1.0 - centre) / spread**2 - 1.0
+    from scipy import stats  # slow to import
+
     frozen: Distribution = stats.beta(centre * total, (1.0 - centre) * total)
     return frozen
 

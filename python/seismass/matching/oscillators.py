@@ -11,7 +11,6 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from seismass._values import FloatArray
 
@@ -81,6 +80,8 @@ class Oscillators:
 
     def response(self, index: int, acceleration: FloatArray) -> FloatArray:
         """Return the relative displacement (m) of one oscillator at the samples, from rest at the first."""
+        from scipy.signal import lfilter  # slow to import
+
         numerator = self.numerator[index]
         # There is no ramp before the first sample, as the filter has it.
         start = acceleration[0] * np.array([-numerator[0], self.from_start[index] - numerator[1]])

@@ -30,14 +30,15 @@ SECONDARY: Final = (0.1, 1.15)
 pass, and its factor from pass to pass, up to 1."""
 HOLDS: Final = 5
 """Times that extrema are added to those held, in one pass."""
-REGULARISATION: Final = (0.5, 0.6, 0.02)
+REGULARISATION: Final = (0.5, 0.65, 0.03)
 """Weight of the size of the wavelets against the misfit: in the first pass, its factor from pass to pass, the least."""
 WEAKER: Final = (1.0, 0.2)
 """Shares of that weight that are tried in each pass."""
-STEPS: Final = (0.3, 0.6, 1.0)
+STEPS: Final = (0.1, 0.35, 0.7, 1.0)
 """Shares of the step that are tried in each pass."""
-FORGET: Final = 0.5
-"""Share of the sum of all earlier wavelets that a pass takes back and seeks again."""
+FORGET: Final = (0.5, 0.85)
+"""Share of the sum of all earlier wavelets that a pass takes back and seeks again: in the first pass, and its factor
+from pass to pass."""
 EMPHASIS: Final = 50.0
 """A period off by 1/50 counts twice, by 2/50 five times in the sum of squares, so that no period stays behind."""
 PATIENCE: Final = 12
@@ -134,14 +135,15 @@ def adjust(
         influence = oscillators.influence(extrema, first, last)
         scale = np.sign(extrema.value) / displacement[extrema.oscillator]
         added = (acceleration - given)[first:last]
-        taken_back = FORGET * scale * np.einsum("es,s->e", influence, added)
+        forget = FORGET[0] * FORGET[1] ** passes
+        taken_back = forget * scale * np.einsum("es,s->e", influence, added)
         within = slice(wavelets.first - first, wavelets.last - first)
         effect = _effect(influence[:, within], wavelets) * scale[:, None]
         weight = max(REGULARISATION[0] * REGULARISATION[1] ** passes, REGULARISATION[2])
         ease = min(SECONDARY[0] * SECONDARY[1] ** passes, 1.0)
         candidates = []
         for amplitudes in _amplitudes(effect, scale * extrema.value, taken_back, extrema.largest, weight, ease):
-            change = -FORGET * added
+            change = -forget * added
             change[within] += np.einsum("w,ws->s", amplitudes, wavelets.samples)
             for step in STEPS:
                 motion = acceleration.copy()

@@ -12,6 +12,8 @@ from seismass.errors import InvalidOption
 from seismass.pulses.extraction import (
     CENTIMETRES,
     cumulative_share,
+    doubtful_period,
+    drift_of,
     extract,
     horizontals,
     scale_range,
@@ -78,7 +80,8 @@ def baker2007(record: Record) -> PulseResult:
     velocity = single_velocity(record, _OWNER)
     row, sample = _largest(velocity, scale_range(record.dt, _OWNER))
     candidate = _candidate(velocity, record.dt, row, sample, angle=0.0, azimuth=record.azimuth)
-    return PulseResult(BAKER, (record.name,), (candidate,), ())
+    remarks = drift_of((record,)) + doubtful_period(candidate.period, record.duration)
+    return PulseResult(BAKER, (record.name,), (candidate,), remarks)
 
 
 def baker2007_orientations(
@@ -116,7 +119,8 @@ def baker2007_orientations(
         candidate = _candidate(
             pair.towards(angle), pair.dt, row, sample, angle=math.degrees(angle), azimuth=pair.azimuth(angle)
         )
-        results.append(PulseResult(BAKER, pair.names, (candidate,), pair.remarks))
+        remarks = pair.remarks + doubtful_period(candidate.period, (len(candidate.velocity) - 1) * pair.dt)
+        results.append(PulseResult(BAKER, pair.names, (candidate,), remarks))
     return OrientationScan(pair.names, tuple(results), frozen(degrees), pair.remarks)
 
 

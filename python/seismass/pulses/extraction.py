@@ -6,6 +6,7 @@ The algorithm is that of Shahi and Baker (2014), Bulletin of the Seismological S
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -14,6 +15,7 @@ import numpy as np
 from seismass._values import FloatArray, brief, refusal
 from seismass.errors import InvalidMotion
 from seismass.pulses.wavelet import PERIOD_OF_SCALE, coefficient, transform_near, wavelet_history
+from seismass.records.intensity import drift_remarks
 from seismass.records.pair import Pair
 from seismass.records.record import Record
 
@@ -29,6 +31,10 @@ REFINEMENTS: Final = 201
 """Scales at most that are tried between two of the search: every one for steps above 2 ms, as in the papers' code."""
 NEIGHBOURHOOD: Final = 0.4
 """Further wavelets of a pulse, and no other candidate, are within this many scales of its first wavelet."""
+SMALLEST_PEAK: Final = 1e-100
+LARGEST_PEAK: Final = 1e100
+LONGEST_SHARE: Final = 0.5
+"""Pulse periods above this share of the duration are remarked on."""
 CENTIMETRES: Final = 100.0
 """Velocities in cm/s, the unit of both methods' constants, over those in m/s."""
 
@@ -83,9 +89,12 @@ def single_velocity(record: Any, owner: str) -> FloatArray:
     if not isinstance(record, Record):
         raise refusal(InvalidMotion, "record", owner, "a Record", brief(record))
     scale_range(record.dt, owner)
-    if not record.velocity.any():
-        what = f"record {record.name}".rstrip()
+    what, peak = f"record {record.name}".rstrip(), float(np.max(np.abs(record.velocity)))
+    if peak == 0.0:
         raise refusal(InvalidMotion, "acceleration", what, "other than zero somewhere", "zero throughout")
+    if not SMALLEST_PEAK < peak < LARGEST_PEAK:
+        requirement = f"between {SMALLEST_PEAK:g} and {LARGEST_PEAK:g} m/s, whose squares are numbers"
+        raise refusal(InvalidMotion, "peak velocity", what, requirement, f"{peak:g} m/s")
     return record.velocity
 
 
@@ -113,7 +122,32 @@ def horizontals(first: Any, second: Any, owner: str) -> Horizontals:
         dt=pair.dt,
         azimuth_of_first=None if pair.azimuths is None else pair.azimuths[0],
         turn=math.copysign(1.0, pair.apart),
-        remarks=pair.remarks,
+        remarks=_of_horizontals(pair) + drift_of((pair.first, pair.second)),
+    )
+
+
+def _of_horizontals(pair: Pair) -> tuple[str, ...]:
+    """Remarks of a pair but those on its vertical component, which has no part in this."""
+    vertical = "" if pair.vertical is None else pair.vertical.name
+    return tuple(remark for remark in pair.remarks if not (vertical and remark.startswith(f"{vertical} ")))
+
+
+def drift_of(records: Iterable[Record]) -> tuple[str, ...]:
+    """Return remarks on records whose velocity does not end near zero: a drift of the baseline may pass for a pulse."""
+    return tuple(
+        f"{record.name or 'record'} {remark}"
+        for record in records
+        for remark in drift_remarks(record)
+        if remark.startswith("ends with a velocity")
+    )
+
+
+def doubtful_period(period: float, duration: float) -> tuple[str, ...]:
+    """Return a remark on a wavelet whose period is above half the duration of the record (both s)."""
+    if period <= LONGEST_SHARE * duration:
+        return ()
+    return (
+        f"the period of the wavelet, {period:.2f} s, is above half the record, {duration:.2f} s: cut off or no pulse",
     )
 
 

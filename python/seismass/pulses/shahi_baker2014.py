@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -13,6 +14,7 @@ from seismass.pulses.extraction import (
     NEIGHBOURHOOD,
     Horizontals,
     cumulative_share,
+    doubtful_period,
     extract,
     horizontals,
     scale_range,
@@ -102,7 +104,9 @@ def shahi_baker2014(first: Record | Pair, second: Record | None = None) -> Pulse
         size[np.abs(np.arange(len(size)) - sample) < reach] = 0.0
         if not size.any():
             break
-    return PulseResult(SHAHI_BAKER, pair.names, tuple(candidates), pair.remarks)
+    result = PulseResult(SHAHI_BAKER, pair.names, tuple(candidates), pair.remarks)
+    doubtful = doubtful_period(result.chosen.period, (len(pair.velocities[0]) - 1) * pair.dt)
+    return replace(result, remarks=result.remarks + doubtful)
 
 
 def _largest_by_time(pair: Horizontals, scales: range) -> tuple[FloatArray, FloatArray, FloatArray]:

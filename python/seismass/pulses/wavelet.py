@@ -10,6 +10,7 @@ import functools
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seismass._values import FloatArray, frozen
 from seismass.errors import MissingPackage
@@ -65,10 +66,12 @@ def _before(scale: int) -> int:
     return SUPPORT * scale // 2
 
 
-def _convolved(velocity: FloatArray, scale: int, mode: str) -> FloatArray:
-    from scipy.signal import fftconvolve  # slow to import
+@functools.lru_cache(maxsize=64)
+def _spectrum(scale: int, size: int) -> NDArray[np.complex128]:
+    """Conjugate Fourier transform of the weights: products with it are correlations."""
+    from scipy.fft import rfft  # slow to import
 
-    return np.asarray(fftconvolve(velocity, _filter(scale)[::-1], mode=mode))
+    return np.asarray(np.conj(rfft(_filter(scale), size)))
 
 
 def transform(velocity: FloatArray, scale: int) -> FloatArray:
@@ -86,8 +89,7 @@ def transform(velocity: FloatArray, scale: int) -> FloatArray:
     ndarray, shape (samples,)
         Sum of the history times the wavelet of unit energy, in the unit of the history times the root of a sample.
     """
-    after = SUPPORT * scale - 1 - _before(scale)
-    return _convolved(velocity, scale, "full")[after:][: len(velocity)]
+    return transform_near(velocity, scale, 0, len(velocity) - 1)
 
 
 def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> FloatArray:
@@ -95,11 +97,15 @@ def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> F
 
     As `transform`, of what the wavelets there touch alone.
     """
+    from scipy.fft import irfft, next_fast_len, rfft  # slow to import
+
     start = first - _before(scale)
     stop = last - _before(scale) + SUPPORT * scale
     touched = velocity[max(0, start) : stop]
-    padded = np.pad(touched, (max(0, -start), max(0, stop - len(velocity))))
-    return _convolved(padded, scale, "valid")
+    padded = np.zeros(next_fast_len(stop - start, real=True))  # so long that nothing that is returned wraps around
+    padded[max(0, -start) : max(0, -start) + len(touched)] = touched
+    correlated = irfft(rfft(padded) * _spectrum(scale, len(padded)), len(padded))
+    return np.asarray(correlated[: last - first + 1])
 
 
 def coefficient(velocity: FloatArray, scale: int, sample: int) -> float:

@@ -13,9 +13,10 @@ import numpy as np
 
 from seismass._values import FloatArray, Value, as_number, brief, refusal
 from seismass.errors import InvalidMotion, InvalidOption
+from seismass.records.formats.directions import azimuth_of
 from seismass.records.read import read_record
 from seismass.records.record import Record
-from seismass.records.rotation import at_angles, between, component_azimuth
+from seismass.records.rotation import at_angles, between
 
 PERPENDICULAR: Final = 5.0
 """How far (degrees) two stated directions may be from a right angle; motion in the plane is solved for."""
@@ -28,7 +29,7 @@ class Pair(Value):
     """Two horizontal components of one recording at the same instants, and its vertical component.
 
     Make one with `from_records`, `read_pair` or `find_pairs`. Components of other directions are linear combinations of
-    the two, and as exact as they are.
+    the two, and as exact as they are. Iterating gives the two horizontals and then the vertical, if there is one.
 
     Parameters
     ----------
@@ -127,6 +128,9 @@ class Pair(Value):
         vertical = "" if self.vertical is None else f", vertical {self.vertical.pga_g:.4f} g"
         return f"<Pair {self.name or '(unnamed)'}: {self.samples} x {self.dt:g} s, PGA {peaks} g{vertical}>"
 
+    def _repr_html_(self) -> str:
+        return "".join(record._repr_html_() for record in self)
+
     def __len__(self) -> int:
         return len(self._named())
 
@@ -146,7 +150,7 @@ class Pair(Value):
                 if length >= 0 and [name[length : length + 3] for name in (one, other)] == degrees:
                     common = common[:length]
                     break
-        common = common.rstrip("-_. ")
+        common = common.rstrip("-_. ").removesuffix(" channel")
         return common if len(common) >= 3 else " + ".join(name for name in (one, other) if name)
 
     @property
@@ -314,7 +318,7 @@ def _angle(parameter: str, value: Any) -> float:
 
 
 def _directed(record: Record) -> Record:
-    azimuth = component_azimuth(record.component) if record.azimuth is None else record.azimuth
+    azimuth = azimuth_of(record.component) if record.azimuth is None else record.azimuth
     return record if azimuth == record.azimuth else record.replace(azimuth=azimuth)
 
 

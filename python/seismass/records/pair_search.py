@@ -13,19 +13,19 @@ import polars as pl
 
 from seismass._values import as_path, printable
 from seismass.errors import InvalidMotion, RecordFormatError
+from seismass.records.formats.directions import azimuth_of
 from seismass.records.pair import Pair
-from seismass.records.read import read_record
 from seismass.records.record import Record
-from seismass.records.rotation import between, component_azimuth
-from seismass.records.suite import Excluded, _is_hidden, _vertical_reason
+from seismass.records.rotation import between
+from seismass.records.suite import Excluded, is_hidden, read_file, vertical_reason
 
 _SEQUENCE: Final = re.compile(r"^RSN(\d+)(?!\d)", re.IGNORECASE)
 _DIRECTION: Final = re.compile(
-    r"(?:[-_. ]*(?:NS|EW|UD|UP|VERT?|LN|TR|LONG|TRAN|H[12]|[BH][NLH][NEZ123])|[-_. ]+[NSEWLTVZ]"
+    r"(?:[-_. ]*(?:(?:NS|EW|UD)(?P<level>[12]?)|UP|VERT?|LN|TR|LONG|TRAN|H[12]|[BH][NLH][NEZ123])|[-_. ]+[NSEWLTVZ]"
     r"|[-_. ]?(?P<degrees>\d{3}))$",
     re.IGNORECASE,
 )
-"""End of a name that says which component it is."""
+"""End of a name that says which component it is; KiK-net numbers the instruments in the borehole 1, those above 2."""
 
 
 @dataclass(frozen=True)
@@ -94,44 +94,41 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
     Parameters
     ----------
     folder : path-like
-        The folder; hidden files are not looked at, every other is tried as a record that states its own step and unit.
+        The folder; hidden files are not looked at. What is read of it is what `read_suite` reads: every record format,
+        each channel of files of several, and text of columns that states its step and unit.
     lengths : {"shorter", "padded"}
         See `Pair.from_records`.
 
     Raises
     ------
     RecordFormatError
-        It is no folder. A file that cannot be read raises nothing: it stands in `excluded` with the reason, as does
-        one without a partner or with several.
+        It is no folder. A damaged file raises nothing: it stands in `excluded` with the reason, as does one that is no
+        record, or a component without a partner or with several.
     """
     directory = as_path(folder, "pairs", RecordFormatError)
     if not directory.is_dir():
         raise RecordFormatError(f"folder of pairs must be a directory; got {printable(str(directory))}")
     files = sorted(
-        file for file in directory.rglob("*") if file.is_file() and not _is_hidden(file.relative_to(directory))
+        file for file in directory.rglob("*") if file.is_file() and not is_hidden(file.relative_to(directory))
     )
     excluded: list[Excluded] = []
     groups: dict[tuple[str, ...], list[Record]] = {}
     for file in files:
         try:
-            record = read_record(file)
+            read = read_file(file)
         except RecordFormatError as error:
-            excluded.append(Excluded(file, str(error)))
+            read = str(error)
+        if isinstance(read, str):
+            excluded.append(Excluded(file, read))
             continue
-        groups.setdefault(_group(file, record), []).append(record)
+        for record in read:
+            groups.setdefault(_group(file, record), []).append(record)
     pairs: list[Pair] = []
     for records in groups.values():
         for together in _sorted_out(records):
-            found = _pair(together, lengths)
-            if isinstance(found, Pair):
-                pairs.append(found)
-                used = {record.source for record in found}
-                found = [
-                    Excluded(record.source, "more than one vertical component of its pair")
-                    for record in together
-                    if record.source is not None and record.source not in used
-                ]
-            excluded.extend(found)
+            pair, left = _pair(together, lengths)
+            pairs.extend(pair)
+            excluded.extend(left)
     excluded.sort(key=lambda item: item.file)
     return Pairs(printable(directory.resolve().name), tuple(pairs), tuple(excluded))
 
@@ -152,12 +149,12 @@ def _group(file: Path, record: Record) -> tuple[str, ...]:
 
 def _stem(name: str) -> str:
     """A name without the direction it ends in."""
-    return _DIRECTION.sub("", name).lower()
+    return _DIRECTION.sub(lambda end: end["level"] or "", name).lower()
 
 
 def _sorted_out(records: list[Record]) -> list[list[Record]]:
     """One group, or several by name where it has more than two horizontals: instruments of one station."""
-    if sum(_vertical_reason(record) is None for record in records) <= 2:
+    if sum(vertical_reason(record) is None for record in records) <= 2:
         return [records]
     groups: dict[str, list[Record]] = {}
     for record in records:
@@ -165,25 +162,37 @@ def _sorted_out(records: list[Record]) -> list[list[Record]]:
     return list(groups.values())
 
 
-def _pair(records: list[Record], lengths: Literal["shorter", "padded"]) -> Pair | list[Excluded]:
-    horizontal = [record for record in records if _vertical_reason(record) is None]
-    vertical = [record for record in records if _vertical_reason(record) is not None]
+def _pair(records: list[Record], lengths: Literal["shorter", "padded"]) -> tuple[list[Pair], list[Excluded]]:
+    """The pair that a group makes, and what is left of it."""
+    horizontal = [record for record in records if vertical_reason(record) is None]
+    vertical = [record for record in records if vertical_reason(record) is not None]
     if len(horizontal) != 2:
         alone = "no second horizontal component beside it"
         several = f"{len(horizontal)} horizontal components that belong together: read_pair takes two by name"
         none = "vertical component without horizontal ones"
-        reason = {0: none, 1: alone}.get(len(horizontal), several)
-        return [Excluded(record.source, reason) for record in records if record.source is not None]
+        return [], _left(records, {0: none, 1: alone}.get(len(horizontal), several))
     first, second = _directed(horizontal)
+    up = vertical[0] if len(vertical) == 1 else None
     try:
-        return Pair.from_records(first, second, vertical[0] if len(vertical) == 1 else None, lengths=lengths)
+        pair = Pair.from_records(first, second, up, lengths=lengths)
     except InvalidMotion as error:
-        return [Excluded(record.source, str(error)) for record in records if record.source is not None]
+        return [], _left(records, str(error))
+    return [pair], [] if up else _left(vertical, "more than one vertical component of its pair")
+
+
+def _left(records: list[Record], reason: str) -> list[Excluded]:
+    """Records that are in no pair; those of a file of several channels by name."""
+    sources = [record.source for record in records]
+    return [
+        Excluded(record.source, reason if sources.count(record.source) == 1 else f"{record.name}: {reason}")
+        for record in records
+        if record.source is not None
+    ]
 
 
 def _directed(horizontal: list[Record]) -> list[Record]:
     """The two horizontals with the directions that their names end in, where nothing else states them."""
-    if any(record.azimuth is not None or component_azimuth(record.component) is not None for record in horizontal):
+    if any(record.azimuth is not None or azimuth_of(record.component) is not None for record in horizontal):
         return horizontal
     ends = [_DIRECTION.search(record.name) for record in horizontal]
     degrees = [float(end["degrees"]) for end in ends if end and end["degrees"]]

@@ -316,9 +316,7 @@ class Record(Value):
         """Return another record, with a step added to its history."""
         return self.replace(history=(*self.history, said), **changes)
 
-    def plot(
-        self, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None
-    ) -> Figure | SubFigure:
+    def plot(self, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None) -> Figure:
         """Draw acceleration, velocity, displacement and the Arias build-up with D5-95; nothing is shown on a screen.
 
         Parameters
@@ -330,8 +328,8 @@ class Record(Value):
 
         Returns
         -------
-        Figure or SubFigure
-            The one drawn into; `figure.savefig(path)` writes it, and a notebook shows it.
+        Figure
+            The whole figure that was drawn into; `figure.savefig(path)` writes it, and a notebook shows it.
         """
         from seismass.report.record_figure import record_figure  # matplotlib is slow to import
 

@@ -187,28 +187,28 @@ def suite_of_file(path: Path, *, dt: float | None = None, unit: str | None = Non
     records = read_records(path, dt=dt, unit=unit)
     if len(records) == 1:
         return Suite(records[0].name, records)
-    taken = tuple(record for record in records if not _vertical_reason(record))
+    taken = tuple(record for record in records if not vertical_reason(record))
     if not taken:
         raise RecordFormatError(f"channels of {path.name} must be at least one horizontal; got {len(records)} vertical")
-    reasons = ((record.name, _vertical_reason(record)) for record in records)
+    reasons = ((record.name, vertical_reason(record)) for record in records)
     left_out = tuple(Excluded(path, f"{name}: {reason}") for name, reason in reasons if reason)
     return Suite(printable(path.stem), taken, left_out)
 
 
 def _read_directory(directory: Path) -> Suite:
     files = sorted(
-        (file for file in directory.rglob("*") if file.is_file() and not _is_hidden(file.relative_to(directory))),
+        (file for file in directory.rglob("*") if file.is_file() and not is_hidden(file.relative_to(directory))),
         key=lambda file: file.relative_to(directory).as_posix(),
     )
     records: list[Record] = []
     excluded: list[Excluded] = []
     for file in files:
-        read = _read_file(file)
+        read = read_file(file)
         if isinstance(read, str):
             excluded.append(Excluded(file, read))
             continue
         for record in read:
-            reason = _vertical_reason(record)
+            reason = vertical_reason(record)
             if reason:
                 excluded.append(Excluded(file, reason if len(read) == 1 else f"{record.name}: {reason}"))
             else:
@@ -220,7 +220,7 @@ def _read_directory(directory: Path) -> Suite:
     return Suite(printable(directory.resolve().name), tuple(_with_copies(records)), tuple(excluded))
 
 
-def _read_file(file: Path) -> tuple[Record, ...] | str:
+def read_file(file: Path) -> tuple[Record, ...] | str:
     """Return the records of a file, or why it is left out.
 
     Raises
@@ -280,7 +280,8 @@ def _with_copies(records: list[Record]) -> Iterator[Record]:
         yield record
 
 
-def _is_hidden(file: Path) -> bool:
+def is_hidden(file: Path) -> bool:
+    """Whether a path has a hidden file or folder in it."""
     return any(part.startswith(".") for part in file.parts)
 
 
@@ -357,7 +358,7 @@ def _cell_number(cells: dict[str, str], column: str, source: Path, row: int) -> 
         raise RecordFormatError(f"{column} of {source.name}, row {row}, must be a number; got {cell!r}") from error
 
 
-def _vertical_reason(record: Record) -> str | None:
+def vertical_reason(record: Record) -> str | None:
     """Return why a record is a vertical component, or None."""
     if is_vertical(record.component):
         return f"vertical component by its header: {record.component}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
 
@@ -13,7 +14,7 @@ from matplotlib.figure import Figure, SubFigure
 from seismass._values import FloatArray, brief, refusal
 from seismass.errors import InvalidOption
 from seismass.records.intensity import build_up, drift_remarks, time_of_share
-from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION, plain
+from seismass.report.figures import BLUE, CAPTION_CHARACTERS, GREY, INK, STYLE, VERMILION, plain
 from seismass.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ PANELS: Final = 4
 
 def record_figure(
     record: Record, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None
-) -> Figure | SubFigure:
+) -> Figure:
     """Return the figure of a record; `Record.plot` says what the arguments are.
 
     Peaks are those in continuous time; circles mark the largest of the samples, which are what is drawn.
@@ -45,8 +46,7 @@ def record_figure(
             if len(panels) != PANELS or not all(isinstance(one, Axes) for one in panels):
                 raise refusal(InvalidOption, "axes", "plot", f"{PANELS} Axes", brief(axes))
         _draw(record, panels)
-    found = panels[0].figure
-    return found
+    return panels[0].figure.figure  # of a subfigure the whole one
 
 
 def _draw(record: Record, panels: list[Axes]) -> None:
@@ -71,12 +71,14 @@ def _draw(record: Record, panels: list[Axes]) -> None:
         axes.set_xlim(0.0, max(record.duration, record.dt))
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     panels[-1].set_xlabel("time (s)")
-    said = [part for part in (record.event, record.station, record.component) if part]
-    title = plain(record.name or "(unnamed)") + (", synthetic" if record.synthetic else "")
-    lines = [title + (f"  ({plain(', '.join(said))})" if said else "")]
-    lines += [plain(remark) for remark in drift_remarks(record)]
+    panels[0].figure.align_ylabels(panels)
+    said = ", ".join(part for part in (record.event, record.station, record.component) if part)
+    title = (record.name or "(unnamed)") + (", synthetic" if record.synthetic else "") + (f"  ({said})" if said else "")
+    whole = panels[0].figure
+    width = int(CAPTION_CHARACTERS * panels[0].get_position().width * whole.bbox.width / whole.dpi)
+    lines = [plain(textwrap.fill(text, max(width, 20))) for text in (title, *drift_remarks(record))]
     # The last line is left to the peak.
-    panels[0].set_title("\n".join([*lines, " "]), loc="left", fontsize=8.5, pad=3.0)
+    panels[0].set_title("\n".join([*lines, " "]), loc="left", fontsize=8.0, pad=3.0)
 
 
 def _arias(record: Record, axes: Axes, built: FloatArray) -> None:

@@ -78,12 +78,12 @@ def first_mode_oscillator(building: Building) -> FirstModeOscillator:
     Parameters
     ----------
     building : Building
-        Without P-Delta.
+        The building; P-Delta is left out.
 
     Raises
     ------
     InvalidOption
-        It is no building, or one with P-Delta, whose storeys may soften.
+        It is no building.
 
     Notes
     -----
@@ -96,8 +96,6 @@ def first_mode_oscillator(building: Building) -> FirstModeOscillator:
     """
     if not isinstance(building, Building):
         raise refusal(InvalidOption, "building", "scaling", "a Building", brief(building))
-    if building.gravity_load is not None or building.geometric_stiffness is not None:
-        raise refusal(InvalidOption, "building", "pushover", "one without P-Delta", "one with P-Delta")
     modes = vibration_modes(building.mass, building.stiffness)
     shape, period, modal_mass = modes.shapes[:, 0], float(modes.periods[0]), float(modes.effective_mass[0])
     loads = building.mass * shape

@@ -14,7 +14,7 @@ from seismass.errors import InvalidOption, SimulationError
 from seismass.scaling.oscillator import FirstModeOscillator, deformation_ratio, first_mode_oscillator
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import checked_target, positive_number, suite_spectra
-from seismass.scene import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE, Building
+from seismass.scene import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE, Building, Scene
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.spectra.oscillators import Oscillators
 from seismass.units import STANDARD_GRAVITY
@@ -47,6 +47,10 @@ class PushoverScaling(ScalingResult):
         D_t (m).
     deformations : ndarray, shape (motions,)
         Peak deformation of the oscillator under each motion with its factor (m).
+    second_mode_ratio : ndarray, shape (motions,), or None
+        Scaled pseudo-acceleration at T2 over the target there, for a building of two storeys or more: how far the
+        second, elastic mode is from its target, by which Kalkan and Chopra rank records for buildings in which it
+        matters. None without a building, or where the target does not cover T2.
     roots : tuple of ndarray
         All factors of each motion that were found to reach the target, increasing; the one nearest 1 in the logarithm
         is taken.
@@ -58,18 +62,22 @@ class PushoverScaling(ScalingResult):
     target_deformation: float = 0.0
     deformations: FloatArray = field(default_factory=lambda: frozen([]))
     roots: tuple[FloatArray, ...] = ()
+    second_mode_ratio: FloatArray | None = None
 
-    def table(self) -> pl.DataFrame:
-        """Return the table of `ScalingResult` with the deformation (m), over the target, and all factors found."""
-        return (
+    def diagnostics(self) -> pl.DataFrame:
+        """Return those of `ScalingResult` with the deformation (m), over the target, and all factors found."""
+        table = (
             super()
-            .table()
+            .diagnostics()
             .with_columns(
                 deformation=pl.Series(self.deformations),
                 deformation_over_target=pl.Series(self.deformations / self.target_deformation),
                 roots=pl.Series([roots.tolist() for roots in self.roots], dtype=pl.List(pl.Float64)),
             )
         )
+        if self.second_mode_ratio is None:
+            return table
+        return table.with_columns(second_mode_ratio=pl.Series(self.second_mode_ratio))
 
 
 def scale_modal_pushover(
@@ -99,8 +107,8 @@ def scale_modal_pushover(
     target : TargetSpectrum
         Elastic design spectrum.
     building : Building, optional
-        Shear building; its pushover under s = m phi_1 gives the oscillator (`first_mode_oscillator`). Without it the
-        oscillator is given by the next arguments.
+        Shear building; its pushover under s = m phi_1 gives the oscillator (`first_mode_oscillator`), without P-Delta.
+        Without a building the oscillator is given by the next arguments.
     period : float, optional
         Period T1 of the oscillator (s); 1 by default.
     yield_coefficient : float, optional
@@ -173,7 +181,9 @@ def scale_modal_pushover(
     roots = search.roots(wanted)
     factors = np.array([found[np.argmin(np.abs(np.log(found)))] for found in roots])
     reached = search.deformations(np.arange(len(suite)), factors)
+    second = None if building is None else _second_mode(building, suite, target, factors, oscillator.damping, threads)
     notes = _notes(compared.names, roots, deformation, strength, oscillator, corner)
+    notes += [] if building is None else _p_delta_notes(building)
     return PushoverScaling(
         **compared.content("modal pushover", factors, 1.0, notes),
         oscillator=oscillator,
@@ -182,7 +192,24 @@ def scale_modal_pushover(
         target_deformation=wanted,
         deformations=frozen(reached),
         roots=tuple(frozen(found) for found in roots),
+        second_mode_ratio=second,
     )
+
+
+def _second_mode(
+    building: Building,
+    suite: list[GroundMotion],
+    target: TargetSpectrum,
+    factors: FloatArray,
+    damping: float,
+    threads: int | None,
+) -> FloatArray | None:
+    """Scaled over target pseudo-acceleration at the second period."""
+    if building.storeys == 1 or not target.shortest <= building.periods[1] <= target.longest:
+        return None
+    at = float(building.periods[1])
+    ordinates = response_spectrum(suite, [at], damping, threads=threads)[:, 0]
+    return frozen(factors * ordinates / float(target(at)))
 
 
 def _given_oscillator(
@@ -233,6 +260,16 @@ def _notes(
             listed = ", ".join(f"{value:.4g}" for value in several)
             found.append(f"motion {number} ({name}) reaches the target deformation at several factors: {listed}")
     return found
+
+
+def _p_delta_notes(building: Building) -> list[str]:
+    """Say that P-Delta is left out of the pushover, and how much it is."""
+    share = Scene(building).geometric_stiffness / building.stiffness
+    largest = float(np.max(share))
+    if largest == 0.0:
+        return []
+    storey = int(np.argmax(share)) + 1
+    return [f"P-Delta is left out of the pushover: P/h is up to {100.0 * largest:.2g} % of k (storey {storey})"]
 
 
 class _Search:

@@ -106,7 +106,7 @@ class ScalingResult:
         return ratio
 
     def table(self) -> pl.DataFrame:
-        """Return one row per motion: number, name, SF1, SF2, their product, and the two misfits."""
+        """Return one row per motion: number, name, SF1, SF2 and their product."""
         return pl.DataFrame(
             {
                 "motion": np.arange(1, len(self.names) + 1, dtype=np.uint32),
@@ -114,10 +114,12 @@ class ScalingResult:
                 "individual_factor": self.individual,
                 "common_factor": np.full(len(self.names), self.common),
                 "factor": self.factors,
-                "misfit": self.misfit,
-                "largest_misfit": self.largest_misfit,
             }
         )
+
+    def diagnostics(self) -> pl.DataFrame:
+        """Return the rows of `table` with `misfit` and `largest_misfit`, and what else the method knows of a motion."""
+        return self.table().with_columns(misfit=pl.Series(self.misfit), largest_misfit=pl.Series(self.largest_misfit))
 
     @property
     def remarks(self) -> tuple[str, ...]:

@@ -31,6 +31,8 @@ TILTS: Final = (-0.3, 0.3)
 SCALING_PERIODS: Final = (0.5, 1.5)
 MATCHED_RANGE: Final = (0.2, 1.5)
 """Range of periods that motions are matched in, as multiples of the period of scaling."""
+MATCHED_TOLERANCE: Final = 0.05
+"""Largest misfit of their spectra: what records of practice are matched to, in a few passes."""
 MOTIONS: Final = "motions"
 """The choice how motions are brought to the target."""
 
@@ -155,8 +157,9 @@ def _motion_changes(
 ) -> Iterator[_Change]:
     """Changes of how motions are brought to the target: factors of modal pushover, and matched motions.
 
-    The oscillator of modal pushover has the period for which the study scales and the springs of its storeys, one setting
-    for each R above 1. Matched motions are scaled like those of the study, so that their mean is not below the target.
+    The oscillator of modal pushover has the period for which the study scales and the springs of its storeys, one
+    setting for each R above 1. Matched motions are scaled like those of the study, so that their mean is not below the
+    target.
     """
     for reduction in chosen.response_modification:
         if reduction > 1.0:
@@ -173,8 +176,21 @@ def _motion_changes(
             )
             yield _Change(MOTIONS, f"modal pushover, R_y = {reduction:g}", chosen, target, suite, scaling)
     shortest, longest = (chosen.scaling_period * multiple for multiple in MATCHED_RANGE)
-    matched = match_suite(suite, target, periods=(shortest, longest), damping=chosen.damping, threads=threads)
-    yield _Change(MOTIONS, f"matched, {shortest:g} to {longest:g} s", chosen, target, matched.suite)
+    matched = match_suite(
+        suite,
+        target,
+        periods=(shortest, longest),
+        damping=chosen.damping,
+        tolerance=MATCHED_TOLERANCE,
+        threads=threads,
+    )
+    yield _Change(
+        MOTIONS,
+        f"matched, {100.0 * MATCHED_TOLERANCE:g} %, {shortest:g} to {longest:g} s",
+        chosen,
+        target,
+        matched.suite,
+    )
 
 
 def _heaviest(result: StudyResult) -> list[int]:

@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._values import as_number, brief, refusal
+from seismass._values import as_count, as_number, brief, refusal
 from seismass.errors import InvalidMotion
 from seismass.records.record import Record
 from seismass.records.synthetic.ends import at_rest_in_the_end, ramp
@@ -38,7 +38,7 @@ INTENSITY_AT_THE_END: Final = 0.9999
 REST: Final = 2.0
 """Time that the high-pass oscillator has to come to rest after that, in its periods."""
 
-LONGEST: Final = 10_000_000
+LONGEST: Final = 1_000_000
 """Most samples of one motion."""
 
 
@@ -63,7 +63,7 @@ class SyntheticParameters:
     damping : float
         Damping ratio of the filter, between 0 and 1: the larger the broader the band.
     corner : float
-        Frequency of the critically damped oscillator that takes off long periods (Hz).
+        Frequency of the critically damped oscillator that takes off long periods (Hz), below `frequency`.
     pulse : NearFaultPulse, optional
         Velocity pulse that is added.
 
@@ -102,6 +102,9 @@ class SyntheticParameters:
             raise refusal(
                 InvalidMotion, "frequency", _OWNER, f"at least {LEAST_FREQUENCY:g} Hz", f"{self.frequency:g} Hz"
             )
+        if self.corner >= self.frequency:
+            requirement = f"below the frequency, {self.frequency:g} Hz"
+            raise refusal(InvalidMotion, "corner", _OWNER, requirement, f"{self.corner:g} Hz")
         if not 0.01 <= self.d5_95 / self.t_mid <= 4.9:
             raise refusal(
                 InvalidMotion, "d5_95", _OWNER, "0.01 to 4.9 times t_mid", f"{self.d5_95:g} s beside {self.t_mid:g} s"
@@ -241,7 +244,7 @@ def synthetic_motion(parameters: SyntheticParameters, seed: int, dt: float = 0.0
     White noise passes a filter whose frequency changes over time (`filtered_noise`), is divided by its own standard
     deviation and multiplied by the modulation (`SyntheticParameters.standard_deviation`), passes a high-pass
     (`high_passed`), and a near-fault pulse is added. What velocity and displacement are left at the end, less than a
-    thousandth of their peaks as a rule, is taken off by a smooth acceleration over the whole motion, and both are zero
+    ten-thousandth of their peaks, is taken off by a smooth acceleration over the whole motion, and both are zero
     there.
 
     Parameters
@@ -262,12 +265,11 @@ def synthetic_motion(parameters: SyntheticParameters, seed: int, dt: float = 0.0
     Raises
     ------
     InvalidMotion
-        The seed is no whole number, or the step is not positive or too long.
+        The seed is no whole number from 0 on, or the step is not positive or too long.
     """
     if not isinstance(parameters, SyntheticParameters):
         raise refusal(InvalidMotion, "parameters", _OWNER, "a SyntheticParameters", brief(parameters))
-    if isinstance(seed, bool) or not isinstance(seed, int):
-        raise refusal(InvalidMotion, "seed", _OWNER, "a whole number", brief(seed))
+    seed = as_count(seed, "seed", _OWNER, InvalidMotion)
     dt = as_number(dt, "dt", _OWNER, InvalidMotion)
     ends = parameters.filter_frequency(np.array([0.0, parameters.intensity_end]))
     longest = 0.1 / float(np.max(ends))

@@ -90,7 +90,7 @@ SITE_RECIPES: Final = (
         30.0,
         SyntheticParameters(2.0, 8.0, 5.0, 4.0, -0.15, 0.35, 0.25, NearFaultPulse(2.2, 0.5, 4.5)),
     ),
-    SiteRecipe(9, 9018, 0.01, 52.0, SyntheticParameters(2.5, 25.0, 15.0, 3.5, -0.06, 0.4, 0.15)),
+    SiteRecipe(9, 9069, 0.01, 50.0, SyntheticParameters(2.5, 20.0, 13.0, 3.5, -0.05, 0.4, 0.15)),
     SiteRecipe(
         10,
         10055,

@@ -1,0 +1,77 @@
+"""Writes docs/catalogue.md: the seven records of the paper's Table 1, from the catalogue of the package.
+
+Usage: python tools/catalogue_page.py
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+from seismass.records.catalogue import DATABASE, SUBSTITUTES, TERMS, catalogue
+
+PAGE: Final = Path(__file__).parents[1] / "docs" / "catalogue.md"
+
+TEXT: Final = """# The paper's seven records
+
+The paper uses one component of each of seven recordings (its Table 1). They belong to PEER and are not part of this
+project; `seismass.records.catalogue()` has the table as data, and
+
+```sh
+seismass records                    # the table, what is odd about it, how to get each record
+seismass records --find Downloads/  # which of the seven a folder holds, and what each file is
+```
+
+A file is judged by its header (event, year, station, component) and by its content: number of points, place of the peak
+and ratio of its two largest accelerations of either sign. So renamed files are found, and files without a header, in
+any unit; scaled, cut and reprocessed ones are said to be so; a name alone is not counted. Written by
+`tools/catalogue_page.py`.
+
+| no. | record | M | D (km) | pulse (s) | RSN | NGA-West2 flatfile: M, closest distance, Vs30 |
+| --- | --- | --- | --- | --- | --- | --- |
+{rows}
+
+Names, magnitude M, distance D and pulse period are as the paper prints them. The flatfile's numbers are given where its
+row was at hand; both agree within the paper's rounding.
+
+{odd}
+
+Substitutes for record 7, other stations of the same event: {substitutes}.
+
+## How to get them
+
+{terms}. Sign in at <{database}>, search by RSN, choose unscaled records, and download:
+
+| no. | files |
+| --- | --- |
+{files}
+"""
+
+
+def page() -> str:
+    """Return the page."""
+    rows, odd, files = [], [], []
+    for row in catalogue().iter_rows(named=True):
+        pulse = "none" if row["pulse_period"] is None else f"{row['pulse_period']:g}"
+        flatfile = "not at hand"
+        if row["nga_magnitude"] is not None:
+            flatfile = f"{row['nga_magnitude']:g}, {row['nga_distance_km']:g} km, {row['nga_vs30']:g} m/s"
+        rows.append(
+            f"| {row['number']} | {row['event']}, {row['station']} | {row['magnitude']:g} | {row['distance_km']:g} | "
+            f"{pulse} | {row['rsn']} | {flatfile} |"
+        )
+        if row["remark"]:
+            odd.append(f"* {row['number']}, {row['station']}: {row['remark']}.")
+        files.append(f"| {row['number']} | {', '.join(f'`{name}`' for name in row['files'])} |")
+    return TEXT.format(
+        rows="\n".join(rows),
+        odd="\n".join(odd),
+        substitutes=" and ".join(f"{one.station} (RSN{one.rsn})" for one in SUBSTITUTES),
+        terms=TERMS,
+        database=DATABASE,
+        files="\n".join(files),
+    )
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

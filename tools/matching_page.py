@@ -1,0 +1,178 @@
+"""Puts the tables of docs/matching.md into it: the seven records, the far-field components, other ranges and dampings.
+
+Usage: SEISMASS_SHARED=... python tools/matching_page.py [seven] [far_field] [other]; all three without a name.
+The recordings are not part of this project: SEISMASS_SHARED names the folder that holds them. The table of another
+program is written by benchmarks/matching.py and kept as it is.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+import seismass as sm
+
+ROOT: Final = Path(__file__).parents[1]
+PAGE: Final = ROOT / "docs" / "matching.md"
+OTHERS: Final = (
+    ("0.05 to 5 s", {"periods": (0.05, 5.0)}),
+    ("0.1 to 3 s", {"periods": (0.1, 3.0)}),
+    ("0.3 to 1 s", {"periods": (0.3, 1.0)}),
+    ("0.2 to 1.5 s, 2 % damping", {"damping": 0.02}),
+    ("0.2 to 1.5 s, 10 % damping", {"damping": 0.10}),
+    ("0.2 to 1.5 s, within 1 %", {"tolerance": 0.01}),
+)
+
+
+def table(header: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+    """Return a table whose first column is of words."""
+    lines = [header, tuple("---" if column == 0 else "---:" for column in range(len(header))), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def with_table(page: str, name: str, content: str) -> str:
+    """Return the page with what stands between the markers of a name replaced."""
+    block = re.compile(rf"(<!-- {name} -->\n).*?(\n<!-- end of {name} -->)", re.DOTALL)
+    if not block.search(page):
+        raise SystemExit(f"docs/matching.md has no place for {name}")
+    return block.sub(lambda match: match[1] + content + match[2], page)
+
+
+def misfit_row(matched: sm.MatchedRecord) -> tuple[str, ...]:
+    """Return the row of a record in the table of misfits."""
+    before, after = matched.misfit_before, matched.misfit
+    return (
+        matched.record.station,
+        f"{matched.factor:.3f}",
+        f"{100.0 * before.largest:.0f}",
+        f"{100.0 * before.rms:.0f}",
+        f"{100.0 * after.largest:.1f}",
+        f"{100.0 * after.rms:.1f}",
+        str(matched.iterations),
+        f"{100.0 * (matched.outside['shorter'] - 1.0):+.0f}",
+        f"{100.0 * (matched.outside['longer'] - 1.0):+.0f}",
+    )
+
+
+def motion_row(matched: sm.MatchedRecord) -> tuple[str, ...]:
+    """Return the row of a record in the table of what else changed."""
+    before, after = matched.original, matched.record
+    return (
+        after.station,
+        f"{before.pga_g:.3f} to {after.pga_g:.3f}",
+        f"{before.pgv:.3f} to {after.pgv:.3f}",
+        f"{before.pgd:.3f} to {after.pgd:.3f}",
+        f"{before.arias:.2f} to {after.arias:.2f}",
+        f"{before.d5_95:.1f} to {after.d5_95:.1f}",
+        f"{100.0 * matched.husid_difference:.0f}",
+        power(abs(after.velocity[-1] - before.velocity[-1])),
+        power(abs(after.displacement[-1] - before.displacement[-1])),
+    )
+
+
+def power(value: float) -> str:
+    """Return a difference that is rounding as the power of ten that it is below."""
+    return "0" if value == 0.0 else f"< 1e{int(np.ceil(np.log10(value)))}" if value > 1e-12 else "< 1e-12"
+
+
+def seven(shared: Path) -> str:
+    """Return both tables of the seven records."""
+    matched = sm.match_suite(sm.read_suite(shared / "records" / "paper_seven.csv"), sm.TargetSpectrum.asce7())
+    misfits = table(
+        (
+            "record",
+            "factor",
+            "largest before (%)",
+            "rms before (%)",
+            "largest (%)",
+            "rms (%)",
+            "passes",
+            "shorter periods (%)",
+            "longer periods (%)",
+        ),
+        [misfit_row(one) for one in matched],
+    )
+    motions = table(
+        (
+            "record",
+            "PGA (g)",
+            "PGV (m/s)",
+            "PGD (m)",
+            "Arias (m/s)",
+            "D5-95 (s)",
+            "build-up apart (%)",
+            "end velocity apart (m/s)",
+            "end displacement apart (m)",
+        ),
+        [motion_row(one) for one in matched],
+    )
+    return f"{misfits}\n\n{motions}"
+
+
+def far_field(shared: Path) -> str:
+    """Return the table of the distribution over the far-field components."""
+    suite = sm.read_suite(shared / "records" / "fema_p695_far_field")
+    matched = sm.match_suite(suite, sm.TargetSpectrum.asce7())
+    rows = []
+    for name, values in (
+        ("largest misfit before (%)", [100.0 * one.misfit_before.largest for one in matched]),
+        ("largest misfit (%)", [100.0 * one.misfit.largest for one in matched]),
+        ("rms misfit (%)", [100.0 * one.misfit.rms for one in matched]),
+        ("passes", [float(one.iterations) for one in matched]),
+        ("PGA over that before", [one.record.pga / one.original.pga for one in matched]),
+        ("PGV over that before", [one.record.pgv / one.original.pgv for one in matched]),
+        ("PGD over that before", [one.record.pgd / one.original.pgd for one in matched]),
+        ("Arias intensity over that before", [one.record.arias / one.original.arias for one in matched]),
+        ("build-up apart (%)", [100.0 * one.husid_difference for one in matched]),
+    ):
+        rows.append((name, *(f"{value:.2f}" for value in np.quantile(values, (0.0, 0.16, 0.5, 0.84, 1.0)))))
+    ends = max(abs(one.record.displacement[-1] - one.original.displacement[-1]) for one in matched)
+    missed = [one for one in matched if not one.converged]
+    said = f"{len(matched) - len(missed)} of {len(matched)} are within 3 %"
+    if missed:
+        worst = max(one.misfit.largest for one in missed)
+        said += f"; the others, up to {100.0 * worst:.1f} %, are said not to be"
+    return (
+        f"{table(('quantity', 'least', '16 %', 'median', '84 %', 'largest'), rows)}\n\n{said}.\n"
+        f"Displacements at the end differ from those before by {power(ends)} m at most."
+    )
+
+
+def other(shared: Path) -> str:
+    """Return the table of other ranges, dampings and tolerances."""
+    records = list(sm.read_suite(shared / "records" / "paper_seven.csv"))
+    chosen = [records[1], records[4], records[6]]  # steps of 0.005 s and 0.02 s
+    rows = []
+    for name, options in OTHERS:
+        cells = []
+        for record in chosen:
+            if options.get("periods", (0.2, 1.5))[0] < 4.0 * record.dt:
+                cells.append("refused: below four steps")
+                continue
+            one = sm.match_spectrum(record, sm.TargetSpectrum.asce7(), **options)
+            state = "" if one.converged else ", not converged"
+            cells.append(f"{100.0 * one.misfit.largest:.1f}, {100.0 * one.misfit.rms:.1f}, {one.iterations}{state}")
+        rows.append((name, *cells))
+    return table(("largest (%), rms (%), passes", *(record.station for record in chosen)), rows)
+
+
+TABLES: Final[dict[str, Callable[[Path], str]]] = {"seven": seven, "far_field": far_field, "other": other}
+
+
+def main(names: list[str]) -> None:
+    folder = os.environ.get("SEISMASS_SHARED")
+    if not folder:
+        sys.exit("SEISMASS_SHARED must name the folder that holds the recordings")
+    for name in names or list(TABLES):
+        content = TABLES[name](Path(folder))
+        PAGE.write_text(with_table(PAGE.read_text(encoding="utf-8"), name, content), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
