@@ -1,4 +1,4 @@
-"""Spectral matching: wavelets without drift, exact oscillators, self match, misfit between the periods, what is said."""
+"""Spectral matching: wavelets without drift, exact oscillators, self match, misfit between periods, what is said."""
 
 from __future__ import annotations
 
@@ -346,7 +346,9 @@ def test_files_are_read_back(matched: sm.MatchedRecord, tmp_path: Path) -> None:
 def test_command_writes_what_the_function_gives(
     record: sm.Record, matched: sm.MatchedRecord, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    rows = "".join(f"{number * record.dt:.10g},{value!r}\n" for number, value in enumerate(record.acceleration.tolist()))
+    rows = "".join(
+        f"{number * record.dt:.10g},{value!r}\n" for number, value in enumerate(record.acceleration.tolist())
+    )
     source = tmp_path / "record.csv"
     source.write_text("time (s),acceleration (m/s2)\n" + rows, encoding="utf-8")
     out, figure = tmp_path / "out.csv", tmp_path / "out.svg"

@@ -1,4 +1,4 @@
-"""Spectral matching of records: what is given is judged, scaled by one factor, adjusted, and measured before and after."""
+"""Spectral matching of records: what is given is judged, scaled by one factor, adjusted, and measured."""
 
 from __future__ import annotations
 
@@ -137,9 +137,7 @@ def match_spectrum(
     given = np.array(record.acceleration)
     as_given = final([given])[0]
     padded = before > 0.0 or behind > 0.0
-    factor = 1.0
-    if scale != "none" and not (isinstance(scale, str) and np.max(np.abs(as_given - 1.0)) <= largest):
-        factor = _factor(scale, as_given)
+    factor = _factor(scale, as_given, largest)
     original = record if factor == 1.0 else record.scaled(factor)
     if padded:
         original = _padded(original, before, behind)
@@ -162,8 +160,8 @@ def match_spectrum(
     label = getattr(target, "label", "a given function of the period")
     if factor != 1.0 or padded or adjusted.best > 0:
         said = (
-            f"matched to {label} from {matched[0]:g} to {matched[-1]:g} s at {100.0 * ratio:g} % damping: times "
-            f"{factor:.6g}, {adjusted.best} passes, largest misfit {100.0 * misfit:.2f} %"
+            f"matched to {label} from {matched[0]:g} to {matched[-1]:g} s at {100.0 * ratio:g} % damping: "
+            f"{adjusted.best} passes, largest misfit {100.0 * misfit:.2f} %"
         )
         result = original.replace(
             acceleration=adjusted.acceleration,
@@ -274,11 +272,13 @@ def _ordinates(target: Target, periods: FloatArray) -> FloatArray:
     return ordinates
 
 
-def _factor(scale: Literal["least_squares"] | float, ratios: FloatArray) -> float:
-    """The factor by which the record is multiplied first."""
+def _factor(scale: Literal["least_squares", "none"] | float, ratios: FloatArray, tolerance: float) -> float:
+    """The factor by which the record is multiplied first: 1 where it is within the tolerance as it is."""
     if isinstance(scale, str):
-        if scale != "least_squares":
+        if scale not in ("least_squares", "none"):
             raise refusal(InvalidOption, "scale", "matching", "least_squares, none or a factor", brief(scale))
+        if scale == "none" or np.max(np.abs(ratios - 1.0)) <= tolerance:
+            return 1.0
         return float(np.exp(-np.mean(np.log(ratios))))
     factor = as_number(scale, "scale", "matching", InvalidOption)
     if not (np.isfinite(factor) and factor != 0.0):

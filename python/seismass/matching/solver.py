@@ -25,18 +25,18 @@ MOST: Final = 5
 """Largest number of extrema of one oscillator that are watched."""
 OVERSHOOT: Final = 1.005
 """Predicted ratio to the target above which a watched extremum is held at the target."""
-SECONDARY: Final = (0.1, 1.15)
+SECONDARY: Final = (0.2, 1.15)
 """Ease with which a wavelet is used that belongs to another extremum than the largest of its oscillator: in the first
 pass, and its factor from pass to pass, up to 1."""
 HOLDS: Final = 5
 """Times that extrema are added to those held, in one pass."""
-REGULARISATION: Final = (0.5, 0.65, 0.03)
+REGULARISATION: Final = (0.4, 0.65, 0.02)
 """Weight of the size of the wavelets against the misfit: in the first pass, its factor from pass to pass, the least."""
 WEAKER: Final = (1.0, 0.2)
 """Shares of that weight that are tried in each pass."""
 STEPS: Final = (0.1, 0.35, 0.7, 1.0)
 """Shares of the step that are tried in each pass."""
-FORGET: Final = (0.5, 0.85)
+FORGET: Final = (0.5, 0.8)
 """Share of the sum of all earlier wavelets that a pass takes back and seeks again: in the first pass, and its factor
 from pass to pass."""
 EMPHASIS: Final = 50.0
