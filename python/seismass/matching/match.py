@@ -30,6 +30,12 @@ SPACING: Final = 0.25
 The half-power band of an oscillator is 2 damping wide; 1.0125 at 5 % damping."""
 CLOSEST: Final = 0.005
 """Least spacing of matched periods."""
+GUARDED: Final = 5.0
+"""How far beyond the range, as a ratio of periods, the spectrum is held."""
+GUARD_SPACING: Final = 1.15
+"""Ratio of neighbouring periods there."""
+GROWTH: Final = 1.25
+"""Growth of the spectrum there that is not held."""
 STEPS_PER_PERIOD: Final = 4.0
 """Time steps in the shortest period that is matched."""
 WIDE: Final = (0.02, 10.0)
@@ -147,6 +153,7 @@ def match_spectrum(
         record.dt,
         matched,
         ordinates[1],
+        _guards(matched, ordinates[1], start, ratio, record.dt, workers),
         between,
         final,
         damping=ratio,
@@ -270,6 +277,28 @@ def _ordinates(target: Target, periods: FloatArray) -> FloatArray:
         got = f"{ordinates[wrong][0]:g} at {periods[wrong][0]:g} s"
         raise refusal(InvalidOption, "target", "matching", "a positive number at every period", got)
     return ordinates
+
+
+def _guards(
+    periods: FloatArray, target: FloatArray, motion: FloatArray, damping: float, dt: float, threads: int | None
+) -> tuple[FloatArray, FloatArray]:
+    """Periods outside the range, and the pseudo-acceleration there past which the spectrum is not to grow.
+
+    It is `GROWTH` times that of the motion, or what goes with the ends of the target where that is more: 0.4 of the
+    first ordinate at zero period and a straight line from there, as the shape of ASCE 7 has it, and an ordinate that
+    falls as 1/T behind the last.
+    """
+    shortest, longest = float(periods[0]), float(periods[-1])
+    first = max(shortest / GUARDED, STEPS_PER_PERIOD * dt)
+    at = []
+    if first < shortest / GUARD_SPACING:
+        count = int(np.log(shortest / GUARD_SPACING / first) / np.log(GUARD_SPACING)) + 1
+        at.append(np.geomspace(first, shortest / GUARD_SPACING, max(count, 1)))
+    at.append(longest * GUARD_SPACING ** np.arange(1, int(np.log(GUARDED) / np.log(GUARD_SPACING)) + 1))
+    guarded = np.concatenate(at)
+    given = Ratios(guarded, np.ones(len(guarded)), damping, dt, threads)([motion])[0]
+    short = target[0] * (0.4 + 0.6 * guarded / shortest)
+    return guarded, np.maximum(GROWTH * given, np.where(guarded < shortest, short, target[-1] * longest / guarded))
 
 
 def _factor(scale: Literal["least_squares", "none"] | float, ratios: FloatArray, tolerance: float) -> float:
