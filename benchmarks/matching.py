@@ -1,7 +1,7 @@
 """Spectral matching beside reqpy-M: misfit by exact spectra, drift and times, for the seven records.
 
-Usage: SEISMASS_SHARED=... python benchmarks/matching.py [--quick]; writes its table into docs/matching.md, the quick one
-prints that of one record.
+Usage: SEISMASS_SHARED=... python benchmarks/matching.py [--quick]; writes its table into docs/matching.md, the quick
+one prints that of one record.
 """
 
 from __future__ import annotations
@@ -109,9 +109,10 @@ def text(shared: Path, *, quick: bool) -> str:
     except importlib.metadata.PackageNotFoundError:
         version = "absent"
     return (
-        f"reqpy-M {version} (continuous wavelets, 300 scales, 30 passes, its baseline correction of sixth order) beside "
-        f"seismass {sm.__version__},\nboth from {RANGE[0]:g} to {RANGE[1]:g} s at 5 % damping; ratios to the target by "
-        f"exact spectra at {len(periods)} periods, velocity and displacement at the end\nof the record, processor time.\n\n"
+        f"reqpy-M {version} (continuous wavelets, 300 scales, 30 passes, its baseline correction of sixth order) "
+        f"beside seismass\n{sm.__version__}, both from {RANGE[0]:g} to {RANGE[1]:g} s at 5 % damping; ratios to the "
+        f"target by exact spectra at {len(periods)} periods, velocity\nand displacement at the end of the "
+        f"record, processor time.\n\n"
         f"{table}\n\n"
         f"{cpu()}; Python {sys.version.split()[0]}, numpy {np.__version__}."
     )

@@ -1,4 +1,4 @@
-"""Spectral matching: wavelets without drift, exact oscillators, self match, misfit between the periods, what is said."""
+"""Spectral matching: wavelets without drift, exact oscillators, self match, misfit between periods, what is said."""
 
 from __future__ import annotations
 

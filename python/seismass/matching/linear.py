@@ -1,4 +1,4 @@
-"""Products and systems of the size of a spectral matching, in pieces for which the linear algebra library has one thread.
+"""Products and systems of the size of a spectral matching, in pieces for which the library beneath has one thread.
 
 Its threads wait for each other on a busy machine, a hundred times as long as the work takes, and sum in another order
 on another number of cores.

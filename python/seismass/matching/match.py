@@ -1,4 +1,4 @@
-"""Spectral matching of records: what is given is judged, scaled by one factor, adjusted, and measured before and after."""
+"""Spectral matching of records: what is given is judged, scaled by one factor, adjusted, and measured."""
 
 from __future__ import annotations
 
@@ -30,6 +30,12 @@ SPACING: Final = 0.25
 The half-power band of an oscillator is 2 damping wide; 1.0125 at 5 % damping."""
 CLOSEST: Final = 0.005
 """Least spacing of matched periods."""
+GUARDED: Final = 5.0
+"""How far beyond the range, as a ratio of periods, the spectrum is held."""
+GUARD_SPACING: Final = 1.15
+"""Ratio of neighbouring periods there."""
+GROWTH: Final = 1.25
+"""Growth of the spectrum there that is not held."""
 STEPS_PER_PERIOD: Final = 4.0
 """Time steps in the shortest period that is matched."""
 WIDE: Final = (0.02, 10.0)
@@ -137,9 +143,7 @@ def match_spectrum(
     given = np.array(record.acceleration)
     as_given = final([given])[0]
     padded = before > 0.0 or behind > 0.0
-    factor = 1.0
-    if scale != "none" and not (isinstance(scale, str) and np.max(np.abs(as_given - 1.0)) <= largest):
-        factor = _factor(scale, as_given)
+    factor = _factor(scale, as_given, largest)
     original = record if factor == 1.0 else record.scaled(factor)
     if padded:
         original = _padded(original, before, behind)
@@ -149,6 +153,7 @@ def match_spectrum(
         record.dt,
         matched,
         ordinates[1],
+        _guards(matched, ordinates[1], start, ratio, record.dt, workers),
         between,
         final,
         damping=ratio,
@@ -162,8 +167,8 @@ def match_spectrum(
     label = getattr(target, "label", "a given function of the period")
     if factor != 1.0 or padded or adjusted.best > 0:
         said = (
-            f"matched to {label} from {matched[0]:g} to {matched[-1]:g} s at {100.0 * ratio:g} % damping: times "
-            f"{factor:.6g}, {adjusted.best} passes, largest misfit {100.0 * misfit:.2f} %"
+            f"matched to {label} from {matched[0]:g} to {matched[-1]:g} s at {100.0 * ratio:g} % damping: "
+            f"{adjusted.best} passes, largest misfit {100.0 * misfit:.2f} %"
         )
         result = original.replace(
             acceleration=adjusted.acceleration,
@@ -274,11 +279,35 @@ def _ordinates(target: Target, periods: FloatArray) -> FloatArray:
     return ordinates
 
 
-def _factor(scale: Literal["least_squares"] | float, ratios: FloatArray) -> float:
-    """The factor by which the record is multiplied first."""
+def _guards(
+    periods: FloatArray, target: FloatArray, motion: FloatArray, damping: float, dt: float, threads: int | None
+) -> tuple[FloatArray, FloatArray]:
+    """Periods outside the range, and the pseudo-acceleration there past which the spectrum is not to grow.
+
+    It is `GROWTH` times that of the motion, or what goes with the ends of the target where that is more: 0.4 of the
+    first ordinate at zero period and a straight line from there, as the shape of ASCE 7 has it, and an ordinate that
+    falls as 1/T behind the last.
+    """
+    shortest, longest = float(periods[0]), float(periods[-1])
+    first = max(shortest / GUARDED, STEPS_PER_PERIOD * dt)
+    at = []
+    if first < shortest / GUARD_SPACING:
+        count = int(np.log(shortest / GUARD_SPACING / first) / np.log(GUARD_SPACING)) + 1
+        at.append(np.geomspace(first, shortest / GUARD_SPACING, max(count, 1)))
+    at.append(longest * GUARD_SPACING ** np.arange(1, int(np.log(GUARDED) / np.log(GUARD_SPACING)) + 1))
+    guarded = np.concatenate(at)
+    given = Ratios(guarded, np.ones(len(guarded)), damping, dt, threads)([motion])[0]
+    short = target[0] * (0.4 + 0.6 * guarded / shortest)
+    return guarded, np.maximum(GROWTH * given, np.where(guarded < shortest, short, target[-1] * longest / guarded))
+
+
+def _factor(scale: Literal["least_squares", "none"] | float, ratios: FloatArray, tolerance: float) -> float:
+    """The factor by which the record is multiplied first: 1 where it is within the tolerance as it is."""
     if isinstance(scale, str):
-        if scale != "least_squares":
+        if scale not in ("least_squares", "none"):
             raise refusal(InvalidOption, "scale", "matching", "least_squares, none or a factor", brief(scale))
+        if scale == "none" or np.max(np.abs(ratios - 1.0)) <= tolerance:
+            return 1.0
         return float(np.exp(-np.mean(np.log(ratios))))
     factor = as_number(scale, "scale", "matching", InvalidOption)
     if not (np.isfinite(factor) and factor != 0.0):

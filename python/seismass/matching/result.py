@@ -1,4 +1,4 @@
-"""A record before and after spectral matching: what was reached, what else changed, as values, tables, text, figures."""
+"""A record before and after spectral matching: what was reached and what else changed, as values, tables, text."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """The iteration of spectral matching: wavelets whose sum brings every oscillator of a list to its target.
 
 Al Atik and Abrahamson (2010), Earthquake Spectra 26:601-617, after Lilhanand and Tseng (1988), with four changes: all
-periods at once and closely spaced; exact peaks in continuous time; extrema that would grow past the target are held
-there; and in each pass the sum of all wavelets is sought again, of the least size, so that none is left behind.
+periods at once and closely spaced; exact peaks in continuous time; extrema that would grow past the target, or outside
+the range past a limit, are held there; and in each pass the sum of all wavelets is sought again, of the least size, so that none is left behind.
 """
 
 from __future__ import annotations
@@ -25,23 +25,23 @@ MOST: Final = 5
 """Largest number of extrema of one oscillator that are watched."""
 OVERSHOOT: Final = 1.005
 """Predicted ratio to the target above which a watched extremum is held at the target."""
-SECONDARY: Final = (0.1, 1.15)
+SECONDARY: Final = (0.3, 1.2)
 """Ease with which a wavelet is used that belongs to another extremum than the largest of its oscillator: in the first
 pass, and its factor from pass to pass, up to 1."""
 HOLDS: Final = 5
 """Times that extrema are added to those held, in one pass."""
-REGULARISATION: Final = (0.5, 0.65, 0.03)
+REGULARISATION: Final = (0.4, 0.65, 0.02)
 """Weight of the size of the wavelets against the misfit: in the first pass, its factor from pass to pass, the least."""
 WEAKER: Final = (1.0, 0.2)
 """Shares of that weight that are tried in each pass."""
 STEPS: Final = (0.1, 0.35, 0.7, 1.0)
 """Shares of the step that are tried in each pass."""
-FORGET: Final = (0.5, 0.85)
+FORGET: Final = (0.5, 0.8)
 """Share of the sum of all earlier wavelets that a pass takes back and seeks again: in the first pass, and its factor
 from pass to pass."""
 EMPHASIS: Final = 50.0
 """A period off by 1/50 counts twice, by 2/50 five times in the sum of squares, so that no period stays behind."""
-PATIENCE: Final = 12
+PATIENCE: Final = 15
 """Passes without a better misfit after which the iteration ends."""
 GROUP: Final = 8
 """Wavelets whose effect is found together, over the samples that any of them covers."""
@@ -90,6 +90,7 @@ def adjust(
     dt: float,
     periods: FloatArray,
     target: FloatArray,
+    guards: tuple[FloatArray, FloatArray],
     between: Ratios,
     final: Ratios,
     *,
@@ -107,6 +108,8 @@ def adjust(
         Time step (s).
     periods, target : ndarray, shape (periods,)
         Where it is matched (s), and the pseudo-acceleration there (m/s2).
+    guards : tuple of ndarray, each of shape (guards,)
+        Periods outside the range (s), and the pseudo-acceleration there (m/s2) past which it is held.
     between : Ratios
         Chooses the best of each pass, at the same periods and at others between them.
     final : Ratios
@@ -118,6 +121,8 @@ def adjust(
     max_iterations : int
         Largest number of passes.
     """
+    matched = len(periods)
+    periods, target = np.concatenate([periods, guards[0]]), np.concatenate([target, guards[1]])
     oscillators = Oscillators(periods, damping, dt)
     displacement = target * (periods / (2.0 * np.pi)) ** 2
     delay = _delays(oscillators)
@@ -129,8 +134,11 @@ def adjust(
     span = (len(given), 0)  # of all wavelets so far
     while passes < max_iterations and not reached and passes - chosen < PATIENCE:
         extrema = oscillators.extrema(acceleration, SHARE, MOST)
-        time = dt * (extrema.step + extrema.fraction)
-        wavelets = place(time - delay[extrema.oscillator], periods[extrema.oscillator], damping, dt, len(given))
+        sought = extrema.largest & (extrema.oscillator < matched)
+        # Those of the guards come last; they have no wavelets.
+        own = extrema.oscillator[extrema.oscillator < matched]
+        time = dt * (extrema.step + extrema.fraction)[: len(own)]
+        wavelets = place(time - delay[own], periods[own], damping, dt, len(given))
         first, last = min(span[0], wavelets.first), max(span[1], wavelets.last)
         influence = oscillators.influence(extrema, first, last)
         scale = np.sign(extrema.value) / displacement[extrema.oscillator]
@@ -142,7 +150,7 @@ def adjust(
         weight = max(REGULARISATION[0] * REGULARISATION[1] ** passes, REGULARISATION[2])
         ease = min(SECONDARY[0] * SECONDARY[1] ** passes, 1.0)
         candidates = []
-        for amplitudes in _amplitudes(effect, scale * extrema.value, taken_back, extrema.largest, weight, ease):
+        for amplitudes in _amplitudes(effect, scale * extrema.value, taken_back, sought, weight, ease):
             change = -forget * added
             change[within] += np.einsum("w,ws->s", amplitudes, wavelets.samples)
             for step in STEPS:
@@ -204,17 +212,18 @@ def _amplitudes(
 ) -> list[FloatArray]:
     """Amplitudes of the wavelets (m/s2), for each weight of `WEAKER`: regularised least squares.
 
-    Held are the largest extremum of each oscillator, which is brought to the target, and every other that would grow
-    past it. An amplitude counts by what it does to its own extremum.
+    Held are the largest extremum of each matched oscillator, which is brought to the target, and every other that would
+    grow past it. An amplitude counts by what it does to its own extremum.
 
     Parameters
     ----------
     effect : ndarray, shape (extrema, wavelets)
-        Change of each extremum over the target by a wavelet of unit amplitude; wavelet i is that of extremum i.
+        Change of each extremum over the target by a wavelet of unit amplitude; wavelet i is that of extremum i. There
+        may be fewer wavelets than extrema.
     ratio, taken_back : ndarray, shape (extrema,)
         Extrema over the target, and what is taken from them in this pass.
     largest : ndarray of bool, shape (extrema,)
-        Whether an extremum is the largest of its oscillator.
+        Whether an extremum is the largest of an oscillator that is matched.
     weight : float
         Of the amplitudes against the misfit.
     ease : float
@@ -222,8 +231,9 @@ def _amplitudes(
     """
     # An end of the record may leave a wavelet with hardly any effect on its own extremum.
     size = np.maximum(np.abs(np.diag(effect)), 0.1 * np.max(np.abs(effect), axis=0))
+    own = largest[: len(size)]
     size = np.where(size > 0.0, size, 1.0)
-    size = np.where(largest, size, size / ease)
+    size = np.where(own, size, size / ease)
     effect = effect / size
     products = product(effect, effect.T)
     miss = 1.0 - ratio + taken_back

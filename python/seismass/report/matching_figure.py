@@ -1,4 +1,4 @@
-"""A record before and after spectral matching, drawn: spectra with the target, histories, build-up of Arias intensity."""
+"""A record before and after spectral matching, drawn: spectra with the target, histories, Arias build-up."""
 
 from __future__ import annotations
 
@@ -79,6 +79,7 @@ def _spectra(matched: MatchedRecord, axes: Axes) -> None:
     axes.plot(matched.periods, target, color=VERMILION, linewidth=1.4, linestyle=(0, (1, 1)))
     _period_axis(axes, at[0], at[-1])
     axes.set_ylim(0.0, None)
+    axes.set_xlabel("period (s)")
     axes.set_ylabel(f"pseudo-acceleration, {100.0 * matched.damping:g} % (g)")
 
 
