@@ -277,6 +277,11 @@ def test_a_short_line_amid_an_at2_file_is_remarked(tmp_path: Path) -> None:
     assert remarks == ("line 9 has another number of values than the others: lines may be missing or moved",)
 
 
+def test_a_blank_line_amid_a_column_is_remarked(tmp_path: Path) -> None:
+    file = put(tmp_path, "made.txt", FILES["made.txt"].replace(b"\n", b"\n\n", 30))
+    assert read_record(file).remarks == ("blank lines stand among the numbers: some may be missing or moved",)
+
+
 def test_a_header_of_esm_with_other_keys_is_remarked(tmp_path: Path) -> None:
     file = put(tmp_path, "made.ASC", without_line("USER3:")(FILES["made.ASC"].decode()))
     assert read_record(file).remarks == ("header has 63 keys, where DYNA 1.x has 64",)

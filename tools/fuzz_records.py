@@ -303,6 +303,10 @@ def classify(original: Original, records: tuple[Record, ...]) -> str:
         moved = a.acceleration - b.acceleration
         moved -= np.median(moved)
         changed.append(np.flatnonzero(np.abs(moved) > 1e-12 * b.pga))
+    if all(
+        np.array_equal(np.sort(a.acceleration), np.sort(b.acceleration)) for a, b in zip(records, before, strict=True)
+    ):
+        return "order"
     if all(len(at) > 0.9 * a.samples for at, a in zip(changed, records, strict=True)):
         # Another unit, sign or scale, but for the last digits of K-NET's scale factor, below those of its peak.
         rounding = all(

@@ -110,6 +110,8 @@ def parse_columns(
     if other:
         raise NotRead(f"quantity of {table.file} must be acceleration; got {other}")
     remarks: list[str] = []
+    if any(not line.strip() for line in table.lines[table.start :]):
+        remarks.append("blank lines stand among the numbers: some may be missing or moved")
     if skip is None:
         table, step_before = _without_first_numbers(table, dt, remarks)
     else:
