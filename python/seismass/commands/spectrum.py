@@ -51,7 +51,7 @@ def add_parser(subparsers: Any) -> None:
         "records",
         type=Path,
         metavar="PATH",
-        help="a record (.AT2, or text of one or two columns), a folder of .AT2 files, or a CSV with a column `file`",
+        help="a record of any format that is read, a folder of records, or a CSV with a column `file`",
     )
     parser.add_argument("--dt", type=float, metavar="S", help="time step of a record whose file does not state it, s")
     parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of a record whose file states none")
