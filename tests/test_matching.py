@@ -132,6 +132,11 @@ def test_products_and_systems_in_pieces_are_those_of_numpy() -> None:
     half = generator.standard_normal((101, 150))
     matrix, wanted = half @ half.T, generator.standard_normal(101)
     assert solved(matrix, wanted) == pytest.approx(np.linalg.solve(matrix, wanted), rel=1e-6)
+    thin = half[:, :5]  # of rank 5: indefinite by rounding
+    semi = thin @ thin.T
+    assert semi @ solved(semi, semi @ wanted) == pytest.approx(semi @ wanted, rel=1e-5, abs=1e-5)
+    with pytest.raises(np.linalg.LinAlgError):
+        solved(-np.eye(3), np.ones(3))
 
 
 # Matching.
@@ -213,6 +218,9 @@ def test_what_is_not_reached_is_said(record: sm.Record) -> None:
     assert "not converged" in repr(given_up)
     scaled = sm.match_spectrum(record, TARGET, max_iterations=0)
     assert scaled.record.acceleration.tobytes() == record.scaled(scaled.factor).acceleration.tobytes()
+    # Ordinates that no wavelet can reach end in a remark, not in an error.
+    rising = sm.match_spectrum(noise(2000), lambda periods: 0.5 * periods**2, max_iterations=12)
+    assert rising.remarks[0].startswith("not matched within 3 %") or rising.converged
     # Its strongest oscillators answer after its end: no wavelet within it can do what is asked.
     short = sm.match_spectrum(noise(20), TARGET, max_iterations=15)
     assert not short.converged

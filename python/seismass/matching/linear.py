@@ -16,6 +16,8 @@ SINGLE_THREAD: Final = 64**3
 """Multiplications of a product up to which OpenBLAS has one thread: 4 times its least, 65536."""
 TILE: Final = 64
 """Rows and columns of a piece of a product."""
+LARGEST_RIDGE: Final = 1e-3
+"""Share of the largest diagonal element that is added to an indefinite matrix at most."""
 BLOCK: Final = 32
 """Rows of a block of a factorisation."""
 
@@ -39,11 +41,25 @@ def product(left: FloatArray, right: FloatArray) -> FloatArray:
 def solved(matrix: FloatArray, right: FloatArray) -> FloatArray:
     """Return the solution of a symmetric positive definite system, by Cholesky's factors block by block.
 
+    Where rounding has made it indefinite, as little as it takes is added to the diagonal.
+
     Raises
     ------
     numpy.linalg.LinAlgError
-        The matrix is not positive definite.
+        The matrix is far from positive definite, or holds values that are not finite.
     """
+    largest = float(np.max(np.abs(np.diag(matrix))))
+    ridge = 0.0
+    while True:
+        try:
+            return _by_cholesky(matrix + ridge * np.eye(len(right)) if ridge > 0.0 else matrix, right)
+        except np.linalg.LinAlgError:
+            ridge = max(10.0 * ridge, 1e-15 * largest)
+            if not ridge < LARGEST_RIDGE * largest:
+                raise
+
+
+def _by_cholesky(matrix: FloatArray, right: FloatArray) -> FloatArray:
     rest, solution = matrix.copy(), right.copy()
     factors = []
     for start in range(0, len(right), BLOCK):

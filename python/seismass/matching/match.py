@@ -105,7 +105,8 @@ def match_spectrum(
     Al Atik and Abrahamson (2010), An improved method for nonstationary spectral matching, Earthquake Spectra
     26:601-617, after Lilhanand and Tseng (1988). Changed here: the wavelets are second differences of a displacement
     that is zero at its ends, peaks are found in continuous time, all periods are adjusted at once, other extrema that
-    would grow past the target are held there, and the sum of the wavelets is sought again in each pass.
+    would grow past the target are held there, the spectrum outside the range is held, and the sum of the wavelets is
+    sought again in each pass.
 
     A matched record has the spectrum of no earthquake. A suite of them has lost the scatter from record to record, so
     that it serves for mean response, not for its dispersion; ASCE/SEI 7-16, 16.2.3.3, asks for a mean of 110 % of the
@@ -290,11 +291,12 @@ def _guards(
     """
     shortest, longest = float(periods[0]), float(periods[-1])
     first = max(shortest / GUARDED, STEPS_PER_PERIOD * dt)
-    at = []
+    at: list[FloatArray] = []
     if first < shortest / GUARD_SPACING:
         count = int(np.log(shortest / GUARD_SPACING / first) / np.log(GUARD_SPACING)) + 1
-        at.append(np.geomspace(first, shortest / GUARD_SPACING, max(count, 1)))
-    at.append(longest * GUARD_SPACING ** np.arange(1, int(np.log(GUARDED) / np.log(GUARD_SPACING)) + 1))
+        at.append(np.array(np.geomspace(first, shortest / GUARD_SPACING, max(count, 1)), dtype=np.float64))
+    beyond = np.arange(1.0, int(np.log(GUARDED) / np.log(GUARD_SPACING)) + 1.0)
+    at.append(np.array(longest * GUARD_SPACING**beyond, dtype=np.float64))
     guarded = np.concatenate(at)
     given = Ratios(guarded, np.ones(len(guarded)), damping, dt, threads)([motion])[0]
     short = target[0] * (0.4 + 0.6 * guarded / shortest)

@@ -1,8 +1,9 @@
 """The iteration of spectral matching: wavelets whose sum brings every oscillator of a list to its target.
 
-Al Atik and Abrahamson (2010), Earthquake Spectra 26:601-617, after Lilhanand and Tseng (1988), with four changes: all
+Al Atik and Abrahamson (2010), Earthquake Spectra 26:601-617, after Lilhanand and Tseng (1988), with these changes: all
 periods at once and closely spaced; exact peaks in continuous time; extrema that would grow past the target, or outside
-the range past a limit, are held there; and in each pass the sum of all wavelets is sought again, of the least size, so that none is left behind.
+the range past a limit, are held there; and in each pass the sum of all wavelets is sought again, of the least size, so
+that none is left behind.
 """
 
 from __future__ import annotations
