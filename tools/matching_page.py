@@ -140,7 +140,7 @@ def far_field(shared: Path) -> str:
         said += f"; the others, up to {100.0 * worst:.1f} %, are said not to be"
     return (
         f"{table(('quantity', 'least', '16 %', 'median', '84 %', 'largest'), rows)}\n\n{said}.\n"
-        f"Displacements at the end differ from those before by {power(ends)} m at most."
+        f"Displacements at the end differ from those before by {power(ends)} m."
     )
 
 
