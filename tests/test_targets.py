@@ -136,6 +136,14 @@ def test_nzs_1170_near_fault_factor() -> None:
     np.testing.assert_allclose(rare(periods), 0.75 * far(periods), rtol=1e-14)
 
 
+def test_nzs_1170_limits_the_product_of_z_and_r() -> None:
+    # Clause 3.1.1 as a public program has it: Z R is not taken above 0.7.
+    at = [0.0, 0.5, 3.0]
+    limited, below = sm.TargetSpectrum.nzs1170("C", z=0.6, r=1.8), sm.TargetSpectrum.nzs1170("C", z=0.35, r=2.0)
+    np.testing.assert_allclose(limited(at), below(at), rtol=1e-15)
+    assert "Z R taken as 0.7" in limited.label and "taken as" not in below.label
+
+
 def test_mean_of_a_suite_is_solved_for_at_each_period() -> None:
     factors = np.linspace(0.5, 2.0, len(SUITE))
     periods = np.array([0.1234, 0.777, 3.21])
@@ -180,6 +188,10 @@ def test_corner_period_of_asce7_is_t_s() -> None:
         (lambda t: t.mean_of(SUITE, [1.0]), "factors of target spectrum must be a list of 7 values, one per motion"),
         (lambda t: t.mean_of(STEP, [0.0]), "factors of target spectrum must be positive numbers; got 0"),
         (lambda t: t.mean_of(STEP, damping=2), "damping of target spectrum must be at least 0 and below 1; got 2"),
+        (
+            lambda t: t.asce7().tilted(-0.5)([1.0, 0.0]),
+            "period of target spectrum must be positive where the spectrum is tilted by a negative power; got 0",
+        ),
         (lambda t: t.asce7().tilted(np.inf), "power of target spectrum must be a finite number; got inf"),
     ],
 )

@@ -1,6 +1,7 @@
 """The elastic site spectrum of NZS 1170.5:2004, C(T) = C_h(T) Z R N(T, D), by the equations of its commentary.
 
-The numbers are second-hand: two public programs agree on them; the standard was not at hand.
+The numbers are second-hand: two public programs agree on them, the limit of Z R is that of one; the standard was not
+at hand.
 """
 
 from __future__ import annotations
@@ -38,6 +39,9 @@ NEAR_FAULT: Final = ((1.5, 2.0, 3.0, 4.0, 5.0), (1.0, 1.12, 1.36, 1.60, 1.72))
 LEAST_R_NEAR_FAULT: Final = 0.75
 """N = 1 up to this return period factor, that of 250 years."""
 
+LARGEST_ZR: Final = 0.7
+"""Z R is not taken above this (3.1.1)."""
+
 
 @dataclass(frozen=True)
 class Nzs1170:
@@ -54,8 +58,9 @@ class Nzs1170:
     def label(self) -> str:
         """Name with the numbers, and where they are from."""
         fault = "" if self.fault_distance_km is None else f", D = {self.fault_distance_km:g} km"
+        capped = f", Z R taken as {LARGEST_ZR:g}" if self.z * self.r > LARGEST_ZR else ""
         return (
-            f"NZS 1170.5 site class {self.site_class}, Z = {self.z:g}, R = {self.r:g}{fault} "
+            f"NZS 1170.5 site class {self.site_class}, Z = {self.z:g}, R = {self.r:g}{capped}{fault} "
             "(C_h and N second-hand, not checked against the standard)"
         )
 
@@ -88,7 +93,7 @@ class Nzs1170:
 
     def __call__(self, periods: FloatArray) -> FloatArray:
         """Return C(T) (m/s2)."""
-        factor = self.z * self.r * self.near_fault_factor(periods)
+        factor = min(self.z * self.r, LARGEST_ZR) * self.near_fault_factor(periods)
         return STANDARD_GRAVITY * factor * self.shape_factor(periods)
 
 

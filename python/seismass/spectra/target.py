@@ -189,14 +189,15 @@ class TargetSpectrum:
         z : float
             Hazard factor Z.
         r : float
-            Return period factor R of the limit state; 1 for 500 years.
+            Return period factor R of the limit state; 1 for 500 years. Z R counts as 0.7 at most.
         fault_distance_km : float, optional
             Shortest distance D to a major fault (km); N = 1 without it, beyond 20 km, and for R up to 0.75.
 
         Notes
         -----
-        C_h is that of the modal response spectrum and the time history methods. Its equations (of the commentary) and
-        N_max are second-hand: two public programs agree on them, the standard was not at hand. The label says so.
+        C_h is that of the modal response spectrum and the time history methods. Its equations (of the commentary),
+        N_max and the limit of Z R are second-hand, from public programs; the standard was not at hand. The label says
+        so.
 
         Examples
         --------
@@ -299,7 +300,7 @@ class TargetSpectrum:
         Raises
         ------
         InvalidOption
-            A period is outside the range of the spectrum or not a number.
+            A period is outside the range of the spectrum or not a number, or 0 where a negative power tilts it.
         """
         at = as_array(periods, "period", "target spectrum", InvalidOption, or_number=True)
         inside = (self.shortest <= at) & (at <= self.longest) & np.isfinite(at)
@@ -308,5 +309,8 @@ class TargetSpectrum:
             wrong = np.atleast_1d(at)[~np.atleast_1d(inside)][0]
             requirement = f"from {self.shortest:g} s {upper}, the range of {self.label}"
             raise refusal(InvalidOption, "period", "target spectrum", requirement, f"{wrong:g}")
+        if self.tilt < 0.0 and (at == 0.0).any():
+            requirement = "positive where the spectrum is tilted by a negative power"
+            raise refusal(InvalidOption, "period", "target spectrum", requirement, "0")
         ordinates = self.shape(at)
         return ordinates if self.tilt == 0.0 else ordinates * at**self.tilt
