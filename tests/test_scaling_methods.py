@@ -42,6 +42,7 @@ def test_sa_t1_meets_the_target_at_t1(period: float) -> None:
     assert found.period == period
     assert found.periods[[0, -1]].tolist() == pytest.approx([0.2 * period, 1.5 * period], rel=1e-15)
     assert sm.scale_sa_t1(SUITE[0], TARGET).names == (SUITE[0].name,)
+    np.testing.assert_array_equal(sm.scale_sa_t1(iter(SUITE), TARGET, period).factors, found.factors)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import suite_spectra
-from seismass.spectra import GroundMotion, TargetSpectrum, response_spectrum
+from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 
 
 def scale_sa_t1(
@@ -39,10 +39,11 @@ def scale_sa_t1(
     -----
     SF_i = A_t(T1)/A_i(T1), the elastic ratio to which `scale_modal_pushover` comes down for R = 1.
     """
+    motions = as_motions(records, "scaling")
     suite = suite_spectra(
-        records, target, period, damping=damping, period_range=period_range, count=count, threads=threads
+        motions, target, period, damping=damping, period_range=period_range, count=count, threads=threads
     )
-    ordinates = response_spectrum(records, [suite.period], suite.damping, threads=threads)[:, 0]
+    ordinates = response_spectrum(motions, [suite.period], suite.damping, threads=threads)[:, 0]
     note = (
         f"the motions meet the target at {suite.period:g} s alone: scatter at other periods, those of higher modes and "
         "of a yielding building, is left as it is"
