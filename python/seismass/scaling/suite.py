@@ -13,6 +13,7 @@ from seismass.errors import InvalidMotion, InvalidOption
 from seismass.scaling.result import ScalingResult
 from seismass.simulate import motion_names
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
+from seismass.spectra.motions import check_not_zero
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,15 +134,6 @@ def positive_number(value: Any, name: str) -> float:
     if not (np.isfinite(number) and number > 0.0):
         raise refusal(InvalidOption, name, "scaling", "a positive number", f"{number:g}")
     return number
-
-
-def check_not_zero(spectra: FloatArray) -> None:
-    """Refuse motions without any acceleration."""
-    for number, row in enumerate(spectra, start=1):
-        if not (row > 0.0).all():
-            raise refusal(
-                InvalidMotion, "acceleration", f"motion {number}", "other than zero somewhere", "zero throughout"
-            )
 
 
 def checked_range(given: Any) -> tuple[float, float]:

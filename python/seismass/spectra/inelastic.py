@@ -11,11 +11,11 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass._values import FloatArray, as_array, as_count, as_number, frozen, refusal
-from seismass.errors import InvalidMotion, InvalidOption, SimulationError
+from seismass.errors import InvalidOption, SimulationError
 from seismass.scene import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE, Building
 from seismass.simulate import motion_names
 from seismass.spectra.elastic import response_spectrum
-from seismass.spectra.motions import GroundMotion, as_motions
+from seismass.spectra.motions import GroundMotion, as_motions, check_not_zero
 from seismass.spectra.oscillators import Oscillators
 from seismass.units import STANDARD_GRAVITY
 
@@ -182,7 +182,7 @@ def inelastic_spectrum(
         runner = Oscillators(buildings, suite, float(1.0 / finite.min()) if len(finite) else 1.0, workers)
         found = _of_strengths(runner, np.atleast_1d(levels), elastic, unit)
     else:
-        _check_motions(elastic)
+        check_not_zero(elastic)
         largest = float(levels.max() / (elastic / unit).min())
         runner = Oscillators(buildings, suite, largest, workers)
         found = _of_ductilities(runner, np.atleast_1d(levels), elastic / unit, unit)
@@ -214,14 +214,6 @@ def _levels(given: Any, name: str, owner: str) -> FloatArray:
     if wrong.any():
         raise refusal(InvalidOption, name, owner, requirement, f"{np.atleast_1d(levels)[np.atleast_1d(wrong)][0]:g}")
     return levels
-
-
-def _check_motions(elastic: FloatArray) -> None:
-    for number, row in enumerate(elastic, start=1):
-        if not (row > 0.0).all():
-            raise refusal(
-                InvalidMotion, "acceleration", f"motion {number}", "other than zero somewhere", "zero throughout"
-            )
 
 
 def _of_strengths(runner: Oscillators, levels: FloatArray, elastic: FloatArray, unit: FloatArray) -> list[FloatArray]:

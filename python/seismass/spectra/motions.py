@@ -42,3 +42,12 @@ def held(motion: GroundMotion, number: int) -> _kernel.Motion:
     owner = f"motion {number} of spectrum"
     samples = as_array(motion.acceleration, "acceleration", owner, InvalidMotion)
     return _kernel.Motion(samples, as_number(motion.dt, "dt", owner, InvalidMotion))
+
+
+def check_not_zero(spectra: FloatArray) -> None:
+    """Refuse motions without any acceleration, by their spectra: motions x periods."""
+    for number, row in enumerate(spectra, start=1):
+        if not (row > 0.0).all():
+            raise refusal(
+                InvalidMotion, "acceleration", f"motion {number}", "other than zero somewhere", "zero throughout"
+            )
