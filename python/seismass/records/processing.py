@@ -14,6 +14,7 @@ import numpy as np
 
 from seismass._values import FloatArray, as_count, as_number, brief, refusal
 from seismass.errors import InvalidOption
+from seismass.records.intensity import integrals
 from seismass.records.record import Record
 
 HIGHEST_ORDER: Final = 10
@@ -69,11 +70,12 @@ def baseline_corrected(record: Record, order: int = 1, fit: Literal["velocity", 
         requirement = f"at least {degree + 2} for a polynomial of degree {degree}"
         raise refusal(InvalidOption, "samples", "baseline correction", requirement, str(record.samples))
     # Legendre polynomials span those of time and keep the fit well conditioned.
-    terms = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, record.samples), degree).T
-    fitted = np.array([_integral(term, record.dt) for term in terms]) if fit == "velocity" else terms
+    along = np.linspace(-1.0, 1.0, record.samples)
+    terms = np.asarray(np.polynomial.legendre.legvander(along, degree).T, dtype=np.float64)
+    fitted = integrals(terms, record.dt)[0] if fit == "velocity" else terms
 
     def corrected(acceleration: FloatArray) -> FloatArray:
-        wanted = _integral(acceleration, record.dt) if fit == "velocity" else acceleration
+        wanted = integrals(acceleration, record.dt)[0] if fit == "velocity" else acceleration
         coefficients = np.linalg.lstsq(fitted.T, wanted, rcond=None)[0]
         left: FloatArray = acceleration - coefficients @ terms
         return left
@@ -222,12 +224,6 @@ def _both(record: Record, change: Callable[[FloatArray], FloatArray], said: str,
     return record.replace(
         acceleration=change(record.acceleration), vertical=vertical, history=(*record.history, said), **others
     )
-
-
-def _integral(acceleration: FloatArray, dt: float) -> FloatArray:
-    velocity = np.zeros(len(acceleration))
-    np.cumsum(0.5 * dt * (acceleration[:-1] + acceleration[1:]), out=velocity[1:])
-    return velocity
 
 
 def _corners(record: Record, low_hz: float | None, high_hz: float | None) -> tuple[float | None, float | None]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seismass.records.intensity import integrals
+
 Array = NDArray[np.float64]
 
 
@@ -20,10 +22,8 @@ def tapered(motion: Array, time: Array) -> Array:
 
 def end_state(acceleration: Array, dt: float) -> tuple[float, float]:
     """Return velocity and displacement at the last sample, exact for accelerations linear between samples."""
-    increments = 0.5 * dt * (acceleration[1:] + acceleration[:-1])
-    velocity = np.concatenate(([0.0], np.cumsum(increments)))
-    steps = dt * velocity[:-1] + dt**2 * (2.0 * acceleration[:-1] + acceleration[1:]) / 6.0
-    return float(velocity[-1]), float(np.sum(steps))
+    velocity, displacement = integrals(acceleration, dt)
+    return float(velocity[-1]), float(displacement[-1])
 
 
 def at_rest_in_the_end(motion: Array, dt: float) -> Array:
