@@ -8,9 +8,15 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.options import positive_option, read_records, read_target, warn_left_out, warn_remarks
-from seismass.commands.targets import TARGET_HELP
-from seismass.units import ACCELERATION_UNITS
+from seismass.commands.options import (
+    add_reading_options,
+    add_target_options,
+    positive_option,
+    read_records,
+    read_target,
+    warn_left_out,
+    warn_remarks,
+)
 
 if TYPE_CHECKING:
     from seismass.matching import MatchedSuite
@@ -41,12 +47,8 @@ def add_parser(subparsers: Any) -> None:
         metavar="PATH",
         help="a record, a folder of records, or a CSV with a column `file`",
     )
-    parser.add_argument("--dt", type=positive_option, metavar="S", help="time step of a record that states none, s")
-    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of a record whose file states none")
-    parser.add_argument("--target", metavar="TARGET", help=TARGET_HELP)
-    parser.add_argument("--sds", type=positive_option, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
-    parser.add_argument("--sd1", type=positive_option, metavar="G", help="S_D1, g (0.61)")
-    parser.add_argument("--tl", type=positive_option, metavar="S", help="T_L, s (8)")
+    add_reading_options(parser)
+    add_target_options(parser)
     parser.add_argument(
         "--range",
         type=positive_option,

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from seismass.commands.targets import TARGET_HELP, target_of
+from seismass.units import ACCELERATION_UNITS
 
 if TYPE_CHECKING:
     from seismass.records import Suite
@@ -22,18 +23,31 @@ def add_motion_options(parser: argparse.ArgumentParser) -> None:
     """Add --records, --suite, --target, --sds, --sd1, --tl and --period."""
     motions = parser.add_argument_group("motions")
     add_records_options(motions)
-    motions.add_argument("--target", metavar="TARGET", help=TARGET_HELP)
-    motions.add_argument("--sds", type=positive_option, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
-    motions.add_argument("--sd1", type=positive_option, metavar="G", help="S_D1, g (0.61)")
+    add_target_options(motions)
     motions.add_argument(
+        "--period", type=positive_option, default=1.0, metavar="T", help="motions are scaled from 0.2 T to 1.5 T (1 s)"
+    )
+
+
+def add_target_options(group: argparse._ActionsContainer) -> None:
+    """Add --target, --sds, --sd1 and --tl, which `read_target` reads."""
+    group.add_argument("--target", metavar="TARGET", help=TARGET_HELP)
+    group.add_argument("--sds", type=positive_option, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
+    group.add_argument("--sd1", type=positive_option, metavar="G", help="S_D1, g (0.61)")
+    group.add_argument(
         "--tl",
         type=positive_option,
         metavar="S",
         help="T_L, s (8); the three defaults stand in for the Port of Long Beach and are not its published spectrum",
     )
-    motions.add_argument(
-        "--period", type=positive_option, default=1.0, metavar="T", help="motions are scaled from 0.2 T to 1.5 T (1 s)"
+
+
+def add_reading_options(parser: argparse.ArgumentParser) -> None:
+    """Add --dt and --unit, for a record whose file does not state them."""
+    parser.add_argument(
+        "--dt", type=positive_option, metavar="S", help="time step of a record whose file does not state it, s"
     )
+    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of a record whose file states none")
 
 
 def add_records_options(group: argparse._ArgumentGroup) -> None:

@@ -7,8 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.options import positive_count, warn_left_out
-from seismass.units import ACCELERATION_UNITS
+from seismass.commands.options import add_reading_options, positive_count, warn_left_out
 
 if TYPE_CHECKING:
     from seismass.pulses import OrientationScan, PulseResult
@@ -54,8 +53,7 @@ def add_parser(subparsers: Any) -> None:
         help="judge N directions of two components by Baker (2007), evenly from 0 to 180 degrees",
     )
     parser.add_argument("--plot", type=Path, metavar="FILE", help="write a figure, .png or .svg")
-    parser.add_argument("--dt", type=float, metavar="S", help="time step of records whose files do not state it, s")
-    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of records whose files state none")
+    add_reading_options(parser)
     parser.add_argument("--json", action="store_true", help="print the results as JSON")
     parser.set_defaults(run=run)
 

@@ -8,8 +8,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.options import is_list, read_records
-from seismass.units import ACCELERATION_UNITS
+from seismass.commands.options import add_reading_options, is_list, read_records
 
 if TYPE_CHECKING:
     from seismass.records import Record, Suite
@@ -41,8 +40,7 @@ def add_parser(subparsers: Any) -> None:
         "path", type=Path, nargs="?", metavar="PATH", help="a record, a folder, or a CSV with a column `file`"
     )
     parser.add_argument("--find", type=Path, metavar="DIR", help="look there for the paper's seven records")
-    parser.add_argument("--dt", type=float, metavar="S", help="time step of a record whose file does not state it, s")
-    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of a record whose file states none")
+    add_reading_options(parser)
     parser.add_argument("--json", action="store_true", help="print everything as JSON")
     parser.set_defaults(run=run)
 

@@ -7,8 +7,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.options import positive_option, read_records, warn_left_out, warn_remarks
-from seismass.units import ACCELERATION_UNITS
+from seismass.commands.options import (
+    add_reading_options,
+    positive_option,
+    read_records,
+    warn_left_out,
+    warn_remarks,
+)
 
 if TYPE_CHECKING:
     import polars as pl
@@ -53,8 +58,7 @@ def add_parser(subparsers: Any) -> None:
         metavar="PATH",
         help="a record of any format that is read, a folder of records, or a CSV with a column `file`",
     )
-    parser.add_argument("--dt", type=float, metavar="S", help="time step of a record whose file does not state it, s")
-    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of a record whose file states none")
+    add_reading_options(parser)
     parser.add_argument(
         "--periods", type=float, nargs="+", metavar="T", help="periods, s (default: 100 from 0.01 to 10, geometric)"
     )
