@@ -151,8 +151,8 @@ def _candidate(
     velocity: FloatArray, dt: float, row: int, sample: int, *, angle: float, azimuth: float | None
 ) -> Candidate:
     found = extract(velocity, scale_range(dt, _OWNER), row, sample)
-    pgv, residual_pgv = float(np.max(np.abs(velocity))), float(np.max(np.abs(found.residual)))
-    pgv_ratio = residual_pgv / pgv
+    pgv = float(np.max(np.abs(velocity)))
+    pgv_ratio = float(np.max(np.abs(found.residual))) / pgv
     energy_ratio = float(np.sum(np.square(found.residual)) / np.sum(np.square(velocity)))
     indicator = pulse_indicator_2007(pgv_ratio, energy_ratio)
     of_record, of_pulse = cumulative_share(velocity), cumulative_share(found.pulse)
@@ -179,15 +179,11 @@ def _candidate(
         number=1,
         kind=kind,
         reasons=tuple(reasons),
-        time=found.samples[0] * dt,
         scale=found.scale,
         dt=dt,
         angle=angle,
         azimuth=azimuth,
         indicator=indicator,
-        pgv=pgv,
-        residual_pgv=residual_pgv,
-        pgv_ratio=pgv_ratio,
         energy_ratio=energy_ratio,
         early=early,
         energy_before=float(of_record[begins]),

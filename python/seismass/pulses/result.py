@@ -32,8 +32,6 @@ class Candidate:
         What the method calls it.
     reasons : tuple of str
         Why it is no pulse, one sentence for each criterion that is not met; empty for a pulse.
-    time : float
-        Time of the centre of its first wavelet (s).
     scale : int
         Scale of its wavelets, in samples.
     dt : float
@@ -45,10 +43,8 @@ class Candidate:
         That direction in degrees from north, 0 to 180, where the records state theirs.
     indicator : float
         Pulse indicator of the method: 0 to 1 with limits 0.15 and 0.85 (2007), positive for a pulse (2014).
-    pgv, residual_pgv : float
-        Peak of the velocity in that direction and of its residual (m/s).
-    pgv_ratio, energy_ratio : float
-        r_PGV and r_E: the residual's peak and energy over those of the velocity.
+    energy_ratio : float
+        r_E: the residual's energy over that of the velocity.
     early : bool
         Whether it arrives early, by the method's test.
     energy_before : float
@@ -64,15 +60,11 @@ class Candidate:
     number: int
     kind: Kind
     reasons: tuple[str, ...]
-    time: float
     scale: int
     dt: float
     angle: float
     azimuth: float | None
     indicator: float
-    pgv: float
-    residual_pgv: float
-    pgv_ratio: float
     energy_ratio: float
     early: bool
     energy_before: float
@@ -87,6 +79,26 @@ class Candidate:
     def is_pulse(self) -> bool:
         """Whether the method calls it a pulse."""
         return self.kind == "pulse"
+
+    @property
+    def time(self) -> float:
+        """Time of the centre of its first wavelet (s)."""
+        return float(self.centres[0])
+
+    @property
+    def pgv(self) -> float:
+        """Peak of the velocity in its direction (m/s)."""
+        return float(np.max(np.abs(self.velocity)))
+
+    @property
+    def residual_pgv(self) -> float:
+        """Peak of the residual velocity (m/s)."""
+        return float(np.max(np.abs(self.residual)))
+
+    @property
+    def pgv_ratio(self) -> float:
+        """r_PGV: the residual's peak over that of the velocity."""
+        return self.residual_pgv / self.pgv
 
     @property
     def period(self) -> float:

@@ -127,8 +127,8 @@ def _largest_by_time(pair: Horizontals, scales: range) -> tuple[FloatArray, Floa
 def _candidate(pair: Horizontals, scales: range, number: int, row: int, sample: int, angle: float) -> Candidate:
     velocity = pair.towards(angle)
     found = extract(velocity, scales, row, sample)
-    pgv, residual_pgv = float(np.max(np.abs(velocity))), float(np.max(np.abs(found.residual)))
-    pgv_ratio = residual_pgv / pgv
+    pgv = float(np.max(np.abs(velocity)))
+    pgv_ratio = float(np.max(np.abs(found.residual))) / pgv
     energy_ratio = approximation_energy(found.residual) / approximation_energy(velocity)
     indicator = pulse_indicator_2014(pgv_ratio, energy_ratio, CENTIMETRES * pgv)
     of_record, of_pulse = cumulative_share(velocity), cumulative_share(found.pulse)
@@ -149,15 +149,11 @@ def _candidate(pair: Horizontals, scales: range, number: int, row: int, sample: 
         number=number,
         kind="no pulse" if reasons else "pulse",
         reasons=tuple(reasons),
-        time=found.samples[0] * pair.dt,
         scale=found.scale,
         dt=pair.dt,
         angle=math.degrees(angle),
         azimuth=pair.azimuth(angle),
         indicator=indicator,
-        pgv=pgv,
-        residual_pgv=residual_pgv,
-        pgv_ratio=pgv_ratio,
         energy_ratio=energy_ratio,
         early=early,
         energy_before=before,

@@ -33,7 +33,8 @@ class Selection:
     table : polars.DataFrame
         One row per candidate: `number` from 1, `record`, `event`, `station`, `factor` (of least squares in the
         logarithm), `misfit` and `largest_misfit` (root mean square and largest of |ln(scaled/target)|), `step` at which
-        it was chosen (null: it was not), `mean_misfit` of those chosen up to then, and the `reason`.
+        it was chosen (null: it was not), `mean_misfit` of the mean of those chosen up to then (of its shape: a common
+        factor is taken out), and the `reason`.
     """
 
     suite: Suite
@@ -112,7 +113,7 @@ def select_records(
     )
     factors = compared.log_factors()
     log_ratio = np.log(factors[:, None] * compared.spectra / compared.target)
-    misfit = np.sqrt(np.mean(log_ratio**2, axis=1))
+    misfit = _rms(log_ratio)
     groups = {
         "max_per_event": [_event(record, number) for number, record in enumerate(candidates)],
         "max_per_station": [_recording(record, number) for number, record in enumerate(candidates)],
@@ -134,6 +135,23 @@ def select_records(
         chosen.append(open_ones[best])
         means.append(float(together[best]))
         _close(reasons, groups, limits, candidates, chosen)
+    table = _table(candidates, factors, log_ratio, chosen, means, method, reasons)
+    records = tuple(record for number, record in enumerate(candidates) if number in chosen)
+    remark = f"{wanted} of {len(candidates)} records chosen: {_words(method)}"
+    return Selection(Suite(candidates.name, records, candidates.excluded, (*candidates.remarks, remark)), table)
+
+
+def _table(
+    candidates: Suite,
+    factors: FloatArray,
+    log_ratio: FloatArray,
+    chosen: list[int],
+    means: list[float],
+    method: Choice,
+    reasons: list[str | None],
+) -> pl.DataFrame:
+    """The table of `Selection`."""
+    misfit = _rms(log_ratio)
     steps = {number: step for step, number in enumerate(chosen, start=1)}
     rows = [
         {
@@ -151,12 +169,12 @@ def select_records(
         for number, record in enumerate(candidates)
     ]
     schema = {"step": pl.UInt32, "number": pl.UInt32, "mean_misfit": pl.Float64}
-    records = tuple(record for number, record in enumerate(candidates) if number in steps)
-    remark = f"{wanted} of {len(candidates)} records chosen: {_words(method)}"
-    return Selection(
-        Suite(candidates.name, records, candidates.excluded, (*candidates.remarks, remark)),
-        pl.DataFrame(rows, schema_overrides=schema),
-    )
+    return pl.DataFrame(rows, schema_overrides=schema)
+
+
+def _rms(log_ratio: FloatArray) -> FloatArray:
+    """Root mean square over the periods, of each row."""
+    return np.asarray(np.sqrt(np.mean(log_ratio**2, axis=1)))
 
 
 def _factor_range(given: Any) -> tuple[float, float]:
@@ -191,8 +209,7 @@ def _misfits_of_mean(
     # The mean is compared in shape: a common factor brings it to the target anyway.
     ratio = np.log(means / compared.target)
     ratio -= ratio.mean(axis=1, keepdims=True)
-    misfits: FloatArray = np.sqrt(np.mean(ratio**2, axis=1))
-    return misfits
+    return _rms(ratio)
 
 
 def _close(
