@@ -60,19 +60,9 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
             f"quantity of {file} must be an uncorrected or corrected accelerogram; got {quantity}: "
             "read the SMC file of its acceleration"
         )
-    whole = header_values(lines, _TEXT, _INTEGERS, Layout(8, 10, True))
-    reals = header_values(lines, _TEXT + _INTEGERS, _REALS, Layout(5, 15))
-    sound = len(whole) == 8 * _INTEGERS and len(reals) == 5 * _REALS
-    if not sound or any(number is None or number % 1.0 for number in whole) or None in reals:
-        raise RecordFormatError(f"header of {file} must be {_INTEGERS} lines of integers and {_REALS} of reals")
-    missing = whole[0]
-    comments, points = int(whole[15] or 0), int(whole[16] or 0)
-    first = _TEXT + _INTEGERS + _REALS
-    if not 0 <= comments < len(lines) - first or any(not line.startswith("|") for line in lines[first:][:comments]):
-        raise RecordFormatError(f"comments of {file} must be {comments} lines that start with |, as its header says")
-    if lines[first + comments].startswith("|"):
-        raise RecordFormatError(f"comments of {file} must be {comments}, as its header says; got more")
-    block = read_block(lines, first + comments, points, _DATA, file)
+    whole, reals = _numbers(lines, file)
+    at, points = _data(lines, whole, file)
+    block = read_block(lines, at, points, _DATA, file)
     remarks: list[str] = []
     rate = reals[1]
     if rate is not None and 0.0 < rate < MISSING_REAL:
@@ -93,10 +83,6 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         remarks.append("the header flags a problem, which its comments describe")
     station = _STATION.match(lines[5].strip()[:LINE_WIDTH])
     component = station["component"].strip() if station else ""
-    horizontal = whole[13]
-    azimuth = azimuth_of(component)
-    if azimuth is None and not is_vertical(component) and horizontal not in (missing, None) and whole[12] == 90:
-        azimuth = float(horizontal or 0.0) % 360.0
     agency = _SOURCE.search(lines[7][:LINE_WIDTH])
     record = Record(
         acceleration=block.values * ACCELERATION_UNITS["cm/s2"],
@@ -105,13 +91,42 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         event=" ".join(lines[3].split()),
         station=", ".join(part for part in (lines[2].strip("* "), station["name"] if station else "") if part),
         component=component,
-        azimuth=azimuth,
+        azimuth=_azimuth(component, whole),
         network=agency[1].strip() if agency else "",
         source=source,
         unit="cm/s2",
         remarks=tuple(remarks),
     )
     return (Channel(component or "1", record),)
+
+
+def _numbers(lines: list[str], file: str) -> tuple[list[float | None], list[float | None]]:
+    """Return the integers and the reals of the header."""
+    whole = header_values(lines, _TEXT, _INTEGERS, Layout(8, 10, True))
+    reals = header_values(lines, _TEXT + _INTEGERS, _REALS, Layout(5, 15))
+    sound = len(whole) == 8 * _INTEGERS and len(reals) == 5 * _REALS
+    if not sound or any(number is None or number % 1.0 for number in whole) or None in reals:
+        raise RecordFormatError(f"header of {file} must be {_INTEGERS} lines of integers and {_REALS} of reals")
+    return whole, reals
+
+
+def _data(lines: list[str], whole: list[float | None], file: str) -> tuple[int, int]:
+    """Return the index of the first line of data, behind the comments, and the number of points."""
+    comments, points = int(whole[15] or 0), int(whole[16] or 0)
+    first = _TEXT + _INTEGERS + _REALS
+    if not 0 <= comments < len(lines) - first or any(not line.startswith("|") for line in lines[first:][:comments]):
+        raise RecordFormatError(f"comments of {file} must be {comments} lines that start with |, as its header says")
+    if lines[first + comments].startswith("|"):
+        raise RecordFormatError(f"comments of {file} must be {comments}, as its header says; got more")
+    return first + comments, points
+
+
+def _azimuth(component: str, whole: list[float | None]) -> float | None:
+    """Return the direction that the component states, else integer 14 where 13 says that it is horizontal."""
+    azimuth, horizontal = azimuth_of(component), whole[13]
+    if azimuth is None and not is_vertical(component) and horizontal not in (whole[0], None) and whole[12] == 90:
+        return float(horizontal or 0.0) % 360.0
+    return azimuth
 
 
 def _pairs(block: Block, dt: float | None, file: str, remarks: list[str]) -> tuple[Block, float]:
