@@ -119,19 +119,8 @@ def match_spectrum(
     >>> matched.converged, bool(abs(matched.ratio_after - 1.0).max() <= 0.05)
     (True, True)
     """
-    if not isinstance(record, Record):
-        raise refusal(InvalidMotion, "record", "matching", "a Record", brief(record))
-    what = f"record {record.name}".rstrip()
-    if record.samples < _SHORTEST_RECORD:
-        raise refusal(InvalidMotion, "samples", what, f"at least {_SHORTEST_RECORD}", f"{record.samples}")
-    if not np.any(record.acceleration):
-        raise refusal(InvalidMotion, "acceleration", what, "other than zero somewhere", "zero throughout")
-    ratio = as_number(damping, "damping", "matching", InvalidOption)
-    if not 0.0 < ratio < 1.0:
-        raise refusal(InvalidOption, "damping", "matching", "above 0 and below 1", f"{ratio:g}")
-    largest = as_number(tolerance, "tolerance", "matching", InvalidOption)
-    if not 0.0 < largest < 1.0:
-        raise refusal(InvalidOption, "tolerance", "matching", "above 0 and below 1", f"{largest:g}")
+    _check_record(record)
+    ratio, largest = _share(damping, "damping"), _share(tolerance, "tolerance")
     passes = as_count(max_iterations, "max_iterations", "matching", InvalidOption)
     workers = None if threads is None else as_count(threads, "threads", "matching", InvalidOption, least=1)
     matched = _periods(periods, points, ratio, record)
@@ -162,14 +151,12 @@ def match_spectrum(
         max_iterations=passes,
     )
     ratios = final([start, adjusted.acceleration])
-    misfit = float(np.max(np.abs(ratios[1] - 1.0)))
-    converged = misfit <= largest
     result = original
     label = getattr(target, "label", "a given function of the period")
     if factor != 1.0 or padded or adjusted.best > 0:
         said = (
             f"matched to {label} from {matched[0]:g} to {matched[-1]:g} s at {100.0 * ratio:g} % damping: "
-            f"{adjusted.best} passes, largest misfit {100.0 * misfit:.2f} %"
+            f"{adjusted.best} passes, largest misfit {100.0 * np.max(np.abs(ratios[1] - 1.0)):.2f} %"
         )
         result = original.replace(
             acceleration=adjusted.acceleration,
@@ -187,7 +174,6 @@ def match_spectrum(
         damping=ratio,
         tolerance=largest,
         iterations=adjusted.iterations,
-        converged=converged,
         matched_periods=frozen(matched),
         periods=frozen(judged),
         ordinates=frozen(ordinates[3]),
@@ -230,6 +216,25 @@ def match_suite(records: Iterable[Record], target: Target, **options: Any) -> Ma
     said = f"matched to {matched[0].target}: the scatter from record to record is taken out of the spectra"
     suite = Suite(f"{name}, matched", tuple(one.record for one in matched), remarks=(*suite_remarks, said))
     return MatchedSuite(suite, matched)
+
+
+def _check_record(record: Any) -> None:
+    """Refuse what cannot be matched."""
+    if not isinstance(record, Record):
+        raise refusal(InvalidMotion, "record", "matching", "a Record", brief(record))
+    what = f"record {record.name}".rstrip()
+    if record.samples < _SHORTEST_RECORD:
+        raise refusal(InvalidMotion, "samples", what, f"at least {_SHORTEST_RECORD}", f"{record.samples}")
+    if not np.any(record.acceleration):
+        raise refusal(InvalidMotion, "acceleration", what, "other than zero somewhere", "zero throughout")
+
+
+def _share(given: Any, name: str) -> float:
+    """A number above 0 and below 1."""
+    value = as_number(given, name, "matching", InvalidOption)
+    if not 0.0 < value < 1.0:
+        raise refusal(InvalidOption, name, "matching", "above 0 and below 1", f"{value:g}")
+    return value
 
 
 def _periods(given: ArrayLike, points: int | None, damping: float, record: Record) -> FloatArray:

@@ -60,8 +60,6 @@ class MatchedRecord:
         Ratio of critical damping of the spectra, and the largest misfit that was asked for.
     iterations : int
         Passes made.
-    converged : bool
-        Whether the largest misfit is within the tolerance.
     matched_periods : ndarray
         Periods (s) at which wavelets were fitted.
     periods, ordinates : ndarray, shape (periods,)
@@ -82,7 +80,6 @@ class MatchedRecord:
     damping: float
     tolerance: float
     iterations: int
-    converged: bool
     matched_periods: FloatArray
     periods: FloatArray
     ordinates: FloatArray
@@ -111,6 +108,11 @@ class MatchedRecord:
     def misfit(self) -> Misfit:
         """Misfit of the matched record."""
         return _misfit(self.ratio_after)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the largest misfit is within the tolerance."""
+        return self.misfit.largest <= self.tolerance
 
     @property
     def build_up(self) -> tuple[FloatArray, FloatArray]:
