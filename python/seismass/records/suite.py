@@ -196,13 +196,9 @@ def suite_of_file(path: Path, *, dt: float | None = None, unit: str | None = Non
 
 
 def _read_directory(directory: Path) -> Suite:
-    files = sorted(
-        (file for file in directory.rglob("*") if file.is_file() and not is_hidden(file.relative_to(directory))),
-        key=lambda file: file.relative_to(directory).as_posix(),
-    )
     records: list[Record] = []
     excluded: list[Excluded] = []
-    for file in files:
+    for file in files_below(directory):
         read = read_file(file)
         if isinstance(read, str):
             excluded.append(Excluded(file, read))
@@ -280,9 +276,11 @@ def _with_copies(records: list[Record]) -> Iterator[Record]:
         yield record
 
 
-def is_hidden(file: Path) -> bool:
-    """Whether a path has a hidden file or folder in it."""
-    return any(part.startswith(".") for part in file.parts)
+def files_below(directory: Path) -> list[Path]:
+    """Return the files of a directory and of those below, sorted by path; hidden ones are left out."""
+    relative = (file.relative_to(directory) for file in directory.rglob("*") if file.is_file())
+    shown = (file for file in relative if not any(part.startswith(".") for part in file.parts))
+    return [directory / file for file in sorted(shown, key=Path.as_posix)]
 
 
 def _counted(excluded: list[Excluded]) -> str:
