@@ -188,6 +188,11 @@ class Record(Value):
     def significant_duration(self, start: float = 0.05, end: float = 0.95) -> float:
         """Return the time (s) between two shares of the Arias intensity, with exact crossings within steps.
 
+        Parameters
+        ----------
+        start, end : float
+            Shares from 0 to 1, in order.
+
         Raises
         ------
         InvalidOption
@@ -196,7 +201,12 @@ class Record(Value):
         return intensity.significant_duration(self.acceleration, self.dt, start, end)
 
     def bracketed_duration(self, threshold_g: float = intensity.BRACKET_G) -> float:
-        """Return the time (s) from the first to the last crossing of a threshold (g) of |a|; 0 where it is not reached.
+        """Return the time (s) from the first to the last crossing of a threshold of |a|; 0 where it is not reached.
+
+        Parameters
+        ----------
+        threshold_g : float
+            The threshold (g), positive.
 
         Raises
         ------

@@ -105,8 +105,8 @@ def rotd(
         Ratio of critical damping.
     angles : int, default 180
         Directions, evenly over half a turn from the first component on; the other half has the same peaks.
-    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity"}
-        Ordinate, in m/s2, m or m/s.
+    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}
+        Ordinate, as in `response_spectrum`, in m/s2, m, m/s or m/s2.
     threads : int, optional
         As in `response_spectrum`.
 

@@ -98,7 +98,31 @@ def mean_spectrum(
     *,
     threads: int | None = None,
 ) -> FloatArray:
-    """Return the mean pseudo-acceleration spectrum (m/s2) of motions times their factors, shape (periods,)."""
+    """Return the mean pseudo-acceleration spectrum of motions times their factors.
+
+    Parameters
+    ----------
+    motions : iterable of Record or Motion
+        The suite.
+    factors : array_like, shape (motions,)
+        Factor of each motion.
+    periods : array_like, shape (periods,)
+        Natural periods (s).
+    damping : float
+        Ratio of critical damping.
+    threads : int, optional
+        As in `response_spectrum`.
+
+    Returns
+    -------
+    ndarray, shape (periods,)
+        Mean pseudo-acceleration (m/s2).
+
+    Raises
+    ------
+    InvalidOption, InvalidMotion
+        As for `response_spectrum`, or another number of factors than of motions.
+    """
     ratio = as_number(damping, "damping", "mean spectrum", InvalidOption)
     spectra = response_spectrum(motions, periods, ratio, threads=threads)
     scale = as_array(factors, "factors", "mean spectrum", InvalidOption)
