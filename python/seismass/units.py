@@ -22,6 +22,7 @@ _PER_SECOND_SQUARED = re.compile(
 )
 _GAL = re.compile(r"\bgals?\b", re.IGNORECASE)
 _BRACKETED_G = re.compile(r"[(\[][ \t]*([%m]?g)(?:'s)?[ \t]*[)\]]", re.IGNORECASE)
+_IN_G = re.compile(r"\bacc[a-z.]*[ \t]+in[ \t]+([%m]?g)(?:'s)?(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
 _UNITS_OF = re.compile(r"\bunits?[ \t]*(?:of\b|[:=])[ \t]*([^\s].*)", re.IGNORECASE)
 _G = re.compile(r"[(\[]?[ \t]*g(?:'s|ravity)?(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
 
@@ -50,7 +51,7 @@ def unknown_unit(text: str) -> str | None:
 def _units(text: str) -> list[str]:
     """Every unit that a header states, by its name if it is a known one."""
     found = {f"{length.lower()}/s2" for length in _PER_SECOND_SQUARED.findall(text)}
-    found |= {name.lower() for name in _BRACKETED_G.findall(text)}
+    found |= {name.lower() for name in (*_BRACKETED_G.findall(text), *_IN_G.findall(text))}
     if _GAL.search(text):
         found.add("cm/s2")
     for said in _UNITS_OF.findall(text):
