@@ -83,6 +83,7 @@ def _read(path: Path, dt: float | None, unit: str | None) -> Suite:
     from seismass.errors import InvalidOption, RecordFormatError
     from seismass.records import Excluded, Suite
     from seismass.records import read_records as read_channels
+    from seismass.records.suite import files_below
 
     if not path.is_dir():
         if is_list(path):
@@ -93,9 +94,7 @@ def _read(path: Path, dt: float | None, unit: str | None) -> Suite:
             raise InvalidOption(f"{name} of {path.name} must be left out for a folder of records; got {value}")
     found: list[Record] = []
     excluded: list[Excluded] = []
-    for file in sorted(file for file in path.rglob("*") if file.is_file()):
-        if any(part.startswith(".") for part in file.relative_to(path).parts):
-            continue
+    for file in files_below(path):
         try:
             found += read_channels(file)
         except RecordFormatError as error:

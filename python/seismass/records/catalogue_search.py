@@ -17,6 +17,7 @@ from seismass.records.catalogue_report import CatalogueSearch, FoundFile, Judged
 from seismass.records.formats.directions import azimuth_of, is_vertical
 from seismass.records.read import HEAD_BYTES, format_of, read_records
 from seismass.records.record import Record
+from seismass.records.suite import files_below
 
 _ALL: Final = (*RECORDINGS, *SUBSTITUTES)
 _LARGEST_BYTES: Final = 8 * 1024 * 1024
@@ -63,11 +64,7 @@ def find_catalogue(folder: str | os.PathLike[str]) -> CatalogueSearch:
     place = as_path(folder, "catalogue search", RecordFormatError)
     if not place.is_dir():
         raise RecordFormatError(f"folder of catalogue search must be a directory; got {place}")
-    files = sorted(
-        file
-        for file in place.rglob("*")
-        if file.is_file() and not any(part.startswith(".") for part in file.relative_to(place).parts)
-    )
+    files = files_below(place)
     found = [one for file in files for one in _identified(file)]
     order = {recording.rsn: position for position, recording in enumerate(_ALL)}
     found.sort(key=lambda one: (order[one.recording.rsn], one.file))

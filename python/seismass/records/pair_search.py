@@ -17,7 +17,7 @@ from seismass.records.formats.directions import azimuth_of
 from seismass.records.pair import Pair
 from seismass.records.record import Record
 from seismass.records.rotation import between
-from seismass.records.suite import Excluded, is_hidden, read_file, vertical_reason
+from seismass.records.suite import Excluded, files_below, read_file, vertical_reason
 
 _SEQUENCE: Final = re.compile(r"^RSN(\d+)(?!\d)", re.IGNORECASE)
 _DIRECTION: Final = re.compile(
@@ -108,12 +108,9 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
     directory = as_path(folder, "pairs", RecordFormatError)
     if not directory.is_dir():
         raise RecordFormatError(f"folder of pairs must be a directory; got {printable(str(directory))}")
-    files = sorted(
-        file for file in directory.rglob("*") if file.is_file() and not is_hidden(file.relative_to(directory))
-    )
     excluded: list[Excluded] = []
     groups: dict[tuple[str, ...], list[Record]] = {}
-    for file in files:
+    for file in files_below(directory):
         try:
             read = read_file(file)
         except RecordFormatError as error:

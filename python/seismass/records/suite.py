@@ -196,13 +196,9 @@ def suite_of_file(path: Path, *, dt: float | None = None, unit: str | None = Non
 
 
 def _read_directory(directory: Path) -> Suite:
-    files = sorted(
-        (file for file in directory.rglob("*") if file.is_file() and not is_hidden(file.relative_to(directory))),
-        key=lambda file: file.relative_to(directory).as_posix(),
-    )
     records: list[Record] = []
     excluded: list[Excluded] = []
-    for file in files:
+    for file in files_below(directory):
         read = read_file(file)
         if isinstance(read, str):
             excluded.append(Excluded(file, read))
@@ -280,13 +276,25 @@ def _with_copies(records: list[Record]) -> Iterator[Record]:
         yield record
 
 
-def is_hidden(file: Path) -> bool:
-    """Whether a path has a hidden file or folder in it."""
-    return any(part.startswith(".") for part in file.parts)
+def files_below(directory: Path) -> list[Path]:
+    """Return the files in a directory and below, sorted by path, without hidden ones and those out of reach."""
+    inside = ((file.relative_to(directory), file) for file in directory.rglob("*") if _is_file(file))
+    seen = [(path.as_posix(), file) for path, file in inside if not any(part.startswith(".") for part in path.parts)]
+    return [file for _, file in sorted(seen)]
+
+
+def _is_file(path: Path) -> bool:
+    """Whether a path is a file; a link to a place that may not be looked at is none."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False
 
 
 def _counted(excluded: list[Excluded]) -> str:
     """What is in a directory without a record."""
+    if not excluded:
+        return "no file"
     others = [item for item in excluded if "vertical component" not in item.reason]
     beside = ""
     if others:
