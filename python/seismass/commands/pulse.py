@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.options import positive_count, warn_left_out
+from seismass.commands.options import check_files, positive_count, warn_left_out
 from seismass.units import ACCELERATION_UNITS
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ _EPILOG = """examples:
   seismass pulse records/
 
 Two components are judged by Shahi and Baker (2014), one by Baker (2007); --orientations judges every direction of two
-by Baker (2007). Needs PyWavelets: pip install seismass[pulses].
+by Baker (2007). Needs PyWavelets: pip install PyWavelets.
 exit codes: 0 done, 2 bad input"""
 
 
@@ -72,6 +72,7 @@ def run(args: argparse.Namespace) -> int:
 
     if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
         raise InvalidOption(f"--plot of seismass pulse must be a .png or .svg file; got {args.plot}")
+    check_files(args.plot)
     if args.orientations is not None and args.method == "shahi_baker2014":
         raise InvalidOption("--method of seismass pulse must be baker2007 with --orientations; got shahi_baker2014")
     groups = _groups(args)

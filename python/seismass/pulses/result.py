@@ -227,8 +227,8 @@ class PulseResult:
             head += "ambiguous" if self.ambiguous else "no pulse"
         where = ""
         if len(self.names) == 2:
-            north = "" if one.azimuth is None else f" ({one.azimuth:.0f} degrees from north)"
-            where = f", {one.angle:.0f} degrees from the first component to the second{north}"
+            north = "" if one.azimuth is None else f" ({round(one.azimuth) % 360} degrees from north)"
+            where = f", {round(one.angle)} degrees from the first component to the second{north}"
         lines = [
             head,
             f"  candidate {one.number} of {len(self.candidates)}, at {one.time:.2f} s{where}",
