@@ -11,6 +11,7 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
+from seismass.matching.files import write_record
 from seismass.matching.linear import product, solved
 from seismass.matching.oscillators import Oscillators
 from seismass.matching.wavelets import half_width, place
@@ -375,6 +376,37 @@ def test_command_writes_what_the_function_gives(
     assert "matched to ASCE 7 shape" in suite[0].remarks[-1]
     assert main(["match", str(source), "--plot", "figure.pdf"]) == 2
     assert "must be a name that ends in .png or .svg; got figure.pdf" in capsys.readouterr().err
+
+
+def test_outputs_are_judged_before_records_are_matched(
+    record: sm.Record, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing replaces a recording or stands among recordings, and no time is spent on what cannot be written."""
+    monkeypatch.setattr("seismass.matching.match_suite", lambda *_, **__: pytest.fail("matched"))
+    folder = tmp_path / "records"
+    folder.mkdir()
+    for number in (1, 2):
+        write_record(record, folder / f"{number}.AT2")
+    before = (folder / "1.AT2").read_bytes()
+    one = folder / "1.AT2"
+    for given, option, out, message in (
+        (one, "--out", one, "must be another file than the record itself; got"),
+        (folder, "--out", folder, "must be another folder than that of the records; got"),
+        (folder, "--out", tmp_path / "out.AT2", "must be a folder for 2 records; got"),
+        (one, "--out", tmp_path / "out.pdf", "must be a file of .AT2 or .csv, or a folder; got"),
+        (one, "--out", tmp_path / "none" / "out.AT2", "No such folder"),
+        (one, "--plot", tmp_path / "none" / "out.png", "No such folder"),
+    ):
+        assert main(["match", str(given), option, str(out)]) == 2
+        assert message in capsys.readouterr().err
+    assert (folder / "1.AT2").read_bytes() == before
+    assert sorted(path.name for path in tmp_path.rglob("*.*")) == ["1.AT2", "2.AT2"]
+
+
+def test_progress_counts_records(record: sm.Record) -> None:
+    told: list[tuple[int, int]] = []
+    sm.match_suite([record, record], TARGET, max_iterations=0, progress=lambda *counts: told.append(counts))
+    assert told == [(0, 2), (1, 2), (2, 2)]
 
 
 # Recordings.

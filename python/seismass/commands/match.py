@@ -8,12 +8,21 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.options import positive_option, read_records, read_target, warn_left_out, warn_remarks
+from seismass.commands.options import (
+    check_files,
+    positive_option,
+    read_records,
+    read_target,
+    warn_left_out,
+    warn_remarks,
+)
+from seismass.commands.study import progress_bar
 from seismass.commands.targets import TARGET_HELP
 from seismass.units import ACCELERATION_UNITS
 
 if TYPE_CHECKING:
     from seismass.matching import MatchedSuite
+    from seismass.records import Suite
 
 _EPILOG = """examples:
   seismass match record.AT2 --out matched.AT2 --plot matched.png
@@ -88,6 +97,7 @@ def run(args: argparse.Namespace) -> int:
     _check_outputs(args)
     target = read_target(args)
     suite = read_records(args.records, dt=args.dt, unit=args.unit)
+    _check_out(args.out, args.records, suite)
     matched = match_suite(
         suite,
         target,
@@ -97,6 +107,7 @@ def run(args: argparse.Namespace) -> int:
         max_iterations=args.iterations,
         scale=args.scale,
         padding=tuple(args.pad),
+        progress=progress_bar(unit="records"),
     )
     warn_left_out(suite)
     warn_remarks(suite)
@@ -133,19 +144,46 @@ def _check_outputs(args: argparse.Namespace) -> None:
 
     if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
         raise InvalidOption(f"--plot of match must be a name that ends in .png or .svg; got {args.plot.name}")
+    check_files(args.plot)
+
+
+def _check_out(out: Path | None, given: Path, suite: Suite) -> None:
+    """Refuse what --out cannot be for these records, before they are matched.
+
+    Raises
+    ------
+    InvalidOption
+        A file for several records, a file of another kind, or one that would replace a record or stand among them.
+    OSError
+        The folder of a file is missing.
+    """
+    from seismass.errors import InvalidOption
+    from seismass.matching.files import SUFFIXES
+
+    if out is None:
+        return
+    if out.suffix.lower() not in SUFFIXES:
+        if len(suite) == 1 and out.suffix and not out.is_dir():
+            raise InvalidOption(f"--out of match must be a file of .AT2 or .csv, or a folder; got {out}")
+        if given.is_dir() and out.is_dir() and out.samefile(given):
+            raise InvalidOption(f"--out of match must be another folder than that of the records; got {out}")
+        return
+    if len(suite) > 1:
+        raise InvalidOption(f"--out of match must be a folder for {len(suite)} records; got {out}")
+    check_files(out)
+    sources = [record.source for record in suite if record.source is not None]
+    if out.exists() and any(source.exists() and out.samefile(source) for source in (given, *sources)):
+        raise InvalidOption(f"--out of match must be another file than the record itself; got {out}")
 
 
 def _write(matched: MatchedSuite, out: Path) -> None:
     """One record to the file that is named, or all to a folder with a list."""
     import polars as pl
 
-    from seismass.errors import InvalidOption
     from seismass.files import write_table, written_whole
     from seismass.matching.files import SUFFIXES
 
     if out.suffix.lower() in SUFFIXES:
-        if len(matched) > 1:
-            raise InvalidOption(f"--out of match must be a folder for {len(matched)} records; got {out}")
         matched[0].write(out)
         return
     out.mkdir(parents=True, exist_ok=True)
