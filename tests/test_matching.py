@@ -345,6 +345,8 @@ def test_files_are_read_back(matched: sm.MatchedRecord, tmp_path: Path) -> None:
     assert rounded.acceleration == pytest.approx(matched.record.acceleration, rel=1e-10, abs=1e-15)
     assert abs(rounded.displacement[-1] - matched.record.displacement[-1]) < 1e-7
     assert (tmp_path / "matched.AT2").read_text().startswith("SPECTRALLY MATCHED MOTION, NOT AS RECORDED")
+    for name in ("matched.AT2", "matched.csv"):
+        assert "its header says that it is not as recorded" in sm.read_record(tmp_path / name).remarks
     with pytest.raises(sm.InvalidOption, match=r"ends in \.AT2 or \.csv; got 'matched\.txt'"):
         matched.write(tmp_path / "matched.txt")
 
