@@ -215,7 +215,7 @@ def test_what_is_not_reached_is_said(record: sm.Record) -> None:
     assert given_up.iterations == 1
     assert given_up.remarks[0].startswith("not matched within 3 %: the largest misfit is ")
     assert given_up.misfit.rms < given_up.misfit_before.rms
-    assert "NOT within 3 %" in given_up.text()
+    assert "NOT within 3 %" in given_up.text
     assert "not converged" in repr(given_up)
     scaled = sm.match_spectrum(record, TARGET, max_iterations=0)
     assert scaled.record.acceleration.tobytes() == record.scaled(scaled.factor).acceleration.tobytes()
@@ -324,7 +324,7 @@ def test_tables_text_and_figure_say_the_same(matched: sm.MatchedRecord, tmp_path
     before, after = matched.build_up
     assert before[-1] == after[-1] == 1.0
     assert 0.0 < matched.husid_difference < 1.0
-    assert f"{100.0 * matched.misfit.largest:.2f} %" in matched.text()
+    assert f"{100.0 * matched.misfit.largest:.2f} %" in matched.text
     figure = matched.plot()
     axes = figure.get_axes()
     assert [one.get_ylabel() for one in axes[3:6]] == ["acceleration (g)", "velocity (m/s)", "displacement (m)"]

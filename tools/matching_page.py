@@ -1,6 +1,7 @@
-"""Puts the tables of docs/matching.md into it: the seven records, the far-field components, other ranges and dampings.
+"""Puts the tables of docs/matching.md into it: the seven records, the far-field components, other ranges and dampings;
+and draws its figure.
 
-Usage: SEISMASS_SHARED=... python tools/matching_page.py [seven] [far_field] [other]; all three without a name.
+Usage: SEISMASS_SHARED=... python tools/matching_page.py [seven] [far_field] [other] [figure]; all without a name.
 The recordings are not part of this project: SEISMASS_SHARED names the folder that holds them. The table of another
 program is written by benchmarks/matching.py and kept as it is.
 """
@@ -17,9 +18,11 @@ from typing import Final
 import numpy as np
 
 import seismass as sm
+from seismass.report.figures import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
 PAGE: Final = ROOT / "docs" / "matching.md"
+FIGURE: Final = ROOT / "docs" / "figures" / "matched.png"
 OTHERS: Final = (
     ("0.05 to 5 s", {"periods": (0.05, 5.0)}),
     ("0.1 to 3 s", {"periods": (0.1, 3.0)}),
@@ -140,7 +143,7 @@ def far_field(shared: Path) -> str:
         said += f"; the others, up to {100.0 * worst:.1f} %, are said not to be"
     return (
         f"{table(('quantity', 'least', '16 %', 'median', '84 %', 'largest'), rows)}\n\n{said}.\n"
-        f"Displacements at the end differ from those before by {power(ends)} m at most."
+        f"Displacements at the end differ from those before by {power(ends)} m."
     )
 
 
@@ -162,15 +165,23 @@ def other(shared: Path) -> str:
     return table(("largest (%), rms (%), passes", *(record.station for record in chosen)), rows)
 
 
+def draw(shared: Path) -> None:
+    """Draw the second of the seven records, before and after."""
+    record = sm.read_suite(shared / "records" / "paper_seven.csv")[1]
+    save_figure(sm.match_spectrum(record, sm.TargetSpectrum.asce7()).plot(), "png", FIGURE)
+
+
 TABLES: Final[dict[str, Callable[[Path], str]]] = {"seven": seven, "far_field": far_field, "other": other}
 
 
 def main(names: list[str]) -> None:
-    """Write the tables of these names, or all."""
+    """Write the tables of these names and the figure, or all."""
     folder = os.environ.get("SEISMASS_SHARED")
     if not folder:
         sys.exit("SEISMASS_SHARED must name the folder that holds the recordings")
-    for name in names or list(TABLES):
+    if not names or "figure" in names:
+        draw(Path(folder))
+    for name in [name for name in TABLES if not names or name in names]:
         content = TABLES[name](Path(folder))
         PAGE.write_text(with_table(PAGE.read_text(encoding="utf-8"), name, content), encoding="utf-8")
 

@@ -132,7 +132,7 @@ def run(args: argparse.Namespace) -> int:
         }
         print(json.dumps(document, indent=2))
     else:
-        print("\n".join(one.text() for one in matched), end="")
+        print("\n".join(one.text for one in matched), end="")
         if len(matched) > 1:
             print(f"\nremark  {matched.suite.remarks[-1]}")
     return 0 if matched.converged else 1

@@ -174,8 +174,9 @@ class MatchedRecord:
             }
         )
 
+    @property
     def text(self) -> str:
-        """Return what happened in some lines."""
+        """What happened, in some lines."""
         before, after = self.original, self.record
         first, last = self.misfit_before, self.misfit
         state = "within" if self.converged else "NOT within"
