@@ -398,6 +398,11 @@ def test_benchmark_marks_what_is_absent(monkeypatch: pytest.MonkeyPatch) -> None
             "second component of pair .* must be a horizontal one; got UP",
         ),
         (
+            lambda p: Pair.from_records(*(p.first.replace(source=Path("a.txt"), azimuth=None, component=""),) * 2),
+            sm.InvalidMotion,
+            "second component of pair must be another than the first; got a.txt twice",
+        ),
+        (
             lambda p: Pair.from_records(p.first, p.second, p.first.replace(component="90")),
             sm.InvalidMotion,
             "vertical component of pair .* must be a vertical one; got 90",

@@ -100,7 +100,7 @@ class Pair(Value):
         Raises
         ------
         InvalidMotion
-            As the class says.
+            As the class says, or one file twice.
         InvalidOption
             Another value of `lengths`.
         """
@@ -109,6 +109,9 @@ class Pair(Value):
         for name, record in (("first", first), ("second", second)):
             if not isinstance(record, Record):
                 raise refusal(InvalidMotion, f"{name} component", "pair", "a Record", brief(record))
+        if first.source and first.source == second.source and np.array_equal(first.acceleration, second.acceleration):
+            got = f"{first.source.name} twice"
+            raise refusal(InvalidMotion, "second component", "pair", "another than the first", got)
         samples = (min if lengths == "shorter" else max)(first.samples, second.samples)
         remarks: list[str] = []
         ready = [_aligned(_alone(_directed(one), remarks), samples, remarks) for one in (first, second)]
