@@ -389,11 +389,13 @@ def test_outputs_are_judged_before_records_are_matched(
     folder.mkdir()
     for number in (1, 2):
         write_record(record, folder / f"{number}.AT2")
+    (folder / "suite.csv").write_text("file\n1.AT2\n2.AT2\n", encoding="utf-8")
     before = (folder / "1.AT2").read_bytes()
     one = folder / "1.AT2"
     for given, option, out, message in (
-        (one, "--out", one, "must be another file than the record itself; got"),
+        (one, "--out", one, "must not replace what is read; got"),
         (folder, "--out", folder, "must be another folder than that of the records; got"),
+        (folder / "suite.csv", "--out", folder, "which would replace"),
         (folder, "--out", tmp_path / "out.AT2", "must be a folder for 2 records; got"),
         (one, "--out", tmp_path / "out.pdf", "must be a file of .AT2 or .csv, or a folder; got"),
         (one, "--out", tmp_path / "none" / "out.AT2", "No such folder"),
@@ -402,7 +404,7 @@ def test_outputs_are_judged_before_records_are_matched(
         assert main(["match", str(given), option, str(out)]) == 2
         assert message in capsys.readouterr().err
     assert (folder / "1.AT2").read_bytes() == before
-    assert sorted(path.name for path in tmp_path.rglob("*.*")) == ["1.AT2", "2.AT2"]
+    assert sorted(path.name for path in tmp_path.rglob("*.*")) == ["1.AT2", "2.AT2", "suite.csv"]
 
 
 def test_progress_counts_records(record: sm.Record) -> None:
