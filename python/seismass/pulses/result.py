@@ -236,7 +236,7 @@ class PulseResult:
             f"the peak and {one.energy_ratio:.2f} of the energy",
             f"  arrives {'early' if one.early else 'late'}: {100.0 * one.energy_before:.0f} % of the squared velocity "
             f"has come at {one.arrival:.2f} s, where the pulse begins",
-            *(f"  no pulse: {reason}" for reason in one.reasons),
+            *(f"  {one.kind}: {reason}" for reason in one.reasons),
             *(f"  remark: {remark}" for remark in self.remarks),
         ]
         return "\n".join(lines)
