@@ -189,7 +189,7 @@ CALLS: list[tuple[Callable[[Path], object], type[SeismassError], str]] = [
     (
         lambda folder: read_suite(folder),
         RecordFormatError,
-        r"must be at least one horizontal record; got 0 vertical components$",
+        r"must be at least one horizontal record; got no file$",
     ),
     (lambda folder: read_suite(folder / "no"), RecordFormatError, r"must be a directory or a .csv file; got .*no"),
     (lambda folder: read_suite(folder / "no.csv"), RecordFormatError, r"must be a file that can be read; got .*no.csv"),

@@ -137,4 +137,4 @@ def test_a_missing_package_is_one_line(
     wavelet._integral.cache_clear()
     monkeypatch.setitem(sys.modules, "pywt", None)
     assert main(["pulse", *pair]) == 2
-    assert "pip install seismass[pulses]" in capsys.readouterr().err
+    assert "pip install PyWavelets" in capsys.readouterr().err

@@ -11,6 +11,7 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
+from seismass.matching.files import write_record
 from seismass.matching.linear import product, solved
 from seismass.matching.oscillators import Oscillators
 from seismass.matching.wavelets import half_width, place
@@ -344,6 +345,8 @@ def test_files_are_read_back(matched: sm.MatchedRecord, tmp_path: Path) -> None:
     assert rounded.acceleration == pytest.approx(matched.record.acceleration, rel=1e-10, abs=1e-15)
     assert abs(rounded.displacement[-1] - matched.record.displacement[-1]) < 1e-7
     assert (tmp_path / "matched.AT2").read_text().startswith("SPECTRALLY MATCHED MOTION, NOT AS RECORDED")
+    for name in ("matched.AT2", "matched.csv"):
+        assert "its header says that it is not as recorded" in sm.read_record(tmp_path / name).remarks
     with pytest.raises(sm.InvalidOption, match=r"ends in \.AT2 or \.csv; got 'matched\.txt'"):
         matched.write(tmp_path / "matched.txt")
 
@@ -375,6 +378,39 @@ def test_command_writes_what_the_function_gives(
     assert "matched to ASCE 7 shape" in suite[0].remarks[-1]
     assert main(["match", str(source), "--plot", "figure.pdf"]) == 2
     assert "must be a name that ends in .png or .svg; got figure.pdf" in capsys.readouterr().err
+
+
+def test_outputs_are_judged_before_records_are_matched(
+    record: sm.Record, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing replaces a recording or stands among recordings, and no time is spent on what cannot be written."""
+    monkeypatch.setattr("seismass.matching.match_suite", lambda *_, **__: pytest.fail("matched"))
+    folder = tmp_path / "records"
+    folder.mkdir()
+    for number in (1, 2):
+        write_record(record, folder / f"{number}.AT2")
+    (folder / "suite.csv").write_text("file\n1.AT2\n2.AT2\n", encoding="utf-8")
+    before = (folder / "1.AT2").read_bytes()
+    one = folder / "1.AT2"
+    for given, option, out, message in (
+        (one, "--out", one, "must not replace what is read; got"),
+        (folder, "--out", folder, "must be another folder than that of the records; got"),
+        (folder / "suite.csv", "--out", folder, "which would replace"),
+        (folder, "--out", tmp_path / "out.AT2", "must be a folder for 2 records; got"),
+        (one, "--out", tmp_path / "out.pdf", "must be a file of .AT2 or .csv, or a folder; got"),
+        (one, "--out", tmp_path / "none" / "out.AT2", "No such folder"),
+        (one, "--plot", tmp_path / "none" / "out.png", "No such folder"),
+    ):
+        assert main(["match", str(given), option, str(out)]) == 2
+        assert message in capsys.readouterr().err
+    assert (folder / "1.AT2").read_bytes() == before
+    assert sorted(path.name for path in tmp_path.rglob("*.*")) == ["1.AT2", "2.AT2", "suite.csv"]
+
+
+def test_progress_counts_records(record: sm.Record) -> None:
+    told: list[tuple[int, int]] = []
+    sm.match_suite([record, record], TARGET, max_iterations=0, progress=lambda *counts: told.append(counts))
+    assert told == [(0, 2), (1, 2), (2, 2)]
 
 
 # Recordings.

@@ -87,7 +87,8 @@ def test_directions_that_are_not_perpendicular_are_solved_for(plane: Any, second
 
 def test_fault_normal_and_parallel(plane: Any) -> None:
     """Parallel positive towards the strike, normal to its right; the other strike of the fault changes both signs."""
-    pair = Pair.from_records(towards(plane, 225.0), towards(plane, 315.0), towards(plane, 45.0).replace(azimuth=None))
+    up = towards(plane, 45.0).replace(azimuth=None, component="UP")
+    pair = Pair.from_records(towards(plane, 225.0), towards(plane, 315.0), up)
     turned = pair.fault_normal_parallel(30.0)
     np.testing.assert_allclose(turned.second.acceleration, towards(plane, 30.0).acceleration, atol=1e-13)
     np.testing.assert_allclose(turned.first.acceleration, towards(plane, 120.0).acceleration, atol=1e-13)
@@ -130,8 +131,16 @@ def test_lengths_are_aligned_and_said() -> None:
     assert "vertical accelerations that long had beside its own left out" in beside.remarks
 
 
+def test_components_of_different_recordings_are_remarked(plane: Any) -> None:
+    first, second = (one.replace(event="event", station="here") for one in (towards(plane, 0.0), towards(plane, 90.0)))
+    assert Pair.from_records(first, second).remarks == ()
+    elsewhere = Pair.from_records(first, second.replace(station="there"))
+    assert elsewhere.remarks == ("station of the two horizontals differs: here and there",)
+
+
 def test_each_component_is_changed_alike(plane: Any) -> None:
-    pair = Pair.from_records(towards(plane, 0.0), towards(plane, 90.0), towards(plane, 20.0).replace(azimuth=None))
+    up = towards(plane, 20.0).replace(azimuth=None, component="UP")
+    pair = Pair.from_records(towards(plane, 0.0), towards(plane, 90.0), up)
     assert pair.scaled(2.0).vertical == pair.vertical.scaled(2.0) if pair.vertical else False
     assert {record.dt for record in pair.each(lambda record: record.resampled(0.005))} == {0.005}
     assert len(pair) == 3
@@ -382,6 +391,21 @@ def test_benchmark_marks_what_is_absent(monkeypatch: pytest.MonkeyPatch) -> None
             lambda p: Pair.from_records(p.first, p.second, "up"),
             sm.InvalidMotion,
             "vertical component of pair must be a",
+        ),
+        (
+            lambda p: Pair.from_records(p.first, p.second.replace(component="UP", azimuth=None)),
+            sm.InvalidMotion,
+            "second component of pair .* must be a horizontal one; got UP",
+        ),
+        (
+            lambda p: Pair.from_records(*(p.first.replace(source=Path("a.txt"), azimuth=None, component=""),) * 2),
+            sm.InvalidMotion,
+            "second component of pair must be another than the first; got a.txt twice",
+        ),
+        (
+            lambda p: Pair.from_records(p.first, p.second, p.first.replace(component="90")),
+            sm.InvalidMotion,
+            "vertical component of pair .* must be a vertical one; got 90",
         ),
         (lambda p: Pair.from_records(p.first, p.second, lengths="long"), sm.InvalidOption, "lengths of pair must be"),
         (lambda p: Pair(p.first, p.second.with_duration(1.0)), sm.InvalidMotion, "samples of second component of pair"),

@@ -437,7 +437,7 @@ def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     wavelet._wavelet.cache_clear()
     wavelet._integral.cache_clear()
     monkeypatch.setitem(sys.modules, "pywt", None)
-    with pytest.raises(MissingPackage, match=r"must be installed \(pip install seismass\[pulses\]\)"):
+    with pytest.raises(MissingPackage, match=r"must be installed \(pip install PyWavelets\)"):
         baker2007(record(noise(1, 0.3)))
     assert issubclass(MissingPackage, ImportError)
 

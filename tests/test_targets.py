@@ -237,6 +237,9 @@ def test_an_option_names_a_file(tmp_path) -> None:
         ("ec8:1:C:strong", "--target of command must be ec8:TYPE:GROUND:AGR"),
         ("ec8:one:C:0.3", "kind of target spectrum must be one of 1, 2; got 0"),
         ("asce7:1:2:3:4", "--target of command must be asce7:SDS:SD1[:TL]; got asce7:1:2:3:4"),
+        ("mean:", "--target of command must be mean:RECORDS; got mean:"),
+        ("eurocode8:1:C:0.3", "must be a CSV that is there or one of asce7:SDS:SD1[:TL], asce7-22:CSV, ec8:"),
+        ("asce7", "must be a CSV that is there or one of asce7:SDS:SD1[:TL]"),
         ("nzs1170::0.4", "--target of command must be nzs1170:CLASS:Z[:R[:KM]]; got nzs1170::0.4"),
     ],
 )

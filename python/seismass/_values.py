@@ -154,3 +154,8 @@ def frozen(values: Any) -> FloatArray:
     array = np.array(values, dtype=np.float64, order="C", copy=True)
     array.setflags(write=False)
     return array
+
+
+def counted(number: int, one: str, several: str | None = None) -> str:
+    """Return a number with its noun: 1 pass, 2 passes."""
+    return f"{number} {one if number == 1 else several or one + 's'}"

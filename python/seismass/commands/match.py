@@ -5,22 +5,28 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import re
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.options import (
     add_reading_options,
     add_target_options,
+    check_files,
     positive_option,
     read_records,
     read_target,
     warn_left_out,
     warn_remarks,
 )
+from seismass.commands.study import progress_bar
 
 if TYPE_CHECKING:
     from seismass.matching import MatchedSuite
+    from seismass.records import Record, Suite
 
+_LIST: Final = "suite.csv"
 _EPILOG = """examples:
   seismass match record.AT2 --out matched.AT2 --plot matched.png
   seismass match record.AT2 --target uniform_hazard.csv --range 0.1 3.0
@@ -90,6 +96,7 @@ def run(args: argparse.Namespace) -> int:
     _check_outputs(args)
     target = read_target(args)
     suite = read_records(args.records, dt=args.dt, unit=args.unit)
+    _check_out(args.out, args.records, suite)
     matched = match_suite(
         suite,
         target,
@@ -99,6 +106,7 @@ def run(args: argparse.Namespace) -> int:
         max_iterations=args.iterations,
         scale=args.scale,
         padding=tuple(args.pad),
+        progress=progress_bar(unit="records"),
     )
     warn_left_out(suite)
     warn_remarks(suite)
@@ -135,30 +143,66 @@ def _check_outputs(args: argparse.Namespace) -> None:
 
     if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
         raise InvalidOption(f"--plot of match must be a name that ends in .png or .svg; got {args.plot.name}")
+    check_files(args.plot)
+
+
+def _check_out(out: Path | None, given: Path, suite: Suite) -> None:
+    """Refuse what --out cannot be for these records, before they are matched.
+
+    Raises
+    ------
+    InvalidOption
+        A file for several records, a file of another kind, or one that would replace a record or stand among them.
+    OSError
+        The folder of a file is missing.
+    """
+    from seismass.errors import InvalidOption
+    from seismass.matching.files import SUFFIXES
+
+    if out is None:
+        return
+    written = [out]
+    if out.suffix.lower() not in SUFFIXES:
+        if len(suite) == 1 and out.suffix and not out.is_dir():
+            raise InvalidOption(f"--out of match must be a file of .AT2 or .csv, or a folder; got {out}")
+        if given.is_dir() and out.is_dir() and out.samefile(given):
+            raise InvalidOption(f"--out of match must be another folder than that of the records; got {out}")
+        written = [out / name for name in (_LIST, *_file_names(suite))]
+    elif len(suite) > 1:
+        raise InvalidOption(f"--out of match must be a folder for {len(suite)} records; got {out}")
+    else:
+        check_files(out)
+    read = [given, *(record.source for record in suite if record.source is not None)]
+    for file in written:
+        if file.exists() and any(source.exists() and file.samefile(source) for source in read):
+            raise InvalidOption(f"--out of match must not replace what is read; got {out}, which would replace {file}")
+
+
+def _file_names(records: Iterable[Record]) -> list[str]:
+    """Names of the files of a folder: number and name of the record, without what a file name cannot hold."""
+    names = (re.sub(r"[^\w.+-]+", "_", record.name) or "record" for record in records)
+    return [f"{number:03d}_{name}.AT2" for number, name in enumerate(names, start=1)]
 
 
 def _write(matched: MatchedSuite, out: Path) -> None:
     """One record to the file that is named, or all to a folder with a list."""
     import polars as pl
 
-    from seismass.errors import InvalidOption
     from seismass.files import write_table, written_whole
     from seismass.matching.files import SUFFIXES
 
     if out.suffix.lower() in SUFFIXES:
-        if len(matched) > 1:
-            raise InvalidOption(f"--out of match must be a folder for {len(matched)} records; got {out}")
         matched[0].write(out)
         return
     out.mkdir(parents=True, exist_ok=True)
     rows = []
-    for number, one in enumerate(matched, start=1):
-        file = f"{number:03d}_{one.record.name or 'record'}.AT2"
+    files = _file_names(one.record for one in matched)
+    for number, (one, file) in enumerate(zip(matched, files, strict=True), start=1):
         one.write(out / file)
         said = "; ".join(one.record.history)
         labels = {"event": one.record.event, "station": one.record.station, "component": one.record.component}
         rows.append({"number": number, "file": file, "name": one.record.name, **labels, "note": said})
-    with written_whole(out / "suite.csv") as temporary:
+    with written_whole(out / _LIST) as temporary:
         write_table(pl.DataFrame(rows), "csv", temporary)
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import math
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -118,6 +120,23 @@ def is_list(path: Path) -> bool:
         return False
     header = read_text(path).partition("\n")[0]
     return "file" in (column.strip().strip('"') for column in header.split(","))
+
+
+def check_files(*paths: Path | None) -> None:
+    """Refuse files that cannot be written since their folder is missing, before anything is computed.
+
+    Raises
+    ------
+    OSError
+        A path is a folder, or its folder is none.
+    """
+    for path in paths:
+        if path is None:
+            continue
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+        if not path.parent.is_dir():
+            raise FileNotFoundError(errno.ENOENT, "No such folder", str(path.parent))
 
 
 def warn_left_out(suite: Suite) -> None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.options import add_reading_options, positive_count, warn_left_out
+from seismass.commands.options import add_reading_options, check_files, positive_count, warn_left_out
 
 if TYPE_CHECKING:
     from seismass.pulses import OrientationScan, PulseResult
@@ -20,7 +21,7 @@ _EPILOG = """examples:
   seismass pulse records/
 
 Two components are judged by Shahi and Baker (2014), one by Baker (2007); --orientations judges every direction of two
-by Baker (2007). Needs PyWavelets: pip install seismass[pulses].
+by Baker (2007). Needs PyWavelets: pip install PyWavelets.
 exit codes: 0 done, 2 bad input"""
 
 
@@ -70,16 +71,20 @@ def run(args: argparse.Namespace) -> int:
 
     if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
         raise InvalidOption(f"--plot of seismass pulse must be a .png or .svg file; got {args.plot}")
+    check_files(args.plot)
     if args.orientations is not None and args.method == "shahi_baker2014":
         raise InvalidOption("--method of seismass pulse must be baker2007 with --orientations; got shahi_baker2014")
     groups = _groups(args)
+    _warn_remarks(groups)
     results: list[PulseResult | OrientationScan] = [one for group in groups for one in _judged(group, args)]
     if args.plot is not None:
         if len(results) != 1:
             raise InvalidOption(f"--plot of seismass pulse must be of one result; got {len(results)}")
+        from seismass.files import written_whole
         from seismass.report.figures import save_figure
 
-        save_figure(results[0].plot(), "svg" if args.plot.suffix.lower() == ".svg" else "png", args.plot)
+        with written_whole(args.plot) as temporary:
+            save_figure(results[0].plot(), "svg" if args.plot.suffix.lower() == ".svg" else "png", temporary)
     if args.json:
         print(json.dumps([_document(one) for one in results], indent=2))
     else:
@@ -113,6 +118,16 @@ def _groups(args: argparse.Namespace) -> list[Record | Pair]:
     if args.second is not None:
         return [Pair.from_records(read_record(args.first, **options), read_record(args.second, **options))]
     return [_one_file(args.first, options)]
+
+
+def _warn_remarks(groups: list[Record | Pair]) -> None:
+    """Print on standard error what the horizontal components say of themselves, such as that they were matched."""
+    from seismass.records import Record
+
+    for group in groups:
+        for record in (group,) if isinstance(group, Record) else (group.first, group.second):
+            for remark in record.remarks:
+                print(f"seismass: {record.name}: {remark}", file=sys.stderr)
 
 
 def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:

@@ -81,6 +81,7 @@ def _read(path: Path, dt: float | None, unit: str | None) -> Suite:
     from seismass.errors import InvalidOption, RecordFormatError
     from seismass.records import Excluded, Suite
     from seismass.records import read_records as read_channels
+    from seismass.records.suite import files_below
 
     if not path.is_dir():
         if is_list(path):
@@ -91,9 +92,7 @@ def _read(path: Path, dt: float | None, unit: str | None) -> Suite:
             raise InvalidOption(f"{name} of {path.name} must be left out for a folder of records; got {value}")
     found: list[Record] = []
     excluded: list[Excluded] = []
-    for file in sorted(file for file in path.rglob("*") if file.is_file()):
-        if any(part.startswith(".") for part in file.relative_to(path).parts):
-            continue
+    for file in files_below(path):
         try:
             found += read_channels(file)
         except RecordFormatError as error:
@@ -133,7 +132,7 @@ def _table(suite: Suite) -> list[str]:
     from seismass._values import printable
 
     rows = _rows(suite)
-    width = max(len(printable(row["name"])) for row in rows)
+    width = max(len("record"), *(len(printable(row["name"])) for row in rows))
     head = (
         f"{'':3} {'record':{width}}  {'comp.':8} {'points':>6} {'dt (s)':>7} {'PGA (g)':>8} {'PGV (cm/s)':>10} "
         f"{'Arias (m/s)':>11} {'D5-95 (s)':>9}  event, station"
@@ -143,9 +142,9 @@ def _table(suite: Suite) -> list[str]:
         label = ", ".join(text for text in (row["event"], row["station"]) if text)
         duration = "-" if row["d5_95"] is None else f"{row['d5_95']:.2f}"
         lines.append(
-            f"{row['motion']:>3} {printable(row['name']):{width}}  {row['component'][:8]:8} {row['samples']:>6} "
-            f"{row['dt']:>7g} {row['pga_g']:>8.4f} {100.0 * row['pgv']:>10.2f} {row['arias']:>11.3f} {duration:>9}  "
-            f"{label}".rstrip()
+            f"{row['motion']:>3} {printable(row['name']):{width}}  {_direction(row['component']):8} "
+            f"{row['samples']:>6} {row['dt']:>7g} {row['pga_g']:>8.4f} {100.0 * row['pgv']:>10.2f} "
+            f"{row['arias']:>11.3f} {duration:>9}  {label}".rstrip()
         )
         lines += [f"{'':5}{remark}" for remark in row["remarks"]]
     if suite.excluded:
@@ -154,6 +153,12 @@ def _table(suite: Suite) -> list[str]:
         if len(suite.excluded) > _UNREADABLE_LISTED:
             lines.append(f"  and {len(suite.excluded) - _UNREADABLE_LISTED} more")
     return lines
+
+
+def _direction(component: str) -> str:
+    """A component for its column: what stands before a bracket, cut to its width."""
+    words = component.partition("(")[0].strip()
+    return words if len(words) <= 8 else f"{words[:7].rstrip()}."
 
 
 def _find(folder: Path, as_json: bool) -> int:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import argparse
 import json
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
+from seismass._values import counted
 from seismass.commands.options import (
     add_motion_options,
+    check_files,
     left_out,
     positive_option,
     read_motions,
@@ -152,17 +155,26 @@ def _check_options(args: argparse.Namespace) -> None:
             if getattr(args, name) is not None:
                 option = name.replace("_", "-")
                 raise InvalidOption(f"--{option} of scale must be left out with --building; got {getattr(args, name)}")
+    if args.method == "mps" and args.building is None:
+        given = [name for name in ("reduction", "yield_coefficient") if getattr(args, name) is not None]
+        if len(given) != 1:
+            raise InvalidOption(
+                "--reduction, --yield-coefficient or --building of scale must be given with mps, one of them; "
+                f"got {'two' if given else 'none'}"
+            )
     for name in ("max_per_event", "max_per_station"):
         if getattr(args, name) is not None and args.select is None:
             option = name.replace("_", "-")
             raise InvalidOption(f"--{option} of scale must be left out without --select; got {getattr(args, name)}")
     if args.pairs:
         if args.method != "asce7-16" or args.records is None:
-            raise InvalidOption("--pairs of scale must be left out without --method asce7-16 and --records; got it")
+            got = args.method if args.records is not None else f"{args.method} without --records"
+            raise InvalidOption(f"--pairs of scale must be given with --method asce7-16 and --records; got {got}")
         if args.select is not None:
             raise InvalidOption(f"--select of scale must be left out with --pairs; got {args.select}")
     if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
         raise InvalidOption(f"--plot of scale must be a file with the suffix .png or .svg; got {args.plot}")
+    check_files(args.csv, args.plot)
 
 
 def _building(args: argparse.Namespace, target: TargetSpectrum) -> Building | None:
@@ -237,19 +249,28 @@ def _print(
     chosen: Selection | None,
     remarks: tuple[str, ...],
 ) -> None:
-    print(f"suite   {suite.name}: {len(suite)} motions")
+    import numpy as np
+
+    print(f"suite   {suite.name}: {counted(len(suite), 'motion')}")
     for line in left_out(suite):
         print(f"        {line}")
     print(f"target  {target.label}")
     print(f"method  {scaling.method}, T = {scaling.period:g} s")
     for remark in remarks:
-        print(f"remark  {remark}")
+        print(textwrap.fill(remark, 120, initial_indent="remark  ", subsequent_indent=f"{'':8}"))
     touches = "touches the target" if scaling.method == "ASCE 7-10" else f"is {scaling.least_ratio:.4f} of the target"
     print(
         f"range   {len(scaling.periods)} periods from {scaling.periods[0]:g} to {scaling.periods[-1]:g} s; "
         f"the mean {touches} at {scaling.governing_period:.4g} s, at most {scaling.largest_ratio:.3f} of it; "
-        f"SF2 = {scaling.common:.6f}\n"
+        f"SF2 = {scaling.common:.6f}"
     )
+    if len(suite) > 1:
+        at = float(np.interp(np.log(scaling.period), np.log(scaling.periods), scaling.log_scatter))
+        print(
+            f"scatter {float(scaling.log_scatter.mean()):.3f} between the motions over the range, {at:.3f} at T "
+            "(standard deviation of ln Sa)"
+        )
+    print()
     print("     SF1       SF        misfit  largest record")
     rows = zip(scaling.diagnostics().iter_rows(named=True), scaling.largest_misfit, suite, strict=True)
     for row, largest, record in rows:
@@ -259,7 +280,8 @@ def _print(
         )
         for remark in record.remarks:
             print(f"{'':42}{remark}")
-    print("\nmisfit: root mean square, and largest, of |ln(scaled/target)| over the range")
+    print("\nSF1: each motion by itself; SF = SF1 SF2: what its accelerations are multiplied by")
+    print("misfit: root mean square, and largest, of |ln(scaled/target)| over the range")
     if chosen is not None:
         print("\nnot chosen")
         for row in chosen.table.filter(chosen.table["step"].is_null()).iter_rows(named=True):

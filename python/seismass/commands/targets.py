@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from seismass._values import counted
 from seismass.errors import InvalidOption
 
 if TYPE_CHECKING:
@@ -38,15 +39,21 @@ def target_of(text: str) -> TargetSpectrum:
     from seismass.spectra.tables import read_table
 
     name, colon, rest = text.partition(":")
-    if not colon or name not in FORMS:
+    name = name.lower()
+    if name not in FORMS or not colon:
+        if (colon or not Path(text).suffix) and not Path(text).exists():
+            forms = ", ".join(FORMS.values())
+            raise InvalidOption(f"--target of command must be a CSV that is there or one of {forms}; got {text}")
         return TargetSpectrum.from_csv(text)
+    if not rest:
+        raise _refused(name, text)
     if name == "asce7-22":
         return TargetSpectrum.asce7_multi_period(*read_table(rest, zero=True))
     if name == "mean":
         from seismass.commands.options import read_records
 
         suite = read_records(Path(rest))
-        return TargetSpectrum.mean_of(suite, label=f"mean spectrum of {suite.name}, {len(suite)} motions")
+        return TargetSpectrum.mean_of(suite, label=f"mean spectrum of {suite.name}, {counted(len(suite), 'motion')}")
     words = rest.split(":")
     least = {"asce7": 2, "ec8": 3, "nzs1170": 2}[name]
     most = {"asce7": 3, "ec8": 5, "nzs1170": 4}[name]

@@ -8,7 +8,7 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_count, as_number, brief, frozen, refusal
+from seismass._values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption
 from seismass.matching.remarks import matching_remarks
 from seismass.matching.result import MatchedRecord, MatchedSuite
@@ -156,7 +156,8 @@ def match_spectrum(
     if factor != 1.0 or padded or adjusted.best > 0:
         said = (
             f"matched to {label} from {matched[0]:g} to {matched[-1]:g} s at {100.0 * ratio:g} % damping: "
-            f"{adjusted.best} passes, largest misfit {100.0 * np.max(np.abs(ratios[1] - 1.0)):.2f} %"
+            f"{counted(adjusted.best, 'pass', 'passes')}, "
+            f"largest misfit {100.0 * np.max(np.abs(ratios[1] - 1.0)):.2f} %"
         )
         result = original.replace(
             acceleration=adjusted.acceleration,
@@ -187,7 +188,13 @@ def match_spectrum(
     return found.with_remarks(matching_remarks(found, adjusted.shortened))
 
 
-def match_suite(records: Iterable[Record], target: Target, **options: Any) -> MatchedSuite:
+def match_suite(
+    records: Iterable[Record],
+    target: Target,
+    *,
+    progress: Callable[[int, int], None] | None = None,
+    **options: Any,
+) -> MatchedSuite:
     """Return a suite in which every record is matched to the target by `match_spectrum`, which takes the options.
 
     Parameters
@@ -196,6 +203,8 @@ def match_suite(records: Iterable[Record], target: Target, **options: Any) -> Ma
         What is matched, in order.
     target : TargetSpectrum or callable
         As for `match_spectrum`.
+    progress : callable, optional
+        Called with the number of records that are matched and of all, before the first and after each.
     **options
         Those of `match_spectrum`.
 
@@ -212,7 +221,13 @@ def match_suite(records: Iterable[Record], target: Target, **options: Any) -> Ma
         raise refusal(InvalidMotion, "records", "matching", "at least one Record", "none")
     name = records.name if isinstance(records, Suite) else "records"
     suite_remarks = records.remarks if isinstance(records, Suite) else ()
-    matched = tuple(match_spectrum(record, target, **options) for record in given)
+    tell = progress or (lambda done, total: None)
+    tell(0, len(given))
+    done: list[MatchedRecord] = []
+    for record in given:
+        done.append(match_spectrum(record, target, **options))
+        tell(len(done), len(given))
+    matched = tuple(done)
     said = f"matched to {matched[0].target}: the scatter from record to record is taken out of the spectra"
     suite = Suite(f"{name}, matched", tuple(one.record for one in matched), remarks=(*suite_remarks, said))
     return MatchedSuite(suite, matched)

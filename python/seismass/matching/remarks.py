@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from seismass._values import counted
 from seismass.plausibility import FACTOR_RANGE
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def matching_remarks(matched: MatchedRecord, shortened: bool) -> tuple[str, ...]
         worst = matched.periods[int(np.argmax(np.abs(matched.ratio_after - 1.0)))]
         remarks.append(
             f"not matched within {100.0 * matched.tolerance:g} %: the largest misfit is {100.0 * misfit.largest:.1f} % "
-            f"at {worst:.3g} s after {matched.iterations} passes"
+            f"at {worst:.3g} s after {counted(matched.iterations, 'pass', 'passes')}"
         )
     if not FACTOR_RANGE[0] <= abs(matched.factor) <= FACTOR_RANGE[1]:
         remarks.append(

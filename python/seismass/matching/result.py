@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray
+from seismass._values import FloatArray, counted
 from seismass.matching.files import write_record
 from seismass.records.intensity import build_up
 from seismass.records.record import Record
@@ -93,7 +93,8 @@ class MatchedRecord:
     def __repr__(self) -> str:
         name, largest = self.record.name or "(unnamed)", 100.0 * self.misfit.largest
         state = "" if self.converged else ", not converged"
-        return f"<MatchedRecord {name}: misfit up to {largest:.2f} % in {self.iterations} passes{state}>"
+        passes = counted(self.iterations, "pass", "passes")
+        return f"<MatchedRecord {name}: misfit up to {largest:.2f} % in {passes}{state}>"
 
     def with_remarks(self, remarks: tuple[str, ...]) -> MatchedRecord:
         """Return the same result with these remarks."""
@@ -188,8 +189,8 @@ class MatchedRecord:
             f"range   {shortest:g} to {longest:g} s, {100.0 * self.damping:g} % damping, judged at {len(self.periods)} "
             "periods",
             f"misfit  {100.0 * first.largest:.1f} % at most, {100.0 * first.rms:.1f} % rms before; "
-            f"{100.0 * last.largest:.2f} % and {100.0 * last.rms:.2f} % after {self.iterations} passes, {state} "
-            f"{100.0 * self.tolerance:g} %",
+            f"{100.0 * last.largest:.2f} % and {100.0 * last.rms:.2f} % after "
+            f"{counted(self.iterations, 'pass', 'passes')}, {state} {100.0 * self.tolerance:g} %",
             f"PGA     {before.pga_g:.3f} to {after.pga_g:.3f} g",
             f"PGV     {before.pgv:.3f} to {after.pgv:.3f} m/s, at the end {before.velocity[-1]:.2e} to "
             f"{after.velocity[-1]:.2e}",

@@ -1,6 +1,6 @@
 """Velocity pulses of near-fault motions: Baker (2007) on one component, Shahi and Baker (2014) on two.
 
-Needs PyWavelets for the db4 wavelet: pip install seismass[pulses].
+Needs PyWavelets for the db4 wavelet: pip install PyWavelets.
 """
 
 from seismass.pulses.baker2007 import baker2007, baker2007_orientations, pulse_indicator_2007

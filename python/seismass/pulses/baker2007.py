@@ -22,6 +22,7 @@ from seismass.pulses.extraction import (
 from seismass.pulses.limits import ARRIVAL, LEAST_PGV, NO_PULSE_BELOW, PULSE_ABOVE
 from seismass.pulses.result import BAKER, Candidate, Kind, OrientationScan, PulseResult
 from seismass.pulses.wavelet import transform
+from seismass.records.formats.directions import is_vertical
 from seismass.records.pair import Pair
 from seismass.records.record import Record
 
@@ -81,6 +82,8 @@ def baker2007(record: Record) -> PulseResult:
     row, sample = _largest(velocity, scale_range(record.dt, _OWNER))
     candidate = _candidate(velocity, record.dt, row, sample, angle=0.0, azimuth=record.azimuth)
     remarks = drift_of((record,)) + doubtful_period(candidate.period, record.duration)
+    if is_vertical(record.component):
+        remarks += (f"{record.name or 'record'} is a vertical component: the method was made for horizontal ones",)
     return PulseResult(BAKER, (record.name,), (candidate,), remarks)
 
 

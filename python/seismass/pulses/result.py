@@ -239,8 +239,8 @@ class PulseResult:
             head += "ambiguous" if self.ambiguous else "no pulse"
         where = ""
         if len(self.names) == 2:
-            north = "" if one.azimuth is None else f" ({one.azimuth:.0f} degrees from north)"
-            where = f", {one.angle:.0f} degrees from the first component to the second{north}"
+            north = "" if one.azimuth is None else f" ({round(one.azimuth) % 360} degrees from north)"
+            where = f", {round(one.angle)} degrees from the first component to the second{north}"
         lines = [
             head,
             f"  candidate {one.number} of {len(self.candidates)}, at {one.time:.2f} s{where}",
@@ -248,7 +248,7 @@ class PulseResult:
             f"the peak and {one.energy_ratio:.2f} of the energy",
             f"  arrives {'early' if one.early else 'late'}: {100.0 * one.energy_before:.0f} % of the squared velocity "
             f"has come at {one.arrival:.2f} s, where the pulse begins",
-            *(f"  no pulse: {reason}" for reason in one.reasons),
+            *(f"  {one.kind}: {reason}" for reason in one.reasons),
             *(f"  remark: {remark}" for remark in self.remarks),
         ]
         return "\n".join(lines)

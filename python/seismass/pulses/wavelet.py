@@ -30,7 +30,7 @@ def _pywt() -> Any:
         import pywt
     except ImportError as error:
         raise MissingPackage(
-            "PyWavelets of pulse identification must be installed (pip install seismass[pulses]); "
+            "PyWavelets of pulse identification must be installed (pip install PyWavelets); "
             f"got {str(error) or 'no such package'}"
         ) from error
     return pywt

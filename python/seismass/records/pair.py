@@ -13,7 +13,7 @@ import numpy as np
 
 from seismass._values import FloatArray, Value, as_number, brief, refusal
 from seismass.errors import InvalidMotion, InvalidOption
-from seismass.records.formats.directions import azimuth_of
+from seismass.records.formats.directions import azimuth_of, is_vertical
 from seismass.records.read import read_record
 from seismass.records.record import Record
 from seismass.records.rotation import at_angles, between
@@ -43,8 +43,8 @@ class Pair(Value):
     Raises
     ------
     InvalidMotion
-        Steps or lengths that differ, stated directions that are not at right angles (within 5 degrees), or something
-        else than records.
+        Steps or lengths that differ, stated directions that are not at right angles (within 5 degrees), a vertical
+        component in place of a horizontal one or the reverse, or something else than records.
     """
 
     first: Record
@@ -66,6 +66,11 @@ class Pair(Value):
             if record.samples != self.first.samples:
                 requirement = f"{self.first.samples}, as many as of the first (from_records aligns them)"
                 raise refusal(InvalidMotion, f"samples of {name} component", what, requirement, str(record.samples))
+        for name, record in (("first", self.first), ("second", self.second)):
+            if is_vertical(record.component):
+                raise refusal(InvalidMotion, f"{name} component", what, "a horizontal one", record.component)
+        if self.vertical is not None and azimuth_of(self.vertical.component) is not None:
+            raise refusal(InvalidMotion, "vertical component", what, "a vertical one", self.vertical.component)
         one, other = self.first.azimuth, self.second.azimuth
         if one is not None and other is not None and abs(abs(between(one, other)) - 90.0) > PERPENDICULAR:
             got = f"{one:g} and {other:g} degrees"
@@ -95,7 +100,7 @@ class Pair(Value):
         Raises
         ------
         InvalidMotion
-            As the class says.
+            As the class says, or one file twice.
         InvalidOption
             Another value of `lengths`.
         """
@@ -104,12 +109,19 @@ class Pair(Value):
         for name, record in (("first", first), ("second", second)):
             if not isinstance(record, Record):
                 raise refusal(InvalidMotion, f"{name} component", "pair", "a Record", brief(record))
+        if first.source and first.source == second.source and np.array_equal(first.acceleration, second.acceleration):
+            got = f"{first.source.name} twice"
+            raise refusal(InvalidMotion, "second component", "pair", "another than the first", got)
         samples = (min if lengths == "shorter" else max)(first.samples, second.samples)
         remarks: list[str] = []
         ready = [_aligned(_alone(_directed(one), remarks), samples, remarks) for one in (first, second)]
         if isinstance(vertical, Record):
             vertical = _aligned(_alone(vertical, remarks), samples, remarks)
         pair = cls(ready[0], ready[1], vertical, tuple(remarks))
+        for label in ("event", "station"):
+            named = [getattr(record, label) for record in ready]
+            if all(named) and named[0] != named[1]:
+                remarks.append(f"{label} of the two horizontals differs: {named[0]} and {named[1]}")
         if pair.azimuths is None:
             remarks.append("directions of the two horizontals are not both stated: taken as perpendicular")
         elif abs(pair.apart) != 90.0:

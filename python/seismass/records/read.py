@@ -25,6 +25,9 @@ HEAD_BYTES: Final = 8192
 MOST_NULS: Final = 4
 """A text whose header is padded has no more zero bytes than this."""
 
+_ALTERED: Final = "not as recorded"
+"""Files of matched records say so in their header."""
+
 LARGEST_BYTES: Final = 64 * 1024 * 1024
 """No record is larger: some five million samples as text, seven hours at 200 a second."""
 
@@ -135,11 +138,13 @@ def _read(path: Any, dt: Any, unit: Any, format: Any, skip: Any) -> tuple[Channe
     except InvalidMotion as error:
         raise RecordFormatError(f"samples of {source.name} must be those of a motion; got: {error}") from error
     digest = hashlib.sha256(content).hexdigest()
+    altered = ("its header says that it is not as recorded",) if _ALTERED in text[:HEAD_BYTES].lower() else ()
     return tuple(
         Channel(
             one.label,
             one.record.replace(
-                sha256=digest, remarks=one.record.remarks + suspicions(one.record, unit_given=name is not None)
+                sha256=digest,
+                remarks=one.record.remarks + altered + suspicions(one.record, unit_given=name is not None),
             ),
         )
         for one in channels

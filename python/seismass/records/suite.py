@@ -277,14 +277,24 @@ def _with_copies(records: list[Record]) -> Iterator[Record]:
 
 
 def files_below(directory: Path) -> list[Path]:
-    """Return the files of a directory and of those below, sorted by path; hidden ones are left out."""
-    relative = (file.relative_to(directory) for file in directory.rglob("*") if file.is_file())
-    shown = (file for file in relative if not any(part.startswith(".") for part in file.parts))
-    return [directory / file for file in sorted(shown, key=Path.as_posix)]
+    """Return the files in a directory and below, sorted by path, without hidden ones and those out of reach."""
+    inside = ((file.relative_to(directory), file) for file in directory.rglob("*") if _is_file(file))
+    seen = [(path.as_posix(), file) for path, file in inside if not any(part.startswith(".") for part in path.parts)]
+    return [file for _, file in sorted(seen)]
+
+
+def _is_file(path: Path) -> bool:
+    """Whether a path is a file; a link to a place that may not be looked at is none."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False
 
 
 def _counted(excluded: list[Excluded]) -> str:
     """What is in a directory without a record."""
+    if not excluded:
+        return "no file"
     others = [item for item in excluded if "vertical component" not in item.reason]
     beside = ""
     if others:

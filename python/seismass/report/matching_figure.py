@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from seismass._values import FloatArray
+from seismass._values import FloatArray, counted
 from seismass.report.figures import (
     BLUE,
     CAPTION_CHARACTERS,
@@ -56,7 +56,8 @@ def matching_figure(matched: MatchedRecord) -> Figure:
         caption = (
             f"{plain(matched.record.name or '(unnamed)')}. Target: {plain(matched.target)}; matched from "
             f"{matched.matched_periods[0]:g} to {matched.matched_periods[-1]:g} s, misfit up to "
-            f"{100.0 * misfit.largest:.1f} %, rms {100.0 * misfit.rms:.1f} %, {matched.iterations} passes{state}"
+            f"{100.0 * misfit.largest:.1f} %, rms {100.0 * misfit.rms:.1f} %, "
+            f"{counted(matched.iterations, 'pass', 'passes')}{state}"
         )
         figure.supxlabel(textwrap.fill(caption, int(CAPTION_CHARACTERS * _WIDTH)), fontsize=7.5)
     return figure

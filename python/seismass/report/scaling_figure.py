@@ -55,7 +55,7 @@ def scaling_figure(
         axes.set_xlim(periods[0], periods[-1])
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     upper.set_ylim(0.0, None)
-    lower.set_ylim(0.0, None)
+    lower.set_ylim(0.0, 1.1 * max(1.0, float(np.max(mean / wanted))))
     ticks = [tick for tick in PERIOD_TICKS if periods[0] * 0.9999 <= tick <= periods[-1] * 1.0001]
     if len(ticks) < 2:
         ticks = [float(f"{tick:.2g}") for tick in np.geomspace(periods[0], periods[-1], 3)]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_number, frozen, refusal
+from seismass._values import FloatArray, as_array, as_number, counted, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption
 from seismass.spectra.checks import OWNER
 from seismass.spectra.elastic import mean_spectrum
@@ -39,7 +39,10 @@ class SuiteMean:
     @property
     def label(self) -> str:
         """Name with the number of motions."""
-        return self.given_label or f"mean spectrum of {len(self.motions)} motions, {100.0 * self.damping:g} % damping"
+        return (
+            self.given_label
+            or f"mean spectrum of {counted(len(self.motions), 'motion')}, {100.0 * self.damping:g} % damping"
+        )
 
     @property
     def parameters(self) -> dict[str, Any]:
