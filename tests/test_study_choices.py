@@ -26,6 +26,12 @@ ONE = StudyParameters(
 )
 
 
+def quickly_matched() -> sm.Suite:
+    """Three motions, as few as ASCE 7-10 allows, that are matched to the target in two or three passes."""
+    motions = sm.builtin_suite("seven")
+    return sm.Suite("three", (motions[0], motions[3], motions[6]))
+
+
 @pytest.fixture(scope="module")
 def small() -> StudyResult:
     return run_study(sm.builtin_suite("seven"), TARGET, SMALL)
@@ -237,7 +243,7 @@ def test_any_code_takes_the_place_of_asce() -> None:
 
 
 def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: Path) -> None:
-    sensitivity = study_sensitivity(sm.builtin_suite("seven"), TARGET, ONE)
+    sensitivity = study_sensitivity(quickly_matched(), TARGET, ONE)
     files = write_study(small, tmp_path, figures=False, sensitivity=sensitivity)
     tables = sorted(file for file in files if file.suffix == ".parquet")
     assert [file.stem for file in tables] == sorted(TABLES)
@@ -280,7 +286,7 @@ def test_remarks_on_inputs_are_kept_and_printed_once(tmp_path: Path, capsys: pyt
 
 
 def test_sensitivity_changes_one_choice_at_a_time() -> None:
-    suite = sm.builtin_suite("seven")
+    suite = quickly_matched()
     chosen = replace(SMALL, response_modification=(1.0, 4.0))
     seen: list[tuple[int, int]] = []
     result = study_sensitivity(suite, TARGET, chosen, progress=lambda done, total: seen.append((done, total)))
@@ -313,6 +319,13 @@ def test_sensitivity_changes_one_choice_at_a_time() -> None:
         assert row(choice, setting)["most_R_percent"] == pytest.approx(expected, rel=1e-12), choice
     expected = headline(run_study(suite, TARGET.tilted(0.3), chosen))
     assert row("target shape", "times (T/1 s)^0.3")["most_R_percent"] == pytest.approx(expected, rel=1e-12)
+    mps = sm.scale_modal_pushover(suite, TARGET, period=chosen.scaling_period, reduction=4.0)
+    expected = headline(run_study(suite, TARGET, chosen, scaling=mps))
+    assert row("motions", "modal pushover, R_y = 4")["most_R_percent"] == pytest.approx(expected, rel=1e-12)
+    matched = sm.match_suite(suite, TARGET, periods=(0.2, 1.5), tolerance=0.05)
+    assert all(one.converged for one in matched)
+    expected = headline(run_study(matched.suite, TARGET, chosen))
+    assert row("motions", "matched, 5 %, 0.2 to 1.5 s")["most_R_percent"] == pytest.approx(expected, rel=1e-12)
     medians = base.summary.filter(storey=1, occupancy="storage", R=4.0)
     ratio = medians["median_peak_drift_real"] / medians["median_peak_drift_code"]
     assert row("statistic", "median")["most_R_percent"] == pytest.approx(100.0 * (ratio.mean() - 1.0), rel=1e-12)
