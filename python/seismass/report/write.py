@@ -20,7 +20,6 @@ FIGURE_FILE: Final = re.compile(
 )
 """Names of the files of a study's figures; another file of a folder is not touched."""
 
-
 _METHODS: Final = {"ASCE 7-10": "ASCE/SEI 7-10, 16.1.3.1, two-step factors in the logarithm"}
 """Methods of scaling as study.json names them; others by their own name."""
 

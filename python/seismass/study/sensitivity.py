@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Final, get_args
 
 import numpy as np
@@ -45,8 +46,8 @@ class _Change:
     setting: str
     parameters: StudyParameters
     target: TargetSpectrum
-    suite: Suite
-    scaling: ScalingResult | None = None
+    motions: Callable[[], tuple[Suite, ScalingResult | None]]
+    """Makes the suite and its factors when the study is run: matching takes longer than all studies."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,7 +100,8 @@ def study_sensitivity(
     for number, change in enumerate(changes, start=1):
         if progress is not None:
             progress(number, len(changes) + 1)
-        result = run_study(change.suite, change.target, change.parameters, scaling=change.scaling, threads=threads)
+        changed_suite, scaling = change.motions()
+        result = run_study(changed_suite, change.target, change.parameters, scaling=scaling, threads=threads)
         drifts = drifts_of(result.responses, len(suite))
         rows += _rows(change.choice, change.setting, result, drifts, np.mean)
         if change.choice == DAMPING_BASE:
@@ -125,7 +127,7 @@ def _changes(chosen: StudyParameters, target: TargetSpectrum, suite: Suite) -> I
     """Changes of parameters and of the target; settings that are the study's own are left out."""
 
     def changed(choice: str, setting: str, spectrum: TargetSpectrum = target, **parameters: Any) -> _Change:
-        return _Change(choice, setting, replace(chosen, **parameters), spectrum, suite)
+        return _Change(choice, setting, replace(chosen, **parameters), spectrum, lambda: (suite, None))
 
     for slope in SECOND_SLOPES:
         if slope != chosen.second_slope:
@@ -161,36 +163,37 @@ def _motion_changes(
     setting for each R above 1. Matched motions are scaled like those of the study, so that their mean is not below the
     target.
     """
+    shortest, longest = (chosen.scaling_period * multiple for multiple in MATCHED_RANGE)
+
+    def pushover(reduction: float) -> tuple[Suite, ScalingResult]:
+        return suite, scale_modal_pushover(
+            suite,
+            target,
+            period=chosen.scaling_period,
+            reduction=reduction,
+            overstrength=chosen.overstrength,
+            second_slope=chosen.second_slope,
+            third_slope=chosen.third_slope,
+            damping=chosen.damping,
+            threads=threads,
+        )
+
+    def matched() -> tuple[Suite, None]:
+        result = match_suite(
+            suite,
+            target,
+            periods=(shortest, longest),
+            damping=chosen.damping,
+            tolerance=MATCHED_TOLERANCE,
+            threads=threads,
+        )
+        return result.suite, None
+
     for reduction in chosen.response_modification:
         if reduction > 1.0:
-            scaling = scale_modal_pushover(
-                suite,
-                target,
-                period=chosen.scaling_period,
-                reduction=reduction,
-                overstrength=chosen.overstrength,
-                second_slope=chosen.second_slope,
-                third_slope=chosen.third_slope,
-                damping=chosen.damping,
-                threads=threads,
-            )
-            yield _Change(MOTIONS, f"modal pushover, R_y = {reduction:g}", chosen, target, suite, scaling)
-    shortest, longest = (chosen.scaling_period * multiple for multiple in MATCHED_RANGE)
-    matched = match_suite(
-        suite,
-        target,
-        periods=(shortest, longest),
-        damping=chosen.damping,
-        tolerance=MATCHED_TOLERANCE,
-        threads=threads,
-    )
-    yield _Change(
-        MOTIONS,
-        f"matched, {100.0 * MATCHED_TOLERANCE:g} %, {shortest:g} to {longest:g} s",
-        chosen,
-        target,
-        matched.suite,
-    )
+            yield _Change(MOTIONS, f"modal pushover, R_y = {reduction:g}", chosen, target, partial(pushover, reduction))
+    setting = f"matched, {100.0 * MATCHED_TOLERANCE:g} %, {shortest:g} to {longest:g} s"
+    yield _Change(MOTIONS, setting, chosen, target, matched)
 
 
 def _heaviest(result: StudyResult) -> list[int]:
