@@ -2,11 +2,13 @@
 
 use seismass::{Event, EventKind};
 
-use crate::model::{Model, Terms};
+use crate::model::{Model, Stage, Terms};
 use crate::polynomial::Polynomial;
 use crate::real::Real;
 use crate::series::Series;
-use crate::state::{Contact, Drive, Sign, State};
+use crate::sign::Sign;
+use crate::springs::SpringGuard;
+use crate::state::{BlockState, Contact, Drive, State};
 
 /// Rounding of a guard, in units of the number type's epsilon times the size of its terms.
 const ROUNDING: f64 = 64.0;
@@ -16,16 +18,16 @@ const ROUNDING: f64 = 64.0;
 pub(crate) enum Guard {
     /// g + a_v keeps its sign.
     Contact,
-    /// An elastic element stays below its yield force of this sign.
-    Yield { storey: usize, element: usize, sign: Sign },
-    /// A plastic storey's velocity keeps the sign of the plastic forces.
-    Unload { storey: usize, sign: Sign },
+    /// A storey's spring stays in its state.
+    Spring { storey: usize, guard: SpringGuard },
     /// A storey stays below its collapse drift.
     Collapse { storey: usize },
     /// The weakest stuck block of a floor stays below its limit, with this sign of the floor acceleration.
     Breakaway { floor: usize, weakest: usize, sign: Sign },
     /// A sliding block's relative velocity keeps its sign.
     Arrival { block: usize },
+    /// A sliding block's path stays below that of its next stage of wear.
+    Wear { block: usize },
 }
 
 /// Why a floor decides which of its blocks stick.
@@ -35,6 +37,8 @@ enum Cause {
     Breakaway(usize, Sign),
     /// A block has arrived.
     Arrival,
+    /// The friction coefficients of this block have changed.
+    Wear(usize),
     /// Contact begins: the start of a run, or a landing.
     Contact,
 }
@@ -82,22 +86,9 @@ impl<R: Real> Machines<'_, R> {
             consider(Guard::Contact, contact, gravity);
         }
         for (i, storey) in model.storeys.iter().enumerate() {
-            for (e, element) in storey.elements.iter().enumerate() {
-                match state.elements[i][e].plastic {
-                    None => {
-                        for sign in [Sign::Positive, Sign::Negative] {
-                            let limit = Polynomial::constant(element.yield_force);
-                            let guard = limit.plus(&series.force[i][e].scaled(sign.times(R::of(-1.0))));
-                            let size = element.yield_force + series.force[i][e].size();
-                            consider(Guard::Yield { storey: i, element: e, sign }, guard, size);
-                        }
-                    }
-                    Some(sign) => {
-                        let guard = series.rate[i].scaled(sign.times(R::of(1.0)));
-                        let size = guard.size() + self.piece * (sizes[i] + sizes[i + 1]);
-                        consider(Guard::Unload { storey: i, sign }, guard, size);
-                    }
-                }
+            let rate_size = self.piece * (sizes[i] + sizes[i + 1]);
+            for limit in state.springs[i].limits(&series.course(i), rate_size) {
+                consider(Guard::Spring { storey: i, guard: limit.guard }, limit.polynomial, limit.size);
             }
             if let Some(limit) = storey.collapse_drift {
                 for sign in [Sign::Positive, Sign::Negative] {
@@ -108,7 +99,7 @@ impl<R: Real> Machines<'_, R> {
         }
         for (floor, &size) in sizes.iter().enumerate() {
             let Some(weakest) = self.weakest_stuck(floor) else { continue };
-            let mu = model.blocks[weakest].mu_s;
+            let mu = state.blocks[weakest].mu_s;
             for sign in [Sign::Positive, Sign::Negative] {
                 let demand = series.acceleration[floor].scaled(sign.times(R::of(-1.0)));
                 let guard = series.contact.scaled(mu).plus(&demand);
@@ -119,8 +110,13 @@ impl<R: Real> Machines<'_, R> {
             let Contact::Sliding(sign) = block.contact else { continue };
             let guard = series.velocity[j].scaled(sign.times(R::of(1.0)));
             let data = &model.blocks[j];
-            let size = guard.size() + self.piece * (sizes[data.floor] + data.mu_k * gravity);
+            let size = guard.size() + self.piece * (sizes[data.floor] + block.mu_k * gravity);
             consider(Guard::Arrival { block: j }, guard, size);
+            if let Some(next) = data.stages.get(block.stage + 1) {
+                let slipped = series.slipped(j).scaled(sign.times(R::of(-1.0)));
+                let size = next.path + slipped.size();
+                consider(Guard::Wear { block: j }, Polynomial::constant(next.path - block.path).plus(&slipped), size);
+            }
         }
         first
     }
@@ -131,7 +127,7 @@ impl<R: Real> Machines<'_, R> {
 
     fn weakest_stuck(&self, floor: usize) -> Option<usize> {
         let stuck = self.on_floor(floor).into_iter().filter(|&j| self.state.blocks[j].contact == Contact::Stuck);
-        stuck.reduce(|a, b| if self.model.blocks[b].mu_s < self.model.blocks[a].mu_s { b } else { a })
+        stuck.reduce(|a, b| if self.state.blocks[b].mu_s < self.state.blocks[a].mu_s { b } else { a })
     }
 
     fn note(&mut self, tau: R, kind: EventKind, index: usize, sign: i8, element: u8) {
@@ -145,17 +141,13 @@ impl<R: Real> Machines<'_, R> {
         match guard {
             Guard::Collapse { .. } => {}
             Guard::Contact => self.change_contact(tau),
-            Guard::Yield { storey, element, sign } => {
-                let limit = self.model.storeys[storey].elements[element].yield_force;
-                let state = &mut self.state.elements[storey][element];
-                state.force = sign.times(limit);
-                state.plastic = Some(sign);
-                self.note(tau, EventKind::Yield, storey, sign.as_i8(), element as u8 + 1);
-            }
-            Guard::Unload { storey, sign } => {
-                self.state.rate[storey] = R::zero();
-                self.state.elements[storey].iter_mut().for_each(|e| e.plastic = None);
-                self.note(tau, EventKind::Unload, storey, sign.as_i8(), 0);
+            Guard::Spring { storey, guard } => {
+                if let SpringGuard::Turn(_) = guard {
+                    self.state.rate[storey] = R::zero();
+                }
+                for crossing in self.state.springs[storey].cross(guard, self.state.drift[storey]) {
+                    self.note(tau, crossing.kind, storey, crossing.sign.as_i8(), crossing.element);
+                }
             }
             Guard::Breakaway { floor, weakest, sign } => self.settle(floor, tau, Cause::Breakaway(weakest, sign)),
             Guard::Arrival { block } => {
@@ -163,20 +155,33 @@ impl<R: Real> Machines<'_, R> {
                 self.arrive_together(block, series, tau);
                 self.settle(floor, tau, Cause::Arrival);
             }
+            Guard::Wear { block } => self.wear(block, tau),
         }
+    }
+
+    /// The block has come to its next stage of wear: it slides on, and its floor decides about the others.
+    fn wear(&mut self, block: usize, tau: R) {
+        let data = &self.model.blocks[block];
+        let state = &mut self.state.blocks[block];
+        state.stage += 1;
+        let Stage { path, mu_s, mu_k } = data.stages[state.stage];
+        (state.path, state.mu_s, state.mu_k) = (path, mu_s, mu_k);
+        let (sign, stage) = (state.velocity_sign(), state.stage);
+        self.note(tau, EventKind::Wear, block, sign, stage as u8);
+        self.settle(data.floor, tau, Cause::Wear(block));
     }
 
     /// Sets the relative velocity to exactly zero: of `block`, and of all on its floor that arrive at this instant.
     fn arrive_together(&mut self, block: usize, series: &Series<R>, tau: R) {
         let floor = self.model.blocks[block].floor;
         let size = self.state.acceleration(self.model, floor, &self.drive, tau, Terms::Sizes);
-        let (velocity, mu_k) = (self.state.blocks[block].velocity, self.model.blocks[block].mu_k);
+        let BlockState { velocity, mu_k, .. } = self.state.blocks[block];
         for j in self.on_floor(floor) {
             let Contact::Sliding(sign) = self.state.blocks[j].contact else { continue };
-            let limit = size + self.model.blocks[j].mu_k * self.model.gravity;
+            let limit = size + self.state.blocks[j].mu_k * self.model.gravity;
             let rounding = R::of(ROUNDING) * R::epsilon() * self.piece * limit;
             let approaching = sign.times(series.velocity[j].derivative().end()) <= R::zero();
-            let moves_alike = self.model.blocks[j].mu_k == mu_k && self.state.blocks[j].velocity == velocity;
+            let moves_alike = self.state.blocks[j].mu_k == mu_k && self.state.blocks[j].velocity == velocity;
             let state = &mut self.state.blocks[j];
             if j == block || state.moved && (moves_alike || approaching && state.velocity.abs() <= rounding) {
                 state.velocity = R::zero();
@@ -190,27 +195,30 @@ impl<R: Real> Machines<'_, R> {
     /// block follows it: without contact force and acceleration all limits are reached at once, and only rates tell.
     fn settle(&mut self, floor: usize, tau: R, cause: Cause) {
         let mut still = self.on_floor(floor);
-        let follows = matches!(cause, Cause::Breakaway(..));
+        let follows = matches!(cause, Cause::Breakaway(..) | Cause::Wear(_));
         still.retain(|&j| {
             let block = &self.state.blocks[j];
             let goes_on = follows && !block.moved && matches!(block.contact, Contact::Sliding(_));
-            block.velocity == R::zero() && !goes_on
+            block.velocity == R::zero() && !goes_on && cause != Cause::Wear(j)
         });
         let before: Vec<_> = still.iter().map(|&j| self.state.blocks[j]).collect();
         still.iter().for_each(|&j| self.state.blocks[j].contact = Contact::Stuck);
         let contact = self.drive.contact_at(tau);
         let rounding = R::of(ROUNDING) * R::epsilon();
         if let Cause::Breakaway(weakest, sign) = cause {
-            let limit = self.model.blocks[weakest].mu_s;
-            for &j in still.iter().filter(|&&j| self.model.blocks[j].mu_s == limit) {
-                self.state.blocks[j].contact = Contact::Sliding(sign.opposite());
+            let limit = self.state.blocks[weakest].mu_s;
+            for &j in &still {
+                let block = &mut self.state.blocks[j];
+                if block.mu_s == limit {
+                    block.contact = Contact::Sliding(sign.opposite());
+                }
             }
         }
         loop {
             let a = self.state.acceleration(self.model, floor, &self.drive, tau, Terms::Signed);
             let size = self.state.acceleration(self.model, floor, &self.drive, tau, Terms::Sizes);
             let exceeded = |j: usize| {
-                let mu = self.model.blocks[j].mu_s;
+                let mu = self.state.blocks[j].mu_s;
                 a.abs() > mu * contact + rounding * (mu * self.model.gravity + size)
             };
             let stuck = |j: usize| self.state.blocks[j].contact == Contact::Stuck;

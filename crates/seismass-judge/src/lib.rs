@@ -27,7 +27,9 @@ mod real;
 mod record;
 pub mod scene_text;
 mod series;
+mod sign;
 mod solve;
+mod springs;
 mod state;
 pub mod stress;
 

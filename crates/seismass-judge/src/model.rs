@@ -4,32 +4,33 @@ use seismass::damping::StoreyDamping;
 use seismass::{STANDARD_GRAVITY, Scene, Storey};
 
 use crate::real::Real;
+use crate::springs::{self, Spring};
 
-/// An elastic-perfectly-plastic element of a storey spring.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Element<R> {
-    pub(crate) stiffness: R,
-    pub(crate) yield_force: R,
-}
-
-/// A storey: elements in the order in which they yield, beside a linear spring and P/h.
-#[derive(Debug, Clone)]
+/// A storey: its virgin spring, and P/h.
+#[derive(Debug)]
 pub(crate) struct StoreyData<R> {
-    pub(crate) elements: Vec<Element<R>>,
-    pub(crate) linear: R,
+    pub(crate) spring: Box<dyn Spring<R>>,
     pub(crate) geometric: R,
     /// None: never.
     pub(crate) collapse_drift: Option<R>,
 }
 
-/// A block; friction limits per unit mass and contact acceleration g + a_v.
+/// Friction coefficients per unit mass and contact acceleration g + a_v, from a path slipped in contact on.
 #[derive(Debug, Clone, Copy)]
+pub(crate) struct Stage<R> {
+    pub(crate) path: R,
+    pub(crate) mu_s: R,
+    pub(crate) mu_k: R,
+}
+
+/// A block.
+#[derive(Debug, Clone)]
 pub(crate) struct BlockData<R> {
     /// 0 is the ground.
     pub(crate) floor: usize,
     pub(crate) mass: R,
-    pub(crate) mu_s: R,
-    pub(crate) mu_k: R,
+    /// By path, the first from the start.
+    pub(crate) stages: Vec<Stage<R>>,
 }
 
 /// Whether a sum takes its terms with their sign, or their absolute values to measure its rounding.
@@ -46,7 +47,7 @@ impl Terms {
 }
 
 /// A scene in numbers of type `R`.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Model<R> {
     pub(crate) mass: Vec<R>,
     pub(crate) storeys: Vec<StoreyData<R>>,
@@ -69,8 +70,10 @@ impl<R: Real> Model<R> {
             mass_damping: R::zero(),
         };
         for block in scene.blocks() {
-            let (mass, mu_s, mu_k) = (R::of(block.mass), R::of(block.mu_s), R::of(block.mu_k));
-            model.blocks.push(BlockData { floor: block.floor, mass, mu_s, mu_k });
+            let stage = |path: f64, mu_s: f64, mu_k: f64| Stage { path: R::of(path), mu_s: R::of(mu_s), mu_k: R::of(mu_k) };
+            let worn = block.wear.iter().map(|wear| stage(wear.path, wear.mu_s, wear.mu_k));
+            let stages = [stage(0.0, block.mu_s, block.mu_k)].into_iter().chain(worn).collect();
+            model.blocks.push(BlockData { floor: block.floor, mass: R::of(block.mass), stages });
         }
         let Some(building) = scene.building() else { return model };
         model.mass = building.mass().iter().map(|&m| R::of(m)).collect();
@@ -110,13 +113,11 @@ impl<R: Real> Model<R> {
         self.mass_damping * self.mass[floor] * velocity
     }
 
-    /// Q: the force of springs, P-Delta and damping on each floor, at these element forces (summed over a storey),
-    /// drifts and drift rates.
-    pub(crate) fn pull(&self, elements: &[R], drift: &[R], rate: &[R], terms: Terms) -> Vec<R> {
+    /// Q: the force of springs, P-Delta and damping on each floor, at these spring forces, drifts and drift rates.
+    pub(crate) fn pull(&self, springs: &[R], drift: &[R], rate: &[R], terms: Terms) -> Vec<R> {
         let damping = self.damping_forces(rate, terms);
         let action = |i: usize| {
-            let StoreyData { linear, geometric, .. } = self.storeys[i];
-            terms.of(elements[i]) + terms.of(linear * drift[i]) + terms.of(-geometric * drift[i]) + damping[i]
+            terms.of(springs[i]) + terms.of(-self.storeys[i].geometric * drift[i]) + damping[i]
         };
         let mut above = R::zero();
         let velocity = floor_velocities(rate);
@@ -135,8 +136,8 @@ impl<R: Real> Model<R> {
     }
 
     /// Bound of the norm of the system in every regime (1/s): sqrt(kappa) + gamma, where kappa and gamma are the
-    /// largest row sums from drifts and drift rates to the rates of drift rates, with all springs elastic, k + P/h
-    /// for k, and no mass but the floors'. With rates in units of sqrt(kappa) times a drift it is the norm of A.
+    /// largest row sums from drifts and drift rates to the rates of drift rates, with all springs at their stiffest, k +
+    /// P/h for k, and no mass but the floors'. With rates in units of sqrt(kappa) times a drift it is the norm of A.
     pub(crate) fn frequency_bound(&self) -> f64 {
         let n = self.mass.len();
         let row_sum = |columns: &dyn Fn(usize) -> Vec<R>| {
@@ -154,7 +155,7 @@ impl<R: Real> Model<R> {
         let none = vec![R::zero(); n];
         let kappa = row_sum(&|j| {
             let storey = &self.storeys[j];
-            let stiffness = storey.elements.iter().fold(storey.linear + storey.geometric, |k, e| k + e.stiffness);
+            let stiffness = storey.spring.largest_stiffness() + storey.geometric;
             // P/h enters as added stiffness: a force in place of the drift.
             self.pull(&unit(j, stiffness), &none, &none, Terms::Signed)
         });
@@ -173,46 +174,11 @@ pub(crate) fn floor_velocities<R: Real>(rate: &[R]) -> Vec<R> {
     rate.iter().map(sum).collect()
 }
 
-fn storey_data<R: Real>(storey: &Storey, geometric: f64, collapse_drift: Option<f64>) -> StoreyData<R> {
-    let geometric = R::of(geometric);
-    let (one, k) = (R::of(1.0), R::of(storey.stiffness));
-    let mut elements = Vec::new();
-    let mut linear = k;
-    if storey.yield_shear.is_finite() {
-        let (vy, omega) = (R::of(storey.yield_shear), R::of(storey.overstrength));
-        let (r2, r3) = (R::of(storey.second_slope), R::of(storey.third_slope));
-        linear = r3 * k;
-        let first = vy / k;
-        let parts = if omega == one {
-            vec![((one - r3) * k, first)]
-        } else if r2 == R::zero() {
-            vec![(k, first)]
-        } else {
-            vec![((one - r2) * k, first), ((r2 - r3) * k, first + (omega - one) * vy / (r2 * k))]
-        };
-        for (stiffness, drift) in parts.into_iter().filter(|&(stiffness, _)| stiffness > R::zero()) {
-            elements.push(Element { stiffness, yield_force: stiffness * drift });
-        }
-    }
-    let collapse_drift = match collapse_drift {
+fn storey_data<R: Real>(storey: &Storey, geometric: f64, collapse: Option<f64>) -> StoreyData<R> {
+    let (spring, geometric) = (springs::spring::<R>(storey), R::of(geometric));
+    let collapse_drift = match collapse {
         Some(drift) => drift.is_finite().then(|| R::of(drift)),
-        None => backbone_collapse(&elements, linear, geometric),
+        None => springs::collapse_drift(&spring.backbone(), geometric),
     };
-    StoreyData { elements, linear, geometric, collapse_drift }
-}
-
-/// The drift d > 0 at which the monotonic backbone meets (P/h) d: the first yield after which it lies below decides
-/// on which branch, sum of yielded forces + (stiffness left) d = (P/h) d.
-fn backbone_collapse<R: Real>(elements: &[Element<R>], linear: R, geometric: R) -> Option<R> {
-    let yield_drift = |e: &Element<R>| e.yield_force / e.stiffness;
-    (0..=elements.len()).find_map(|yielded| {
-        let (plastic, elastic) = elements.split_at(yielded);
-        let tangent = elastic.iter().fold(linear - geometric, |k, e| k + e.stiffness);
-        let force = plastic.iter().fold(R::zero(), |f, e| f + e.yield_force);
-        if tangent >= R::zero() {
-            return None;
-        }
-        let drift = -force / tangent;
-        elastic.first().is_none_or(|next| drift <= yield_drift(next)).then_some(drift)
-    })
+    StoreyData { spring, geometric, collapse_drift }
 }

@@ -13,6 +13,7 @@ pub trait Real:
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Div<Output = Self>
+    + 'static
 {
     /// Bound of the relative error of one operation.
     const EPSILON: f64;
@@ -22,6 +23,9 @@ pub trait Real:
 
     /// The nearest double.
     fn to_f64(self) -> f64;
+
+    /// A positive number to a power.
+    fn power(self, exponent: Self) -> Self;
 
     /// Zero.
     fn zero() -> Self {
@@ -53,6 +57,10 @@ impl Real for f64 {
 
     fn to_f64(self) -> f64 {
         self
+    }
+
+    fn power(self, exponent: Self) -> Self {
+        self.powf(exponent)
     }
 }
 
@@ -94,7 +102,34 @@ impl DoubleDouble {
         let product = Self::product(self.high, factor);
         Self::ordered_sum(product.high, self.low.mul_add(factor, product.low))
     }
+
+    /// e to this power: a power of two times the Taylor series of what is left, below ln 2 / 2.
+    fn exponential(self) -> Self {
+        let doublings = (self.high / LN_2.high).round();
+        let rest = self - LN_2.times(doublings);
+        let (mut term, mut sum) = (Self::of(1.0), Self::of(1.0));
+        for order in 1..=EXPONENTIAL_ORDERS {
+            term = term * rest / Self::of(f64::from(order));
+            sum = sum + term;
+        }
+        let power = 2f64.powi(doublings as i32);
+        Self { high: sum.high * power, low: sum.low * power }
+    }
+
+    /// Natural logarithm of a positive number: Newton's method doubles the digits of a double's.
+    fn logarithm(self) -> Self {
+        let mut logarithm = Self::of(self.high.ln());
+        for _ in 0..2 {
+            logarithm = logarithm + self * (-logarithm).exponential() - Self::of(1.0);
+        }
+        logarithm
+    }
 }
+
+/// ln 2, to 107 bits.
+const LN_2: DoubleDouble = DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
+/// (ln 2 / 2)^k / k! is below 1e-34 from here on.
+const EXPONENTIAL_ORDERS: u32 = 24;
 
 impl Neg for DoubleDouble {
     type Output = Self;
@@ -163,6 +198,10 @@ impl Real for DoubleDouble {
     fn to_f64(self) -> f64 {
         self.high
     }
+
+    fn power(self, exponent: Self) -> Self {
+        (exponent * self.logarithm()).exponential()
+    }
 }
 
 #[cfg(test)]
@@ -183,6 +222,20 @@ mod tests {
             assert_eq!((product.high, product.low), (a * b, a.mul_add(b, -(a * b))));
             let error = (product / DoubleDouble::of(b) - DoubleDouble::of(a)).abs() / DoubleDouble::of(a);
             assert!(error <= DoubleDouble::epsilon(), "{a} {b} {error:?}");
+        }
+    }
+
+    /// The square root squared, and the product of powers that add up to 1, are the number: 1e-30.
+    #[test]
+    fn powers_round_below_their_epsilon() {
+        let tolerance = DoubleDouble::of(100.0) * DoubleDouble::epsilon();
+        for i in 1..2000 {
+            let x = DoubleDouble::of(f64::from(i * i)) / DoubleDouble::of(7000.0);
+            let root = x.power(DoubleDouble::of(0.5));
+            assert!((root * root - x).abs() <= tolerance * x, "{x:?} {root:?}");
+            let a = DoubleDouble::of(f64::from(i) / 2000.0);
+            let product = x.power(a) * x.power(DoubleDouble::of(1.0) - a);
+            assert!((product - x).abs() <= tolerance * x, "{x:?} {a:?} {product:?}");
         }
     }
 

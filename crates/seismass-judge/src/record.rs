@@ -48,7 +48,6 @@ struct Work<R> {
     input: R,
     largest_input: R,
     viscous: R,
-    hysteretic: R,
     friction: R,
     /// The work of friction with g + |a_v| for g + a_v.
     friction_sizes: R,
@@ -79,7 +78,7 @@ impl<R: Real> Recorder<R> {
                 drift: state.drift.iter().map(|&d| peak(d)).collect(),
                 slip: vec![Peak::default(); state.blocks.len()],
                 floor_acceleration: (0..state.drift.len()).map(acceleration).collect(),
-                storey_shear: state.storey_forces(model).into_iter().map(peak).collect(),
+                storey_shear: state.storey_forces(Terms::Signed).into_iter().map(peak).collect(),
             },
             path: vec![R::zero(); state.blocks.len()],
             work: Work {
@@ -87,7 +86,6 @@ impl<R: Real> Recorder<R> {
                 input: R::zero(),
                 largest_input: R::zero(),
                 viscous: R::zero(),
-                hysteretic: R::zero(),
                 friction: R::zero(),
                 friction_sizes: R::zero(),
             },
@@ -115,8 +113,8 @@ impl<R: Real> Recorder<R> {
                 take(peak, value.to_f64(), (time + place * series.length).to_f64());
             }
         };
-        for (i, storey) in model.storeys.iter().enumerate() {
-            let linear = series.drift[i].scaled(storey.linear);
+        for i in 0..model.storeys.len() {
+            let linear = series.drift[i].scaled(state.springs[i].linear());
             let shear = series.force[i].iter().fold(linear, |sum, force| sum.plus(force));
             beat(&mut self.peaks.drift[i], &series.drift[i]);
             beat(&mut self.peaks.storey_shear[i], &shear);
@@ -154,20 +152,18 @@ impl<R: Real> Recorder<R> {
             let floor = velocity[i].scaled(model.mass_damping_force(i, R::of(1.0))).times(&velocity[i]);
             let storey = damping[i].times(&series.rate[i]);
             work.viscous = work.viscous + length * floor.plus(&storey).integral();
-            for element in state.elements[i].iter().filter(|e| e.plastic.is_some()) {
-                work.hysteretic = work.hysteretic + element.force * length * series.rate[i].integral();
-            }
         }
         for (j, data) in model.blocks.iter().enumerate() {
             let relative = &series.velocity[j];
             let floor = if data.floor > 0 { velocity[data.floor - 1].clone() } else { Polynomial::constant(R::zero()) };
             momentum = momentum.plus(&floor.plus(relative).scaled(data.mass));
-            if let Contact::Sliding(sign) = state.blocks[j].contact {
-                let force = series.contact.scaled(sign.times(data.mu_k * data.mass));
+            let block = &state.blocks[j];
+            if let Contact::Sliding(sign) = block.contact {
+                let force = series.contact.scaled(sign.times(block.mu_k * data.mass));
                 work.friction = work.friction + length * force.times(relative).integral();
                 let vertical = |contact: R| (contact - model.gravity).abs();
                 let size = model.gravity + vertical(series.contact.start()).max(vertical(series.contact.end()));
-                work.friction_sizes = work.friction_sizes + data.mu_k * data.mass * size * paths[j];
+                work.friction_sizes = work.friction_sizes + block.mu_k * data.mass * size * paths[j];
             }
         }
         work.input = work.input - length * momentum.times(&series.ground).integral();
@@ -187,7 +183,8 @@ impl<R: Real> Recorder<R> {
         let rows = (samples - 1) / self.every + 1;
         self.drift.resize(rows * state.drift.len(), f64::NAN);
         self.slip.resize(rows * state.blocks.len(), f64::NAN);
-        let Work { initial, input, largest_input, viscous, hysteretic, friction, friction_sizes } = self.work;
+        let Work { initial, input, largest_input, viscous, friction, friction_sizes } = self.work;
+        let hysteretic = state.springs.iter().fold(R::zero(), |sum, spring| sum + spring.dissipated());
         let (kinetic, elastic) = (state.kinetic_energy(model), state.elastic_energy(model));
         let residual = initial + input - kinetic - elastic - viscous - hysteretic - friction;
         let scale = initial.abs() + largest_input;

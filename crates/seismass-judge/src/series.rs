@@ -3,6 +3,7 @@
 use crate::model::{Model, Terms};
 use crate::polynomial::Polynomial;
 use crate::real::Real;
+use crate::springs::{Course, Part};
 use crate::state::{Contact, Drive, State};
 
 /// The length of a stretch times the norm of the system is at most this.
@@ -16,7 +17,7 @@ pub(crate) struct Series<R> {
     pub(crate) contact: Polynomial<R>,
     pub(crate) drift: Vec<Polynomial<R>>,
     pub(crate) rate: Vec<Polynomial<R>>,
-    /// Element forces of each storey.
+    /// Forces of the parts of each storey's spring.
     pub(crate) force: Vec<Vec<Polynomial<R>>>,
     /// Absolute acceleration of the ground (index 0) and of each floor.
     pub(crate) acceleration: Vec<Polynomial<R>>,
@@ -57,15 +58,16 @@ impl<R: Real> Series<R> {
             let floor = data.floor - 1;
             match block.contact {
                 Contact::Stuck => mass[floor] = mass[floor] + data.mass,
-                Contact::Sliding(sign) => friction[floor] = friction[floor] + sign.times(data.mu_k * data.mass),
+                Contact::Sliding(sign) => friction[floor] = friction[floor] + sign.times(block.mu_k * data.mass),
                 Contact::Airborne => {}
             }
         }
+        let parts: Vec<Vec<Part<R>>> = state.springs.iter().map(|spring| spring.parts()).collect();
         let mut series = Self {
             length,
             drift: starts(&state.drift),
             rate: starts(&state.rate),
-            force: state.elements.iter().map(|s| starts(&s.iter().map(|e| e.force).collect::<Vec<_>>())).collect(),
+            force: parts.iter().map(|s| starts(&s.iter().map(|part| part.force).collect::<Vec<_>>())).collect(),
             acceleration: vec![Polynomial(Vec::new()); n + 1],
             velocity: Vec::new(),
             slip: Vec::new(),
@@ -75,11 +77,14 @@ impl<R: Real> Series<R> {
         let one = R::of(1.0);
         for order in 0..orders::<R>() {
             let term = |p: &Polynomial<R>| p.0.get(order).copied().unwrap_or(R::zero());
-            let elements: Vec<R> =
-                series.force.iter().map(|s| s.iter().fold(R::zero(), |sum, e| sum + term(e))).collect();
+            let spring = |i: usize| {
+                let parts = series.force[i].iter().fold(R::zero(), |sum, part| sum + term(part));
+                parts + state.springs[i].linear() * term(&series.drift[i])
+            };
+            let springs: Vec<R> = (0..n).map(spring).collect();
             let drift: Vec<R> = series.drift.iter().map(term).collect();
             let rate: Vec<R> = series.rate.iter().map(term).collect();
-            let pull = model.pull(&elements, &drift, &rate, Terms::Signed);
+            let pull = model.pull(&springs, &drift, &rate, Terms::Signed);
             let (ground, contact) = (term(&series.ground), term(&series.contact));
             series.acceleration[0].0.push(ground);
             for i in 0..n {
@@ -89,10 +94,8 @@ impl<R: Real> Series<R> {
                 let difference = series.acceleration[i + 1].0[order] - series.acceleration[i].0[order];
                 series.rate[i].0.push(length * difference / R::of((order + 1) as f64));
                 integrate(&series.rate[i], one, length, &mut series.drift[i]);
-                for (e, element) in series.force[i].iter_mut().enumerate() {
-                    if state.elements[i][e].plastic.is_none() {
-                        integrate(&series.rate[i], model.storeys[i].elements[e].stiffness, length, element);
-                    }
+                for (force, part) in series.force[i].iter_mut().zip(&parts[i]).filter(|(_, p)| p.tangent != R::zero()) {
+                    integrate(&series.rate[i], part.tangent, length, force);
                 }
             }
         }
@@ -102,7 +105,7 @@ impl<R: Real> Series<R> {
             if block.contact != Contact::Stuck {
                 let floor = &series.acceleration[data.floor];
                 let relative = match block.contact {
-                    Contact::Sliding(sign) => floor.plus(&series.contact.scaled(sign.times(data.mu_k))),
+                    Contact::Sliding(sign) => floor.plus(&series.contact.scaled(sign.times(block.mu_k))),
                     _ => floor.clone(),
                 };
                 integrate(&relative, -one, length, &mut velocity);
@@ -127,24 +130,42 @@ impl<R: Real> Series<R> {
     /// Moves the state to the end of the stretch.
     pub(crate) fn advance(&self, state: &mut State<R>) {
         for i in 0..state.drift.len() {
+            state.springs[i].advance(&self.course(i));
             state.drift[i] = self.drift[i].end();
             state.rate[i] = self.rate[i].end();
-            for (element, force) in state.elements[i].iter_mut().zip(&self.force[i]) {
-                element.force = force.end();
-            }
         }
         for (j, block) in state.blocks.iter_mut().enumerate() {
             block.velocity = self.velocity[j].end();
             block.slip = self.slip[j].end();
+            if let Contact::Sliding(sign) = block.contact {
+                block.path = block.path + sign.times(self.slipped(j).end());
+            }
             block.moved |= self.length > R::zero();
         }
+    }
+
+    /// What a storey's spring sees.
+    pub(crate) fn course(&self, storey: usize) -> Course<'_, R> {
+        let (drift, rate, forces) = (&self.drift[storey], &self.rate[storey], &self.force[storey]);
+        Course { length: self.length, drift, rate, forces }
+    }
+
+    /// Change of a block's slip since the beginning of the stretch, not as a difference of slips.
+    pub(crate) fn slipped(&self, block: usize) -> Polynomial<R> {
+        let mut slipped = self.slip[block].clone();
+        slipped.0[0] = R::zero();
+        slipped
     }
 
     /// Size of the terms of each floor's acceleration over the stretch (index 0: the ground): the measure of its rounding.
     pub(crate) fn acceleration_sizes(&self, model: &Model<R>, state: &State<R>) -> Vec<R> {
         let sizes = |list: &[Polynomial<R>]| list.iter().map(Polynomial::size).collect::<Vec<R>>();
-        let elements: Vec<R> = self.force.iter().map(|s| s.iter().fold(R::zero(), |sum, e| sum + e.size())).collect();
-        let pull = model.pull(&elements, &sizes(&self.drift), &sizes(&self.rate), Terms::Sizes);
+        let spring = |i: usize| {
+            let parts = self.force[i].iter().fold(R::zero(), |sum, part| sum + part.size());
+            parts + state.springs[i].linear() * self.drift[i].size()
+        };
+        let springs: Vec<R> = (0..model.storeys.len()).map(spring).collect();
+        let pull = model.pull(&springs, &sizes(&self.drift), &sizes(&self.rate), Terms::Sizes);
         let contact = self.contact.size();
         let mut sizes = vec![self.ground.size()];
         for (floor, &pull) in pull.iter().enumerate() {
@@ -152,7 +173,7 @@ impl<R: Real> Series<R> {
             for (block, data) in state.blocks.iter().zip(&model.blocks).filter(|(_, data)| data.floor == floor + 1) {
                 match block.contact {
                     Contact::Stuck => mass = mass + data.mass,
-                    _ => force = force + data.mu_k * data.mass * contact,
+                    _ => force = force + block.mu_k * data.mass * contact,
                 }
             }
             sizes.push(force / mass);

@@ -1,53 +1,11 @@
-//! The state of a run between and at events: drifts, drift rates, element forces, blocks (`numerics`, sections 2, 3).
+//! The state of a run between and at events: drifts, drift rates, springs, blocks (`numerics`, sections 2, 3).
 
 use seismass::Scene;
 
-use crate::model::{Model, Terms, floor_velocities};
+use crate::model::{Model, Stage, Terms, floor_velocities};
 use crate::real::Real;
-
-/// Direction of a force or a velocity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Sign {
-    Positive,
-    Negative,
-}
-
-impl Sign {
-    /// Sign of a value; zero counts as positive.
-    pub(crate) fn of<R: Real>(value: R) -> Self {
-        if value < R::zero() { Self::Negative } else { Self::Positive }
-    }
-
-    pub(crate) fn times<R: Real>(self, value: R) -> R {
-        match self {
-            Self::Positive => value,
-            Self::Negative => -value,
-        }
-    }
-
-    pub(crate) fn opposite(self) -> Self {
-        match self {
-            Self::Positive => Self::Negative,
-            Self::Negative => Self::Positive,
-        }
-    }
-
-    pub(crate) fn as_i8(self) -> i8 {
-        match self {
-            Self::Positive => 1,
-            Self::Negative => -1,
-        }
-    }
-}
-
-/// An element of a storey spring. Its force is integrated with the state, so it never comes from the difference of
-/// two large drifts, and while plastic it is exact.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ElementState<R> {
-    pub(crate) force: R,
-    /// Sign of the yield force while plastic.
-    pub(crate) plastic: Option<Sign>,
-}
+use crate::sign::Sign;
+use crate::springs::Spring;
 
 /// What a block does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,6 +26,13 @@ pub(crate) struct BlockState<R> {
     pub(crate) slip: R,
     /// Has moved since it broke away: a relative velocity of zero is then an arrival.
     pub(crate) moved: bool,
+    /// Path slipped in contact.
+    pub(crate) path: R,
+    /// How often the friction coefficients have changed.
+    pub(crate) stage: usize,
+    /// The friction coefficients now.
+    pub(crate) mu_s: R,
+    pub(crate) mu_k: R,
 }
 
 impl<R: Real> BlockState<R> {
@@ -78,11 +43,11 @@ impl<R: Real> BlockState<R> {
 }
 
 /// Everything that changes in a run.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct State<R> {
     pub(crate) drift: Vec<R>,
     pub(crate) rate: Vec<R>,
-    pub(crate) elements: Vec<Vec<ElementState<R>>>,
+    pub(crate) springs: Vec<Box<dyn Spring<R>>>,
     pub(crate) blocks: Vec<BlockState<R>>,
 }
 
@@ -110,28 +75,29 @@ impl<R: Real> State<R> {
         let drift: Vec<R> = scene.initial_drift().iter().map(|&d| R::of(d)).collect();
         let velocity: Vec<R> = scene.initial_velocity().iter().map(|&v| R::of(v)).collect();
         let rate = (0..velocity.len()).map(|i| if i > 0 { velocity[i] - velocity[i - 1] } else { velocity[0] });
-        let elements = model.storeys.iter().zip(&drift).map(|(storey, &d)| {
-            storey.elements.iter().map(|e| ElementState { force: e.stiffness * d, plastic: None }).collect()
+        let springs = model.storeys.iter().zip(&drift).map(|(storey, &d)| {
+            let mut spring = storey.spring.copied();
+            spring.start(d);
+            spring
         });
-        let blocks = scene.blocks().iter().map(|block| {
+        let blocks = scene.blocks().iter().zip(&model.blocks).map(|(block, data)| {
             let floor = if block.floor > 0 { velocity[block.floor - 1] } else { R::zero() };
             let velocity = block.velocity.map_or(R::zero(), |w| R::of(w) - floor);
             let contact = if velocity == R::zero() { Contact::Stuck } else { Contact::Sliding(Sign::of(velocity)) };
-            BlockState { contact, velocity, slip: R::zero(), moved: true }
+            let Stage { path, mu_s, mu_k } = data.stages[0];
+            BlockState { contact, velocity, slip: R::zero(), moved: true, path, stage: 0, mu_s, mu_k }
         });
-        Self { rate: rate.collect(), elements: elements.collect(), blocks: blocks.collect(), drift }
+        Self { rate: rate.collect(), springs: springs.collect(), blocks: blocks.collect(), drift }
     }
 
-    /// Sum of the element forces of each storey.
-    pub(crate) fn element_forces(&self, terms: Terms) -> Vec<R> {
+    /// Spring force of each storey, without P-Delta and damping, or the size of its terms.
+    pub(crate) fn storey_forces(&self, terms: Terms) -> Vec<R> {
         let size = |f: R| if terms == Terms::Sizes { f.abs() } else { f };
-        self.elements.iter().map(|storey| storey.iter().fold(R::zero(), |sum, e| sum + size(e.force))).collect()
-    }
-
-    /// Spring force of each storey, without P-Delta and damping.
-    pub(crate) fn storey_forces(&self, model: &Model<R>) -> Vec<R> {
-        let elements = self.element_forces(Terms::Signed);
-        (0..elements.len()).map(|i| elements[i] + model.storeys[i].linear * self.drift[i]).collect()
+        let force = |(spring, &drift): (&Box<dyn Spring<R>>, &R)| {
+            let parts = spring.parts().into_iter().fold(R::zero(), |sum, part| sum + size(part.force));
+            parts + size(spring.linear() * drift)
+        };
+        self.springs.iter().zip(&self.drift).map(force).collect()
     }
 
     /// Absolute acceleration of a floor (0: the ground) in the present regime, or the size of its terms.
@@ -140,13 +106,13 @@ impl<R: Real> State<R> {
         if floor == 0 {
             return size(drive.ground_at(tau));
         }
-        let pull = model.pull(&self.element_forces(terms), &self.drift, &self.rate, terms)[floor - 1];
+        let pull = model.pull(&self.storey_forces(terms), &self.drift, &self.rate, terms)[floor - 1];
         let (mut force, mut mass) = (pull, model.mass[floor - 1]);
         for (block, data) in self.blocks.iter().zip(&model.blocks).filter(|(_, data)| data.floor == floor) {
             match block.contact {
                 Contact::Stuck => mass = mass + data.mass,
                 Contact::Sliding(sign) => {
-                    force = force + size(sign.times(data.mu_k * data.mass * drive.contact_at(tau)));
+                    force = force + size(sign.times(block.mu_k * data.mass * drive.contact_at(tau)));
                 }
                 Contact::Airborne => {}
             }
@@ -168,25 +134,22 @@ impl<R: Real> State<R> {
 
     /// Energy stored in the springs, less the work of P-Delta.
     pub(crate) fn elastic_energy(&self, model: &Model<R>) -> R {
-        let mut twice = R::zero();
+        let mut energy = R::zero();
         for (i, storey) in model.storeys.iter().enumerate() {
-            twice = twice + (storey.linear - storey.geometric) * self.drift[i] * self.drift[i];
-            for (element, data) in self.elements[i].iter().zip(&storey.elements) {
-                twice = twice + element.force * element.force / data.stiffness;
-            }
+            let gravity = R::of(0.5) * storey.geometric * self.drift[i] * self.drift[i];
+            energy = energy + self.springs[i].stored(self.drift[i]) - gravity;
         }
-        R::of(0.5) * twice
+        energy
     }
 
-    /// Multiplies the numbers of the state by factors, each storey's drift, rate and elastic forces by its own. All
-    /// blocks share theirs, so that those that move together still do. Plastic forces, which are no result of
-    /// rounding, stay.
+    /// Multiplies the numbers of the state by factors, each storey's drift, rate and forces by its own. All blocks
+    /// share theirs, so that those that move together still do. Forces that are no result of rounding stay.
     pub(crate) fn scale(&mut self, mut factor: impl FnMut() -> R) {
         for number in self.drift.iter_mut().chain(&mut self.rate) {
             *number = *number * factor();
         }
-        for element in self.elements.iter_mut().flatten().filter(|e| e.plastic.is_none()) {
-            element.force = element.force * factor();
+        for spring in &mut self.springs {
+            spring.scale(&mut factor);
         }
         let (velocity, slip) = (factor(), factor());
         for block in &mut self.blocks {
