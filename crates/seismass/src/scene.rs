@@ -177,7 +177,7 @@ impl Storey {
         }
     }
 
-    fn validate(&self, owner: impl Display + Copy) -> Result<()> {
+    pub(crate) fn validate(&self, owner: impl Display + Copy) -> Result<()> {
         let &Self { stiffness: k, yield_shear: vy, overstrength: omega, second_slope: r2, third_slope: r3, ref law } =
             self;
         if let SpringLaw::Multilinear { backbone } = law {

@@ -100,6 +100,7 @@ pub fn read_reference(path: &Path) -> (Scene, Motion, Value) {
         overstrength: omega[i],
         second_slope: r2[i],
         third_slope: r3[i],
+        law: Default::default(),
     };
     let mut building = Building::new(mass, (0..n).map(storey).collect(), damping(&b["damping"], n)).unwrap();
     if !b["geometric_stiffness"].is_null() {
@@ -112,6 +113,7 @@ pub fn read_reference(path: &Path) -> (Scene, Motion, Value) {
         mu_s: number(&value["mu_s"]),
         mu_k: number(&value["mu_k"]),
         velocity: None,
+        wear: Vec::new(),
     };
     let blocks = file["blocks"].as_array().unwrap().iter().map(block).collect();
     let scene = Scene::new(Some(Arc::new(building)), blocks).unwrap();
