@@ -157,14 +157,15 @@ def changes(before: Sequence[float | None], after: Sequence[float | None]) -> tu
     for (name, scene, _), old, new in zip(HIGHLIGHTS, before, after, strict=True):
         if old and new is not None and abs(new / old - 1.0) >= LEAST_CHANGE:
             found.setdefault(name, []).append(100.0 * (new / old - 1.0))
-            scenes.append(scene.partition(", r2")[0])
-    if {scene for name, scene, _ in HIGHLIGHTS if name == "run"} <= {*scenes, *instructions.SECTION4}:
-        scenes = [scene for scene in scenes if scene == instructions.YIELDING] + ["all runs"]
+            scenes.append(scene)
+    runs = {scene for name, scene, _ in HIGHLIGHTS if name == "run"}
+    if runs <= set(scenes):
+        scenes = [*(scene for scene in scenes if scene not in runs), "all runs"]
     gained = []
     for name, percents in found.items():
         least, most = (f"{value:+.0f}" for value in (max(percents), min(percents)))
         gained.append(f"{name} {least} %" if least == most else f"{name} {least} to {most} %")
-    return ", ".join(gained), "; ".join(dict.fromkeys(scenes))
+    return ", ".join(gained), "; ".join(dict.fromkeys(scene.partition(", r2")[0] for scene in scenes))
 
 
 def history() -> tuple[str, str]:
