@@ -31,8 +31,8 @@ sufficient. Written by `tools/catalogue_page.py`.
 | --- | --- | --- | --- | --- | --- | --- |
 {rows}
 
-Names, magnitude M, distance D and pulse period are those of the paper. Values of the flatfile are given where available;
-both agree within the rounding of the paper.
+Names, magnitude M, distance D and pulse period are those of the paper. Values of the flatfile are given where
+available; both agree within the rounding of the paper.
 
 {odd}
 

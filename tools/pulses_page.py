@@ -41,8 +41,8 @@ STRIKES: Final = {1: "1787", 2: "767", 3: "161"}
 
 TEXT: Final = """# Velocity pulses
 
-Near a fault that ruptures towards the site, much of the motion may arrive as a velocity pulse. `seismass.pulses` detects
-such pulses by two published methods, with the db4 wavelet of PyWavelets (`pip install PyWavelets`):
+Near a fault that ruptures towards the site, much of the motion may arrive as a velocity pulse. `seismass.pulses`
+detects such pulses by two published methods, with the db4 wavelet of PyWavelets (`pip install PyWavelets`):
 
 ```sh
 seismass pulse RSN767_LOMAP_G03000.AT2 RSN767_LOMAP_G03090.AT2 --plot pulse.png
