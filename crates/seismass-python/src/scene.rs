@@ -40,6 +40,7 @@ impl Building {
         overstrength: Values<f64>,
         second_slope: Values<f64>,
         third_slope: Values<f64>,
+        law: Default::default(),
         damping_ratio: Option<f64>,
         rayleigh_modes: Option<(usize, usize)>,
         damping_matrix: Option<Table<f64>>,
@@ -110,6 +111,7 @@ fn storeys(count: usize, lists: [&Values<f64>; 5]) -> seismass::Result<Vec<Store
             overstrength: overstrength.0[i],
             second_slope: second_slope.0[i],
             third_slope: third_slope.0[i],
+            law: Default::default(),
         })
         .collect())
 }
@@ -136,7 +138,14 @@ impl Scene {
     ) -> PyResult<Self> {
         let blocks = blocks
             .into_iter()
-            .map(|(floor, mass, mu_s, mu_k, velocity)| seismass::Block { floor, mass, mu_s, mu_k, velocity })
+            .map(|(floor, mass, mu_s, mu_k, velocity)| seismass::Block {
+                floor,
+                mass,
+                mu_s,
+                mu_k,
+                velocity,
+                wear: Vec::new(),
+            })
             .collect();
         let build = || {
             let mut scene = seismass::Scene::new(building.map(|b| Arc::clone(&b.0)), blocks)?;
