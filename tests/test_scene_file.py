@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.scene import MAX_STOREYS
+from seismass._kernel import MAX_STOREYS
 from seismass.scene_file import KEYS
 
 ROOT = Path(__file__).parents[1]

@@ -3,6 +3,8 @@
 from seismass import _kernel
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
+from seismass.block import Block, blocks_on_floors
+from seismass.building import Building, Rayleigh
 from seismass.building_file import read_building
 from seismass.codes import CodeFraction, code_fraction, code_table
 from seismass.effective_mass import (
@@ -33,6 +35,7 @@ from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
 from seismass.long_table import long_table
 from seismass.matching import MatchedRecord, MatchedSuite, match_spectrum, match_suite
+from seismass.motion import Motion
 from seismass.own_building import OwnBuilding
 from seismass.pulses import OrientationScan, PulseResult, baker2007, baker2007_orientations, shahi_baker2014
 from seismass.records import (
@@ -56,6 +59,7 @@ from seismass.records import (
     rotd,
     synthetic_motion,
 )
+from seismass.response import Response
 from seismass.scaling import (
     FirstModeOscillator,
     PushoverScaling,
@@ -69,9 +73,9 @@ from seismass.scaling import (
     scale_sa_t1,
     select_records,
 )
-from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
+from seismass.scene import Scene
 from seismass.scene_file import SceneFile, read_scene
-from seismass.simulate import Motion, Response, instruction_set, simulate
+from seismass.simulate import instruction_set, simulate
 from seismass.spectra import InelasticSpectrum, TargetSpectrum, inelastic_spectrum, mean_spectrum, response_spectrum
 from seismass.units import STANDARD_GRAVITY
 

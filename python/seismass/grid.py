@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, Final, Literal, Self, TypeAlias, get_args
+from typing import Any, Final, Literal, Self, TypeAlias, Unpack, get_args
 
 import numpy as np
 import polars as pl
@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_number, brief, refusal
+from seismass.block import Block
+from seismass.building import Building
 from seismass.errors import InvalidOption, InvalidScene
 from seismass.forks import require_polars
 from seismass.grid_buildings import (
@@ -22,7 +24,8 @@ from seismass.grid_buildings import (
     given_buildings,
 )
 from seismass.grid_columns import Column, IndexArray, block_values, index_values, number_values, share_values
-from seismass.scene import Block, Building, Scene
+from seismass.scene import Scene
+from seismass.springs import SHAPE_FIELDS, SpringShape, checked_names, takes_springs
 
 Roof: TypeAlias = Literal["loaded", "bare"]
 """Whether the uppermost floor of a building carries blocks."""
@@ -57,8 +60,8 @@ class Grid:
     yield_shear_over_weight : array_like, optional
         V_y of each scene over the weight of its building without live load, instead of `strength`: one value for all
         storeys, or a row per scene, whose length is its number of storeys.
-    overstrength, second_slope : array_like, optional
-        Omega and r2 of all storeys of each scene.
+    overstrength, second_slope, ... : array_like, optional
+        What shapes the springs of all storeys of each scene: the arguments of `Building` beside stiffness and strength.
     floors : array_like of int, optional
         Floor of each block, counted from 1; several blocks may share one. By default a block on every floor.
     roof : {"loaded", "bare"}, default "loaded"
@@ -152,6 +155,7 @@ class Grid:
     _everywhere: bool
     _roof_is_bare: bool
 
+    @takes_springs(SHAPE_FIELDS, default=None)
     def __init__(
         self,
         building: Building | Sequence[Building] | None = None,
@@ -161,8 +165,6 @@ class Grid:
         building_index: ArrayLike | None = None,
         strength: ArrayLike | None = None,
         yield_shear_over_weight: ArrayLike | None = None,
-        overstrength: ArrayLike | None = None,
-        second_slope: ArrayLike | None = None,
         floors: ArrayLike | None = None,
         roof: Roof = "loaded",
         mass_ratio: ArrayLike | None = None,
@@ -175,7 +177,9 @@ class Grid:
         scale: ArrayLike | None = None,
         motion: ArrayLike | None = None,
         collapse_drift: float | None = None,
+        **shape: Unpack[SpringShape],
     ) -> None:
+        checked_names(dict(shape), SHAPE_FIELDS, "Grid")
         uniform, index, periods = given_buildings(building, storeys, period)
         self._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
         if storeys is not None:
@@ -192,8 +196,7 @@ class Grid:
             period=period,
             strength=strength,
             yield_shear_over_weight=yield_shear_over_weight,
-            overstrength=overstrength,
-            second_slope=second_slope,
+            **shape,
         )
         values |= share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
         indices = {"building": index}
@@ -212,6 +215,7 @@ class Grid:
         self._check(range(self._length))
 
     @classmethod
+    @takes_springs(SHAPE_FIELDS, default=None)
     def product(
         cls,
         building: Building | Sequence[Building] | None = None,
@@ -220,8 +224,6 @@ class Grid:
         period: ArrayLike | None = None,
         strength: ArrayLike | None = None,
         yield_shear_over_weight: ArrayLike | None = None,
-        overstrength: ArrayLike | None = None,
-        second_slope: ArrayLike | None = None,
         floors: ArrayLike | None = None,
         roof: Roof = "loaded",
         mass_ratio: ArrayLike | None = None,
@@ -233,12 +235,13 @@ class Grid:
         mu_k: ArrayLike | None = None,
         scale: ArrayLike | None = None,
         collapse_drift: float | None = None,
+        **shape: Unpack[SpringShape],
     ) -> Self:
         """Return every combination of the values of each axis, of which only the axes are held.
 
-        The axes are building, period, strength, overstrength, second slope, mass ratio, attached share, friction and
-        scale, the last changing fastest: scenes that follow each other share propagators. Together they are one axis:
-        `storeys` with `period`, `attached` with `sliding`, `mu_s` with `mu_k`.
+        The axes are building, period, strength, overstrength, slopes and what else shapes springs, mass ratio, attached
+        share, friction and scale, the last changing fastest: scenes that follow each other share propagators. Together
+        they are one axis: `storeys` with `period`, `attached` with `sliding`, `mu_s` with `mu_k`.
 
         Parameters
         ----------
@@ -246,7 +249,7 @@ class Grid:
             The buildings.
         storeys, period : array_like, optional
             Numbers of storeys with the first period of each (s); or periods for every building.
-        strength, overstrength, second_slope : array_like, optional
+        strength, overstrength, second_slope, ... : array_like, optional
             Values, each for all storeys.
         yield_shear_over_weight : array_like, optional
             Values for all storeys, or rows with one value per storey.
@@ -274,6 +277,7 @@ class Grid:
         >>> grid.table(4, 5)["mu_s"].to_list()
         [0.3, 0.3]
         """
+        checked_names(dict(shape), SHAPE_FIELDS, "Grid.product")
         grid = cls.__new__(cls)
         uniform, index, periods = given_buildings(building, storeys, period)
         grid._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
@@ -285,8 +289,7 @@ class Grid:
             period=None if storeys is not None else period,
             strength=strength,
             yield_shear_over_weight=yield_shear_over_weight,
-            overstrength=overstrength,
-            second_slope=second_slope,
+            **shape,
         )
         values |= share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
         lengths = {"building": len(index)}
@@ -345,8 +348,8 @@ class Grid:
         """Return the columns of the scenes from `first` to `last`, both included (default: all), as a frame.
 
         It has the number of the scene as `scene`, by which results are joined, the number of the `building`, its
-        `storeys` and `period` (s, without live load), and of `strength`, `yield_shear_over_weight`, `overstrength`,
-        `second_slope`, `mass_ratio`, `attached`, `sliding`, `mu_s`, `mu_k`, `scale` and `motion` those that were given;
+        `storeys` and `period` (s, without live load), and of `strength`, `yield_shear_over_weight`, what shapes the
+        springs, `mass_ratio`, `attached`, `sliding`, `mu_s`, `mu_k`, `scale` and `motion` those that were given;
         lists where storeys or blocks differ.
 
         Raises
@@ -502,8 +505,7 @@ def _parts(numbers: range) -> Iterator[range]:
 _AXES: Final = {
     "period": ("period",),
     "strength": ("strength", "yield_shear_over_weight"),
-    "overstrength": ("overstrength",),
-    "second_slope": ("second_slope",),
+    **{name: (name,) for name in SHAPE_FIELDS},
     "mass_ratio": ("mass_ratio",),
     "attached": ("attached", "sliding"),
     "friction": ("mu_s", "mu_k"),

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass._values import FloatArray, as_array, brief, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidScene, SeismassError
+from seismass.springs import SHAPE_FIELDS
 
 IndexArray = NDArray[np.int64]
 _T = TypeVar("_T", np.int64, np.float64)
@@ -32,8 +33,7 @@ class Column(Generic[_T]):
 _RANGES: Final[dict[str, tuple[type[SeismassError], str, Callable[[FloatArray], NDArray[np.bool_]]]]] = {
     "period": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
     "strength": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
-    "overstrength": (InvalidScene, "finite and at least 1", lambda v: np.isfinite(v) & (v >= 1.0)),
-    "second_slope": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
+    **{name: (InvalidScene, field.requirement, field.accepts) for name, field in SHAPE_FIELDS.items()},
     "attached": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
     "sliding": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
     "scale": (InvalidMotion, "a finite number", np.isfinite),

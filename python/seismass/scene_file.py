@@ -9,16 +9,20 @@ from typing import Any, Final
 
 import numpy as np
 
+from seismass import _kernel
 from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
+from seismass.block import Block
+from seismass.building import Building, Rayleigh, as_fraction_of_weight
 from seismass.errors import InvalidMotion, InvalidScene, InvalidSceneFile
 from seismass.input_table import Table, load_table
+from seismass.motion import Motion
 from seismass.plausibility import motion_remarks
 from seismass.records import Record, read_record
-from seismass.scene import MAX_STOREYS, Block, Building, Rayleigh, Scene, as_fraction_of_weight
-from seismass.simulate import Motion
+from seismass.scene import Scene
+from seismass.springs import SPRING_FIELDS
 from seismass.units import ACCELERATION_UNITS
 
-_SPRING_KEYS = ("overstrength", "second_slope", "third_slope", "heights", "gravity_load", "geometric_stiffness")
+_SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
 KEYS: Final = {
     "": (
@@ -38,10 +42,9 @@ KEYS: Final = {
         "stiffness",
         "storeys",
         "period",
-        "yield_shear",
+        *_SPRING_KEYS,
         "yield_shear_over_weight",
         "damping",
-        *_SPRING_KEYS,
     ),
     "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
     "blocks": ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity"),
@@ -163,12 +166,12 @@ def _building(table: Table) -> Building:
     if "gravity_load" in table.values:
         table.needed("heights")
     springs = {key: table.values[key] for key in _SPRING_KEYS if key in table.values}
+    for key, field in SPRING_FIELDS.items():
+        if key in springs and np.isinf(field.default):
+            springs[key] = _infinite_where_null(springs[key])
     if "damping" in table.values:
         springs["damping"] = _damping(table)
-    yield_shear = _yield_shear(table.values.get("yield_shear"))
-    if yield_shear is not None:
-        springs["yield_shear"] = yield_shear
-    over_weight = _yield_shear(table.values.get("yield_shear_over_weight"))
+    over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
     if "period" in table.values:
         table.excluded("stiffness", "period")
         table.needed("storeys")
@@ -201,15 +204,15 @@ def _storeys(table: Table, over_weight: Any, springs: dict[str, Any]) -> int | N
         count = as_count(table.values["storeys"], "storeys", "building", InvalidScene, least=1)
         if listed:
             table.refuse("storeys", "left out where mass or stiffness is a list", str(count))
-        if count > MAX_STOREYS:
-            raise refusal(InvalidScene, "storeys", "building", f"at most {MAX_STOREYS}", str(count))
+        if count > _kernel.MAX_STOREYS:
+            raise refusal(InvalidScene, "storeys", "building", f"at most {_kernel.MAX_STOREYS}", str(count))
         return count
     listed = listed or any(isinstance(value, list) for value in springs.values())
     return len(over_weight) if isinstance(over_weight, list) and over_weight and not listed else None
 
 
-def _yield_shear(value: Any) -> Any:
-    """A null in a list is a storey that stays elastic; JSON has no infinity."""
+def _infinite_where_null(value: Any) -> Any:
+    """A null in a list stands for infinity, which JSON has not: a storey that stays elastic."""
     return [np.inf if item is None else item for item in value] if isinstance(value, list) else value
 
 

@@ -1,5 +1,6 @@
 //! Building, Scene, Motion: validated input that the kernel holds for Python.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
@@ -27,19 +28,16 @@ pub(crate) struct Building(pub(crate) Arc<seismass::Building>);
 
 #[pymethods]
 impl Building {
-    /// Lists have one value per storey. Damping is `damping_ratio` in every mode, or in two modes, or a matrix.
+    /// Lists have one value per storey; `springs` has one by the name of each of a spring's numbers. Damping is
+    /// `damping_ratio` in every mode, or in two modes, or a matrix.
     #[new]
-    #[pyo3(signature = (mass, stiffness, yield_shear, overstrength, second_slope, third_slope, *, damping_ratio=None,
-        rayleigh_modes=None, damping_matrix=None, heights=None, gravity_load=None, geometric_stiffness=None))]
+    #[pyo3(signature = (mass, springs, *, damping_ratio=None, rayleigh_modes=None, damping_matrix=None, heights=None,
+        gravity_load=None, geometric_stiffness=None))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python<'_>,
         mass: Values<f64>,
-        stiffness: Values<f64>,
-        yield_shear: Values<f64>,
-        overstrength: Values<f64>,
-        second_slope: Values<f64>,
-        third_slope: Values<f64>,
+        springs: BTreeMap<String, Values<f64>>,
         damping_ratio: Option<f64>,
         rayleigh_modes: Option<(usize, usize)>,
         damping_matrix: Option<Table<f64>>,
@@ -47,7 +45,6 @@ impl Building {
         gravity_load: Option<Values<f64>>,
         geometric_stiffness: Option<Values<f64>>,
     ) -> PyResult<Self> {
-        let springs = [&stiffness, &yield_shear, &overstrength, &second_slope, &third_slope];
         let damping = match (damping_ratio, rayleigh_modes, damping_matrix) {
             (Some(ratio), None, None) => Ok(Damping::Modal { ratio }),
             (Some(ratio), Some((first, second)), None) => Ok(Damping::Rayleigh { ratio, modes: [first, second] }),
@@ -61,7 +58,7 @@ impl Building {
             _ => Err(refuse("P-Delta", "geometric_stiffness, or heights and gravity_load", "another combination")),
         };
         let count = mass.0.len();
-        let storeys = storeys(count, springs);
+        let storeys = storeys(count, &springs);
         find_frequencies(py, count, move || seismass::Building::new(mass.0, storeys?, damping?)?.with_gravity(gravity?))
             .map(|building| Self(Arc::new(building)))
     }
@@ -93,25 +90,36 @@ fn square(matrix: &Table<f64>) -> seismass::Result<DMatrix<f64>> {
     Ok(DMatrix::from_row_slice(matrix.rows, matrix.columns, &matrix.values))
 }
 
+/// A number of a storey's spring: its name and its place.
+type SpringField = (&'static str, fn(&mut Storey) -> &mut f64);
+
+const SPRING_FIELDS: [SpringField; 5] = [
+    ("stiffness", |storey| &mut storey.stiffness),
+    ("yield_shear", |storey| &mut storey.yield_shear),
+    ("overstrength", |storey| &mut storey.overstrength),
+    ("second_slope", |storey| &mut storey.second_slope),
+    ("third_slope", |storey| &mut storey.third_slope),
+];
+
 /// The springs, from lists that must be as long as the list of masses.
-fn storeys(count: usize, lists: [&Values<f64>; 5]) -> seismass::Result<Vec<Storey>> {
-    const NAMES: [&str; 5] = ["stiffness", "yield_shear", "overstrength", "second_slope", "third_slope"];
-    for (name, list) in NAMES.into_iter().zip(lists) {
-        if list.0.len() != count {
+fn storeys(count: usize, springs: &BTreeMap<String, Values<f64>>) -> seismass::Result<Vec<Storey>> {
+    let mut storeys = vec![Storey::elastic(f64::NAN); count];
+    for (name, place) in SPRING_FIELDS {
+        let Some(Values(list)) = springs.get(name) else {
+            return Err(refuse(name, "given, one value per storey", "nothing"));
+        };
+        if list.len() != count {
             let requirement = format!("one number or a list of {count} values, one per storey");
-            return Err(refuse(name, &requirement, &format!("{} values", list.0.len())));
+            return Err(refuse(name, &requirement, &format!("{} values", list.len())));
+        }
+        for (storey, &value) in storeys.iter_mut().zip(list) {
+            *place(storey) = value;
         }
     }
-    let [stiffness, yield_shear, overstrength, second_slope, third_slope] = lists;
-    Ok((0..count)
-        .map(|i| Storey {
-            stiffness: stiffness.0[i],
-            yield_shear: yield_shear.0[i],
-            overstrength: overstrength.0[i],
-            second_slope: second_slope.0[i],
-            third_slope: third_slope.0[i],
-        })
-        .collect())
+    match springs.keys().find(|&name| SPRING_FIELDS.iter().all(|(known, _)| known != name)) {
+        Some(name) => Err(refuse(name, "a number that springs have", "another name")),
+        None => Ok(storeys),
+    }
 }
 
 /// Building and blocks held by the kernel.

@@ -97,7 +97,7 @@ pub use lanes::InstructionSet;
 pub use response::{
     Energy, Event, EventCounts, EventKind, Histories, Peak, Peaks, Response, Skipped, Statistics, Status,
 };
-pub use scene::{Block, Building, Damping, GravityEffect, Motion, Options, Scene, Storey};
+pub use scene::{Block, Building, Damping, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion, Options, Scene, Storey};
 pub use simulate::{simulate, simulate_until};
 
 /// Standard gravity (m/s2), the g of every number in this crate.

@@ -12,11 +12,14 @@ from typing import Any
 
 import polars as pl
 
+from seismass.block import Block
+from seismass.building import Building, Rayleigh
 from seismass.errors import InvalidOption, SimulationError
 from seismass.files import write_table, written_whole
-from seismass.scene import Block, Building, Rayleigh, Scene
+from seismass.response import Response
+from seismass.scene import Scene
 from seismass.scene_file import KEYS, SceneFile, read_scene
-from seismass.simulate import Response, simulate
+from seismass.simulate import simulate
 from seismass.units import STANDARD_GRAVITY
 
 _HISTORY_SUFFIXES = (".parquet", ".csv")
@@ -179,15 +182,7 @@ def _building_lines(building: Building, scene: Scene) -> list[str]:
         f"building  {building.storeys} {noun}, periods {periods}{more} s, {_weight_text(building)}, "
         f"damping {_damping_text(building)}"
     ]
-    parameters = ", ".join(
-        f"{symbol} {_listed(values)}"
-        for symbol, values in (
-            ("V_y/W", building.yield_shear / building.weight),
-            ("Omega", building.overstrength),
-            ("r2", building.second_slope),
-            ("r3", building.third_slope),
-        )
-    )
+    parameters = ", ".join(f"{symbol} {_listed(values)}" for symbol, values in building.spring_summary().items())
     lines.append(f"springs   {'elastic' if math.isinf(building.yield_shear.min()) else parameters}")
     if scene.geometric_stiffness.any():
         lines.append(f"P-Delta   P/(h k) {_listed(scene.geometric_stiffness / building.stiffness)}")

@@ -25,8 +25,9 @@ from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached,
 from seismass.effective_mass.result import finite_values
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.errors import InvalidOption
+from seismass.motion import MotionLike
 from seismass.scene import Scene
-from seismass.simulate import MotionLike, instruction_set
+from seismass.simulate import instruction_set
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -27,6 +27,7 @@ from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
 from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
 from seismass.scene import Scene
 from seismass.simulate import instruction_set
+from seismass.springs import SHAPE_FIELDS
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,9 +192,7 @@ class Search:
             "instructions": instruction_set(),
             "inputs_sha256": inputs_digest(scene, self.motions, chosen),
             **chosen,
-            "second_slope": building.second_slope.tolist(),
-            "third_slope": building.third_slope.tolist(),
-            "overstrength": building.overstrength.tolist(),
+            **{name: getattr(building, name).tolist() for name in SHAPE_FIELDS},
             "p_delta": bool(scene.geometric_stiffness.any()),
             "motions": len(self.motions),
             "clusters": self.motions.clusters,

@@ -135,8 +135,7 @@ def inputs_digest(scene: Scene, motions: NamedMotions, chosen: dict[str, Any]) -
     """SHA-256 of everything that the numbers depend on."""
     digest = hashlib.sha256(json.dumps(chosen, sort_keys=True).encode())
     building = building_of(scene)
-    springs = [building.mass, building.stiffness, building.yield_shear, building.overstrength]
-    springs += [building.second_slope, building.third_slope, building.damping_matrix, scene.geometric_stiffness]
+    springs = [building.mass, *building.springs.values(), building.damping_matrix, scene.geometric_stiffness]
     optional = [building.heights, scene.initial_drift, scene.initial_velocity, scene.collapse_drift]
     for array in (*springs, *optional):
         digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())

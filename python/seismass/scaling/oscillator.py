@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from seismass._values import FloatArray, brief, refusal
+from seismass.building import Building
 from seismass.design import vibration_modes
 from seismass.errors import InvalidOption
-from seismass.scene import Building
 from seismass.units import STANDARD_GRAVITY
 
 
