@@ -10,6 +10,14 @@ from numpy import float64, int8, int64, uint8, uint32
 from numpy.typing import NDArray
 
 __all__ = [
+    "DEFAULT_OVERSTRENGTH",
+    "DEFAULT_SECOND_SLOPE",
+    "DEFAULT_THIRD_SLOPE",
+    "MAX_SAMPLES",
+    "MAX_STOREYS",
+    "MAX_THREADS",
+    "SHORTEST_PERIOD_OVER_STEP",
+    "STANDARD_GRAVITY",
     "VERSION",
     "Batch",
     "Building",
@@ -27,6 +35,46 @@ __all__ = [
     "simulate_many",
     "uniform_stiffness",
 ]
+
+DEFAULT_OVERSTRENGTH: Final[float]
+"""
+Default overstrength of a storey.
+"""
+
+DEFAULT_SECOND_SLOPE: Final[float]
+"""
+Default second slope of a storey over the first.
+"""
+
+DEFAULT_THIRD_SLOPE: Final[float]
+"""
+Default third slope of a storey over the first.
+"""
+
+MAX_SAMPLES: Final[int]
+"""
+Most samples of a motion.
+"""
+
+MAX_STOREYS: Final[int]
+"""
+Most storeys of a building.
+"""
+
+MAX_THREADS: Final[int]
+"""
+Most threads of a batch or spectrum.
+"""
+
+SHORTEST_PERIOD_OVER_STEP: Final[float]
+"""
+Shortest period of an oscillator over the time step of its motion.
+"""
+
+STANDARD_GRAVITY: Final[float]
+"""
+Standard gravity (m/s2).
+"""
 
 VERSION: Final[str]
 """
@@ -144,11 +192,7 @@ class Building:
         cls,
         /,
         mass: NDArray[float64],
-        stiffness: NDArray[float64],
-        yield_shear: NDArray[float64],
-        overstrength: NDArray[float64],
-        second_slope: NDArray[float64],
-        third_slope: NDArray[float64],
+        springs: dict[str, NDArray[float64]],
         *,
         damping_ratio: SupportsFloat | SupportsIndex | None = None,
         rayleigh_modes: tuple[SupportsIndex, SupportsIndex] | None = None,
@@ -158,7 +202,8 @@ class Building:
         geometric_stiffness: NDArray[float64] | None = None,
     ) -> Building:
         """
-        Lists have one value per storey. Damping is `damping_ratio` in every mode, or in two modes, or a matrix.
+        Lists have one value per storey; `springs` has one by the name of each of a spring's numbers. Damping is
+        `damping_ratio` in every mode, or in two modes, or a matrix.
         """
     @property
     def damping_matrix(self, /) -> NDArray[float64]:
