@@ -94,7 +94,14 @@ fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Bui
         let stiffness = if equal { k } else { k * draw.between(0.4, 2.0) };
         let yield_shear = if elastic || draw.one_in(8) { f64::INFINITY } else { strength * above * pga.max(1.0) };
         let (overstrength, second_slope, third_slope) = if equal { law } else { spring(draw) };
-        storeys.push(Storey { stiffness, yield_shear, overstrength, second_slope, third_slope });
+        storeys.push(Storey {
+            stiffness,
+            yield_shear,
+            overstrength,
+            second_slope,
+            third_slope,
+            law: Default::default(),
+        });
     }
     let ratio = draw.one_of(&[0.0, 0.01, 0.05, 0.2]);
     let damping = match draw.bits() % 4 {
@@ -153,11 +160,11 @@ fn blocks(draw: &mut Draw, storeys: usize, pga: f64) -> Vec<Block> {
     for floor in 0..=storeys {
         let number = if floor == 0 && storeys > 0 { draw.one_of(&[0, 0, 0, 1]) } else { draw.one_of(&[0, 1, 1, 2, 3]) };
         for position in 0..number {
-            let before = blocks.last().copied().filter(|_| position > 0 && draw.one_in(2));
+            let before = blocks.last().cloned().filter(|_| position > 0 && draw.one_in(2));
             let mut block = before.unwrap_or_else(|| {
                 let mu_s = if draw.one_in(25) { 0.0 } else { typical * draw.scale(0.1, 2.0) };
                 let mu_k = mu_s * draw.one_of(&[1.0, 1.0, 1.0, 0.9, 0.6, 0.0]);
-                Block { floor, mass: draw.scale(50.0, 3000.0), mu_s, mu_k, velocity: None }
+                Block { floor, mass: draw.scale(50.0, 3000.0), mu_s, mu_k, velocity: None, wear: Vec::new() }
             });
             if draw.one_in(12) {
                 block.velocity = Some(draw.between(-0.5, 0.5));

@@ -57,6 +57,7 @@ fn building(input: &mut Input) -> Result<Building, Box<dyn Error>> {
             overstrength: lists[2][i],
             second_slope: lists[3][i],
             third_slope: lists[4][i],
+            law: Default::default(),
         })
         .collect();
     let ratio = number(input, "damping")?;

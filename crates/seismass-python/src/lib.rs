@@ -9,6 +9,7 @@ mod reference;
 mod response;
 mod scene;
 mod spectrum;
+mod springs;
 
 /// The kernel as Python sees it; use it through the package `seismass`.
 #[pyo3::pymodule]

@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use pyo3::prelude::*;
-use seismass::{Damping, Domain, Error, GravityEffect, Storey};
+use seismass::{Damping, Domain, Error, GravityEffect, Wear};
 
 use crate::arrays::{Output, Table, Values};
 use crate::errors::from_kernel;
 use crate::interrupt::{run_inline, run_watched};
+use crate::springs;
 
 /// Runs work that finds the frequencies of so many storeys, watched for Ctrl-C where it takes longer than milliseconds: it
 /// grows like their cube.
@@ -28,16 +29,19 @@ pub(crate) struct Building(pub(crate) Arc<seismass::Building>);
 
 #[pymethods]
 impl Building {
-    /// Lists have one value per storey; `springs` has one by the name of each of a spring's numbers. Damping is
-    /// `damping_ratio` in every mode, or in two modes, or a matrix.
+    /// Lists have one value per storey; `springs` has one by the name of each of a spring's numbers. A backbone is a table
+    /// of drift (m) and force (N); a storey without one is trilinear. Damping is `damping_ratio` in every mode, or in two
+    /// modes, or a matrix.
     #[new]
-    #[pyo3(signature = (mass, springs, *, damping_ratio=None, rayleigh_modes=None, damping_matrix=None, heights=None,
+    #[pyo3(signature = (mass, springs, *, backbones=None, peak_oriented=None, damping_ratio=None, rayleigh_modes=None, damping_matrix=None, heights=None,
         gravity_load=None, geometric_stiffness=None))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python<'_>,
         mass: Values<f64>,
         springs: BTreeMap<String, Values<f64>>,
+        backbones: Option<Vec<Option<Table<f64>>>>,
+        peak_oriented: Option<Vec<bool>>,
         damping_ratio: Option<f64>,
         rayleigh_modes: Option<(usize, usize)>,
         damping_matrix: Option<Table<f64>>,
@@ -58,7 +62,7 @@ impl Building {
             _ => Err(refuse("P-Delta", "geometric_stiffness, or heights and gravity_load", "another combination")),
         };
         let count = mass.0.len();
-        let storeys = storeys(count, &springs);
+        let storeys = springs::storeys(count, &springs, backbones.as_deref(), peak_oriented.as_deref());
         find_frequencies(py, count, move || seismass::Building::new(mass.0, storeys?, damping?)?.with_gravity(gravity?))
             .map(|building| Self(Arc::new(building)))
     }
@@ -78,7 +82,7 @@ impl Building {
     }
 }
 
-fn refuse(parameter: &str, requirement: &str, value: &str) -> Error {
+pub(crate) fn refuse(parameter: &str, requirement: &str, value: &str) -> Error {
     Error::invalid(Domain::Scene, parameter, "building", requirement, value)
 }
 
@@ -90,48 +94,22 @@ fn square(matrix: &Table<f64>) -> seismass::Result<DMatrix<f64>> {
     Ok(DMatrix::from_row_slice(matrix.rows, matrix.columns, &matrix.values))
 }
 
-/// A number of a storey's spring: its name and its place.
-type SpringField = (&'static str, fn(&mut Storey) -> &mut f64);
-
-const SPRING_FIELDS: [SpringField; 5] = [
-    ("stiffness", |storey| &mut storey.stiffness),
-    ("yield_shear", |storey| &mut storey.yield_shear),
-    ("overstrength", |storey| &mut storey.overstrength),
-    ("second_slope", |storey| &mut storey.second_slope),
-    ("third_slope", |storey| &mut storey.third_slope),
-];
-
-/// The springs, from lists that must be as long as the list of masses.
-fn storeys(count: usize, springs: &BTreeMap<String, Values<f64>>) -> seismass::Result<Vec<Storey>> {
-    let mut storeys = vec![Storey::elastic(f64::NAN); count];
-    for (name, place) in SPRING_FIELDS {
-        let Some(Values(list)) = springs.get(name) else {
-            return Err(refuse(name, "given, one value per storey", "nothing"));
-        };
-        if list.len() != count {
-            let requirement = format!("one number or a list of {count} values, one per storey");
-            return Err(refuse(name, &requirement, &format!("{} values", list.len())));
-        }
-        for (storey, &value) in storeys.iter_mut().zip(list) {
-            *place(storey) = value;
-        }
-    }
-    match springs.keys().find(|&name| SPRING_FIELDS.iter().all(|(known, _)| known != name)) {
-        Some(name) => Err(refuse(name, "a number that springs have", "another name")),
-        None => Ok(storeys),
-    }
-}
-
 /// Building and blocks held by the kernel.
 #[pyclass(frozen, module = "seismass._kernel")]
 pub(crate) struct Scene(pub(crate) seismass::Scene);
 
-/// Floor, mass (kg), mu_s, mu_k, initial velocity (m/s).
-type BlockTuple = (usize, f64, f64, f64, Option<f64>);
+/// Floor, mass (kg), mu_s, mu_k, initial velocity (m/s), and stages of wear: slip path (m), mu_s, mu_k.
+type BlockTuple = (usize, f64, f64, f64, Option<f64>, Vec<(f64, f64, f64)>);
+
+fn block((floor, mass, mu_s, mu_k, velocity, wear): BlockTuple) -> seismass::Block {
+    let wear = wear.into_iter().map(|(path, mu_s, mu_k)| Wear { path, mu_s, mu_k }).collect();
+    seismass::Block { floor, mass, mu_s, mu_k, velocity, wear }
+}
 
 #[pymethods]
 impl Scene {
-    /// Blocks are tuples of floor, mass, mu_s, mu_k and initial velocity (None: that of the floor).
+    /// Blocks are tuples of floor, mass, mu_s, mu_k, initial velocity (None: that of the floor) and stages of wear, tuples
+    /// of slip path, mu_s and mu_k.
     #[new]
     #[pyo3(signature = (building, blocks, *, initial_drift=None, initial_velocity=None, collapse_drift=None))]
     fn new(
@@ -142,10 +120,7 @@ impl Scene {
         initial_velocity: Option<Values<f64>>,
         collapse_drift: Option<Values<f64>>,
     ) -> PyResult<Self> {
-        let blocks = blocks
-            .into_iter()
-            .map(|(floor, mass, mu_s, mu_k, velocity)| seismass::Block { floor, mass, mu_s, mu_k, velocity })
-            .collect();
+        let blocks = blocks.into_iter().map(block).collect();
         let build = || {
             let mut scene = seismass::Scene::new(building.map(|b| Arc::clone(&b.0)), blocks)?;
             let at_rest = vec![0.0; scene.storeys()];

@@ -29,8 +29,8 @@
 //! ```
 //!
 //! A sliding block has f_j = mu_k m_j (g + a_v) sign(w_j - v_i); a stuck one moves with its floor while the floor's
-//! absolute acceleration is at most mu_s (g + a_v) (Eq. 2, read with absolute values). Springs are trilinear with
-//! Masing unloading (Fig. 3). SI units throughout; g is [`STANDARD_GRAVITY`]; floors, storeys and blocks count from 1 in
+//! absolute acceleration is at most mu_s (g + a_v) (Eq. 2, read with absolute values). Springs are piecewise linear: trilinear
+//! with Masing unloading (Fig. 3), or of another [`SpringLaw`]. SI units throughout; g is [`STANDARD_GRAVITY`]; floors, storeys and blocks count from 1 in
 //! everything a user reads, and from 0 in arrays.
 //!
 //! # Method
@@ -97,7 +97,10 @@ pub use lanes::InstructionSet;
 pub use response::{
     Energy, Event, EventCounts, EventKind, Histories, Peak, Peaks, Response, Skipped, Statistics, Status,
 };
-pub use scene::{Block, Building, Damping, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion, Options, Scene, Storey};
+pub use scene::{
+    Block, Building, Damping, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion, Options, PeakOriented, Scene, SpringLaw,
+    Storey, Wear,
+};
 pub use simulate::{simulate, simulate_until};
 
 /// Standard gravity (m/s2), the g of every number in this crate.

@@ -51,10 +51,16 @@ pub struct Peaks {
 /// Kinds of events (`numerics`, section 5).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum EventKind {
-    /// An elastic spring element yields.
+    /// A spring comes to the next segment of its backbone.
     Yield,
-    /// The storey velocity turns and all plastic elements of the storey become elastic.
+    /// The storey velocity turns and the spring leaves its backbone, or the line on which it reloads.
     Unload,
+    /// A peak-oriented spring begins to reload: at zero force, or where it had begun to unload.
+    Reload,
+    /// A stop touches.
+    Close,
+    /// A stop is left.
+    Open,
     /// A stuck block breaks away.
     Slip,
     /// A sliding block comes to rest on its floor.
@@ -67,24 +73,42 @@ pub enum EventKind {
     Lift,
     /// The contact force is positive again.
     Land,
+    /// The friction coefficients of a block change with the path it has slipped.
+    Wear,
 }
 
 impl EventKind {
     /// All kinds, in the order of [`EventCounts`].
-    pub const ALL: [Self; 8] =
-        [Self::Yield, Self::Unload, Self::Slip, Self::Stick, Self::Reverse, Self::Touch, Self::Lift, Self::Land];
+    pub const ALL: [Self; 12] = [
+        Self::Yield,
+        Self::Unload,
+        Self::Reload,
+        Self::Close,
+        Self::Open,
+        Self::Slip,
+        Self::Stick,
+        Self::Reverse,
+        Self::Touch,
+        Self::Lift,
+        Self::Land,
+        Self::Wear,
+    ];
 
     /// Lower-case name as in event tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Yield => "yield",
             Self::Unload => "unload",
+            Self::Reload => "reload",
+            Self::Close => "close",
+            Self::Open => "open",
             Self::Slip => "slip",
             Self::Stick => "stick",
             Self::Reverse => "reverse",
             Self::Touch => "touch",
             Self::Lift => "lift",
             Self::Land => "land",
+            Self::Wear => "wear",
         }
     }
 }
@@ -96,18 +120,19 @@ pub struct Event {
     pub time: f64,
     /// What happened.
     pub kind: EventKind,
-    /// Storey for yield and unload, otherwise block; counted from 1.
+    /// Storey for yield, unload, reload, close and open, otherwise block; counted from 1.
     pub number: usize,
-    /// Sign: yield, of the force; unload, of the force before; slip and reverse, of the relative velocity that
-    /// follows; stick, of the one before; touch, lift, land, of the one then (0: none).
+    /// Sign: yield, of the force; unload, of the force before; reload, of the force that follows; close and open, of the
+    /// drift; slip and reverse, of the relative velocity that follows; stick, of the one before; touch, lift, land, wear,
+    /// of the one then (0: none).
     pub sign: i8,
-    /// Yield: 1 or 2, first or second yield of the storey; otherwise 0.
+    /// Yield: how many segments of the backbone have been left, 1 at first yield; wear: the stage that begins; otherwise 0.
     pub element: u8,
 }
 
 /// How often each kind of event happened, in the order of [`EventKind::ALL`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct EventCounts(pub [usize; 8]);
+pub struct EventCounts(pub [usize; EventKind::ALL.len()]);
 
 impl EventCounts {
     /// Number of events of a kind.

@@ -68,7 +68,7 @@ pub(crate) struct StoreyLaw {
 impl StoreyLaw {
     /// The elements of a storey; those without stiffness, and those that never yield, do not exist.
     pub(crate) fn new(storey: &Storey, geometric: f64, collapse_drift: Option<f64>) -> Self {
-        let Storey { stiffness: k, yield_shear: vy, overstrength, second_slope: r2, third_slope: r3 } = *storey;
+        let &Storey { stiffness: k, yield_shear: vy, overstrength, second_slope: r2, third_slope: r3, .. } = storey;
         let mut law =
             Self { elements: [Element::default(); 2], count: 0, linear: k, geometric, collapse_drift: f64::INFINITY };
         if vy.is_finite() {
@@ -257,7 +257,14 @@ mod tests {
     use super::*;
 
     fn law(overstrength: f64, r2: f64, r3: f64) -> StoreyLaw {
-        let storey = Storey { stiffness: 100.0, yield_shear: 10.0, overstrength, second_slope: r2, third_slope: r3 };
+        let storey = Storey {
+            stiffness: 100.0,
+            yield_shear: 10.0,
+            overstrength,
+            second_slope: r2,
+            third_slope: r3,
+            law: Default::default(),
+        };
         StoreyLaw::new(&storey, 0.0, None)
     }
 
@@ -321,8 +328,14 @@ mod tests {
     /// V(d) = 20 beyond 1.1 m (r2 = 0.1, r3 = 0, Omega = 2) meets 4 d at 5 m.
     #[test]
     fn collapse_drift_is_where_the_backbone_meets_p_delta() {
-        let storey =
-            Storey { stiffness: 100.0, yield_shear: 10.0, overstrength: 2.0, second_slope: 0.1, third_slope: 0.0 };
+        let storey = Storey {
+            stiffness: 100.0,
+            yield_shear: 10.0,
+            overstrength: 2.0,
+            second_slope: 0.1,
+            third_slope: 0.0,
+            law: Default::default(),
+        };
         assert!((StoreyLaw::new(&storey, 4.0, None).collapse_drift - 5.0).abs() < 1e-12);
         // 10 + 10 (d - 0.1) = 40 d on the second slope.
         assert!((StoreyLaw::new(&storey, 40.0, None).collapse_drift - 0.3).abs() < 1e-12);

@@ -201,7 +201,7 @@ fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(S
         mu_s: if b.mu_s > 0.0 { b.mu_s * friction } else { least },
         mu_k: b.mu_k * friction,
         velocity: b.velocity.map(|v| v * start),
-        ..*b
+        ..b.clone()
     };
     let building = match scene.building() {
         None => None,
@@ -291,7 +291,7 @@ mod tests {
     /// slips or stays, and a kernel that stays is explained; not so one that then moves in a way of its own.
     #[test]
     fn a_graze_explains_its_own_branch_alone() {
-        let block = Block { floor: 0, mass: 1.0, mu_s: 0.2, mu_k: 0.1, velocity: None };
+        let block = Block { floor: 0, mass: 1.0, mu_s: 0.2, mu_k: 0.1, velocity: None, wear: Vec::new() };
         let scene = Scene::new(None, vec![block]).unwrap();
         let motion = |excess: f64| {
             let peak = 0.2 * STANDARD_GRAVITY * (1.0 + excess);

@@ -65,6 +65,7 @@ pub fn read(path: &Path) -> (Scene, Motion, Value) {
             overstrength: omega[i],
             second_slope: r2[i],
             third_slope: r3[i],
+            law: Default::default(),
         })
         .collect();
     let d = &b["damping"];
@@ -93,6 +94,7 @@ pub fn read(path: &Path) -> (Scene, Motion, Value) {
             mu_s: b["mu_s"].as_f64().unwrap(),
             mu_k: b["mu_k"].as_f64().unwrap(),
             velocity: None,
+            wear: Vec::new(),
         })
         .collect();
     let folder = path.parent().unwrap();

@@ -53,7 +53,7 @@ fn reversal() -> Outcome {
     let (a, mu, w0, duration) = (5.0, 0.2, 1.0, 2.0);
     let limit = mu * STANDARD_GRAVITY;
     let block = Block { velocity: Some(w0), ..Block::new(0, 3.0, mu) };
-    let response = checked(&on_ground(block)?, &motion(vec![a; 201], 0.01)?)?;
+    let response = checked(&on_ground(block.clone())?, &motion(vec![a; 201], 0.01)?)?;
     expect_count(&response, EventKind::Reverse, 1)?;
     require(response.statistics.events.total() == 1, || "more than one event".into())?;
     let turn = w0 / (a + limit);
@@ -81,7 +81,7 @@ fn between_the_coefficients() -> Outcome {
     let (a, duration) = (0.4 * STANDARD_GRAVITY, 3.0);
     let motion = motion(vec![a; 301], 0.01)?;
     let block = Block { mu_k: 0.3, ..Block::new(0, 1.0, 0.5) };
-    expect_no_event(&checked(&on_ground(block)?, &motion)?)?;
+    expect_no_event(&checked(&on_ground(block.clone())?, &motion)?)?;
     let moving = checked(&on_ground(Block { velocity: Some(-0.1), ..block })?, &motion)?;
     require(moving.statistics.events.total() == 0, || "an event of the moving block".into())?;
     let slip = -0.1 * duration - 0.5 * (a - 0.3 * STANDARD_GRAVITY) * duration * duration;

@@ -147,7 +147,14 @@ fn decaying_sine() -> Outcome {
 }
 
 fn plastic_velocity() -> Outcome {
-    let storey = Storey { stiffness: 100.0, yield_shear: 1.0, overstrength: 2.0, second_slope: 0.0, third_slope: 0.0 };
+    let storey = Storey {
+        stiffness: 100.0,
+        yield_shear: 1.0,
+        overstrength: 2.0,
+        second_slope: 0.0,
+        third_slope: 0.0,
+        law: Default::default(),
+    };
     let scene = standing(building(vec![1.0], vec![storey], 0.0)?, vec![])?;
     // Pushed beyond yield, braked by `brake`, pushed again.
     let solve = |brake: f64| {

@@ -64,6 +64,7 @@ fn in_mode(mu: f64, yield_drift: f64) -> Result<(Scene, Scene), String> {
         overstrength: 1.5,
         second_slope: 0.3,
         third_slope: 0.1,
+        law: Default::default(),
     };
     let uniform = text(Building::uniform(FLOORS, PERIOD, 1.0, damping.clone()))?;
     let storeys = uniform.storeys().iter().enumerate();
@@ -119,7 +120,14 @@ fn everything_in_mode() -> Outcome {
 }
 
 fn both_elements() -> Outcome {
-    let storey = Storey { stiffness: 400.0, yield_shear: 2.0, overstrength: 1.5, second_slope: 0.3, third_slope: 0.05 };
+    let storey = Storey {
+        stiffness: 400.0,
+        yield_shear: 2.0,
+        overstrength: 1.5,
+        second_slope: 0.3,
+        third_slope: 0.05,
+        law: Default::default(),
+    };
     let scene = standing(building(vec![1.0], vec![storey], 0.05)?, vec![])?;
     // Pushed beyond second yield, braked until its velocity just turns, pushed on.
     let pushed = |brake: usize| motion([vec![-6.0; 16], vec![6.0; brake], vec![-9.0; 60]].concat(), 0.01);
