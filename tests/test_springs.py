@@ -26,8 +26,10 @@ def defaults_of(function: Any) -> dict[str, Any]:
 
 
 def test_defaults_are_those_of_the_paper_and_of_the_inferences() -> None:
-    # Omega of section 4 of the 16WCEE paper; r2 and r3 are the project's inferences; elastic where no strength is given.
-    found = {name: SPRING_FIELDS[name].default for name in ("yield_shear", "overstrength", "second_slope", "third_slope")}
+    # Omega of section 4 of the 16WCEE paper; r2 and r3 are inferences; elastic where no strength is given.
+    found = {
+        name: SPRING_FIELDS[name].default for name in ("yield_shear", "overstrength", "second_slope", "third_slope")
+    }
     assert found == {"yield_shear": np.inf, "overstrength": 2.0, "second_slope": 0.05, "third_slope": 0.0}
 
 
@@ -74,8 +76,9 @@ def test_an_unknown_argument_is_refused_as_python_does() -> None:
 def test_the_kernel_wants_every_field_and_no_other() -> None:
     springs = sm.Building([1.0, 2.0], 1.0).springs
     for name in springs:
-        with pytest.raises(sm.InvalidScene, match=f"{name} of building must be given, one value per storey; got nothing"):
-            _kernel.Building(np.ones(2), {key: value for key, value in springs.items() if key != name}, damping_ratio=0.0)
+        others = {key: value for key, value in springs.items() if key != name}
+        with pytest.raises(sm.InvalidScene, match=f"{name} of building must be given, one value per storey"):
+            _kernel.Building(np.ones(2), others, damping_ratio=0.0)
     with pytest.raises(sm.InvalidScene, match="slope of building must be a number that springs have; got another name"):
         _kernel.Building(np.ones(2), springs | {"slope": np.ones(2)}, damping_ratio=0.0)
 

@@ -4,9 +4,10 @@ from seismass import _kernel
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
 from seismass.block import Block, blocks_on_floors
-from seismass.building import Building, Rayleigh
+from seismass.building import Building
 from seismass.building_file import read_building
 from seismass.codes import CodeFraction, code_fraction, code_table
+from seismass.damping import Rayleigh
 from seismass.effective_mass import (
     EffectiveMass,
     EffectiveMassMap,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,8 @@ class Block(Value):
         Static and kinetic coefficients, mu_s >= mu_k >= 0; mu_k is mu_s by default.
     velocity : float, optional
         Initial velocity relative to the ground (m/s); by default that of its floor.
+    wear : list of (path, mu_s, mu_k), optional
+        Coefficients that hold from a path slipped (m) on, in order of the path; those above hold until the first.
 
     Raises
     ------
@@ -42,13 +45,14 @@ class Block(Value):
     Block(floor=1, mass_ratio=0.5, mu=0.3)
     """
 
-    __slots__ = ("floor", "mass", "mass_ratio", "mu_k", "mu_s", "velocity")
+    __slots__ = ("floor", "mass", "mass_ratio", "mu_k", "mu_s", "velocity", "wear")
     floor: int
     mass: float | None
     mass_ratio: float | None
     mu_s: float
     mu_k: float
     velocity: float | None
+    wear: tuple[tuple[float, float, float], ...]
 
     def __init__(
         self,
@@ -60,6 +64,7 @@ class Block(Value):
         mu_s: float | None = None,
         mu_k: float | None = None,
         velocity: float | None = None,
+        wear: Sequence[tuple[float, float, float]] = (),
     ) -> None:
         def number(name: str, value: float | None) -> float | None:
             return None if value is None else as_number(value, name, "block", InvalidScene)
@@ -79,7 +84,13 @@ class Block(Value):
             mu_s=number("mu" if mu_s is None else "mu_s", static),
             mu_k=number("mu_k", static if mu_k is None else mu_k),
             velocity=number("velocity", velocity),
+            wear=_stages(wear),
         )
+
+    @property
+    def contact(self) -> tuple[float, float, float | None, list[tuple[float, float, float]]]:
+        """What the kernel takes beside floor and mass: mu_s, mu_k, velocity, and the stages of wear."""
+        return self.mu_s, self.mu_k, self.velocity, list(self.wear)
 
     def _arguments(self) -> dict[str, Any]:
         return {
@@ -89,6 +100,7 @@ class Block(Value):
             "mu_s": self.mu_s,
             "mu_k": self.mu_k,
             "velocity": self.velocity,
+            "wear": self.wear,
         }
 
     def __repr__(self) -> str:
@@ -96,7 +108,20 @@ class Block(Value):
         equal = self.mu_s == self.mu_k
         friction = f"mu={self.mu_s:g}" if equal else f"mu_s={self.mu_s:g}, mu_k={self.mu_k:g}"
         velocity = "" if self.velocity is None else f", velocity={self.velocity:g}"
-        return f"Block(floor={self.floor}, {mass}, {friction}{velocity})"
+        wear = f", wear={list(self.wear)}" if self.wear else ""
+        return f"Block(floor={self.floor}, {mass}, {friction}{velocity}{wear})"
+
+
+def _stages(wear: Any) -> tuple[tuple[float, float, float], ...]:
+    requirement = "a list of (path, mu_s, mu_k)"
+    if not isinstance(wear, Sequence | np.ndarray) or isinstance(wear, str):
+        raise refusal(InvalidScene, "wear", "block", requirement, brief(wear))
+    if len(wear) == 0:
+        return ()
+    stages = as_array(wear, "wear", "block", InvalidScene, dimensions=2)
+    if stages.shape[1] != 3:
+        raise refusal(InvalidScene, "wear", "block", requirement, f"{stages.shape[1]} numbers in each")
+    return tuple((path, mu_s, mu_k) for path, mu_s, mu_k in stages.tolist())
 
 
 def blocks_on_floors(mass_ratio: ArrayLike, mu: ArrayLike, *, mu_k: ArrayLike | None = None) -> list[Block]:

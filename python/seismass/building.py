@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from numbers import Real
-from typing import Any, Final, TypeAlias, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass._values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.damping import DEFAULT_DAMPING, Damping, Rayleigh, kernel_damping, read_damping
 from seismass.errors import InvalidScene
+from seismass.spring_laws import (
+    Backbone,
+    BackboneLike,
+    Hysteresis,
+    check_parts,
+    listed_storeys,
+    of_first_segment,
+    parts,
+    read_backbones,
+    read_hysteresis,
+    without_own,
+)
 from seismass.springs import (
     SHAPE_FIELDS,
     SPRING_FIELDS,
@@ -23,42 +34,6 @@ from seismass.springs import (
     takes_springs,
 )
 from seismass.units import STANDARD_GRAVITY
-
-DEFAULT_DAMPING: Final = 0.05
-"""Ratio of critical damping in every vibration mode."""
-
-
-@dataclass(frozen=True)
-class Rayleigh:
-    """Rayleigh damping C = a M + b K with the same ratio in two modes of the bare building.
-
-    Parameters
-    ----------
-    ratio : float
-        Ratio of critical damping in both modes, from 0 to 1: 0.05 for 5 %.
-    modes : tuple of int
-        The two modes, counted from 1.
-
-    Raises
-    ------
-    InvalidScene
-        The modes are not two whole numbers from 1, or the ratio is not a number of at most 1.
-    """
-
-    ratio: float
-    modes: tuple[int, int] = (1, 2)
-
-    def __post_init__(self) -> None:
-        modes: Any = self.modes
-        if not (isinstance(modes, Sequence) and len(modes) == 2) or isinstance(modes, str):
-            raise refusal(InvalidScene, "modes", "Rayleigh damping", "two mode numbers", brief(modes))
-        checked = tuple(as_count(mode, "modes", "Rayleigh damping", InvalidScene, least=1) for mode in modes)
-        object.__setattr__(self, "modes", checked)
-        object.__setattr__(self, "ratio", _damping_ratio(self.ratio, "ratio", "Rayleigh damping"))
-
-
-Damping: TypeAlias = float | Rayleigh | ArrayLike
-"""A ratio in every mode, Rayleigh damping, or the matrix C itself (N s/m, floor coordinates, symmetric)."""
 
 
 class Building(Value):
@@ -71,9 +46,15 @@ class Building(Value):
     ----------
     mass : array_like
         Floor masses m_i (kg).
-    stiffness : array_like
-        Initial storey stiffnesses k_i (N/m).
+    stiffness : array_like, optional
+        Initial storey stiffnesses k_i (N/m). Left out only where every storey has a backbone.
     {springs}
+    backbone : array_like of shape (points, 2), or a list of those, optional
+        Drifts (m) and forces (N) of a polygon from the origin, of slopes that do not increase, with Masing unloading; a
+        list has one per storey, None where a storey is trilinear. The stiffness and the yield shear of a storey with a
+        backbone are those of its first segment; one number for either of them is for the other storeys.
+    hysteresis : {"masing", "peak-oriented"} or list of them, default "masing"
+        How storeys unload and reload. Peak-oriented ones reload straight to their largest drift so far.
     damping : float, Rayleigh or array_like of shape (storeys, storeys), default 0.05
         A ratio in every vibration mode of the bare building, from 0 to 1 (0.05 for 5 %), Rayleigh damping, or the
         matrix C (N s/m).
@@ -92,6 +73,10 @@ class Building(Value):
     ----------
     mass, stiffness, and what a spring has beside it : ndarray, shape (storeys,)
         As given, read-only.
+    backbone : tuple, or None
+        Points of each storey, or None; None where no storey has a backbone.
+    hysteresis : tuple of str
+        That of each storey.
     heights, gravity_load, geometric_stiffness : ndarray, shape (storeys,), or None
         As given, read-only.
     damping : float, Rayleigh or ndarray
@@ -121,10 +106,12 @@ class Building(Value):
 
     __slots__ = (
         "_kernel",
+        "backbone",
         "damping",
         "geometric_stiffness",
         "gravity_load",
         "heights",
+        "hysteresis",
         "mass",
         "mass_is_stated",
         "stiffness",
@@ -137,6 +124,13 @@ class Building(Value):
     overstrength: FloatArray
     second_slope: FloatArray
     third_slope: FloatArray
+    clearance: FloatArray
+    stop_stiffness: FloatArray
+    unloading_exponent: FloatArray
+    energy_capacity: FloatArray
+    residual_strength: FloatArray
+    backbone: tuple[Backbone | None, ...] | None
+    hysteresis: tuple[Hysteresis, ...]
     damping: float | Rayleigh | FloatArray
     heights: FloatArray | None
     gravity_load: FloatArray | None
@@ -147,8 +141,10 @@ class Building(Value):
     def __init__(
         self,
         mass: ArrayLike,
-        stiffness: ArrayLike,
+        stiffness: ArrayLike | None = None,
         *,
+        backbone: BackboneLike | None = None,
+        hysteresis: Hysteresis | Sequence[Hysteresis] = "masing",
         damping: Damping = DEFAULT_DAMPING,
         heights: ArrayLike | None = None,
         gravity_load: ArrayLike | None = None,
@@ -164,15 +160,32 @@ class Building(Value):
             )
         if gravity_load is not None and heights is None:
             raise refusal(InvalidScene, "heights", "building", "given where gravity_load is", "none")
-        arrays = _per_storey(
+        arrays = _arrays(
             mass=mass,
-            stiffness=stiffness,
+            stiffness=np.nan if stiffness is None else stiffness,
             **{name: given.get(name, field.default) for name, field in SPRING_FIELDS.items()},
             heights=heights,
             gravity_load=gravity_load,
             geometric_stiffness=geometric_stiffness,
         )
-        self._set(**arrays, damping=_damping(damping), mass_is_stated=bool(mass_is_stated))
+        lengths = [len(array) for array in arrays.values() if array is not None and array.ndim]
+        storeys = next(iter((*lengths, *listed_storeys(backbone, hysteresis))), 1)
+        backbones = read_backbones(backbone, storeys)
+        if stiffness is None and (backbones is None or None in backbones):
+            raise refusal(InvalidScene, "stiffness", "building", "given where a storey has no backbone", "none")
+        if backbones is not None:
+            for name in ("stiffness", "yield_shear"):
+                own = arrays[name]
+                if own is not None and own.shape in ((), (storeys,)):
+                    arrays[name] = of_first_segment(own, name, backbones)
+        self._set(
+            **{name: _filled(array, storeys) for name, array in arrays.items()},
+            backbone=backbones,
+            hysteresis=read_hysteresis(hysteresis, storeys),
+            damping=read_damping(damping),
+            mass_is_stated=bool(mass_is_stated),
+        )
+        check_parts(self.springs, self.backbone, self.hysteresis)
         heights_only = gravity_load is None
         if heights_only and self.heights is not None:
             _check_heights(self.heights, len(self.mass))
@@ -180,7 +193,8 @@ class Building(Value):
             _kernel=_kernel.Building(
                 self.mass,
                 self.springs,
-                **_damping_arguments(self.damping),
+                **_law_arguments(self),
+                **kernel_damping(self.damping),
                 heights=None if heights_only else self.heights,
                 gravity_load=self.gravity_load,
                 geometric_stiffness=self.geometric_stiffness,
@@ -197,6 +211,7 @@ class Building(Value):
         mass: float | None = None,
         yield_shear: ArrayLike | None = None,
         yield_shear_over_weight: ArrayLike | None = None,
+        hysteresis: Hysteresis | Sequence[Hysteresis] = "masing",
         damping: Damping = DEFAULT_DAMPING,
         heights: ArrayLike | None = None,
         gravity_load: ArrayLike | None = None,
@@ -218,7 +233,7 @@ class Building(Value):
             V_y of each storey (N); elastic where neither it nor the next is given.
         yield_shear_over_weight : array_like, optional
             V_y as a fraction of the weight g sum(m) of the building without blocks.
-        damping, heights, gravity_load, geometric_stiffness
+        hysteresis, damping, heights, gravity_load, geometric_stiffness
             As for `Building`.
         **shape
             Overstrength, slopes and what else shapes the springs, as for `Building`.
@@ -258,6 +273,7 @@ class Building(Value):
             np.full(count, floor_mass),
             stiffness,
             yield_shear=np.inf if yield_shear is None else yield_shear,
+            hysteresis=hysteresis,
             damping=damping,
             heights=heights,
             gravity_load=gravity_load,
@@ -293,6 +309,10 @@ class Building(Value):
             )
         if "mass" in changes:
             changes = {"mass_is_stated": True} | changes
+        backbones = read_backbones(changes.get("backbone"), self.storeys)
+        if backbones is not None:
+            own = {name: without_own(getattr(self, name), backbones) for name in ("stiffness", "yield_shear")}
+            changes = own | changes
         if over_weight is None:
             return super().replace(**changes)
         changed = super().replace(**changes, yield_shear=np.inf)
@@ -326,13 +346,31 @@ class Building(Value):
 
     def spring_summary(self) -> dict[str, FloatArray]:
         """Return what summaries list of the springs, by symbol: the strength over the weight, and what shapes them."""
-        shape = {field.symbol: getattr(self, name) for name, field in SHAPE_FIELDS.items()}
-        return {"V_y/W": self.yield_shear / self.weight, **shape}
+        shape = self.springs_in_use()
+        listed = {SHAPE_FIELDS[name].symbol: values for name, values in shape.items() if name in SHAPE_FIELDS}
+        return {"V_y/W": self.yield_shear / self.weight, **listed}
+
+    def springs_in_use(self) -> dict[str, FloatArray]:
+        """Return `springs` without the numbers of what no storey has, such as stops or peak-oriented hysteresis."""
+        has = parts(self.springs, self.backbone, self.hysteresis)
+        of_part = {name: SPRING_FIELDS[name].part for name in SPRING_FIELDS}
+        unused = {name for name, part in of_part.items() if part is not None and part not in has}
+        if "stop" not in has:
+            unused.add("clearance")
+        return {name: values for name, values in self.springs.items() if name not in unused}
+
+    @property
+    def laws(self) -> tuple[str, ...]:
+        """What springs have beside trilinear backbones with Masing unloading: "backbone", "stop", "peak-oriented"."""
+        backbones = () if self.backbone is None else ("backbone",)
+        return (*backbones, *sorted(parts(self.springs, self.backbone, self.hysteresis) - {"trilinear"}, reverse=True))
 
     def _arguments(self) -> dict[str, Any]:
         return {
             "mass": self.mass,
             **self.springs,
+            "backbone": self.backbone,
+            "hysteresis": self.hysteresis,
             "damping": self.damping,
             "heights": self.heights,
             "gravity_load": self.gravity_load,
@@ -341,15 +379,17 @@ class Building(Value):
         }
 
     def __repr__(self) -> str:
-        elastic = bool(np.isinf(self.yield_shear).all())
+        elastic = bool(np.isinf(self.yield_shear).all()) and not self.laws
         springs = (
             "elastic"
             if elastic
             else ", ".join(f"{symbol} = {_listed(values)}" for symbol, values in self.spring_summary().items())
         )
+        laws = "".join(f", {law}" for law in self.laws)
         damping = "matrix" if isinstance(self.damping, np.ndarray) else self.damping
         p_delta = ", P-Delta" if self.gravity_load is not None or self.geometric_stiffness is not None else ""
         noun = "storey" if self.storeys == 1 else "storeys"
+        springs += laws
         return f"Building({self.storeys} {noun}, T1 = {self.periods[0]:.4g} s, {springs}, damping = {damping}{p_delta})"
 
 
@@ -373,17 +413,27 @@ def as_fraction_of_weight(value: Any, storeys: int) -> FloatArray:
     return fraction
 
 
-def _per_storey(**given: ArrayLike | None) -> dict[str, FloatArray | None]:
-    """One array per argument, all with as many values as the first list among them has."""
-    arrays = {
+def _arrays(**given: ArrayLike | None) -> dict[str, FloatArray | None]:
+    """One array per argument, of shape () where it is one number."""
+    return {
         name: None if value is None else as_array(value, name, "building", InvalidScene, or_number=True)
         for name, value in given.items()
     }
-    storeys = next((len(array) for array in arrays.values() if array is not None and array.ndim), 1)
-    return {
-        name: frozen(np.full(storeys, array)) if array is not None and array.ndim == 0 else array
-        for name, array in arrays.items()
-    }
+
+
+def _filled(array: FloatArray | None, storeys: int) -> FloatArray | None:
+    """An array with a value per storey where it is one number."""
+    return frozen(np.full(storeys, array)) if array is not None and array.ndim == 0 else array
+
+
+def _law_arguments(building: Building) -> dict[str, Any]:
+    """What the kernel takes of the laws beside the numbers; nothing of trilinear springs with Masing unloading."""
+    found: dict[str, Any] = {}
+    if building.backbone is not None:
+        found["backbones"] = [None if points is None else np.array(points) for points in building.backbone]
+    if "peak-oriented" in building.hysteresis:
+        found["peak_oriented"] = [name == "peak-oriented" for name in building.hysteresis]
+    return found
 
 
 def _check_heights(heights: FloatArray, storeys: int) -> None:
@@ -394,32 +444,6 @@ def _check_heights(heights: FloatArray, storeys: int) -> None:
     for number, height in enumerate(heights, start=1):
         if not (np.isfinite(height) and height > 0.0):
             raise refusal(InvalidScene, "heights", f"storey {number}", "a positive number", f"{height:g}")
-
-
-def _damping(damping: Any) -> float | Rayleigh | FloatArray:
-    if isinstance(damping, Rayleigh):
-        return damping
-    if isinstance(damping, Real) or (isinstance(damping, np.ndarray) and damping.ndim == 0):
-        return _damping_ratio(damping, "damping", "building")
-    if damping is None or isinstance(damping, str | bytes):
-        raise refusal(InvalidScene, "damping", "building", "a ratio, Rayleigh damping or a matrix", brief(damping))
-    return as_array(damping, "damping", "building", InvalidScene, dimensions=2)
-
-
-def _damping_ratio(value: Any, parameter: str, owner: str) -> float:
-    """Return a ratio of critical damping; what is above 1 was meant in per cent, and the kernel refuses the rest."""
-    ratio = as_number(value, parameter, owner, InvalidScene)
-    if ratio > 1.0:
-        raise refusal(InvalidScene, parameter, owner, "a ratio of at most 1 (0.05 for 5 %)", f"{ratio:g}")
-    return ratio
-
-
-def _damping_arguments(damping: float | Rayleigh | FloatArray) -> dict[str, Any]:
-    if isinstance(damping, Rayleigh):
-        return {"damping_ratio": damping.ratio, "rayleigh_modes": damping.modes}
-    if isinstance(damping, np.ndarray):
-        return {"damping_matrix": damping}
-    return {"damping_ratio": damping}
 
 
 def _listed(values: FloatArray) -> str:

@@ -13,8 +13,8 @@ from typing import Any, Final, NoReturn, get_args
 import numpy as np
 
 from seismass._values import as_number, as_path, brief, printable
-from seismass.building import DEFAULT_DAMPING
 from seismass.codes import CodeFraction, code_fraction
+from seismass.damping import DEFAULT_DAMPING
 from seismass.design import Combination, vibration_modes
 from seismass.errors import InvalidBuildingFile, InvalidOption, SeismassError
 from seismass.friction import BOUND_FACTORS, bound_factors, friction_pair
@@ -22,7 +22,7 @@ from seismass.input_table import Table, load_table
 from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, DesignRule, OwnBuilding
 from seismass.records.builtin import data_directory
 from seismass.spectra import DEFAULT_TL, TargetSpectrum
-from seismass.springs import SHAPE_FIELDS
+from seismass.springs import DEFAULT_THIRD_SLOPE, SHAPE_FIELDS
 from seismass.units import STANDARD_GRAVITY
 
 DEFAULT_CODE: Final = "asce7-10"
@@ -151,7 +151,9 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         design=design,
         overstrength=springs("overstrength"),
         second_slope=springs("second_slope"),
-        third_slope=springs("third_slope"),
+        third_slope=np.array(
+            [_between(storey, building, "third_slope", DEFAULT_THIRD_SLOPE, 0.0, 1.0) for storey in storeys]
+        ),
         damping=_between(building, building, "damping", DEFAULT_DAMPING, 0.0, 1.0),
         gravity_load=_gravity_load(storeys, building, mass) if p_delta else None,
         live_load=live_load,

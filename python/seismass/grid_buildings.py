@@ -192,6 +192,10 @@ def changing_values(
         if "strength" in values:
             raise refusal(InvalidScene, "strength", "grid", "left out where yield_shear_over_weight is given", "both")
         values["yield_shear_over_weight"] = strength_table(yield_shear_over_weight)
+    if any(building.backbone is not None for building in buildings):
+        for name, column in values.items():
+            requirement = "left out where a building has a backbone"
+            raise refusal(InvalidScene, name, "grid", requirement, brief(column.tolist()))
     if "strength" in values and all(np.isinf(building.yield_shear).all() for building in buildings):
         requirement = "left out where buildings are elastic (yield_shear_over_weight makes them yield)"
         raise refusal(InvalidScene, "strength", "grid", requirement, brief(numbers["strength"]))

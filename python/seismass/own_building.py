@@ -13,8 +13,9 @@ import numpy as np
 
 from seismass._values import FloatArray, brief, refusal
 from seismass.block import Block
-from seismass.building import DEFAULT_DAMPING, Building
+from seismass.building import Building
 from seismass.codes import CodeFraction
+from seismass.damping import DEFAULT_DAMPING
 from seismass.design import Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
 from seismass.errors import InvalidOption
 from seismass.scene import Scene

@@ -14,7 +14,7 @@ from seismass.errors import InvalidOption
 from seismass.forks import require_polars
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
-"""Kinds of events: what happens to a storey (yield, unload), to a block, or to all blocks (lift, land)."""
+"""Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""
 
 _EVENT: Final = np.dtype(
     [
@@ -222,10 +222,11 @@ class Response:
     def events(self) -> pl.DataFrame:
         """Event log in order of time.
 
-        Columns: `time` (s); `kind` (one of `EVENT_KINDS`); `number`, the storey for yield and unload, otherwise the
-        block, counted from 1; `sign` (yield: of the force; unload: of the force before; slip, reverse: of the
-        relative velocity that follows; stick: of the one before; touch, lift, land: of the one then, 0: none);
-        `element` (yield: 1 or 2, first or second yield of the storey; otherwise null).
+        Columns: `time` (s); `kind` (one of `EVENT_KINDS`); `number`, the storey for yield, unload, reload, close and
+        open, otherwise the block, counted from 1; `sign` (yield: of the force; unload: of the force before; reload: of
+        the force that follows; close, open: of the drift; slip, reverse: of the relative velocity that follows; stick:
+        of the one before; touch, lift, land, wear: of the one then, 0: none); `element` (yield: number of segments of
+        the backbone that have been left, 1 at the first yield; wear: the stage that begins, from 1; otherwise null).
 
         In a process that was forked from one in which Polars had been used, it is a SimulationError: `event_log` is the
         same without Polars.

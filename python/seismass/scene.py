@@ -114,7 +114,7 @@ class Scene(Value):
             _kernel=_kernel.Scene(
                 None if building is None else building._kernel,
                 [
-                    (block.floor, block_mass(block, number, building), block.mu_s, block.mu_k, block.velocity)
+                    (block.floor, block_mass(block, number, building), *block.contact)
                     for number, block in enumerate(placed, start=1)
                 ],
                 initial_drift=self.initial_drift,

@@ -12,13 +12,15 @@ import numpy as np
 from seismass import _kernel
 from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
 from seismass.block import Block
-from seismass.building import Building, Rayleigh, as_fraction_of_weight
+from seismass.building import Building, as_fraction_of_weight
+from seismass.damping import Rayleigh
 from seismass.errors import InvalidMotion, InvalidScene, InvalidSceneFile
 from seismass.input_table import Table, load_table
 from seismass.motion import Motion
 from seismass.plausibility import motion_remarks
 from seismass.records import Record, read_record
 from seismass.scene import Scene
+from seismass.spring_laws import is_per_storey
 from seismass.springs import SPRING_FIELDS
 from seismass.units import ACCELERATION_UNITS
 
@@ -43,11 +45,13 @@ KEYS: Final = {
         "storeys",
         "period",
         *_SPRING_KEYS,
+        "backbone",
+        "hysteresis",
         "yield_shear_over_weight",
         "damping",
     ),
     "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
-    "blocks": ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity"),
+    "blocks": ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear"),
     "motion": ("file", "acceleration", "dt", "unit", "scale", "dt_scale"),
     "initial": ("drift", "velocity"),
 }
@@ -172,8 +176,12 @@ def _building(table: Table) -> Building:
     if "damping" in table.values:
         springs["damping"] = _damping(table)
     over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
+    springs |= {key: table.values[key] for key in ("backbone", "hysteresis") if key in table.values}
+    if isinstance(springs.get("backbone"), list):  # TOML has no null
+        springs["backbone"] = [None if points == [] else points for points in springs["backbone"]]
     if "period" in table.values:
         table.excluded("stiffness", "period")
+        table.excluded("backbone", "period")
         table.needed("storeys")
         if isinstance(table.values.get("mass"), list):
             table.refuse("mass", f"one number where {table.key('period')} is given", brief(table.values["mass"]))
@@ -185,9 +193,9 @@ def _building(table: Table) -> Building:
             yield_shear_over_weight=over_weight,
             **springs,
         )
-    table.needed("stiffness", "period")
+    table.needed("stiffness", "period", "backbone")
     table.needed("mass")
-    mass, stiffness = table.values["mass"], table.values["stiffness"]
+    mass, stiffness = table.values["mass"], table.values.get("stiffness")
     count = _storeys(table, over_weight, springs)
     if count is not None:
         mass = np.full(count, as_number(mass, "mass", "building", InvalidScene))
@@ -199,7 +207,7 @@ def _building(table: Table) -> Building:
 
 def _storeys(table: Table, over_weight: Any, springs: dict[str, Any]) -> int | None:
     """Number of storeys as stated, or that of the strengths over the weight where nothing else is a list."""
-    listed = any(isinstance(table.values[key], list) for key in ("mass", "stiffness"))
+    listed = any(isinstance(table.values.get(key), list) for key in ("mass", "stiffness"))
     if "storeys" in table.values:
         count = as_count(table.values["storeys"], "storeys", "building", InvalidScene, least=1)
         if listed:
@@ -207,7 +215,9 @@ def _storeys(table: Table, over_weight: Any, springs: dict[str, Any]) -> int | N
         if count > _kernel.MAX_STOREYS:
             raise refusal(InvalidScene, "storeys", "building", f"at most {_kernel.MAX_STOREYS}", str(count))
         return count
-    listed = listed or any(isinstance(value, list) for value in springs.values())
+    listed = listed or any(
+        is_per_storey(value) if key == "backbone" else isinstance(value, list) for key, value in springs.items()
+    )
     return len(over_weight) if isinstance(over_weight, list) and over_weight and not listed else None
 
 
@@ -241,10 +251,11 @@ def _block(table: Table, number: int) -> Block:
     table.excluded("mu", "mu_s", "mu_k")
     owner = f"block {number}"
     floor = as_count(table.values["floor"], "floor", owner, InvalidScene)
-    values = {key: as_number(value, key, owner, InvalidScene) for key, value in table.values.items() if key != "floor"}
+    others = {key: value for key, value in table.values.items() if key not in ("floor", "wear")}
+    values = {key: as_number(value, key, owner, InvalidScene) for key, value in others.items()}
     if "mu" in values and not 0.0 <= values["mu"] < np.inf:  # the kernel would call it mu_s
         raise refusal(InvalidScene, "mu", owner, "finite and not negative", f"{values['mu']:g}")
-    return Block(floor, **values)
+    return Block(floor, **values, wear=table.values.get("wear", ()))
 
 
 def _motions(top: Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:

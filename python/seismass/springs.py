@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Annotated, Any, Final, TypedDict, TypeVar, get_args, get_type_hints
+from typing import Annotated, Any, Final, Literal, TypeAlias, TypedDict, TypeVar, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +25,9 @@ DEFAULT_THIRD_SLOPE: Final = _kernel.DEFAULT_THIRD_SLOPE
 """Third slope r3 over the first: an inference, as r2."""
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+Part: TypeAlias = Literal["trilinear", "stop", "peak-oriented"]
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,9 @@ class SpringField:
         Its range, as errors have it.
     low, high : float
         The range, both ends included.
+    part : {"trilinear", "stop", "peak-oriented"}, optional
+        What of a spring it belongs to, where that may be absent: a trilinear backbone, stops, or peak-oriented
+        hysteresis.
     """
 
     default: float
@@ -54,6 +60,7 @@ class SpringField:
     requirement: str
     low: float
     high: float
+    part: Part | None = None
 
     def accepts(self, values: FloatArray | float) -> NDArray[np.bool_]:
         """Return which values are in the range."""
@@ -61,6 +68,7 @@ class SpringField:
 
 
 _TINY: Final = float(np.nextafter(0.0, 1.0))
+_BELOW_ONE: Final = float(np.nextafter(1.0, 0.0))
 _HUGE: Final = float(np.finfo(np.float64).max)
 
 
@@ -77,6 +85,7 @@ class SpringShape(TypedDict, total=False):
             "finite and at least 1",
             1.0,
             _HUGE,
+            "trilinear",
         ),
     ]
     second_slope: Annotated[
@@ -89,6 +98,7 @@ class SpringShape(TypedDict, total=False):
             "between 0 and 1",
             0.0,
             1.0,
+            "trilinear",
         ),
     ]
     third_slope: Annotated[
@@ -97,10 +107,75 @@ class SpringShape(TypedDict, total=False):
             DEFAULT_THIRD_SLOPE,
             "",
             "r3",
-            "Slope r3 after the second yield over the initial one, 0 <= r3 <= r2.",
+            "Slope r3 after the second yield over the initial one, 0 <= r3 <= r2; peak-oriented: -1 <= r3 <= r2.",
+            "between -1 and 1",
+            -1.0,
+            1.0,
+            "trilinear",
+        ),
+    ]
+    clearance: Annotated[
+        ArrayLike,
+        SpringField(
+            np.inf,
+            "m",
+            "clearance",
+            "Clearance to either side, beyond which an elastic stop acts beside the spring; infinite: there is none.",
+            "positive (infinite: no stop)",
+            _TINY,
+            np.inf,
+        ),
+    ]
+    stop_stiffness: Annotated[
+        ArrayLike,
+        SpringField(
+            0.0,
+            "N/m",
+            "k_stop",
+            "Stiffness of a stop; needed where there is a clearance.",
+            "finite and not negative",
+            0.0,
+            _HUGE,
+            "stop",
+        ),
+    ]
+    unloading_exponent: Annotated[
+        ArrayLike,
+        SpringField(
+            0.0,
+            "",
+            "a",
+            "Exponent a of the unloading stiffness k (d_y/d_max)^a of peak-oriented hysteresis, 0 <= a < 1.",
+            "at least 0 and below 1",
+            0.0,
+            _BELOW_ONE,
+            "peak-oriented",
+        ),
+    ]
+    energy_capacity: Annotated[
+        ArrayLike,
+        SpringField(
+            np.inf,
+            "",
+            "lambda",
+            "Energy that a peak-oriented storey can dissipate over V_y d_y; infinite: no cyclic loss of strength.",
+            "positive (infinite: no cyclic loss)",
+            _TINY,
+            np.inf,
+            "peak-oriented",
+        ),
+    ]
+    residual_strength: Annotated[
+        ArrayLike,
+        SpringField(
+            0.0,
+            "",
+            "residual",
+            "Strength over V_y below which that of a peak-oriented storey does not fall, 0 to 1.",
             "between 0 and 1",
             0.0,
             1.0,
+            "peak-oriented",
         ),
     ]
 

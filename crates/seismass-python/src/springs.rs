@@ -76,12 +76,7 @@ pub(crate) fn storeys(
 }
 
 /// The law of storey `i`; two at once are refused.
-fn law(
-    i: usize,
-    spring: &Spring,
-    backbone: Option<&Table<f64>>,
-    peak_oriented: bool,
-) -> seismass::Result<SpringLaw> {
+fn law(i: usize, spring: &Spring, backbone: Option<&Table<f64>>, peak_oriented: bool) -> seismass::Result<SpringLaw> {
     let alone = |parameter: &str, other: &str, got: String| {
         let requirement = format!("left out where storey {} {other}", i + 1);
         Err(refuse(parameter, &requirement, &got))
@@ -99,9 +94,7 @@ fn law(
             Ok(SpringLaw::Multilinear { backbone })
         }
         None if peak_oriented => Ok(SpringLaw::PeakOriented(spring.peak_oriented)),
-        None if has_stop => {
-            Ok(SpringLaw::Gap { clearance: spring.clearance, stop_stiffness: spring.stop_stiffness })
-        }
+        None if has_stop => Ok(SpringLaw::Gap { clearance: spring.clearance, stop_stiffness: spring.stop_stiffness }),
         None => Ok(SpringLaw::Trilinear),
     }
 }

@@ -13,7 +13,8 @@ from typing import Any
 import polars as pl
 
 from seismass.block import Block
-from seismass.building import Building, Rayleigh
+from seismass.building import Building
+from seismass.damping import Rayleigh
 from seismass.errors import InvalidOption, SimulationError
 from seismass.files import write_table, written_whole
 from seismass.response import Response
@@ -183,7 +184,8 @@ def _building_lines(building: Building, scene: Scene) -> list[str]:
         f"damping {_damping_text(building)}"
     ]
     parameters = ", ".join(f"{symbol} {_listed(values)}" for symbol, values in building.spring_summary().items())
-    lines.append(f"springs   {'elastic' if math.isinf(building.yield_shear.min()) else parameters}")
+    elastic = math.isinf(building.yield_shear.min()) and not building.laws
+    lines.append(f"springs   {'elastic' if elastic else ', '.join([parameters, *building.laws])}")
     if scene.geometric_stiffness.any():
         lines.append(f"P-Delta   P/(h k) {_listed(scene.geometric_stiffness / building.stiffness)}")
     return lines

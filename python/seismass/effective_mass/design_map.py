@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_number, brief, refusal
 from seismass.block import blocks_on_floors
-from seismass.building import DEFAULT_DAMPING, Building
+from seismass.building import Building
+from seismass.damping import DEFAULT_DAMPING
 from seismass.design import Combination, response_spectrum_analysis
 from seismass.effective_mass.curve import (
     DEFAULT_FRACTIONS,

@@ -9,8 +9,8 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 
 from seismass._values import as_count, as_number, brief, refusal
-from seismass.building import DEFAULT_DAMPING
 from seismass.codes import CodeFraction, code_fraction
+from seismass.damping import DEFAULT_DAMPING
 from seismass.design import Combination
 from seismass.errors import InvalidOption
 from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
