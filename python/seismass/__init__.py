@@ -78,6 +78,7 @@ from seismass.scene import Scene
 from seismass.scene_file import SceneFile, read_scene
 from seismass.simulate import instruction_set, simulate
 from seismass.spectra import InelasticSpectrum, TargetSpectrum, inelastic_spectrum, mean_spectrum, response_spectrum
+from seismass.spring_path import SpringPath, spring_forces
 from seismass.units import STANDARD_GRAVITY
 
 __version__ = _kernel.VERSION
@@ -123,6 +124,7 @@ __all__ = [
     "SeismassError",
     "Selection",
     "SimulationError",
+    "SpringPath",
     "Suite",
     "SyntheticParameters",
     "TargetSpectrum",
@@ -172,6 +174,7 @@ __all__ = [
     "shahi_baker2014",
     "simulate",
     "simulate_many",
+    "spring_forces",
     "stream_many",
     "synthetic_motion",
     "write_many",

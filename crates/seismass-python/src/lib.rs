@@ -53,4 +53,6 @@ mod _kernel {
     use crate::scene::{Building, Motion, Scene, uniform_stiffness};
     #[pymodule_export]
     use crate::spectrum::{oscillator_peaks, response_spectra};
+    #[pymodule_export]
+    use crate::springs::SpringPath;
 }

@@ -10,7 +10,7 @@ use seismass::{Damping, Domain, Error, GravityEffect, Wear};
 use crate::arrays::{Output, Table, Values};
 use crate::errors::from_kernel;
 use crate::interrupt::{run_inline, run_watched};
-use crate::springs;
+use crate::springs::{self, SpringPath};
 
 /// Runs work that finds the frequencies of so many storeys, watched for Ctrl-C where it takes longer than milliseconds: it
 /// grows like their cube.
@@ -65,6 +65,15 @@ impl Building {
         let storeys = springs::storeys(count, &springs, backbones.as_deref(), peak_oriented.as_deref());
         find_frequencies(py, count, move || seismass::Building::new(mass.0, storeys?, damping?)?.with_gravity(gravity?))
             .map(|building| Self(Arc::new(building)))
+    }
+
+    /// Drives the spring of a storey, given by its index, from one drift (m) to the next.
+    fn spring_path(&self, py: Python<'_>, storey: usize, drifts: Values<f64>) -> PyResult<SpringPath> {
+        let path = match self.0.storeys().get(storey) {
+            Some(storey) => SpringPath::new(storey, &drifts.0),
+            None => Err(refuse("storey", "one of those of the building", &storey.to_string())),
+        };
+        path.map_err(|error| from_kernel(py, &error))
     }
 
     /// Natural periods of the bare building without P-Delta (s), longest first.

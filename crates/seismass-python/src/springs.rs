@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use seismass::{PeakOriented, SpringLaw, Storey};
+use pyo3::prelude::*;
+use seismass::{PeakOriented, SpringEvent, SpringLaw, Storey};
 
-use crate::arrays::{Table, Values};
+use crate::arrays::{Output, Table, Values};
 use crate::scene::refuse;
 
 /// What a storey's spring is given by, whatever its law.
@@ -96,5 +97,77 @@ fn law(i: usize, spring: &Spring, backbone: Option<&Table<f64>>, peak_oriented: 
         None if peak_oriented => Ok(SpringLaw::PeakOriented(spring.peak_oriented)),
         None if has_stop => Ok(SpringLaw::Gap { clearance: spring.clearance, stop_stiffness: spring.stop_stiffness }),
         None => Ok(SpringLaw::Trilinear),
+    }
+}
+
+/// What the spring of a storey did along a list of drifts.
+#[pyclass(frozen, module = "seismass._kernel")]
+pub(crate) struct SpringPath(seismass::SpringPath);
+
+impl SpringPath {
+    /// Drives the spring of a storey.
+    pub(crate) fn new(storey: &Storey, drifts: &[f64]) -> seismass::Result<Self> {
+        seismass::spring_path(storey, drifts).map(Self)
+    }
+
+    fn event_column<T>(&self, of: impl Fn(&SpringEvent) -> T) -> Output<T> {
+        Output::new(self.0.events.iter().map(of))
+    }
+}
+
+#[pymethods]
+impl SpringPath {
+    /// Force at each drift (N).
+    #[getter]
+    fn force(&self) -> Output<f64> {
+        Output::new(self.0.force.iter().copied())
+    }
+
+    /// Energy dissipated up to each drift (J).
+    #[getter]
+    fn dissipated(&self) -> Output<f64> {
+        Output::new(self.0.dissipated.iter().copied())
+    }
+
+    /// Energy stored at each drift (J).
+    #[getter]
+    fn stored(&self) -> Output<f64> {
+        Output::new(self.0.stored.iter().copied())
+    }
+
+    /// Index of the drift on the way to which each event happened.
+    #[getter]
+    fn event_leg(&self) -> Output<u32> {
+        self.event_column(|event| u32::try_from(event.leg).unwrap_or(u32::MAX))
+    }
+
+    /// Drift at each event (m).
+    #[getter]
+    fn event_drift(&self) -> Output<f64> {
+        self.event_column(|event| event.drift)
+    }
+
+    /// Force at each event (N).
+    #[getter]
+    fn event_force(&self) -> Output<f64> {
+        self.event_column(|event| event.force)
+    }
+
+    /// Kinds of the events, as indices of `Response.event_kinds`.
+    #[getter]
+    fn event_kind(&self) -> Output<u8> {
+        self.event_column(|event| event.kind as u8)
+    }
+
+    /// Sign of each event.
+    #[getter]
+    fn event_sign(&self) -> Output<i8> {
+        self.event_column(|event| event.sign)
+    }
+
+    /// Number of segments left at each yield, from 1; otherwise 0.
+    #[getter]
+    fn event_element(&self) -> Output<u8> {
+        self.event_column(|event| event.element)
     }
 }
