@@ -31,7 +31,7 @@ const SPRING_FIELDS: [SpringField; 10] = [
     ("residual_strength", |spring| &mut spring.peak_oriented.residual_strength),
 ];
 
-/// The storeys, from lists that must be as long as the list of masses.
+/// The storeys, from lists that must be as long as the list of masses; a number without a list has its default.
 pub(crate) fn storeys(
     count: usize,
     springs: &BTreeMap<String, Values<f64>>,
@@ -52,7 +52,7 @@ pub(crate) fn storeys(
         .collect();
     for (name, place) in SPRING_FIELDS {
         let Some(Values(list)) = springs.get(name) else {
-            return Err(refuse(name, "given, one value per storey", "nothing"));
+            continue;
         };
         one_per_storey(name, list.len())?;
         for (spring, &value) in given.iter_mut().zip(list) {
