@@ -73,12 +73,14 @@ def test_an_unknown_argument_is_refused_as_python_does() -> None:
         sm.Grid.product(building, slope=2.0)  # type: ignore[call-arg]
 
 
-def test_the_kernel_wants_every_field_and_no_other() -> None:
+def test_the_kernel_knows_every_field_and_no_other() -> None:
     springs = sm.Building([1.0, 2.0], 1.0).springs
     for name in springs:
-        others = {key: value for key, value in springs.items() if key != name}
-        with pytest.raises(sm.InvalidScene, match=f"{name} of building must be given, one value per storey"):
-            _kernel.Building(np.ones(2), others, damping_ratio=0.0)
+        short = springs | {name: np.ones(1)}
+        with pytest.raises(sm.InvalidScene, match=f"{name} of building must be one number or a list of 2 values"):
+            _kernel.Building(np.ones(2), short, damping_ratio=0.0)
+    with pytest.raises(sm.InvalidScene, match="stiffness of storey 1 must be a positive number; got NaN"):
+        _kernel.Building(np.ones(2), {}, damping_ratio=0.0)
     with pytest.raises(sm.InvalidScene, match="slope of building must be a number that springs have; got another name"):
         _kernel.Building(np.ones(2), springs | {"slope": np.ones(2)}, damping_ratio=0.0)
 

@@ -30,7 +30,9 @@ from seismass.springs import (
     SpringArguments,
     SpringShape,
     checked_names,
+    default_values,
     documented,
+    is_default,
     takes_springs,
 )
 from seismass.units import STANDARD_GRAVITY
@@ -160,39 +162,42 @@ class Building(Value):
             )
         if gravity_load is not None and heights is None:
             raise refusal(InvalidScene, "heights", "building", "given where gravity_load is", "none")
-        arrays = _arrays(
-            mass=mass,
-            stiffness=np.nan if stiffness is None else stiffness,
-            **{name: given.get(name, field.default) for name, field in SPRING_FIELDS.items()},
-            heights=heights,
-            gravity_load=gravity_load,
-            geometric_stiffness=geometric_stiffness,
-        )
+        arguments = {
+            "mass": mass,
+            "stiffness": np.nan if stiffness is None else stiffness,
+            **{name: given[name] for name in SPRING_FIELDS if name in given},
+            "heights": heights,
+            "gravity_load": gravity_load,
+            "geometric_stiffness": geometric_stiffness,
+        }
+        arrays = {name: _array(name, value) for name, value in arguments.items()}
         lengths = [len(array) for array in arrays.values() if array is not None and array.ndim]
         storeys = next(iter((*lengths, *listed_storeys(backbone, hysteresis))), 1)
         backbones = read_backbones(backbone, storeys)
         if stiffness is None and (backbones is None or None in backbones):
             raise refusal(InvalidScene, "stiffness", "building", "given where a storey has no backbone", "none")
+        filled = {name: default_values(name, storeys) for name in SPRING_FIELDS if name not in arrays}
         if backbones is not None:
             for name in ("stiffness", "yield_shear"):
-                own = arrays[name]
+                own = arrays.get(name, np.array(np.inf))
                 if own is not None and own.shape in ((), (storeys,)):
-                    arrays[name] = of_first_segment(own, name, backbones)
+                    filled[name] = of_first_segment(own, name, backbones)
         self._set(
-            **{name: _filled(array, storeys) for name, array in arrays.items()},
+            **({name: _filled(array, storeys) for name, array in arrays.items()} | filled),
             backbone=backbones,
             hysteresis=read_hysteresis(hysteresis, storeys),
             damping=read_damping(damping),
             mass_is_stated=bool(mass_is_stated),
         )
-        check_parts(self.springs, self.backbone, self.hysteresis)
+        springs_as_given = self.springs
+        check_parts(springs_as_given, self.backbone, self.hysteresis)
         heights_only = gravity_load is None
         if heights_only and self.heights is not None:
             _check_heights(self.heights, len(self.mass))
         self._set(
             _kernel=_kernel.Building(
                 self.mass,
-                self.springs,
+                {name: values for name, values in springs_as_given.items() if not is_default(values, name)},
                 **_law_arguments(self),
                 **kernel_damping(self.damping),
                 heights=None if heights_only else self.heights,
@@ -413,12 +418,13 @@ def as_fraction_of_weight(value: Any, storeys: int) -> FloatArray:
     return fraction
 
 
-def _arrays(**given: ArrayLike | None) -> dict[str, FloatArray | None]:
-    """One array per argument, of shape () where it is one number."""
-    return {
-        name: None if value is None else as_array(value, name, "building", InvalidScene, or_number=True)
-        for name, value in given.items()
-    }
+def _array(name: str, value: ArrayLike | None) -> FloatArray | None:
+    """An argument as an array, of shape () where it is one number."""
+    if value is None:
+        return None
+    if is_default(value, name):
+        return value
+    return as_array(value, name, "building", InvalidScene, or_number=True)
 
 
 def _filled(array: FloatArray | None, storeys: int) -> FloatArray | None:

@@ -23,7 +23,16 @@ from seismass.grid_buildings import (
     changing_values,
     given_buildings,
 )
-from seismass.grid_columns import Column, IndexArray, block_values, index_values, number_values, share_values
+from seismass.grid_columns import (
+    AXES,
+    Column,
+    IndexArray,
+    as_given,
+    block_values,
+    index_values,
+    number_values,
+    share_values,
+)
 from seismass.scene import Scene
 from seismass.springs import SHAPE_FIELDS, SpringShape, checked_names, takes_springs
 
@@ -207,7 +216,7 @@ class Grid:
         for name, length in lengths.items():
             if length not in (1, self._length):
                 requirement = f"one value, or as many as the longest column has, {self._length}"
-                given = "storeys" if name == "building" and storeys is not None else _as_given(name, mu)
+                given = "storeys" if name == "building" and storeys is not None else as_given(name, mu)
                 raise refusal(InvalidScene, given, "grid", requirement, f"{length} values")
         self._columns = {name: Column(column) for name, column in values.items()}
         self._indices = {name: Column(column) for name, column in indices.items()}
@@ -293,14 +302,14 @@ class Grid:
         )
         values |= share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
         lengths = {"building": len(index)}
-        for axis, names in _AXES.items():
+        for axis, names in AXES.items():
             given = {name: len(values[name]) for name in names if name in values}
             lengths[axis] = next((length for length in given.values() if length > 1), 1)
             for name, length in given.items():
                 if length not in (1, lengths[axis]):
                     other = next(other for other in names if other != name)
                     requirement = f"one value, or as many as {other} has, {lengths[axis]}"
-                    raise refusal(InvalidScene, _as_given(name, mu), "grid", requirement, f"{length} values")
+                    raise refusal(InvalidScene, as_given(name, mu), "grid", requirement, f"{length} values")
         each, total = {}, 1
         for axis in reversed(lengths):
             each[axis] = total
@@ -308,7 +317,7 @@ class Grid:
         if total > MAX_SCENES:
             raise refusal(InvalidOption, "scenes", "grid", f"at most {MAX_SCENES}", f"{total}")
         grid._length = total
-        axis_of = {name: axis for axis, names in _AXES.items() for name in names}
+        axis_of = {name: axis for axis, names in AXES.items() for name in names}
         grid._columns = {name: Column(column, each[axis_of[name]]) for name, column in values.items()}
         grid._indices = {"building": Column(index, each["building"])}
         grid._set_formed(periods, damping)
@@ -500,21 +509,3 @@ class Grid:
 def _parts(numbers: range) -> Iterator[range]:
     for first in range(0, len(numbers), _CHECKED_AT_ONCE):
         yield numbers[first : first + _CHECKED_AT_ONCE]
-
-
-_AXES: Final = {
-    "period": ("period",),
-    "strength": ("strength", "yield_shear_over_weight"),
-    **{name: (name,) for name in SHAPE_FIELDS},
-    "mass_ratio": ("mass_ratio",),
-    "attached": ("attached", "sliding"),
-    "friction": ("mu_s", "mu_k"),
-    "scale": ("scale",),
-}
-"""Axes of a product beside the building, and what each of them holds."""
-
-
-def _as_given(name: str, mu: Any) -> str:
-    """Name under which the user gave a column."""
-    names = {"building": "building_index"}
-    return "mu" if name in ("mu_s", "mu_k") and mu is not None else names.get(name, name)

@@ -39,6 +39,17 @@ _RANGES: Final[dict[str, tuple[type[SeismassError], str, Callable[[FloatArray], 
     "scale": (InvalidMotion, "a finite number", np.isfinite),
 }
 
+AXES: Final = {
+    "period": ("period",),
+    "strength": ("strength", "yield_shear_over_weight"),
+    **{name: (name,) for name in SHAPE_FIELDS},
+    "mass_ratio": ("mass_ratio",),
+    "attached": ("attached", "sliding"),
+    "friction": ("mu_s", "mu_k"),
+    "scale": ("scale",),
+}
+"""Axes of a product beside the building, and what each of them holds."""
+
 
 def number_values(given: dict[str, ArrayLike | None]) -> dict[str, FloatArray]:
     """Return columns of one number per scene, by name; those that are None are left out."""
@@ -154,3 +165,9 @@ def share_values(attached: Any, sliding: Any, mass_ratio: Any) -> dict[str, Floa
             got = f"{both[wrong[0]]:g} together as value {wrong[0] + 1}"
             raise refusal(InvalidScene, "attached and sliding", "grid", "shares of at most 1 together", got)
     return values
+
+
+def as_given(name: str, mu: Any) -> str:
+    """Return the name under which the user gave a column."""
+    names = {"building": "building_index"}
+    return "mu" if name in ("mu_s", "mu_k") and mu is not None else names.get(name, name)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from seismass._values import FloatArray, as_array, brief, frozen, refusal
 from seismass.errors import InvalidScene
-from seismass.springs import SPRING_FIELDS, Part
+from seismass.springs import SPRING_FIELDS, Part, is_default
 
 Hysteresis: TypeAlias = Literal["masing", "peak-oriented"]
 """Masing unloading and reloading, or straight to the largest drift so far (Clough and Johnston 1966)."""
@@ -78,14 +78,15 @@ def _dimensions(value: Any) -> int:
 
 def read_hysteresis(value: Any, storeys: int) -> tuple[Hysteresis, ...]:
     """Return the hysteresis of each storey."""
-    given = [value] * storeys if isinstance(value, str) or not isinstance(value, Sequence) else list(value)
+    given: list[Any] = [value] * storeys if isinstance(value, str) or not isinstance(value, Sequence) else list(value)
     if len(given) != storeys:
         requirement = f"one name or a list of {storeys}, one per storey"
         raise refusal(InvalidScene, "hysteresis", "building", requirement, f"{len(given)} of them")
     for item in given:
         if item not in HYSTERESES:
             raise refusal(InvalidScene, "hysteresis", "building", " or ".join(HYSTERESES), brief(item))
-    return tuple(HYSTERESES[HYSTERESES.index(item)] for item in given)
+    checked: tuple[Hysteresis, ...] = tuple(given)
+    return checked
 
 
 def of_first_segment(given: FloatArray, name: str, backbones: tuple[Backbone | None, ...]) -> FloatArray:
@@ -120,7 +121,9 @@ def check_parts(
     """Refuse numbers of what no storey has."""
     has = parts(springs, backbones, hysteresis)
     for name, field in SPRING_FIELDS.items():
-        if field.part is not None and field.part not in has and (springs[name] != field.default).any():
+        if field.part is None or field.part in has or is_default(springs[name], name):
+            continue
+        if (springs[name] != field.default).any():
             raise refusal(InvalidScene, name, "building", _ABSENT[field.part], brief(springs[name].tolist()))
 
 
@@ -133,7 +136,7 @@ def parts(
     found: set[Part] = set()
     if backbones is None or None in backbones:
         found.add("trilinear")
-    if (springs["clearance"] < np.inf).any():
+    if not is_default(springs["clearance"], "clearance") and (springs["clearance"] < np.inf).any():
         found.add("stop")
     if "peak-oriented" in hysteresis:
         found.add("peak-oriented")

@@ -9,13 +9,14 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Annotated, Any, Final, Literal, TypeAlias, TypedDict, TypeVar, get_args, get_type_hints
+from functools import lru_cache
+from typing import Annotated, Any, Final, Literal, TypeAlias, TypedDict, TypeGuard, TypeVar, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
-from seismass._values import FloatArray
+from seismass._values import FloatArray, frozen
 
 DEFAULT_OVERSTRENGTH: Final = _kernel.DEFAULT_OVERSTRENGTH
 """Overstrength Omega, of the paper's section 4."""
@@ -205,6 +206,18 @@ SHAPE_FIELDS: Final = _fields(SpringShape)
 """Numbers that shape a spring, by the name of their argument."""
 SPRING_FIELDS: Final = {"yield_shear": _fields(SpringArguments)["yield_shear"], **SHAPE_FIELDS}
 """All numbers of a spring beside its stiffness, by the name of their argument."""
+
+
+@lru_cache(maxsize=1024)
+def default_values(name: str, storeys: int) -> FloatArray:
+    """Return the default of each storey: one array for all buildings of so many storeys."""
+    return frozen(np.full(storeys, SPRING_FIELDS[name].default))
+
+
+def is_default(values: Any, name: str) -> TypeGuard[FloatArray]:
+    """Return whether values are the array of defaults itself; others may equal it."""
+    known = name in SPRING_FIELDS and isinstance(values, np.ndarray) and values.ndim == 1
+    return known and values is default_values(name, len(values))
 
 
 def checked_names(given: dict[str, Any], known: dict[str, SpringField], owner: str) -> None:

@@ -29,9 +29,9 @@ pub(crate) struct Building(pub(crate) Arc<seismass::Building>);
 
 #[pymethods]
 impl Building {
-    /// Lists have one value per storey; `springs` has one by the name of each of a spring's numbers. A backbone is a table
-    /// of drift (m) and force (N); a storey without one is trilinear. Damping is `damping_ratio` in every mode, or in two
-    /// modes, or a matrix.
+    /// Lists have one value per storey; `springs` has one by the name of each of a spring's numbers that is not the
+    /// default. A backbone is a table of drift (m) and force (N); a storey without one is trilinear. Damping is
+    /// `damping_ratio` in every mode, or in two modes, or a matrix.
     #[new]
     #[pyo3(signature = (mass, springs, *, backbones=None, peak_oriented=None, damping_ratio=None, rayleigh_modes=None, damping_matrix=None, heights=None,
         gravity_load=None, geometric_stiffness=None))]
