@@ -194,6 +194,8 @@ class Building:
         mass: NDArray[float64],
         springs: dict[str, NDArray[float64]],
         *,
+        backbones: SupportsGetItem[int, NDArray[float64] | None] | None = None,
+        peak_oriented: SupportsGetItem[int, bool] | None = None,
         damping_ratio: SupportsFloat | SupportsIndex | None = None,
         rayleigh_modes: tuple[SupportsIndex, SupportsIndex] | None = None,
         damping_matrix: NDArray[float64] | None = None,
@@ -202,7 +204,8 @@ class Building:
         geometric_stiffness: NDArray[float64] | None = None,
     ) -> Building:
         """
-        Lists have one value per storey; `springs` has one by the name of each of a spring's numbers. Damping is
+        Lists have one value per storey; `springs` has one by the name of each of a spring's numbers that is not the
+        default. A backbone is a table of drift (m) and force (N); a storey without one is trilinear. Damping is
         `damping_ratio` in every mode, or in two modes, or a matrix.
         """
     @property
@@ -497,6 +500,10 @@ class Scene:
                 SupportsFloat | SupportsIndex,
                 SupportsFloat | SupportsIndex,
                 SupportsFloat | SupportsIndex | None,
+                SupportsGetItem[
+                    int,
+                    tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex],
+                ],
             ],
         ],
         *,
@@ -505,7 +512,8 @@ class Scene:
         collapse_drift: NDArray[float64] | None = None,
     ) -> Scene:
         """
-        Blocks are tuples of floor, mass, mu_s, mu_k and initial velocity (None: that of the floor).
+        Blocks are tuples of floor, mass, mu_s, mu_k, initial velocity (None: that of the floor) and stages of wear, tuples
+        of slip path, mu_s and mu_k.
         """
     @property
     def geometric_stiffness(self, /) -> NDArray[float64]:
