@@ -26,6 +26,7 @@ __all__ = [
     "ReferenceRun",
     "Response",
     "Scene",
+    "SpringPath",
     "instruction_set",
     "integrate_reference",
     "oscillator_peaks",
@@ -217,6 +218,10 @@ class Building:
     def periods(self, /) -> NDArray[float64]:
         """
         Natural periods of the bare building without P-Delta (s), longest first.
+        """
+    def spring_path(self, /, storey: SupportsIndex, drifts: NDArray[float64]) -> SpringPath:
+        """
+        Drives the spring of a storey, given by its index, from one drift (m) to the next.
         """
 
 @final
@@ -519,6 +524,57 @@ class Scene:
     def geometric_stiffness(self, /) -> NDArray[float64]:
         """
         P/h of each storey (N/m), the weight of the blocks included; zero without P-Delta.
+        """
+
+@final
+class SpringPath:
+    """
+    What the spring of a storey did along a list of drifts.
+    """
+    @property
+    def dissipated(self, /) -> NDArray[float64]:
+        """
+        Energy dissipated up to each drift (J).
+        """
+    @property
+    def event_drift(self, /) -> NDArray[float64]:
+        """
+        Drift at each event (m).
+        """
+    @property
+    def event_element(self, /) -> NDArray[uint8]:
+        """
+        Number of segments left at each yield, from 1; otherwise 0.
+        """
+    @property
+    def event_force(self, /) -> NDArray[float64]:
+        """
+        Force at each event (N).
+        """
+    @property
+    def event_kind(self, /) -> NDArray[uint8]:
+        """
+        Kinds of the events, as indices of `Response.event_kinds`.
+        """
+    @property
+    def event_leg(self, /) -> NDArray[uint32]:
+        """
+        Index of the drift on the way to which each event happened.
+        """
+    @property
+    def event_sign(self, /) -> NDArray[int8]:
+        """
+        Sign of each event.
+        """
+    @property
+    def force(self, /) -> NDArray[float64]:
+        """
+        Force at each drift (N).
+        """
+    @property
+    def stored(self, /) -> NDArray[float64]:
+        """
+        Energy stored at each drift (J).
         """
 
 def instruction_set() -> str:
