@@ -365,7 +365,7 @@ class Response:
     @property
     def event_element(self, /) -> NDArray[uint8] | None:
         """
-        Spring element of each yield, 1 or 2; otherwise 0.
+        Segments of the backbone left at each yield, 1 at the first; stage of wear that begins; otherwise 0.
         """
     @property
     def event_kind(self, /) -> NDArray[uint8] | None:
