@@ -517,8 +517,8 @@ class Scene:
         collapse_drift: NDArray[float64] | None = None,
     ) -> Scene:
         """
-        Blocks are tuples of floor, mass, mu_s, mu_k, initial velocity (None: that of the floor) and stages of wear, tuples
-        of slip path, mu_s and mu_k.
+        Blocks are tuples of floor, mass, mu_s, mu_k, initial velocity (None: that of the floor), and
+        stages of wear, tuples of slip path, mu_s and mu_k.
         """
     @property
     def geometric_stiffness(self, /) -> NDArray[float64]:

@@ -117,8 +117,8 @@ fn block((floor, mass, mu_s, mu_k, velocity, wear): BlockTuple) -> seismass::Blo
 
 #[pymethods]
 impl Scene {
-    /// Blocks are tuples of floor, mass, mu_s, mu_k, initial velocity (None: that of the floor) and stages of wear, tuples
-    /// of slip path, mu_s and mu_k.
+    /// Blocks are tuples of floor, mass, mu_s, mu_k, initial velocity (None: that of the floor), and
+    /// stages of wear, tuples of slip path, mu_s and mu_k.
     #[new]
     #[pyo3(signature = (building, blocks, *, initial_drift=None, initial_velocity=None, collapse_drift=None))]
     fn new(
