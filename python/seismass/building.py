@@ -189,15 +189,15 @@ class Building(Value):
             damping=read_damping(damping),
             mass_is_stated=bool(mass_is_stated),
         )
-        springs_as_given = self.springs
-        check_parts(springs_as_given, self.backbone, self.hysteresis)
+        stated = {name: values for name, values in self.springs.items() if not is_default(values, name)}
+        check_parts(stated, self.backbone, self.hysteresis)
         heights_only = gravity_load is None
         if heights_only and self.heights is not None:
             _check_heights(self.heights, len(self.mass))
         self._set(
             _kernel=_kernel.Building(
                 self.mass,
-                {name: values for name, values in springs_as_given.items() if not is_default(values, name)},
+                stated,
                 **_law_arguments(self),
                 **kernel_damping(self.damping),
                 heights=None if heights_only else self.heights,

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from seismass._values import FloatArray, as_array, brief, frozen, refusal
 from seismass.errors import InvalidScene
-from seismass.springs import SPRING_FIELDS, Part, is_default
+from seismass.springs import SPRING_FIELDS, Part
 
 Hysteresis: TypeAlias = Literal["masing", "peak-oriented"]
 """Masing unloading and reloading, or straight to the largest drift so far (Clough and Johnston 1966)."""
@@ -118,13 +118,14 @@ def check_parts(
     backbones: tuple[Backbone | None, ...] | None,
     hysteresis: tuple[Hysteresis, ...],
 ) -> None:
-    """Refuse numbers of what no storey has."""
+    """Refuse numbers of what no storey has; those that are left out are the defaults."""
     has = parts(springs, backbones, hysteresis)
-    for name, field in SPRING_FIELDS.items():
-        if field.part is None or field.part in has or is_default(springs[name], name):
+    for name, values in springs.items():
+        field = SPRING_FIELDS.get(name)
+        if field is None or field.part is None or field.part in has:
             continue
-        if (springs[name] != field.default).any():
-            raise refusal(InvalidScene, name, "building", _ABSENT[field.part], brief(springs[name].tolist()))
+        if (values != field.default).any():
+            raise refusal(InvalidScene, name, "building", _ABSENT[field.part], brief(values.tolist()))
 
 
 def parts(
@@ -136,7 +137,7 @@ def parts(
     found: set[Part] = set()
     if backbones is None or None in backbones:
         found.add("trilinear")
-    if not is_default(springs["clearance"], "clearance") and (springs["clearance"] < np.inf).any():
+    if "clearance" in springs and (springs["clearance"] < np.inf).any():
         found.add("stop")
     if "peak-oriented" in hysteresis:
         found.add("peak-oriented")

@@ -216,8 +216,9 @@ def default_values(name: str, storeys: int) -> FloatArray:
 
 def is_default(values: Any, name: str) -> TypeGuard[FloatArray]:
     """Return whether values are the array of defaults itself; others may equal it."""
-    known = name in SPRING_FIELDS and isinstance(values, np.ndarray) and values.ndim == 1
-    return known and values is default_values(name, len(values))
+    if name not in SPRING_FIELDS or not isinstance(values, np.ndarray) or values.ndim != 1:
+        return False
+    return values is default_values(name, len(values))
 
 
 def checked_names(given: dict[str, Any], known: dict[str, SpringField], owner: str) -> None:
