@@ -17,7 +17,7 @@ import pytest
 import seismass as sm
 from seismass._kernel import MAX_STOREYS
 from seismass.scene_file import KEYS
-from seismass.springs import SHAPE_FIELDS
+from seismass.springs import SHAPE_FIELDS, SPRING_FIELDS
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "scene_file.md").read_text(encoding="utf-8")
@@ -500,6 +500,13 @@ DOCUMENTED: dict[str, str] = dict(re.findall(ROW, PAGE, re.MULTILINE))
 def test_the_page_names_every_key_and_no_other() -> None:
     accepted = [f"{table}.{key}".lstrip(".") for table, keys in KEYS.items() for key in keys]
     assert sorted(DOCUMENTED) == sorted(accepted)
+
+
+def test_the_page_has_the_units_of_springs() -> None:
+    for name, field in SPRING_FIELDS.items():
+        row = re.search(rf"^\| `building.{name}` \|[^|]*\| ([^|]*) \|", PAGE, re.MULTILINE)
+        assert row is not None
+        assert row[1] == (field.unit or "1")
 
 
 def test_the_page_has_the_defaults() -> None:

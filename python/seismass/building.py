@@ -39,7 +39,9 @@ from seismass.units import STANDARD_GRAVITY
 
 
 class Building(Value):
-    """A shear building: lumped floor masses, trilinear storey springs with Masing unloading, damping.
+    """A shear building: lumped floor masses, storey springs and damping.
+
+    Springs are trilinear with Masing unloading unless a backbone, a hysteresis or a clearance says otherwise.
 
     Every argument that has a value per storey takes one number, which then stands for all storeys, or a list with
     storey 1 (on the ground) first. The number of storeys is the length of the first list given.

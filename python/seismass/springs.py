@@ -44,7 +44,7 @@ class SpringField:
     symbol : str
         What summaries call it.
     meaning : str
-        What it is, with its range, as a docstring has it.
+        What it is, with its unit and its range, as a docstring has it.
     requirement : str
         Its range, as errors have it.
     low, high : float
@@ -121,7 +121,7 @@ class SpringShape(TypedDict, total=False):
             np.inf,
             "m",
             "clearance",
-            "Clearance to either side, beyond which an elastic stop acts beside the spring; infinite: there is none.",
+            "Clearance to either side (m), beyond which an elastic stop acts beside the spring; infinite: there is none.",
             "positive (infinite: no stop)",
             _TINY,
             np.inf,
@@ -133,7 +133,7 @@ class SpringShape(TypedDict, total=False):
             0.0,
             "N/m",
             "k_stop",
-            "Stiffness of a stop; needed where there is a clearance.",
+            "Stiffness of a stop (N/m); needed where there is a clearance.",
             "finite and not negative",
             0.0,
             _HUGE,
@@ -190,7 +190,7 @@ class SpringArguments(SpringShape, total=False):
             np.inf,
             "N",
             "V_y",
-            "First yield shear V_y of each storey; infinite: the storey stays elastic.",
+            "First yield shear V_y of each storey (N); infinite: the storey stays elastic.",
             "positive (infinite: elastic)",
             _TINY,
             np.inf,
@@ -265,6 +265,5 @@ def documented(doc: str | None, fields: dict[str, SpringField]) -> str | None:
         return None
     entries = []
     for name, field in fields.items():
-        unit = f" ({field.unit})" if field.unit else ""
-        entries.append(f"{name} : array_like, default {field.default:g}\n    {field.meaning}{unit}")
+        entries.append(f"{name} : array_like, default {field.default:g}\n    {field.meaning}")
     return inspect.cleandoc(doc).replace("{springs}", "\n".join(entries))
