@@ -121,7 +121,7 @@ class SpringShape(TypedDict, total=False):
             np.inf,
             "m",
             "clearance",
-            "Clearance to either side (m), beyond which an elastic stop acts beside the spring; infinite: there is none.",
+            "Clearance to either side (m), beyond which an elastic stop acts beside the spring; infinite: no stop.",
             "positive (infinite: no stop)",
             _TINY,
             np.inf,
