@@ -102,7 +102,8 @@ pub use response::{
     Energy, Event, EventCounts, EventKind, Histories, Peak, Peaks, Response, Skipped, Statistics, Status,
 };
 pub use scene::{
-    Block, Building, Damping, GravityEffect, Motion, Options, PeakOriented, Scene, SpringLaw, Storey, Wear,
+    Block, Building, Damping, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion, Options, PeakOriented, Scene, SpringLaw,
+    Storey, Wear,
 };
 pub use simulate::{simulate, simulate_until};
 pub use spring_path::{SpringEvent, SpringPath, spring_path};
