@@ -62,8 +62,9 @@ lint: build
 test-rust:
 	cargo test --locked --workspace --exclude seismass-python
 
+# Two processes, a file's tests in one of them: they share its fixtures.
 test-python: build
-	$(PYTHON) -m pytest
+	$(PYTHON) -m pytest --numprocesses 2 --dist loadfile
 
 test-wheel: build
 	sh tools/check-wheel $(PYTHON)

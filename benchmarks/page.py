@@ -32,11 +32,11 @@ MEASURES: Final = dict(zip(ERRORS, ("drift history", "peak drift", "slip history
 
 HEAD: Final = """# Error against run time
 
-Every contestant solves the same scenes, from the scene to arrays of drifts and slips at every sample of the motion, in
-one process and one thread; runs of seismass for peaks only are shown and compared with nobody. Times are processor
-times, medians after a warm-up; what takes longer than two seconds runs once. Errors are the largest absolute
-differences from the second implementation of the model in double-double precision (crate `seismass-judge`, which has
-the kernel's damping matrix and nothing of its solver), over the largest drift, or slip, of the scene. {recordings}
+Every program solves the same scenes, from the scene to arrays of drifts and slips at every sample of the motion, in one
+process and one thread. Runs of seismass for peaks only are shown but not compared. Times are processor times, medians
+after a warm-up; runs longer than two seconds are not repeated. Errors are the largest absolute differences from the
+second implementation of the model in double-double precision (crate `seismass-judge`, which shares the kernel's damping
+matrix but not its solver), divided by the largest drift, or slip, of the scene. {recordings}
 
 Written by `benchmarks/work_precision.py` (`make bench`); all points are in `benchmarks/results/work_precision.parquet`.
 
@@ -45,43 +45,42 @@ Measured on: {machine}.
 ![Time against error on the section-4 building](figures/work_precision.png)
 """
 
-NOTES: Final = """## Who is who
+NOTES: Final = """## The programs
 
-- **seismass, exact**: the kernel, histories of drifts and slips. **seismass, peaks only**: what a study asks for; it
-  does less than the others, who fill histories, and is in no comparison.
-- **leapfrog**: what a good engineer writes by hand (half-explicit, friction impulses clipped, return mapping), in the
-  kernel's own `reference` module and in numba. A block that reverses inside a step has its impulse divided there:
-  without that the method is of order 1 where blocks slide much.
+- **seismass, exact**: the kernel with histories of drifts and slips. **seismass, peaks only**: as used by the study; it
+  computes no histories and is not compared.
+- **leapfrog**: a half-explicit method with clipped friction impulses and return mapping, as an engineer would program
+  it, in the kernel's `reference` module and in numba. Where a block reverses inside a step, its impulse is divided;
+  without this the method is of order 1 where blocks slide much.
 - **Gauss-Legendre 4, Newmark**: the state machines of the exact solution, advanced in fixed steps; *located*: events
-  are found inside the step. Without it both are of order 1 on stick-slip scenes, whatever their order where nothing
-  switches.
-- **Newmark, friction spring**: the same modelling as OpenSees' friction springs, compiled. A spring slips a little
-  before it slides.
+  are found inside the step. Without location both are of order 1 on stick-slip scenes, whatever their order between
+  events.
+- **Newmark, friction spring**: the model of OpenSees' friction springs, compiled. A spring deforms elastically before
+  it slides.
 {same_springs}
 - **OpenSees**: elastic-perfectly-plastic springs in parallel, dashpots between every pair of floors that reproduce the
   damping matrix; friction as stiff springs (1e2 to 4e5 times the stiffness k of the first storey) or as CoulombDamper.
   *retries*: other algorithms, then shorter steps, where a step does not converge; no unconverged step is accepted.
   *central difference* takes steps below its limit of stability, 2 / w for the highest frequency w, which stiff springs
-  raise; its matrix is factored once. `modalDamping` damps the modes of the building coupled to its blocks, which is
-  another problem: its row shows how different.
+  raise; its matrix is factored once. `modalDamping` damps the modes of the building coupled to its blocks, which is a
+  different problem, as its row shows.
 - **SciPy, events**: DOP853 on a state machine, restarted at events, or at events and samples; peaks by cubic
   interpolation between samples, which bounds their error near 1e-7. **SciPy, tanh friction**: friction smoothed over a
-  relative velocity; the error is the smoothing's. These and OpenSees' finest implicit steps run on the first scene
+  relative velocity, which causes the error. These and OpenSees' finest implicit steps run on the first scene
   only.
 - **heyoka**: Taylor integration with event detection on the same state machine, compiled for the guards that a scene
-  has; peaks from its own dense output. Its steps end at the samples, where the ground motion has kinks: such steps are
-  so short that the error is far below the tolerance, and a coarser one saves little.
+  has; peaks from its own dense output. Its steps end at the samples, where the slope of the ground motion changes. Such
+  steps are so short that the error is far below the tolerance, and a larger tolerance saves little.
 - **diffsol**: a Rust library, through its package pydiffsol: Tsit45 with stop conditions on the same state machine,
   restarted at the samples too; peaks of the cubics over its steps. Its other methods are implicit, of lower order, and
   not run.
 
-How they are compiled: the kernel chooses its widest path at run time, here {path}. The leapfrog in Rust, Gauss-Legendre
-and Newmark come from the same wheel and have no paths: they use what every x86-64 has. numba and heyoka compile for the
-processor at hand, OpenSees and pydiffsol are the wheels of their projects.
+Compilation: the kernel selects its widest path at run time, here {path}. The leapfrog in Rust, Gauss-Legendre and
+Newmark come from the same wheel, for the x86-64 baseline. numba and heyoka compile for the processor of this machine.
+OpenSees and pydiffsol are the wheels of their projects.
 
-Where peaks are looked for: the kernel finds them between samples. The leapfrogs, Gauss-Legendre, Newmark and OpenSees
-take them at the ends of their steps and at located events alone, so that errors of their peaks may be larger than those
-of their histories.
+Peaks: the kernel finds them between samples. The leapfrogs, Gauss-Legendre, Newmark and OpenSees take them at the ends
+of steps and at located events only, so errors of their peaks may be larger than those of their histories.
 """
 
 
@@ -153,9 +152,9 @@ def _losses(table: pl.DataFrame, benches: list[BenchmarkScene]) -> str:
     if not lost:
         return text + ": all of them.\n"
     reason = (
-        "The leapfrog takes one cheap step per sample and pays nothing to find events: where little accuracy is asked\n"
-        "for, that is enough, and it gives no sign of how wrong it is. The exact kernel buys every error level at\n"
-        "once."
+        "The leapfrog takes one inexpensive step per sample and does not locate events. This is sufficient where low\n"
+        "accuracy is acceptable, but the method gives no estimate of its error. The cost of the exact kernel does not\n"
+        "depend on the error level."
     )
     return f"{text}. It is beaten in the other {lost}:\n\n" + "\n".join(lines) + f"\n\n{reason}\n"
 
@@ -202,8 +201,8 @@ def same_springs(table: pl.DataFrame) -> str:
     apart = 100.0 * float(abs(errors - 1.0).max())
     return (
         f"  With {SAME_SPRINGS[0][1]} the errors of both histories of drift differ by at most {apart:.1g} % "
-        f"on {len(both)} scenes:\n  they are those of the model and the step. OpenSees takes {times.min():.2g} to "
-        f"{times.max():.2g} times as long, which is its\n  machinery."
+        f"on {len(both)} scenes:\n  they are due to model and step. OpenSees takes {times.min():.2g} to "
+        f"{times.max():.2g} times as long."
     )
 
 

@@ -15,19 +15,19 @@ Written by `benchmarks/performance.py` (`make bench`). {recordings}
 
 Measured on: {machine}.
 
-How to read it: times are medians of wall time after a warm-up, unless a section says otherwise. What is compared is
-measured in one run and takes turns where it can, so ratios hold on other machines better than times do; on a machine
-that others use too they still scatter by some per cent, and instruction counts do not. Brackets hold quartiles of what
-took turns; where the bound lies between them, met or missed is within scatter.
+Times are medians of wall time after a warm-up, unless a section says otherwise. Quantities that are compared are
+measured alternately in one run where possible, so ratios carry over to other machines better than times. On a shared
+machine ratios scatter by some per cent; instruction counts do not. Brackets show quartiles of alternating measurements.
+Where the bound lies between the quartiles, the verdict is marked "within scatter".
 
 ## Targets
 
-Set before anything was measured, and not moved: what is missed is missed. {counts}
+The targets were set before anything was measured and have not been changed. {counts}
 
 {targets}"""
 LATER: Final = """
 Added after these had been measured, with the same bound: the short motions at half their step, which gives them the
-length that the target is meant for, and one of them milder, which gives it the most events that it is meant for.
+number of samples that the target assumes, and one of them scaled down to the number of events that it assumes.
 {counts}
 
 {targets}"""

@@ -11,6 +11,7 @@ import seismass as sm
 from seismass import codes
 from seismass.codes import CODE_IDS, VERIFIED
 from seismass.friction import FRICTION_IDS
+from seismass.report.effective_figures import STORAGE_CODES
 
 
 @pytest.mark.parametrize(
@@ -117,3 +118,12 @@ def test_the_page_has_every_row() -> None:
         numbers = (f"{row['mu_s']:g}", f"{row['mu_k']:.4g}")
         cells = (f"`{row['pair_id']}`", row["contact"], *numbers, row["source"], row["kind"])
         assert f"| {' | '.join(cells)} |\n" in page
+
+
+def test_figures_mark_the_shares_of_the_table_of_codes() -> None:
+    assert dict(STORAGE_CODES) == {
+        "ASCE 7, NSR-10": 0.25,
+        "IS 1893, NCh2369": 0.50,
+        "NBC, NZS 1170.5": 0.60,
+        "Eurocode 8, E.030": 0.80,
+    }

@@ -149,6 +149,18 @@ def test_recorded_counts_have_every_column_of_the_page(module: Any) -> None:
     assert {(scene, quantity) for _, scene, quantity in module("targets.profile").HIGHLIGHTS} <= found
 
 
+def test_changes_name_what_differs_and_where(module: Any) -> None:
+    """Of nine counts the first falls by half, one run grows by 2 %, and one falls by less than is shown."""
+    profile = module("targets.profile")
+    assert len(profile.HIGHLIGHTS) == 9
+    before = [100.0] * 9
+    after = [50.0, 99.0, 100.0, 102.0, 100.0, 100.0, 100.0, 100.0, 100.0]
+    assert profile.changes(before, after) == ("step -50 %, run +2 %", "yielding, 4 storeys; section 4")
+    everywhere = [100.0, 100.0, 100.0, 90.0, 80.0, 90.0, 90.0, 90.0, 100.0]
+    assert profile.changes(before, everywhere) == ("run -10 to -20 %", "all runs")
+    assert profile.changes([None] * 9, after) == ("", "")
+
+
 def test_quick_mode_writes_the_page(module: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def timings(work: str, *_: Any, **__: Any) -> dict[str, np.ndarray]:
         return {name: np.full(3, value) for name, value in TIMINGS[work].items()}

@@ -15,8 +15,9 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.scene import MAX_STOREYS
+from seismass._kernel import MAX_STOREYS
 from seismass.scene_file import KEYS
+from seismass.springs import SHAPE_FIELDS, SPRING_FIELDS
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "scene_file.md").read_text(encoding="utf-8")
@@ -305,7 +306,7 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     (
         {"building": {"mass": [1.0]}},
         sm.InvalidSceneFile,
-        r"building.stiffness of .* must be given, or building.period; got nothing",
+        r"building.stiffness of .* must be given, or building.period, or building.backbone; got nothing",
     ),
     ({"building": {"stiffness": [1.0]}}, sm.InvalidSceneFile, r"building.mass of .* must be given; got nothing"),
     (
@@ -501,14 +502,31 @@ def test_the_page_names_every_key_and_no_other() -> None:
     assert sorted(DOCUMENTED) == sorted(accepted)
 
 
+def test_the_page_has_the_units_of_springs() -> None:
+    for name, field in SPRING_FIELDS.items():
+        row = re.search(rf"^\| `building.{name}` \|[^|]*\| ([^|]*) \|", PAGE, re.MULTILINE)
+        assert row is not None
+        assert row[1] == (field.unit or "1")
+
+
 def test_the_page_has_the_defaults() -> None:
     parameters = inspect.signature(sm.Building.uniform).parameters
-    for key in ("overstrength", "second_slope", "third_slope", "damping"):
+    for key in (*SHAPE_FIELDS, "damping"):
         assert DOCUMENTED[f"building.{key}"].split()[0] == f"{parameters[key].default:g}", key
 
 
+EXAMPLES = re.findall(r"^```toml\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+
+
+def test_the_backbone_of_the_page_is_that_of_both_storeys(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(f"{EXAMPLES[1]}\n[motion]\nacceleration = [0, 1]\ndt = 0.01\n")
+    points = [(0.01, 60e3), (0.03, 90e3), (0.08, 100e3)]
+    assert sm.read_scene(path).scene.building == sm.Building([20e3, 20e3], backbone=points)
+
+
 def test_the_example_of_the_page_is_what_it_says(tmp_path: Path) -> None:
-    (example,) = re.findall(r"^```toml\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+    example = EXAMPLES[0]
     path = tmp_path / "docs" / "scene.toml"
     path.parent.mkdir()
     path.write_text(example)

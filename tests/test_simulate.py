@@ -17,7 +17,7 @@ import pytest
 from polars.testing import assert_frame_equal
 
 import seismass as sm
-from seismass.simulate import EVENT_KINDS
+from seismass.response import EVENT_KINDS
 
 
 def shaking(seed: int = 1, samples: int = 2000, pga: float = 6.0) -> sm.Motion:

@@ -42,10 +42,23 @@ def test_every_kind_is_pickled_described_in_json_and_tilted(target: sm.TargetSpe
     assert target_remarks(target) == ()
 
 
+def test_targets_made_from_the_same_are_equal() -> None:
+    one, other = every_kind(), every_kind()
+    assert one == other
+    assert [hash(target) for target in one] == [hash(target) for target in other]
+    assert len(set(one) | set(other)) == len(one)
+    for target in one:
+        assert pickle.loads(pickle.dumps(target)) == target
+        assert target.tilted(0.5) != target
+        assert target.tilted(0.5).tilted(-0.5) == target
+        assert target != "a target"
+
+
 def test_two_targets_that_differ_have_other_parameters() -> None:
     one, other = sm.TargetSpectrum.mean_of(SUITE[0]), sm.TargetSpectrum.mean_of(SUITE[1].replace(name=SUITE[0].name))
     assert one.parameters["records"] == other.parameters["records"]
     assert one.parameters != other.parameters
+    assert one != other
 
 
 def test_multi_period_is_linear_in_period() -> None:

@@ -18,21 +18,21 @@ The paper uses one component of each of seven recordings (its Table 1). They bel
 project; `seismass.records.catalogue()` has the table as data, and
 
 ```sh
-seismass records                    # the table, what is odd about it, how to get each record
-seismass records --find Downloads/  # which of the seven a folder holds, and what each file is
+seismass records                    # the table with remarks, and how to obtain each record
+seismass records --find Downloads/  # which of the seven a folder holds
 ```
 
-A file is judged by its header (event, year, station, component) and by its content: number of points, place of the peak
-and ratio of its two largest accelerations of either sign. So renamed files are found, and files without a header, in
-any unit; scaled, cut and reprocessed ones are said to be so; a name alone is not counted. Written by
-`tools/catalogue_page.py`.
+A file is identified by its header (event, year, station, component) and by its content: number of points, place of
+the peak, and ratio of its two largest accelerations of either sign. Renamed files and files without a header are
+found, in any unit. Scaled, truncated and reprocessed files are reported as such. The name of a file alone is not
+sufficient. Written by `tools/catalogue_page.py`.
 
 | no. | record | M | D (km) | pulse (s) | RSN | NGA-West2 flatfile: M, closest distance, Vs30 |
 | --- | --- | --- | --- | --- | --- | --- |
 {rows}
 
-Names, magnitude M, distance D and pulse period are as the paper prints them. The flatfile's numbers are given where its
-row was at hand; both agree within the paper's rounding.
+Names, magnitude M, distance D and pulse period are those of the paper. Values of the flatfile are given where
+available; both agree within the rounding of the paper.
 
 {odd}
 

@@ -41,8 +41,8 @@ STRIKES: Final = {1: "1787", 2: "767", 3: "161"}
 
 TEXT: Final = """# Velocity pulses
 
-Near a fault that ruptures towards the site much of the motion may come as one pulse of velocity. `seismass.pulses`
-finds such pulses by two published methods, on the db4 wavelet of PyWavelets (`pip install PyWavelets`):
+Near a fault that ruptures towards the site, much of the motion may arrive as a velocity pulse. `seismass.pulses`
+detects such pulses by two published methods, with the db4 wavelet of PyWavelets (`pip install PyWavelets`):
 
 ```sh
 seismass pulse RSN767_LOMAP_G03000.AT2 RSN767_LOMAP_G03090.AT2 --plot pulse.png
@@ -53,8 +53,8 @@ Written by `tools/pulses_page.py` from the recordings as NGA-West2 has them.
 
 ## The two methods
 
-Both take the wavelet with the largest coefficient of the velocity, and call the sum of ten wavelets of its scale, each
-within 0.4 scales of the first, the pulse. T_p is the period at which the Fourier amplitude of the wavelet is largest,
+Both select the wavelet with the largest coefficient of the velocity. The pulse is the sum of ten wavelets of its scale,
+each within 0.4 scales of the first. T_p is the period at which the Fourier amplitude of the wavelet is largest,
 1.4 scale dt, between 0.25 and 15 s.
 
 | | Baker (2007), `baker2007` | Shahi and Baker (2014), `shahi_baker2014` |
@@ -67,14 +67,13 @@ within 0.4 scales of the first, the pulse. T_p is the period at which the Fourie
 | early: squared velocity that has come | below 20 % where the pulse has 10 % of its own | below 17 % at 5 % |
 | size | PGV above 30 cm/s | in the indicator |
 
-The constants of 2014 are those of the authors' code (MIT), which the transform follows to the sample. Those of 2007
-were
-not read in the paper; that paper may also have left the further nine wavelets more freedom. Components of different
-length are cut to the shorter, while the authors' code leaves out pairs that differ by more than 20 samples (here
-Erzincan and El Centro).
+The constants of 2014 are those of the authors' code (MIT), whose transform is reproduced to the sample. Those of 2007
+were not verified in the paper, which may also place the further nine wavelets less strictly. Components of different
+length are cut to the shorter one; the authors' code omits pairs that differ by more than 20 samples (here Erzincan and
+El Centro).
 
-Sign, exchange and rotation of the components change neither class nor period, and size does not change what is
-extracted; a pulse that comes after the shaking is refused.
+Sign, exchange and rotation of the components change neither class nor period. Scaling does not change the extracted
+pulse. A pulse that arrives after the shaking is rejected.
 
 ## Pulses of known period
 
@@ -96,20 +95,18 @@ degrees from north.
 
 {differences}
 
-## What the answer depends on
+## Sensitivity of the classification
 
-**Orientation.** By Baker (2007) one component may have a pulse and the one across it none. T_p is given over the
+**Orientation.** By Baker (2007) one component may have a pulse and the perpendicular one none. T_p is given over the
 orientations with a pulse.
 
 {orientations}
 
 ![Indicator, peak velocity and period by orientation, Gilroy 3](figures/pulse_orientations.png)
 
-**Size.** The indicator of 2014 has the peak velocity in it, and the method of 2007 a least one: a record that is
-scaled may
-change its class while its shape does not. Records are to be judged as recorded, before they are scaled. Below, the
-pulse
-period and the indicator of 2014 of the pairs multiplied by a factor.
+**Scaling.** The indicator of 2014 contains the peak velocity, and the method of 2007 requires a minimum: scaling a
+record may change its class although its shape is the same. Classify records as recorded, before they are scaled. The
+table gives the pulse period and the indicator of 2014 of the pairs multiplied by a factor.
 
 {sizes}
 

@@ -72,7 +72,7 @@ def page(shared: Path) -> str:
     findings = f"""
 All storeys yield in {"every run" if all_yield else "not every run"}. The first floor slides most in
 {counts}.
-The slope that the paper does not give decides where the goods slide: so r2 is shown with every result.
+The floor at which goods slide most depends on r2, which the paper does not state. Results are therefore given with r2.
 """
     return HEAD + "\n".join(rows) + "\n" + findings
 

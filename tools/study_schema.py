@@ -23,8 +23,8 @@ instruction set; two instruction sets may differ in last digits. This page is wr
 
 Every Parquet file carries in its metadata (`polars.read_parquet_metadata`, keys `seismass.schema_version`,
 `package_version`, `instructions`, `inputs_sha256`, `parameters`, `code`, `target`, `table`, `units`; each a JSON
-text) what its numbers depend on and the unit of each column. `tables.json` says the same of the CSV files, with the
-meaning of each column. In unit columns "1" is a ratio, and nothing is a name or a count.
+text) the inputs and the unit of each column. `tables.json` contains the same for the CSV files, with the meaning of
+each column. In unit columns, "1" is a ratio; an empty cell is a name or a count.
 
 Floor masses are 1 kg: displacements do not depend on them, and forces are given over the weight W of the bare
 building (g times the sum of its floor masses, without any live load).
@@ -35,12 +35,12 @@ Each building has three models:
 - **code**: the fraction `lambda_analysis` of their mass is attached to the floors, and there is no block;
 - **attached**: all of their mass is attached.
 
-Stiffness, strength, heights and P/h are the same in all three, and so is the damping matrix C but for
-`--damping-base own`. Attached over code is what the rest of the mass does, real over attached what sliding does.
+Stiffness, strength, heights and P/h are the same in all three, as is the damping matrix C except with
+`--damping-base own`. Attached over code is the effect of the remaining mass, real over attached that of sliding.
 
 A failed run is a row with nulls and a reason; statistics of its model are null. A collapsed run is a row with its
-peaks until it ended. Means of a model with a collapsed run are null, and so is what follows from them; medians and
-percentiles count its drift as infinite. Percentiles are linear between order statistics.
+peaks up to the collapse. Means of a model with a collapsed run, and quantities derived from them, are null; medians
+and percentiles count its drift as infinite. Percentiles are linear between order statistics.
 
 Every table that has buildings identifies them by the same columns:
 
@@ -53,11 +53,11 @@ too, target and parameters), `parameters` (the grid, fractions, friction, Omega,
 scaling period, modal combination, height, P-Delta, limit of collapse), `code` (its name, clauses, and how they were
 checked), `target`, `suite` with every motion, `remarks` (what is unlikely about the inputs), `counts` (buildings,
 analyses, distinct, completed, collapsed, failed), `scaling`, and `findings` per occupancy and friction coefficient:
-the largest and the smallest underestimation, where, made of what, with their scatter over the motions and without
-the motion that carries most; in how many storeys the code model drifts more; in how many single steps of alpha and
-of R, with a result at both ends, the underestimation grows, by more than rounding; and means over first storeys.
-`suite` has the number of synthetic motions among all, and for each motion what its reader remarked. It has no date,
-so that equal studies with the same instruction set are equal files.
+the largest and the smallest underestimation with their place, their parts, their scatter over the motions and their
+value without the most influential motion; the number of storeys in which the code model drifts more; the number of
+single steps of alpha and of R, with a result at both ends, in which the underestimation grows by more than rounding;
+and means over first storeys. `suite` has the number of synthetic motions and the remarks on each motion. There is no
+date, so equal studies with the same instruction set give equal files.
 
 ## Figures
 

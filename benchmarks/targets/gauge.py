@@ -13,9 +13,9 @@ from targets.base import RUNS, Section, median_time, section4_scenes, table
 
 SECONDS: Final = 0.3
 TEXT: Final = """\
-What else ran on the machine meanwhile: the same run ({scene}, {motion}, peaks only), timed for {seconds:g} s before the
-first section and after each. Where it takes much more than at its fastest, neighbours had their part in the times of
-the sections on both sides.
+The load of the machine during the measurements: the same run ({scene}, {motion}, peaks only), timed for {seconds:g} s
+before the first section and after each. Where it takes much longer than its fastest time, other processes have affected
+the times of the sections on both sides.
 
 {table}"""
 

@@ -23,19 +23,18 @@ SAMPLES: Final = 6000
 EVENTS: Final = 480
 """Most events of the runs that the target is meant for."""
 TEXT = """\
-One exact run must cost less than one pass of the leapfrog, which knows no event; its errors are in
-[the page of error against run time](work_precision.md). Both are compiled as in a wheel, on the path with the same
-target features, the widest of this machine, and take turns in one process; {processes} processes follow each other. The
-leapfrog stores drift and slip at every sample whatever is compared; the exact run nothing ("peaks"), the same two, or
-six histories. The target is meant for motions of 8000 samples and up to {events} events: a motion of fewer samples is
-taken at its own step and, interpolated as it is meant, linearly, at half of it; where a run then has more events, there
-is one under so much of its motion that it has not. Times in ms, ratios of the exact run over the leapfrog; medians over
-the processes.
+One exact run is to cost less than one pass of the leapfrog, which does not locate events; its errors are given in
+[error against run time](work_precision.md). Both are compiled as in a wheel, with the same target features, the widest
+of this machine, and alternate in one process; {processes} processes follow each other. The leapfrog stores drift and
+slip at every sample in all comparisons. The exact run stores nothing ("peaks"), the same two, or six histories. The
+target assumes motions of 8000 samples and up to {events} events. A motion of fewer samples is used at its own step
+and, interpolated linearly, at half of it; where a run then has more events, it is repeated with the motion scaled down
+until it has not. Times are in ms, ratios those of the exact run over the leapfrog; all are medians over the processes.
 
 {table}
-Beside that, peaks alone: "native" are the leapfrog's time and the ratio where both are compiled for this processor as a
-whole (`{flags}`), so that it shows whether the path suits the leapfrog less; "any x86-64" is the ratio on the path that
-every x86-64 has.
+The last columns are for peaks alone. "native": the leapfrog's time and the ratio where both are compiled for this
+processor (`{flags}`), which shows whether the path is a disadvantage for the leapfrog. "any x86-64": the ratio on the
+baseline path.
 """
 
 

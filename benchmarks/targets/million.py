@@ -14,10 +14,10 @@ from targets.base import Section, table
 QUICK: Final = (64, 512)
 """Sizes of the quick mode."""
 TEXT: Final = """\
-Runs of a building of two storeys as columns (`sm.Grid`), peaks only, streamed in frames of bounded size that are read
-and dropped; each size in a process of its own, {threads} threads, path {instructions}. Motion: {motion} ({samples}
-samples at {dt:g} s). A size that takes less than {least:g} s is repeated after a warm-up, and its times are medians; a
-larger one runs once, cold. Memory is the peak of what is resident, Python and its packages included.
+Runs of a building of two storeys described by columns (`sm.Grid`), peaks only, streamed in frames of bounded size that
+are read and discarded; each size in its own process, {threads} threads, path {instructions}. Motion: {motion}
+({samples} samples at {dt:g} s). A size that takes less than {least:g} s is repeated after a warm-up, and its times are
+medians; a larger one runs once, without warm-up. Memory is the peak resident memory, with Python and its packages.
 
 {table}
 The large batch over the small one: throughput {throughput:.3f}, processor time per run {processor:.3f}, memory

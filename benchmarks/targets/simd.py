@@ -17,12 +17,11 @@ from targets.batches import study_batch
 PATHS: Final = ("baseline", "avx2", "avx512")
 RESULTS: Final = ("peak_drift", "peak_slip", "peak_floor_acceleration", "peak_storey_shear", "residual_drift")
 TEXT: Final = """\
-The study's batch on one thread in processes that differ in `SEISMASS_INSTRUCTIONS` alone: one wheel, paths chosen at
-run time. A path that the processor does not have falls back to the baseline. Vectors have four numbers; with AVX-512
-two of them are taken at once in steps, in series by tables and in products with full damping matrices. Paths differ
-in the order of additions and in fused multiply-add: by rounding, unless rounding decides a branch. Differences are of
-peaks and residual drifts of runs with as many events, each relative to itself, but no value counts as smaller than a
-millionth of the batch's largest.
+The study's batch on one thread in processes that differ in `SEISMASS_INSTRUCTIONS` alone; one wheel, paths chosen at
+run time. A path that the processor lacks falls back to the baseline. Vectors have four numbers. Paths differ in the
+order of additions and in fused multiply-add, that is by rounding, unless rounding decides a branch. Differences are
+those of peaks and residual drifts in runs with the same number of events, relative to the value or to a millionth of
+the batch's largest value, whichever is larger.
 
 {table}
 """

@@ -26,10 +26,10 @@ AGREEMENT: Final = 1e-12
 
 TEXT: Final = """\
 {periods} periods from 0.05 to 5 s, {damping} damping ratios, {records} records of {samples} samples: {pairs:.0f}
-million steps of an oscillator. Ours are peaks in continuous time, the free vibration after the record included; the
-peers take the largest sample. eqsig runs the same recurrence (Nigam and Jennings) in numpy over all periods at once;
-pyrotd multiplies by transfer functions in the frequency domain, one oscillator at a time. One thread each; each of them
-takes turns with ours, {least} times. Differences are of the peers from ours, the largest relative one and the median.
+million steps of an oscillator. seismass returns peaks in continuous time, with the free vibration after the record; the
+other programs take the largest sample. eqsig runs the same recurrence (Nigam and Jennings) in numpy over all periods at
+once; pyrotd multiplies by transfer functions in the frequency domain, one oscillator at a time. One thread each; each
+alternates with seismass {least} times. Differences are relative to seismass, the largest one and the median.
 
 {table}
 Largest relative difference from the same recurrence in {digits} digits, peaks in continuous time searched in every

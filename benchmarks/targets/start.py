@@ -22,9 +22,9 @@ import seismass
 print(between - start, now() - between)
 """
 TEXT: Final = """\
-`import seismass` in fresh processes, after numpy and polars, which it builds on; medians of {starts} starts with warm
-file caches. One call of `sm.simulate` on {samples} samples of the building of 4 storeys with blocks: everything that
-does not grow with the motion.
+`import seismass` in fresh processes, after numpy and polars, on which it depends; medians of {starts} starts with warm
+file caches. One call of `sm.simulate` on {samples} samples of the building of 4 storeys with blocks measures the cost
+that does not grow with the motion.
 
 {table}
 Modules that take longest to import, by `python -X importtime`: {slowest}.

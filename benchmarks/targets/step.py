@@ -17,25 +17,25 @@ CLOCK = 2.5e9
 ROUNDS = 40
 """Rounds of the runs that an event is found from: some seconds in all, so that no moment decides."""
 TEXT = """\
-A plain step of the building of 4 storeys with a block on each floor: what a run without events costs more when its
-motion goes on, over its samples. Beside it, in the same run, the bare chain y = P x + c: a dense matrix on the 8
-numbers of the state, and on these with the 8 rows of floor accelerations and their rates, which the proof of a plain
-step needs.
+A plain step of the building of 4 storeys with a block on each floor: the additional time of a run without events when
+its motion is longer, per sample. For comparison, in the same run, the bare recurrence y = P x + c: a dense matrix on
+the 8 numbers of the state, and on these with the 8 rows of floor accelerations and their rates, which the proof of a
+plain step needs.
 
 {steps}
-The processor ran at {frequency:.2f} GHz, by a chain of dependent multiplications; the target of 20 ns is meant at 2.5
+The processor ran at {frequency:.2f} GHz, by a chain of dependent multiplications; the target of 20 ns refers to 2.5
 GHz.
 
 An event, by least squares over the {runs} runs of the study with 4 storeys and blocks, each run by itself, so that it
-pays for its regimes: time = a samples + b events + c regimes. The runs are taken again and again, {rounds} times; shown
-are medians over these rounds and, of the event, quartiles.
+forms its own regimes: time = a samples + b events + c regimes. The runs are repeated {rounds} times; medians over the
+repetitions are shown and, for the event, quartiles.
 
 {events}
 {counts}"""
 
 COUNTS = """\
-Instructions by callgrind, on the path for AVX2 (valgrind knows no AVX-512); "per event" is all that is neither a plain
-step nor a regime, over the events. Recorded states of the code are compared below.
+Instructions by callgrind, on the path for AVX2 (valgrind knows no AVX-512); "per event" is everything that is neither
+a plain step nor a regime, divided by the events. Recorded changes of the code are compared below.
 
 """
 

@@ -34,8 +34,8 @@ UNEVEN: Final = ((4, 1), (24, 1), (24, 4))
 
 TEXT: Final = """\
 Uniform buildings of 1 to {most} storeys with a first period of 0.1 s per storey, strengths that fall linearly to the
-roof, and a block on each floor; {samples} samples at {dt:g} s. Calm: scaled down until nothing yields and nothing
-slides, what a time step costs. Strong: {peak} g, with events, whose number grows with the storeys too. Time per sample
+roof, and a block on each floor; {samples} samples at {dt:g} s. Calm: scaled down until nothing yields or slides, which
+gives the cost of a time step. Strong: {peak} g, with events, whose number also grows with the storeys. Time per sample
 (us), single runs, peaks only.
 
 {table}
@@ -43,15 +43,16 @@ Exponents of time per sample, fitted from {start} storeys: {exponents}.
 
 ![Time per sample against storeys](figures/performance_storeys.png)
 
-The same buildings, strong, on a lowest storey that is many times as stiff as the others and stays elastic, such as a
-basement. What clears a step is a bound that grows with the fourth power of its length in radians of the stiffest mode:
-sample intervals longer than 4 radians are solved in substeps. Time per sample (us), and in brackets the substeps:
+The same buildings under the strong motion, on a lowest storey that is many times as stiff as the others and stays
+elastic, such as a basement. The bound that proves a step free of events grows with the fourth power of its length in
+radians of the stiffest mode, so sample intervals longer than 4 radians are solved in substeps. Time per sample (us),
+with the number of substeps in brackets:
 
 {stiff}
-The cache of regimes is bounded in memory; a run that fills it forgets them all and forms again what it meets. A batch
-of two, a run and its mirror image, which meets the same regimes, shows what that costs: while the cache holds, the
-mirror image is cheaper by what forming them takes; once it overflows, it is not. Buildings with strengths, blocks and
-friction that differ from floor to floor, full damping; memory as far as Linux tells it.
+The cache of regimes is bounded in memory; a run that fills it discards all regimes and forms them again. A batch of a
+run and its mirror image, which enters the same regimes, shows the cost: while the cache suffices, the mirror image
+saves the time of forming them; once it overflows, it does not. Strengths, blocks and friction differ from floor to
+floor, with full damping; memory is what Linux reports.
 
 {cache}"""
 

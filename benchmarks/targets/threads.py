@@ -16,10 +16,10 @@ from targets.batches import Batch, random_batch, study_batch
 from targets.program import timings
 
 TEXT: Final = """\
-The same batch on one thread and on two, taking turns; the kernel alone, no table made. A machine that is shared, or
-lowers its clock when both cores work, gives less than two to anybody. What these two cores give is shown twice: by two
-processes that each solve the whole batch on one thread at the same time and share nothing, and by a loop of pure
-arithmetic in registers and its two copies on two threads. Speed-ups are medians over the turns, beside their quartiles.
+The same batch on one thread and on two, alternating; the kernel alone, without tables. A shared machine, or one that
+lowers its clock when both cores work, gives no program a speed-up of two. What the two cores give is measured in two
+ways: by two processes that each solve the whole batch on one thread at the same time, and by a loop of arithmetic in
+registers on one thread and on two. Speed-ups are medians over the repetitions, with their quartiles.
 
 {table}"""
 PROCESSES: Final = 2

@@ -3,8 +3,11 @@
 from seismass import _kernel
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
+from seismass.block import Block, blocks_on_floors
+from seismass.building import Building
 from seismass.building_file import read_building
 from seismass.codes import CodeFraction, code_fraction, code_table
+from seismass.damping import Rayleigh
 from seismass.effective_mass import (
     EffectiveMass,
     EffectiveMassMap,
@@ -33,6 +36,7 @@ from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
 from seismass.long_table import long_table
 from seismass.matching import MatchedRecord, MatchedSuite, match_spectrum, match_suite
+from seismass.motion import Motion
 from seismass.own_building import OwnBuilding
 from seismass.pulses import OrientationScan, PulseResult, baker2007, baker2007_orientations, shahi_baker2014
 from seismass.records import (
@@ -56,6 +60,7 @@ from seismass.records import (
     rotd,
     synthetic_motion,
 )
+from seismass.response import Response
 from seismass.scaling import (
     FirstModeOscillator,
     PushoverScaling,
@@ -69,10 +74,11 @@ from seismass.scaling import (
     scale_sa_t1,
     select_records,
 )
-from seismass.scene import Block, Building, Rayleigh, Scene, blocks_on_floors
+from seismass.scene import Scene
 from seismass.scene_file import SceneFile, read_scene
-from seismass.simulate import Motion, Response, instruction_set, simulate
+from seismass.simulate import instruction_set, simulate
 from seismass.spectra import InelasticSpectrum, TargetSpectrum, inelastic_spectrum, mean_spectrum, response_spectrum
+from seismass.spring_path import SpringPath, spring_forces
 from seismass.units import STANDARD_GRAVITY
 
 __version__ = _kernel.VERSION
@@ -118,6 +124,7 @@ __all__ = [
     "SeismassError",
     "Selection",
     "SimulationError",
+    "SpringPath",
     "Suite",
     "SyntheticParameters",
     "TargetSpectrum",
@@ -167,6 +174,7 @@ __all__ = [
     "shahi_baker2014",
     "simulate",
     "simulate_many",
+    "spring_forces",
     "stream_many",
     "synthetic_motion",
     "write_many",

@@ -10,6 +10,14 @@ from numpy import float64, int8, int64, uint8, uint32
 from numpy.typing import NDArray
 
 __all__ = [
+    "DEFAULT_OVERSTRENGTH",
+    "DEFAULT_SECOND_SLOPE",
+    "DEFAULT_THIRD_SLOPE",
+    "MAX_SAMPLES",
+    "MAX_STOREYS",
+    "MAX_THREADS",
+    "SHORTEST_PERIOD_OVER_STEP",
+    "STANDARD_GRAVITY",
     "VERSION",
     "Batch",
     "Building",
@@ -18,6 +26,7 @@ __all__ = [
     "ReferenceRun",
     "Response",
     "Scene",
+    "SpringPath",
     "instruction_set",
     "integrate_reference",
     "oscillator_peaks",
@@ -27,6 +36,46 @@ __all__ = [
     "simulate_many",
     "uniform_stiffness",
 ]
+
+DEFAULT_OVERSTRENGTH: Final[float]
+"""
+Default overstrength of a storey.
+"""
+
+DEFAULT_SECOND_SLOPE: Final[float]
+"""
+Default second slope of a storey over the first.
+"""
+
+DEFAULT_THIRD_SLOPE: Final[float]
+"""
+Default third slope of a storey over the first.
+"""
+
+MAX_SAMPLES: Final[int]
+"""
+Most samples of a motion.
+"""
+
+MAX_STOREYS: Final[int]
+"""
+Most storeys of a building.
+"""
+
+MAX_THREADS: Final[int]
+"""
+Most threads of a batch or spectrum.
+"""
+
+SHORTEST_PERIOD_OVER_STEP: Final[float]
+"""
+Shortest period of an oscillator over the time step of its motion.
+"""
+
+STANDARD_GRAVITY: Final[float]
+"""
+Standard gravity (m/s2).
+"""
 
 VERSION: Final[str]
 """
@@ -144,12 +193,10 @@ class Building:
         cls,
         /,
         mass: NDArray[float64],
-        stiffness: NDArray[float64],
-        yield_shear: NDArray[float64],
-        overstrength: NDArray[float64],
-        second_slope: NDArray[float64],
-        third_slope: NDArray[float64],
+        springs: dict[str, NDArray[float64]],
         *,
+        backbones: SupportsGetItem[int, NDArray[float64] | None] | None = None,
+        peak_oriented: SupportsGetItem[int, bool] | None = None,
         damping_ratio: SupportsFloat | SupportsIndex | None = None,
         rayleigh_modes: tuple[SupportsIndex, SupportsIndex] | None = None,
         damping_matrix: NDArray[float64] | None = None,
@@ -158,7 +205,9 @@ class Building:
         geometric_stiffness: NDArray[float64] | None = None,
     ) -> Building:
         """
-        Lists have one value per storey. Damping is `damping_ratio` in every mode, or in two modes, or a matrix.
+        Lists have one value per storey; `springs` has one by the name of each of a spring's numbers that is not the
+        default. A backbone is a table of drift (m) and force (N); a storey without one is trilinear. Damping is
+        `damping_ratio` in every mode, or in two modes, or a matrix.
         """
     @property
     def damping_matrix(self, /) -> NDArray[float64]:
@@ -169,6 +218,10 @@ class Building:
     def periods(self, /) -> NDArray[float64]:
         """
         Natural periods of the bare building without P-Delta (s), longest first.
+        """
+    def spring_path(self, /, storey: SupportsIndex, drifts: NDArray[float64]) -> SpringPath:
+        """
+        Drives the spring of a storey, given by its index, from one drift (m) to the next.
         """
 
 @final
@@ -312,7 +365,7 @@ class Response:
     @property
     def event_element(self, /) -> NDArray[uint8] | None:
         """
-        Spring element of each yield, 1 or 2; otherwise 0.
+        Segments of the backbone left at each yield, 1 at the first; stage of wear that begins; otherwise 0.
         """
     @property
     def event_kind(self, /) -> NDArray[uint8] | None:
@@ -452,6 +505,10 @@ class Scene:
                 SupportsFloat | SupportsIndex,
                 SupportsFloat | SupportsIndex,
                 SupportsFloat | SupportsIndex | None,
+                SupportsGetItem[
+                    int,
+                    tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex],
+                ],
             ],
         ],
         *,
@@ -460,12 +517,64 @@ class Scene:
         collapse_drift: NDArray[float64] | None = None,
     ) -> Scene:
         """
-        Blocks are tuples of floor, mass, mu_s, mu_k and initial velocity (None: that of the floor).
+        Blocks are tuples of floor, mass, mu_s, mu_k, initial velocity (None: that of the floor), and
+        stages of wear, tuples of slip path, mu_s and mu_k.
         """
     @property
     def geometric_stiffness(self, /) -> NDArray[float64]:
         """
         P/h of each storey (N/m), the weight of the blocks included; zero without P-Delta.
+        """
+
+@final
+class SpringPath:
+    """
+    What the spring of a storey did along a list of drifts.
+    """
+    @property
+    def dissipated(self, /) -> NDArray[float64]:
+        """
+        Energy dissipated up to each drift (J).
+        """
+    @property
+    def event_drift(self, /) -> NDArray[float64]:
+        """
+        Drift at each event (m).
+        """
+    @property
+    def event_element(self, /) -> NDArray[uint8]:
+        """
+        Number of segments left at each yield, from 1; otherwise 0.
+        """
+    @property
+    def event_force(self, /) -> NDArray[float64]:
+        """
+        Force at each event (N).
+        """
+    @property
+    def event_kind(self, /) -> NDArray[uint8]:
+        """
+        Kinds of the events, as indices of `Response.event_kinds`.
+        """
+    @property
+    def event_leg(self, /) -> NDArray[uint32]:
+        """
+        Index of the drift on the way to which each event happened.
+        """
+    @property
+    def event_sign(self, /) -> NDArray[int8]:
+        """
+        Sign of each event.
+        """
+    @property
+    def force(self, /) -> NDArray[float64]:
+        """
+        Force at each drift (N).
+        """
+    @property
+    def stored(self, /) -> NDArray[float64]:
+        """
+        Energy stored at each drift (J).
         """
 
 def instruction_set() -> str:

@@ -5,15 +5,16 @@ Arguments are only converted here (their kind and shape); their ranges are judge
 
 from __future__ import annotations
 
+import difflib
 import numbers
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from pathlib import Path
 from typing import Any, Self, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass.errors import SeismassError
+from seismass.errors import InvalidOption, SeismassError
 
 FloatArray: TypeAlias = NDArray[np.float64]
 """Array of doubles; every array that a value class holds is a read-only copy."""
@@ -154,6 +155,16 @@ def frozen(values: Any) -> FloatArray:
     array = np.array(values, dtype=np.float64, order="C", copy=True)
     array.setflags(write=False)
     return array
+
+
+def known_id(value: Any, known: Sequence[str], owner: str, *, hints: int = 1) -> str:
+    """Return the id of a row of a table, in any case; an unknown one is refused, with the closest ids as hints."""
+    wanted = str(value).strip().lower()
+    if wanted not in known:
+        close = difflib.get_close_matches(wanted, known, n=hints, cutoff=0.5)
+        hint = f" (did you mean {' or '.join(close)}?)" if close else ""
+        raise refusal(InvalidOption, "id", owner, f"one of {', '.join(known)}{hint}", brief(value))
+    return wanted
 
 
 def counted(number: int, one: str, several: str | None = None) -> str:

@@ -18,15 +18,16 @@ from seismass.files import polars_writing, written_whole
 from seismass.forks import require_polars
 from seismass.grid import Grid
 from seismass.grid_columns import IndexArray
+from seismass.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
 from seismass.scene import Scene
-from seismass.simulate import HasMotion, Motion, MotionLike, as_motion, instruction_set, motion_names
+from seismass.simulate import instruction_set
 from seismass.temporary import temporary_folder
 
 DEFAULT_CHUNK: Final = 8192
 """Runs solved at once: enough to share propagators and to keep threads busy, in some tens of megabytes."""
 MAX_RUNS: Final = 2**32 - 1
 """Most runs of a batch."""
-MAX_THREADS: Final = 1024
+MAX_THREADS: Final = _kernel.MAX_THREADS
 """Most threads of a batch, as the kernel has it: more than any machine has cores for."""
 
 Progress: TypeAlias = Callable[[int, int], object]

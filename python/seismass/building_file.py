@@ -14,14 +14,15 @@ import numpy as np
 
 from seismass._values import as_number, as_path, brief, printable
 from seismass.codes import CodeFraction, code_fraction
+from seismass.damping import DEFAULT_DAMPING
 from seismass.design import Combination, vibration_modes
 from seismass.errors import InvalidBuildingFile, InvalidOption, SeismassError
 from seismass.friction import BOUND_FACTORS, bound_factors, friction_pair
 from seismass.input_table import Table, load_table
 from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, DesignRule, OwnBuilding
 from seismass.records.builtin import data_directory
-from seismass.scene import DEFAULT_DAMPING, DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 from seismass.spectra import DEFAULT_TL, TargetSpectrum
+from seismass.springs import DEFAULT_THIRD_SLOPE, SHAPE_FIELDS
 from seismass.units import STANDARD_GRAVITY
 
 DEFAULT_CODE: Final = "asce7-10"
@@ -136,8 +137,8 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
     if collapse is not None and heights is None:
         storeys[0].refuse("height_m", f"given where {building.key('collapse_drift_ratio')} is", "nothing")
 
-    def springs(key: str, default: float, low: float, high: float) -> Any:
-        return np.array([_between(storey, building, key, default, low, high) for storey in storeys])
+    def springs(name: str) -> Any:
+        return np.array([_spring(storey, building, name) for storey in storeys])
 
     return OwnBuilding(
         name=top.text("name") or ("building" if path is None else printable(path.stem)),
@@ -148,9 +149,11 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         heights=heights,
         yield_shear=strength,
         design=design,
-        overstrength=springs("overstrength", DEFAULT_OVERSTRENGTH, 1.0, np.inf),
-        second_slope=springs("second_slope", DEFAULT_SECOND_SLOPE, 0.0, 1.0),
-        third_slope=springs("third_slope", DEFAULT_THIRD_SLOPE, 0.0, 1.0),
+        overstrength=springs("overstrength"),
+        second_slope=springs("second_slope"),
+        third_slope=np.array(
+            [_between(storey, building, "third_slope", DEFAULT_THIRD_SLOPE, 0.0, 1.0) for storey in storeys]
+        ),
         damping=_between(building, building, "damping", DEFAULT_DAMPING, 0.0, 1.0),
         gravity_load=_gravity_load(storeys, building, mass) if p_delta else None,
         live_load=live_load,
@@ -226,8 +229,15 @@ def _between(storey: Table, default: Table, key: str, value: float, low: float, 
     held = _held(storey, default, (key,))
     if held is None:
         return value
-    requirement = f"from {low:g} to {high:g}" if np.isfinite(high) else f"finite and at least {low:g}"
-    return _number(*held, requirement, lambda number: low <= number <= high and number < np.inf)
+    return _number(*held, f"from {low:g} to {high:g}", lambda number: low <= number <= high)
+
+
+def _spring(storey: Table, default: Table, name: str) -> float:
+    field = SHAPE_FIELDS[name]
+    held = _held(storey, default, (name,))
+    return (
+        field.default if held is None else _number(*held, field.requirement, lambda number: bool(field.accepts(number)))
+    )
 
 
 def _optional(table: Table, key: str) -> float | None:

@@ -5,13 +5,12 @@ A row of which any part was not read in the code itself says so: check it in the
 
 from __future__ import annotations
 
-import difflib
 from dataclasses import asdict, dataclass
 from typing import Final, Literal, TypeAlias, get_args
 
 import polars as pl
 
-from seismass._values import brief, refusal
+from seismass._values import brief, known_id, refusal
 from seismass.errors import InvalidOption
 
 Use: TypeAlias = Literal["storage", "ordinary"]
@@ -278,11 +277,7 @@ def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:
     >>> sm.code_fraction("ec8", "storage").status
     'from memory, unverified'
     """
-    wanted = str(code_id).strip().lower()
-    if wanted not in CODE_IDS:
-        close = difflib.get_close_matches(wanted, CODE_IDS, n=1, cutoff=0.5)
-        hint = f" (did you mean {close[0]}?)" if close else ""
-        raise refusal(InvalidOption, "id", "code", f"one of {', '.join(CODE_IDS)}{hint}", brief(code_id))
+    wanted = known_id(code_id, CODE_IDS, "code")
     if use not in get_args(Use):
         raise refusal(InvalidOption, "use", "code", f"one of {', '.join(get_args(Use))}", brief(use))
     found = {row.use: row for row in _ROWS if row.code_id == wanted}

@@ -5,13 +5,12 @@ Transport rules give low design values, safe against slip. For the mass of goods
 
 from __future__ import annotations
 
-import difflib
 from dataclasses import asdict, dataclass
 from typing import Any, Final
 
 import polars as pl
 
-from seismass._values import as_number, brief, refusal
+from seismass._values import as_number, brief, known_id, refusal
 from seismass.errors import InvalidOption
 
 BOUND_FACTORS: Final = (0.67, 1.5)
@@ -169,12 +168,7 @@ def friction_pair(pair_id: str) -> FrictionPair:
     >>> pair.mu_s, pair.mu_k
     (0.4, 0.3)
     """
-    wanted = str(pair_id).strip().lower()
-    if wanted not in FRICTION_IDS:
-        close = difflib.get_close_matches(wanted, FRICTION_IDS, n=3, cutoff=0.5)
-        hint = f" (did you mean {' or '.join(close)}?)" if close else ""
-        raise refusal(InvalidOption, "id", "friction pair", f"one of {', '.join(FRICTION_IDS)}{hint}", brief(pair_id))
-    return _ROWS[FRICTION_IDS.index(wanted)]
+    return _ROWS[FRICTION_IDS.index(known_id(pair_id, FRICTION_IDS, "friction pair", hints=3))]
 
 
 def friction_table(factors: tuple[float, float] = BOUND_FACTORS) -> pl.DataFrame:
@@ -196,15 +190,17 @@ def friction_table(factors: tuple[float, float] = BOUND_FACTORS) -> pl.DataFrame
     InvalidOption
         The factors are not two numbers around 1.
     """
-    rows = []
-    for pair in _ROWS:
-        low, high = pair.bounds(factors)
-        row = asdict(pair)
-        rows.append(
-            {**{key: row[key] for key in ("pair_id", "contact", "mu_s", "mu_k")}, "mu_low": low, "mu_high": high}
-            | {"source": pair.source, "kind": pair.kind}
-        )
-    return pl.DataFrame(rows)
+    low, high = bound_factors(factors, "friction pair")
+    return pl.DataFrame([asdict(pair) for pair in _ROWS]).select(
+        "pair_id",
+        "contact",
+        "mu_s",
+        "mu_k",
+        (low * pl.col("mu_s")).alias("mu_low"),
+        (high * pl.col("mu_s")).alias("mu_high"),
+        "source",
+        "kind",
+    )
 
 
 def bound_factors(given: Any, owner: str) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, Final, Literal, Self, TypeAlias, get_args
+from typing import Any, Final, Literal, Self, TypeAlias, Unpack, get_args
 
 import numpy as np
 import polars as pl
@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_number, brief, refusal
+from seismass.block import Block
+from seismass.building import Building
 from seismass.errors import InvalidOption, InvalidScene
 from seismass.forks import require_polars
 from seismass.grid_buildings import (
@@ -21,8 +23,18 @@ from seismass.grid_buildings import (
     changing_values,
     given_buildings,
 )
-from seismass.grid_columns import Column, IndexArray, block_values, index_values, number_values, share_values
-from seismass.scene import Block, Building, Scene
+from seismass.grid_columns import (
+    AXES,
+    Column,
+    IndexArray,
+    as_given,
+    block_values,
+    index_values,
+    number_values,
+    share_values,
+)
+from seismass.scene import Scene
+from seismass.springs import SHAPE_FIELDS, SpringShape, checked_names, takes_springs
 
 Roof: TypeAlias = Literal["loaded", "bare"]
 """Whether the uppermost floor of a building carries blocks."""
@@ -57,8 +69,8 @@ class Grid:
     yield_shear_over_weight : array_like, optional
         V_y of each scene over the weight of its building without live load, instead of `strength`: one value for all
         storeys, or a row per scene, whose length is its number of storeys.
-    overstrength, second_slope : array_like, optional
-        Omega and r2 of all storeys of each scene.
+    overstrength, second_slope, ... : array_like, optional
+        What shapes the springs of all storeys of each scene: the arguments of `Building` beside stiffness and strength.
     floors : array_like of int, optional
         Floor of each block, counted from 1; several blocks may share one. By default a block on every floor.
     roof : {"loaded", "bare"}, default "loaded"
@@ -152,6 +164,7 @@ class Grid:
     _everywhere: bool
     _roof_is_bare: bool
 
+    @takes_springs(SHAPE_FIELDS, default=None)
     def __init__(
         self,
         building: Building | Sequence[Building] | None = None,
@@ -161,8 +174,6 @@ class Grid:
         building_index: ArrayLike | None = None,
         strength: ArrayLike | None = None,
         yield_shear_over_weight: ArrayLike | None = None,
-        overstrength: ArrayLike | None = None,
-        second_slope: ArrayLike | None = None,
         floors: ArrayLike | None = None,
         roof: Roof = "loaded",
         mass_ratio: ArrayLike | None = None,
@@ -175,7 +186,9 @@ class Grid:
         scale: ArrayLike | None = None,
         motion: ArrayLike | None = None,
         collapse_drift: float | None = None,
+        **shape: Unpack[SpringShape],
     ) -> None:
+        checked_names(dict(shape), SHAPE_FIELDS, "Grid")
         uniform, index, periods = given_buildings(building, storeys, period)
         self._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
         if storeys is not None:
@@ -192,8 +205,7 @@ class Grid:
             period=period,
             strength=strength,
             yield_shear_over_weight=yield_shear_over_weight,
-            overstrength=overstrength,
-            second_slope=second_slope,
+            **shape,
         )
         values |= share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
         indices = {"building": index}
@@ -204,7 +216,7 @@ class Grid:
         for name, length in lengths.items():
             if length not in (1, self._length):
                 requirement = f"one value, or as many as the longest column has, {self._length}"
-                given = "storeys" if name == "building" and storeys is not None else _as_given(name, mu)
+                given = "storeys" if name == "building" and storeys is not None else as_given(name, mu)
                 raise refusal(InvalidScene, given, "grid", requirement, f"{length} values")
         self._columns = {name: Column(column) for name, column in values.items()}
         self._indices = {name: Column(column) for name, column in indices.items()}
@@ -212,6 +224,7 @@ class Grid:
         self._check(range(self._length))
 
     @classmethod
+    @takes_springs(SHAPE_FIELDS, default=None)
     def product(
         cls,
         building: Building | Sequence[Building] | None = None,
@@ -220,8 +233,6 @@ class Grid:
         period: ArrayLike | None = None,
         strength: ArrayLike | None = None,
         yield_shear_over_weight: ArrayLike | None = None,
-        overstrength: ArrayLike | None = None,
-        second_slope: ArrayLike | None = None,
         floors: ArrayLike | None = None,
         roof: Roof = "loaded",
         mass_ratio: ArrayLike | None = None,
@@ -233,12 +244,13 @@ class Grid:
         mu_k: ArrayLike | None = None,
         scale: ArrayLike | None = None,
         collapse_drift: float | None = None,
+        **shape: Unpack[SpringShape],
     ) -> Self:
         """Return every combination of the values of each axis, of which only the axes are held.
 
-        The axes are building, period, strength, overstrength, second slope, mass ratio, attached share, friction and
-        scale, the last changing fastest: scenes that follow each other share propagators. Together they are one axis:
-        `storeys` with `period`, `attached` with `sliding`, `mu_s` with `mu_k`.
+        The axes are building, period, strength, overstrength, slopes and what else shapes springs, mass ratio, attached
+        share, friction and scale, the last changing fastest: scenes that follow each other share propagators. Together
+        they are one axis: `storeys` with `period`, `attached` with `sliding`, `mu_s` with `mu_k`.
 
         Parameters
         ----------
@@ -246,7 +258,7 @@ class Grid:
             The buildings.
         storeys, period : array_like, optional
             Numbers of storeys with the first period of each (s); or periods for every building.
-        strength, overstrength, second_slope : array_like, optional
+        strength, overstrength, second_slope, ... : array_like, optional
             Values, each for all storeys.
         yield_shear_over_weight : array_like, optional
             Values for all storeys, or rows with one value per storey.
@@ -274,6 +286,7 @@ class Grid:
         >>> grid.table(4, 5)["mu_s"].to_list()
         [0.3, 0.3]
         """
+        checked_names(dict(shape), SHAPE_FIELDS, "Grid.product")
         grid = cls.__new__(cls)
         uniform, index, periods = given_buildings(building, storeys, period)
         grid._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
@@ -285,19 +298,18 @@ class Grid:
             period=None if storeys is not None else period,
             strength=strength,
             yield_shear_over_weight=yield_shear_over_weight,
-            overstrength=overstrength,
-            second_slope=second_slope,
+            **shape,
         )
         values |= share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
         lengths = {"building": len(index)}
-        for axis, names in _AXES.items():
+        for axis, names in AXES.items():
             given = {name: len(values[name]) for name in names if name in values}
             lengths[axis] = next((length for length in given.values() if length > 1), 1)
             for name, length in given.items():
                 if length not in (1, lengths[axis]):
                     other = next(other for other in names if other != name)
                     requirement = f"one value, or as many as {other} has, {lengths[axis]}"
-                    raise refusal(InvalidScene, _as_given(name, mu), "grid", requirement, f"{length} values")
+                    raise refusal(InvalidScene, as_given(name, mu), "grid", requirement, f"{length} values")
         each, total = {}, 1
         for axis in reversed(lengths):
             each[axis] = total
@@ -305,7 +317,7 @@ class Grid:
         if total > MAX_SCENES:
             raise refusal(InvalidOption, "scenes", "grid", f"at most {MAX_SCENES}", f"{total}")
         grid._length = total
-        axis_of = {name: axis for axis, names in _AXES.items() for name in names}
+        axis_of = {name: axis for axis, names in AXES.items() for name in names}
         grid._columns = {name: Column(column, each[axis_of[name]]) for name, column in values.items()}
         grid._indices = {"building": Column(index, each["building"])}
         grid._set_formed(periods, damping)
@@ -345,8 +357,8 @@ class Grid:
         """Return the columns of the scenes from `first` to `last`, both included (default: all), as a frame.
 
         It has the number of the scene as `scene`, by which results are joined, the number of the `building`, its
-        `storeys` and `period` (s, without live load), and of `strength`, `yield_shear_over_weight`, `overstrength`,
-        `second_slope`, `mass_ratio`, `attached`, `sliding`, `mu_s`, `mu_k`, `scale` and `motion` those that were given;
+        `storeys` and `period` (s, without live load), and of `strength`, `yield_shear_over_weight`, what shapes the
+        springs, `mass_ratio`, `attached`, `sliding`, `mu_s`, `mu_k`, `scale` and `motion` those that were given;
         lists where storeys or blocks differ.
 
         Raises
@@ -497,22 +509,3 @@ class Grid:
 def _parts(numbers: range) -> Iterator[range]:
     for first in range(0, len(numbers), _CHECKED_AT_ONCE):
         yield numbers[first : first + _CHECKED_AT_ONCE]
-
-
-_AXES: Final = {
-    "period": ("period",),
-    "strength": ("strength", "yield_shear_over_weight"),
-    "overstrength": ("overstrength",),
-    "second_slope": ("second_slope",),
-    "mass_ratio": ("mass_ratio",),
-    "attached": ("attached", "sliding"),
-    "friction": ("mu_s", "mu_k"),
-    "scale": ("scale",),
-}
-"""Axes of a product beside the building, and what each of them holds."""
-
-
-def _as_given(name: str, mu: Any) -> str:
-    """Name under which the user gave a column."""
-    names = {"building": "building_index"}
-    return "mu" if name in ("mu_s", "mu_k") and mu is not None else names.get(name, name)

@@ -9,16 +9,17 @@ from typing import Any, Final, Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from seismass._values import FloatArray, brief, refusal
+from seismass.building import Building, changed_building
 from seismass.errors import InvalidScene
 from seismass.grid_columns import Column, IndexArray, index_values, number_values, strength_table
-from seismass.scene import Building, changed_building
+from seismass.springs import SHAPE_FIELDS
 from seismass.units import STANDARD_GRAVITY
 
 AttachedDamping: TypeAlias = Literal["same", "ratio"]
 """Damping of a building to which live load is attached: the matrix that it has without, or its ratio in new modes."""
 ATTACHED_DAMPING: Final = get_args(AttachedDamping)
 
-CHANGING: Final = ("period", "strength", "yield_shear_over_weight", "overstrength", "second_slope")
+CHANGING: Final = ("period", "strength", "yield_shear_over_weight", *SHAPE_FIELDS)
 """Columns that change a building as it is given, beside the live load that is attached to it."""
 
 
@@ -107,7 +108,7 @@ class BuildingColumns:
         """The building of a scene, and the mass of each block's floor over that without attached live load."""
         building = self.given[index]
         value = {name: self.columns[name].of(scene)[0] for name in CHANGING if name in self.columns}
-        changes: dict[str, Any] = {name: value[name] for name in ("overstrength", "second_slope") if name in value}
+        changes: dict[str, Any] = {name: value[name] for name in SHAPE_FIELDS if name in value}
         if "period" in value:
             faster = float(building.periods[0]) / value["period"]
             changes["stiffness"] = building.stiffness * faster**2
@@ -191,6 +192,10 @@ def changing_values(
         if "strength" in values:
             raise refusal(InvalidScene, "strength", "grid", "left out where yield_shear_over_weight is given", "both")
         values["yield_shear_over_weight"] = strength_table(yield_shear_over_weight)
+    if any(building.backbone is not None for building in buildings):
+        for name, column in values.items():
+            requirement = "left out where a building has a backbone"
+            raise refusal(InvalidScene, name, "grid", requirement, brief(column.tolist()))
     if "strength" in values and all(np.isinf(building.yield_shear).all() for building in buildings):
         requirement = "left out where buildings are elastic (yield_shear_over_weight makes them yield)"
         raise refusal(InvalidScene, "strength", "grid", requirement, brief(numbers["strength"]))

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass._values import FloatArray, as_array, brief, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidScene, SeismassError
+from seismass.springs import SHAPE_FIELDS
 
 IndexArray = NDArray[np.int64]
 _T = TypeVar("_T", np.int64, np.float64)
@@ -32,12 +33,22 @@ class Column(Generic[_T]):
 _RANGES: Final[dict[str, tuple[type[SeismassError], str, Callable[[FloatArray], NDArray[np.bool_]]]]] = {
     "period": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
     "strength": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
-    "overstrength": (InvalidScene, "finite and at least 1", lambda v: np.isfinite(v) & (v >= 1.0)),
-    "second_slope": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
+    **{name: (InvalidScene, field.requirement, field.accepts) for name, field in SHAPE_FIELDS.items()},
     "attached": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
     "sliding": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
     "scale": (InvalidMotion, "a finite number", np.isfinite),
 }
+
+AXES: Final = {
+    "period": ("period",),
+    "strength": ("strength", "yield_shear_over_weight"),
+    **{name: (name,) for name in SHAPE_FIELDS},
+    "mass_ratio": ("mass_ratio",),
+    "attached": ("attached", "sliding"),
+    "friction": ("mu_s", "mu_k"),
+    "scale": ("scale",),
+}
+"""Axes of a product beside the building, and what each of them holds."""
 
 
 def number_values(given: dict[str, ArrayLike | None]) -> dict[str, FloatArray]:
@@ -154,3 +165,9 @@ def share_values(attached: Any, sliding: Any, mass_ratio: Any) -> dict[str, Floa
             got = f"{both[wrong[0]]:g} together as value {wrong[0] + 1}"
             raise refusal(InvalidScene, "attached and sliding", "grid", "shares of at most 1 together", got)
     return values
+
+
+def as_given(name: str, mu: Any) -> str:
+    """Return the name under which the user gave a column."""
+    names = {"building": "building_index"}
+    return "mu" if name in ("mu_s", "mu_k") and mu is not None else names.get(name, name)

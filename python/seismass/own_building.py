@@ -12,10 +12,13 @@ from typing import Final
 import numpy as np
 
 from seismass._values import FloatArray, brief, refusal
+from seismass.block import Block
+from seismass.building import Building
 from seismass.codes import CodeFraction
+from seismass.damping import DEFAULT_DAMPING
 from seismass.design import Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
 from seismass.errors import InvalidOption
-from seismass.scene import Block, Building, Scene
+from seismass.scene import Scene
 from seismass.spectra import TargetSpectrum
 from seismass.units import STANDARD_GRAVITY
 
@@ -176,7 +179,7 @@ class OwnBuilding:
             self.stiffness,
             self.site_spectrum(target),
             combination="srss" if self.design is None else self.design.combination,
-            damping=self.damping or 0.05,
+            damping=self.damping or DEFAULT_DAMPING,
         )
 
     def site_spectrum(self, target: TargetSpectrum | None = None) -> TargetSpectrum:

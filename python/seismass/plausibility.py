@@ -13,8 +13,9 @@ import numpy as np
 from seismass.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
+    from seismass.building import Building
     from seismass.scaling import ScalingResult
-    from seismass.scene import Building, Scene
+    from seismass.scene import Scene
     from seismass.spectra import TargetSpectrum
 
 MAX_FRICTION: Final = 1.5

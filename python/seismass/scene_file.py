@@ -9,16 +9,22 @@ from typing import Any, Final
 
 import numpy as np
 
+from seismass import _kernel
 from seismass._values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
+from seismass.block import Block
+from seismass.building import Building, as_fraction_of_weight
+from seismass.damping import Rayleigh
 from seismass.errors import InvalidMotion, InvalidScene, InvalidSceneFile
 from seismass.input_table import Table, load_table
+from seismass.motion import Motion
 from seismass.plausibility import motion_remarks
 from seismass.records import Record, read_record
-from seismass.scene import MAX_STOREYS, Block, Building, Rayleigh, Scene, as_fraction_of_weight
-from seismass.simulate import Motion
+from seismass.scene import Scene
+from seismass.spring_laws import is_per_storey
+from seismass.springs import SPRING_FIELDS
 from seismass.units import ACCELERATION_UNITS
 
-_SPRING_KEYS = ("overstrength", "second_slope", "third_slope", "heights", "gravity_load", "geometric_stiffness")
+_SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
 KEYS: Final = {
     "": (
@@ -38,13 +44,14 @@ KEYS: Final = {
         "stiffness",
         "storeys",
         "period",
-        "yield_shear",
+        *_SPRING_KEYS,
+        "backbone",
+        "hysteresis",
         "yield_shear_over_weight",
         "damping",
-        *_SPRING_KEYS,
     ),
     "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
-    "blocks": ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity"),
+    "blocks": ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear"),
     "motion": ("file", "acceleration", "dt", "unit", "scale", "dt_scale"),
     "initial": ("drift", "velocity"),
 }
@@ -163,14 +170,18 @@ def _building(table: Table) -> Building:
     if "gravity_load" in table.values:
         table.needed("heights")
     springs = {key: table.values[key] for key in _SPRING_KEYS if key in table.values}
+    for key, field in SPRING_FIELDS.items():
+        if key in springs and np.isinf(field.default):
+            springs[key] = _infinite_where_null(springs[key])
     if "damping" in table.values:
         springs["damping"] = _damping(table)
-    yield_shear = _yield_shear(table.values.get("yield_shear"))
-    if yield_shear is not None:
-        springs["yield_shear"] = yield_shear
-    over_weight = _yield_shear(table.values.get("yield_shear_over_weight"))
+    over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
+    springs |= {key: table.values[key] for key in ("backbone", "hysteresis") if key in table.values}
+    if isinstance(springs.get("backbone"), list):  # TOML has no null
+        springs["backbone"] = [None if points == [] else points for points in springs["backbone"]]
     if "period" in table.values:
         table.excluded("stiffness", "period")
+        table.excluded("backbone", "period")
         table.needed("storeys")
         if isinstance(table.values.get("mass"), list):
             table.refuse("mass", f"one number where {table.key('period')} is given", brief(table.values["mass"]))
@@ -182,9 +193,9 @@ def _building(table: Table) -> Building:
             yield_shear_over_weight=over_weight,
             **springs,
         )
-    table.needed("stiffness", "period")
+    table.needed("stiffness", "period", "backbone")
     table.needed("mass")
-    mass, stiffness = table.values["mass"], table.values["stiffness"]
+    mass, stiffness = table.values["mass"], table.values.get("stiffness")
     count = _storeys(table, over_weight, springs)
     if count is not None:
         mass = np.full(count, as_number(mass, "mass", "building", InvalidScene))
@@ -196,20 +207,22 @@ def _building(table: Table) -> Building:
 
 def _storeys(table: Table, over_weight: Any, springs: dict[str, Any]) -> int | None:
     """Number of storeys as stated, or that of the strengths over the weight where nothing else is a list."""
-    listed = any(isinstance(table.values[key], list) for key in ("mass", "stiffness"))
+    listed = any(isinstance(table.values.get(key), list) for key in ("mass", "stiffness"))
     if "storeys" in table.values:
         count = as_count(table.values["storeys"], "storeys", "building", InvalidScene, least=1)
         if listed:
             table.refuse("storeys", "left out where mass or stiffness is a list", str(count))
-        if count > MAX_STOREYS:
-            raise refusal(InvalidScene, "storeys", "building", f"at most {MAX_STOREYS}", str(count))
+        if count > _kernel.MAX_STOREYS:
+            raise refusal(InvalidScene, "storeys", "building", f"at most {_kernel.MAX_STOREYS}", str(count))
         return count
-    listed = listed or any(isinstance(value, list) for value in springs.values())
+    listed = listed or any(
+        is_per_storey(value) if key == "backbone" else isinstance(value, list) for key, value in springs.items()
+    )
     return len(over_weight) if isinstance(over_weight, list) and over_weight and not listed else None
 
 
-def _yield_shear(value: Any) -> Any:
-    """A null in a list is a storey that stays elastic; JSON has no infinity."""
+def _infinite_where_null(value: Any) -> Any:
+    """A null in a list stands for infinity, which JSON has not: a storey that stays elastic."""
     return [np.inf if item is None else item for item in value] if isinstance(value, list) else value
 
 
@@ -238,10 +251,11 @@ def _block(table: Table, number: int) -> Block:
     table.excluded("mu", "mu_s", "mu_k")
     owner = f"block {number}"
     floor = as_count(table.values["floor"], "floor", owner, InvalidScene)
-    values = {key: as_number(value, key, owner, InvalidScene) for key, value in table.values.items() if key != "floor"}
+    others = {key: value for key, value in table.values.items() if key not in ("floor", "wear")}
+    values = {key: as_number(value, key, owner, InvalidScene) for key, value in others.items()}
     if "mu" in values and not 0.0 <= values["mu"] < np.inf:  # the kernel would call it mu_s
         raise refusal(InvalidScene, "mu", owner, "finite and not negative", f"{values['mu']:g}")
-    return Block(floor, **values)
+    return Block(floor, **values, wear=table.values.get("wear", ()))
 
 
 def _motions(top: Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:

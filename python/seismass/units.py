@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from typing import Final
 
-STANDARD_GRAVITY: Final = 9.80665
+from seismass import _kernel
+
+STANDARD_GRAVITY: Final = _kernel.STANDARD_GRAVITY
 """Standard gravity (m/s2), 3rd CGPM 1901: the g of every number in this package."""
 
 ACCELERATION_UNITS: Final = {"g": STANDARD_GRAVITY, "m/s2": 1.0, "cm/s2": 0.01, "gal": 0.01}

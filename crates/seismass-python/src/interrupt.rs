@@ -18,7 +18,7 @@ use crate::errors::{from_kernel, from_panic, simulation_error};
 const WATCH_INTERVAL: Duration = Duration::from_millis(50);
 
 /// More threads than any machine has cores for; starting them would take longer than the work.
-const MAX_THREADS: usize = 1024;
+pub(crate) const MAX_THREADS: usize = 1024;
 
 /// The number of threads of a batch or spectrum (`owner`), refused beyond [`MAX_THREADS`].
 pub(crate) fn checked_threads(py: Python<'_>, threads: Option<usize>, owner: &str) -> PyResult<Option<usize>> {

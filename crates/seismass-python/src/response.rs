@@ -279,7 +279,7 @@ impl Response {
         self.event_column(|event| event.sign)
     }
 
-    /// Spring element of each yield, 1 or 2; otherwise 0.
+    /// Segments of the backbone left at each yield, 1 at the first; stage of wear that begins; otherwise 0.
     #[getter]
     fn event_element(&self) -> Option<Output<u8>> {
         self.event_column(|event| event.element)

@@ -1,14 +1,16 @@
 //! Building, Scene, Motion: validated input that the kernel holds for Python.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use pyo3::prelude::*;
-use seismass::{Damping, Domain, Error, GravityEffect, Storey};
+use seismass::{Damping, Domain, Error, GravityEffect, Wear};
 
 use crate::arrays::{Output, Table, Values};
 use crate::errors::from_kernel;
 use crate::interrupt::{run_inline, run_watched};
+use crate::springs::{self, SpringPath};
 
 /// Runs work that finds the frequencies of so many storeys, watched for Ctrl-C where it takes longer than milliseconds: it
 /// grows like their cube.
@@ -27,20 +29,19 @@ pub(crate) struct Building(pub(crate) Arc<seismass::Building>);
 
 #[pymethods]
 impl Building {
-    /// Lists have one value per storey. Damping is `damping_ratio` in every mode, or in two modes, or a matrix.
+    /// Lists have one value per storey; `springs` has one by the name of each of a spring's numbers that is not the
+    /// default. A backbone is a table of drift (m) and force (N); a storey without one is trilinear. Damping is
+    /// `damping_ratio` in every mode, or in two modes, or a matrix.
     #[new]
-    #[pyo3(signature = (mass, stiffness, yield_shear, overstrength, second_slope, third_slope, *, damping_ratio=None,
-        rayleigh_modes=None, damping_matrix=None, heights=None, gravity_load=None, geometric_stiffness=None))]
+    #[pyo3(signature = (mass, springs, *, backbones=None, peak_oriented=None, damping_ratio=None, rayleigh_modes=None, damping_matrix=None, heights=None,
+        gravity_load=None, geometric_stiffness=None))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python<'_>,
         mass: Values<f64>,
-        stiffness: Values<f64>,
-        yield_shear: Values<f64>,
-        overstrength: Values<f64>,
-        second_slope: Values<f64>,
-        third_slope: Values<f64>,
-        law: Default::default(),
+        springs: BTreeMap<String, Values<f64>>,
+        backbones: Option<Vec<Option<Table<f64>>>>,
+        peak_oriented: Option<Vec<bool>>,
         damping_ratio: Option<f64>,
         rayleigh_modes: Option<(usize, usize)>,
         damping_matrix: Option<Table<f64>>,
@@ -48,7 +49,6 @@ impl Building {
         gravity_load: Option<Values<f64>>,
         geometric_stiffness: Option<Values<f64>>,
     ) -> PyResult<Self> {
-        let springs = [&stiffness, &yield_shear, &overstrength, &second_slope, &third_slope];
         let damping = match (damping_ratio, rayleigh_modes, damping_matrix) {
             (Some(ratio), None, None) => Ok(Damping::Modal { ratio }),
             (Some(ratio), Some((first, second)), None) => Ok(Damping::Rayleigh { ratio, modes: [first, second] }),
@@ -62,9 +62,18 @@ impl Building {
             _ => Err(refuse("P-Delta", "geometric_stiffness, or heights and gravity_load", "another combination")),
         };
         let count = mass.0.len();
-        let storeys = storeys(count, springs);
+        let storeys = springs::storeys(count, &springs, backbones.as_deref(), peak_oriented.as_deref());
         find_frequencies(py, count, move || seismass::Building::new(mass.0, storeys?, damping?)?.with_gravity(gravity?))
             .map(|building| Self(Arc::new(building)))
+    }
+
+    /// Drives the spring of a storey, given by its index, from one drift (m) to the next.
+    fn spring_path(&self, py: Python<'_>, storey: usize, drifts: Values<f64>) -> PyResult<SpringPath> {
+        let path = match self.0.storeys().get(storey) {
+            Some(storey) => SpringPath::new(storey, &drifts.0),
+            None => Err(refuse("storey", "one of those of the building", &storey.to_string())),
+        };
+        path.map_err(|error| from_kernel(py, &error))
     }
 
     /// Natural periods of the bare building without P-Delta (s), longest first.
@@ -82,7 +91,7 @@ impl Building {
     }
 }
 
-fn refuse(parameter: &str, requirement: &str, value: &str) -> Error {
+pub(crate) fn refuse(parameter: &str, requirement: &str, value: &str) -> Error {
     Error::invalid(Domain::Scene, parameter, "building", requirement, value)
 }
 
@@ -94,38 +103,22 @@ fn square(matrix: &Table<f64>) -> seismass::Result<DMatrix<f64>> {
     Ok(DMatrix::from_row_slice(matrix.rows, matrix.columns, &matrix.values))
 }
 
-/// The springs, from lists that must be as long as the list of masses.
-fn storeys(count: usize, lists: [&Values<f64>; 5]) -> seismass::Result<Vec<Storey>> {
-    const NAMES: [&str; 5] = ["stiffness", "yield_shear", "overstrength", "second_slope", "third_slope"];
-    for (name, list) in NAMES.into_iter().zip(lists) {
-        if list.0.len() != count {
-            let requirement = format!("one number or a list of {count} values, one per storey");
-            return Err(refuse(name, &requirement, &format!("{} values", list.0.len())));
-        }
-    }
-    let [stiffness, yield_shear, overstrength, second_slope, third_slope] = lists;
-    Ok((0..count)
-        .map(|i| Storey {
-            stiffness: stiffness.0[i],
-            yield_shear: yield_shear.0[i],
-            overstrength: overstrength.0[i],
-            second_slope: second_slope.0[i],
-            third_slope: third_slope.0[i],
-            law: Default::default(),
-        })
-        .collect())
-}
-
 /// Building and blocks held by the kernel.
 #[pyclass(frozen, module = "seismass._kernel")]
 pub(crate) struct Scene(pub(crate) seismass::Scene);
 
-/// Floor, mass (kg), mu_s, mu_k, initial velocity (m/s).
-type BlockTuple = (usize, f64, f64, f64, Option<f64>);
+/// Floor, mass (kg), mu_s, mu_k, initial velocity (m/s), and stages of wear: slip path (m), mu_s, mu_k.
+type BlockTuple = (usize, f64, f64, f64, Option<f64>, Vec<(f64, f64, f64)>);
+
+fn block((floor, mass, mu_s, mu_k, velocity, wear): BlockTuple) -> seismass::Block {
+    let wear = wear.into_iter().map(|(path, mu_s, mu_k)| Wear { path, mu_s, mu_k }).collect();
+    seismass::Block { floor, mass, mu_s, mu_k, velocity, wear }
+}
 
 #[pymethods]
 impl Scene {
-    /// Blocks are tuples of floor, mass, mu_s, mu_k and initial velocity (None: that of the floor).
+    /// Blocks are tuples of floor, mass, mu_s, mu_k, initial velocity (None: that of the floor), and
+    /// stages of wear, tuples of slip path, mu_s and mu_k.
     #[new]
     #[pyo3(signature = (building, blocks, *, initial_drift=None, initial_velocity=None, collapse_drift=None))]
     fn new(
@@ -136,17 +129,7 @@ impl Scene {
         initial_velocity: Option<Values<f64>>,
         collapse_drift: Option<Values<f64>>,
     ) -> PyResult<Self> {
-        let blocks = blocks
-            .into_iter()
-            .map(|(floor, mass, mu_s, mu_k, velocity)| seismass::Block {
-                floor,
-                mass,
-                mu_s,
-                mu_k,
-                velocity,
-                wear: Vec::new(),
-            })
-            .collect();
+        let blocks = blocks.into_iter().map(block).collect();
         let build = || {
             let mut scene = seismass::Scene::new(building.map(|b| Arc::clone(&b.0)), blocks)?;
             let at_rest = vec![0.0; scene.storeys()];

@@ -6,8 +6,8 @@ use crate::lanes::{FAR, MAX_LANES, Vector, load, store};
 use crate::observe::Observer;
 use crate::padded::Padded;
 use crate::regime::Row;
+use crate::sign::Sign;
 use crate::state::State;
-use crate::storey::Sign;
 
 /// Storeys or floors as bits.
 pub(crate) type Set = u64;
@@ -160,7 +160,7 @@ impl State<'_> {
     /// Drift coordinates of a storey between which it does not yield or collapse.
     #[inline]
     pub(crate) fn guarded_drift(&self, i: usize) -> (f64, f64) {
-        let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
+        let (yields, collapses) = (self.segment_ends[i], self.collapse_bounds[i]);
         (yields.0.max(collapses.0), yields.1.min(collapses.1))
     }
 }

@@ -3,12 +3,13 @@
 use crate::STANDARD_GRAVITY;
 use crate::bernstein::Polynomial;
 use crate::bounds::{Set, members};
-use crate::friction::{self, BlockLaw, BlockMotion, BlockState, Cause, settle};
+use crate::friction::{self, BlockMotion, BlockState, Cause, settle};
 use crate::lanes::{FAR, Plain, Vector, WIDTH, by_width, for_each_path};
 use crate::regime::Row;
 use crate::response::{Event, EventKind};
+use crate::segment::Crossing;
+use crate::sign::Sign;
 use crate::state::{State, THIRD, stays_above_zero};
-use crate::storey::Sign;
 
 /// A guard falls when it is below zero by more than this fraction of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -20,16 +21,18 @@ const ARRIVED: f64 = 64.0 * f64::EPSILON;
 /// What happens when a guard falls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Guard {
-    /// The next element of a storey yields.
-    Yield { storey: usize, sign: Sign },
+    /// A storey comes to an end of its spring's segment.
+    SegmentEnd { storey: usize, sign: Sign },
     /// A storey reaches its collapse drift.
     Collapse { storey: usize },
-    /// A plastic storey's velocity turns.
-    Unload { storey: usize },
+    /// A storey's velocity turns, where the segment of its spring does not allow it.
+    Turn { storey: usize },
     /// A block stuck to a floor (0: the ground) breaks away, with this sign of the floor acceleration.
     Breakaway { floor: usize, sign: Sign },
     /// A sliding block comes to rest.
     Arrival { block: usize },
+    /// The friction coefficients of a sliding block change.
+    Wear { block: usize },
     /// The contact force of all blocks vanishes or returns.
     Contact,
 }
@@ -39,12 +42,13 @@ impl Guard {
     #[inline(always)]
     fn packed(self) -> u64 {
         let (kind, sign, number) = match self {
-            Self::Yield { storey, sign } => (1, sign, storey),
+            Self::SegmentEnd { storey, sign } => (1, sign, storey),
             Self::Collapse { storey } => (2, Sign::Positive, storey),
-            Self::Unload { storey } => (3, Sign::Positive, storey),
+            Self::Turn { storey } => (3, Sign::Positive, storey),
             Self::Breakaway { floor, sign } => (4, sign, floor),
             Self::Arrival { block } => (5, Sign::Positive, block),
-            Self::Contact => (6, Sign::Positive, 0),
+            Self::Wear { block } => (6, Sign::Positive, block),
+            Self::Contact => (7, Sign::Positive, 0),
         };
         kind | u64::from(sign == Sign::Negative) << 8 | (number as u64) << 16
     }
@@ -55,19 +59,20 @@ impl Guard {
         let sign = if packed >> 8 & 1 == 0 { Sign::Positive } else { Sign::Negative };
         let number = (packed >> 16) as usize;
         match packed & 0xff {
-            1 => Some(Self::Yield { storey: number, sign }),
+            1 => Some(Self::SegmentEnd { storey: number, sign }),
             2 => Some(Self::Collapse { storey: number }),
-            3 => Some(Self::Unload { storey: number }),
+            3 => Some(Self::Turn { storey: number }),
             4 => Some(Self::Breakaway { floor: number, sign }),
             5 => Some(Self::Arrival { block: number }),
-            6 => Some(Self::Contact),
+            6 => Some(Self::Wear { block: number }),
+            7 => Some(Self::Contact),
             _ => None,
         }
     }
 
     /// Whether nothing jumps at its event: forces and accelerations go on from where they are.
     pub(crate) fn is_smooth(self) -> bool {
-        matches!(self, Self::Yield { .. } | Self::Unload { .. })
+        matches!(self, Self::SegmentEnd { .. } | Self::Turn { .. })
     }
 }
 
@@ -78,6 +83,12 @@ pub(crate) enum Outcome {
     Continue,
     /// A storey (from 0) has collapsed.
     Collapse(usize),
+}
+
+/// The entry of the log for an event of a storey, counted from 0.
+fn of_storey(crossing: Crossing, storey: usize, time: f64) -> Event {
+    let Crossing { kind, sign, element } = crossing;
+    Event { time, kind, number: storey + 1, sign, element }
 }
 
 /// Four bits, each followed by a zero.
@@ -163,7 +174,7 @@ impl State<'_> {
         p: &mut Polynomial,
     ) -> f64 {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
-        let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
+        let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * motion.mu_k);
         let of_friction = [friction * self.drive.contact, friction * (self.drive.contact_slope * self.series.h())];
         self.series.velocity_against::<V, K>(law.floor, factor * motion.velocity, factor, of_friction, p)
     }
@@ -192,6 +203,9 @@ impl State<'_> {
             }
             if self.is_sliding {
                 self.arrival_guards::<V, K>(&mut first, isolated);
+                if self.model.wears {
+                    self.wear_guards::<K>(&mut first, isolated);
+                }
             }
         }
         // A block whose floor's acceleration is below rounding lifts off stuck.
@@ -245,20 +259,20 @@ impl State<'_> {
         isolated: &mut usize,
     ) {
         let (low, high) = self.ranges.drift::<K>(i);
-        let (yields, collapses) = (self.yield_bounds[i], self.collapse_bounds[i]);
+        let (yields, collapses) = (self.segment_ends[i], self.collapse_bounds[i]);
         let (sign, reached, of_yield, of_collapse) = match is_positive {
             true => (Sign::Positive, high, yields.1, collapses.1),
             false => (Sign::Negative, -low, -yields.0, -collapses.0),
         };
-        let yields = Guard::Yield { storey: i, sign };
+        let yields = Guard::SegmentEnd { storey: i, sign };
         self.drift_guard::<V, K>(yields, (i, sign), reached, of_yield, first, isolated);
         self.drift_guard::<V, K>(Guard::Collapse { storey: i }, (i, sign), reached, of_collapse, first, isolated);
     }
 
-    /// Considers the turn of a storey's rate, if it is plastic.
+    /// Considers the turn of a storey's rate, if its segment does not allow it.
     #[inline(always)]
     fn rate_guard<V: Vector, const K: usize>(&self, i: usize, first: &mut First, isolated: &mut usize) {
-        let Some(sign) = self.springs[i].plastic() else { return };
+        let Some(sign) = self.springs[i].rate_sign() else { return };
         let (low, high) = self.ranges.rate::<K>(i);
         if if sign == Sign::Positive { low > 0.0 } else { high < 0.0 } {
             return;
@@ -269,7 +283,7 @@ impl State<'_> {
         let contact = self.drive.contact;
         let sizes = self.size_in_lanes::<V, K>(i + 1, contact) + self.size_in_lanes::<V, K>(i, contact);
         let tolerance = ROUNDING * (size + self.series.h() * sizes);
-        first.consider(Guard::Unload { storey: i }, &p, tolerance);
+        first.consider(Guard::Turn { storey: i }, &p, tolerance);
     }
 
     /// Storeys of vector `k` whose drifts may come to a guard over the present series: each storey has two bits, of its
@@ -310,7 +324,7 @@ impl State<'_> {
         *isolated += 1;
         let mut p = self.series.zeros();
         let size = self.series.drift::<V, K>(i, -sign.factor(), limit, &mut p);
-        let range = self.model.laws[i].yield_range(self.springs[i].yielded());
+        let range = self.springs[i].segment().range;
         first.consider(guard, &p, ROUNDING * (limit.abs() + size + range));
     }
 
@@ -379,9 +393,39 @@ impl State<'_> {
             let mut p = self.series.zeros();
             let size = self.relative_velocity::<V, K>(j, sign.factor(), &mut p);
             let law = &self.model.blocks[j];
-            let rates = self.size_in_lanes::<V, K>(law.floor, self.drive.contact) + law.mu_k * STANDARD_GRAVITY;
+            let rates = self.size_in_lanes::<V, K>(law.floor, self.drive.contact) + motion.mu_k * STANDARD_GRAVITY;
             first.consider(Guard::Arrival { block: j }, &p, ROUNDING * (size + self.series.h() * rates));
         }
+    }
+
+    /// Considers the changes of the friction coefficients of sliding blocks: slips grow until a block arrives.
+    #[inline(never)]
+    fn wear_guards<const K: usize>(&self, first: &mut First, isolated: &mut usize) {
+        for (j, motion) in self.motions.iter().enumerate() {
+            let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
+            let rest = motion.path_to_wear();
+            if rest == f64::INFINITY {
+                continue;
+            }
+            let change = sign * self.block_change::<K>(j).1;
+            let size = motion.wear_limit(1.0).abs() + motion.path() + rest.abs() + change.abs();
+            let tolerance = ROUNDING * size;
+            if rest - change > tolerance && self.keeps_sliding::<K>(j, sign) {
+                continue;
+            }
+            *isolated += 1;
+            let slip = self.slip_change(j);
+            let terms = slip.coefficients().iter().skip(1).map(|c| -sign * c);
+            first.consider(Guard::Wear { block: j }, &Polynomial::new(std::iter::once(rest).chain(terms)), tolerance);
+        }
+    }
+
+    /// Slip of a block since the start of the present series.
+    pub(crate) fn slip_change(&self, block: usize) -> Polynomial {
+        let velocity = self.velocity_of_block(block);
+        let h = self.series.h();
+        let terms = velocity.coefficients().iter().enumerate().map(|(k, c)| h * c / (k + 1) as f64);
+        Polynomial::new(std::iter::once(0.0).chain(terms))
     }
 
     /// Range of the absolute acceleration of a floor, or of the ground (0), over the present series.
@@ -400,7 +444,7 @@ impl State<'_> {
     fn keeps_sliding<const K: usize>(&self, block: usize, sign: f64) -> bool {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let h = self.series.h();
-        let friction = sign * law.mu_k;
+        let friction = sign * motion.mu_k;
         // Linear up to the end, also where contact is lost before: as the change below is.
         let contact = (self.drive.contact, self.drive.contact + self.drive.contact_slope * h);
         let (a, margin) = match law.floor.checked_sub(1) {
@@ -414,7 +458,7 @@ impl State<'_> {
         let rates = (-friction * contact.0 - a.0, -friction * contact.1 - a.1);
         let (start, end) = ([motion.velocity, rates.0], [motion.velocity + velocity, rates.1]);
         // A block that breaks away where both coefficients are the same starts without relative acceleration.
-        let least = ROUNDING * law.mu_k * STANDARD_GRAVITY;
+        let least = ROUNDING * motion.mu_k * STANDARD_GRAVITY;
         stays_above_zero(start.map(|value| sign * value), end.map(|value| sign * value), h * THIRD, margin, least)
     }
 
@@ -423,7 +467,7 @@ impl State<'_> {
     pub(crate) fn block_change<const K: usize>(&self, block: usize) -> (f64, f64) {
         let (motion, law) = (&self.motions[block], &self.model.blocks[block]);
         let (s, h) = (self.series.place(), self.series.h());
-        let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
+        let friction = motion.sliding().map_or(0.0, |sign| sign.factor() * motion.mu_k);
         let (terms, integrals) = match law.floor.checked_sub(1) {
             Some(i) => self.series.terms_and_integrals::<K>(i),
             None => ([self.drive.ground, self.drive.ground_slope * h], [0.0; 2]),
@@ -448,28 +492,33 @@ impl State<'_> {
         let time = self.interval.start + tau;
         match guard {
             Guard::Collapse { storey } => return Outcome::Collapse(storey),
-            Guard::Yield { storey, sign } => {
+            Guard::SegmentEnd { storey, sign } => {
                 let x = self.x.take_lane::<V, K>(storey);
-                let kind = self.springs[storey].yield_next(&self.model.laws[storey], x, sign);
-                let element = self.springs[storey].yielded();
-                log.push(Event { time, kind, number: storey + 1, sign: sign.as_i8(), element });
+                let crossing = self.springs[storey].end(x, sign);
+                log.push(of_storey(crossing, storey, time));
             }
-            Guard::Unload { storey } => {
-                let sign = self.springs[storey].plastic().map_or(0, Sign::as_i8);
+            Guard::Turn { storey } => {
                 let x = self.x.take_lane::<V, K>(storey);
-                let kind = self.springs[storey].unload(&self.model.laws[storey], x);
+                let crossing = self.springs[storey].turn(x);
                 self.v.set_lane::<V, K>(storey, 0.0);
-                log.push(Event { time, kind, number: storey + 1, sign, element: 0 });
+                log.push(of_storey(crossing, storey, time));
             }
             Guard::Breakaway { floor, sign } => self.break_away::<K>(floor, sign, tau, log),
             Guard::Arrival { block } => {
                 self.arrive_with::<K>(block, tau);
                 self.settle_floor::<K>(self.model.blocks[block].floor, tau, Cause::Other, log);
             }
+            Guard::Wear { block } => {
+                let law = &self.model.blocks[block];
+                let motion = &mut self.motions[block];
+                let (sign, element) = (motion.velocity_sign(), motion.wear(law));
+                log.push(Event { time, kind: EventKind::Wear, number: block + 1, sign, element });
+                self.settle_floor::<K>(law.floor, tau, Cause::Other, log);
+            }
             Guard::Contact => self.change_contact(tau, log),
         }
         match guard {
-            Guard::Yield { storey, .. } | Guard::Unload { storey } => self.enter_regime_of_spring::<V, K>(storey),
+            Guard::SegmentEnd { storey, .. } | Guard::Turn { storey } => self.enter_regime_of_spring::<V, K>(storey),
             _ => self.enter_regime_of_blocks::<V, K>(),
         }
         Outcome::Continue
@@ -481,7 +530,7 @@ impl State<'_> {
             .iter()
             .copied()
             .filter(|&j| self.motions[j].is_stuck())
-            .min_by(|&i, &j| self.model.blocks[i].mu_s.total_cmp(&self.model.blocks[j].mu_s));
+            .min_by(|&i, &j| self.motions[i].mu_s.total_cmp(&self.motions[j].mu_s));
         if let Some(weakest) = weakest {
             self.settle_floor::<K>(floor, tau, Cause::Breakaway(weakest, sign), log);
         }
@@ -491,14 +540,13 @@ impl State<'_> {
     /// have moved as it does.
     fn arrive_with<const K: usize>(&mut self, block: usize, tau: f64) {
         let arriving = self.motions[block];
-        let BlockLaw { floor, mu_k, .. } = self.model.blocks[block];
+        let (floor, mu_k) = (self.model.blocks[block].floor, arriving.mu_k);
         let contact = self.contact_at(tau);
         let a = if floor > 0 { self.a.numbers::<K>()[floor - 1] } else { self.interval.ground_at(tau) };
         for position in 0..self.model.on_floor[floor].len() {
             let j = self.model.on_floor[floor][position];
-            let BlockMotion { state, velocity, .. } = self.motions[j];
+            let BlockMotion { state, velocity, mu_k: friction, .. } = self.motions[j];
             let BlockState::Sliding(sign) = state else { continue };
-            let friction = self.model.blocks[j].mu_k;
             let alike = velocity == arriving.velocity && state == arriving.state && friction == mu_k;
             let slowing = sign.factor() * a + friction * contact;
             let size = a.abs() + friction * contact.max(STANDARD_GRAVITY);
@@ -534,11 +582,7 @@ impl State<'_> {
                 motion.velocity = 0.0;
             }
             log.push(Event { time, kind, number: j + 1, sign: motion.velocity_sign(), element: 0 });
-            motion.state = match kind {
-                EventKind::Lift => BlockState::Airborne,
-                _ if motion.velocity == 0.0 => BlockState::Stuck,
-                _ => BlockState::Sliding(Sign::of(motion.velocity)),
-            };
+            if kind == EventKind::Lift { motion.lift() } else { motion.land() }
         }
         self.airborne = !self.airborne;
         if kind == EventKind::Land {
@@ -567,10 +611,10 @@ mod tests {
     fn guards_are_packed_without_loss() {
         let mut guards = vec![Guard::Contact];
         for number in [0, 1, 65_536, 1 << 40] {
-            guards.extend([Guard::Collapse { storey: number }, Guard::Unload { storey: number }]);
-            guards.push(Guard::Arrival { block: number });
+            guards.extend([Guard::Collapse { storey: number }, Guard::Turn { storey: number }]);
+            guards.extend([Guard::Arrival { block: number }, Guard::Wear { block: number }]);
             for sign in [Sign::Positive, Sign::Negative] {
-                guards.extend([Guard::Yield { storey: number, sign }, Guard::Breakaway { floor: number, sign }]);
+                guards.extend([Guard::SegmentEnd { storey: number, sign }, Guard::Breakaway { floor: number, sign }]);
             }
         }
         for guard in guards {

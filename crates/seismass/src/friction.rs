@@ -5,24 +5,27 @@
 
 use crate::STANDARD_GRAVITY;
 use crate::response::EventKind;
-use crate::scene::Block;
-use crate::storey::Sign;
+use crate::scene::{Block, Wear};
+use crate::sign::Sign;
 
 /// Forces and accelerations that agree to this fraction of their terms are equal.
 pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The constant data of a block.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BlockLaw {
     pub(crate) floor: usize,
     pub(crate) mass: f64,
     pub(crate) mu_s: f64,
     pub(crate) mu_k: f64,
+    /// Coefficients that follow, by the path slipped in contact.
+    pub(crate) wear: Vec<Wear>,
 }
 
 impl BlockLaw {
     pub(crate) fn new(block: &Block) -> Self {
-        Self { floor: block.floor, mass: block.mass, mu_s: block.mu_s, mu_k: block.mu_k }
+        let &Block { floor, mass, mu_s, mu_k, ref wear, .. } = block;
+        Self { floor, mass, mu_s, mu_k, wear: wear.clone() }
     }
 }
 
@@ -45,6 +48,15 @@ pub(crate) struct BlockMotion {
     pub(crate) velocity: f64,
     /// Displacement relative to the floor (m).
     pub(crate) slip: f64,
+    /// Friction coefficients now in force.
+    pub(crate) mu_s: f64,
+    pub(crate) mu_k: f64,
+    /// Changes of the coefficients so far.
+    stage: usize,
+    /// Path slipped in contact at the next change (m); infinite: none.
+    next_wear: f64,
+    /// Path of finished flights, less, during one, the path at its start (m).
+    flown: f64,
     /// Path slipped up to the last turn of the relative velocity (m).
     path: f64,
     /// Slip at that turn (m).
@@ -53,9 +65,11 @@ pub(crate) struct BlockMotion {
 
 impl BlockMotion {
     /// A block at slip zero with a relative velocity.
-    pub(crate) fn new(velocity: f64) -> Self {
+    pub(crate) fn new(law: &BlockLaw, velocity: f64) -> Self {
         let state = if velocity == 0.0 { BlockState::Stuck } else { BlockState::Sliding(Sign::of(velocity)) };
-        Self { state, velocity, slip: 0.0, path: 0.0, turn: 0.0 }
+        let &BlockLaw { mu_s, mu_k, .. } = law;
+        let next_wear = law.wear.first().map_or(f64::INFINITY, |next| next.path);
+        Self { state, velocity, slip: 0.0, mu_s, mu_k, stage: 0, next_wear, flown: 0.0, path: 0.0, turn: 0.0 }
     }
 
     /// Whether the block moves with its floor.
@@ -99,6 +113,41 @@ impl BlockMotion {
     /// Path slipped so far (m).
     pub(crate) fn path(&self) -> f64 {
         self.path + (self.slip - self.turn).abs()
+    }
+
+    /// Leaves contact: the path from here on does not wear it.
+    pub(crate) fn lift(&mut self) {
+        self.state = BlockState::Airborne;
+        self.flown -= self.path();
+    }
+
+    /// Is in contact again.
+    pub(crate) fn land(&mut self) {
+        self.state =
+            if self.velocity == 0.0 { BlockState::Stuck } else { BlockState::Sliding(Sign::of(self.velocity)) };
+        self.flown += self.path();
+    }
+
+    /// Path to be slipped in contact until the coefficients change (m); infinite: they do not.
+    #[inline]
+    pub(crate) fn path_to_wear(&self) -> f64 {
+        if self.next_wear == f64::INFINITY { self.next_wear } else { self.next_wear - (self.path() - self.flown) }
+    }
+
+    /// What the slip times its sign does not reach before the coefficients change.
+    #[inline]
+    pub(crate) fn wear_limit(&self, sign: f64) -> f64 {
+        sign * self.slip + self.path_to_wear()
+    }
+
+    /// The coefficients change; returns how often they have.
+    pub(crate) fn wear(&mut self, law: &BlockLaw) -> u8 {
+        if let Some(&Wear { mu_s, mu_k, .. }) = law.wear.get(self.stage) {
+            (self.mu_s, self.mu_k) = (mu_s, mu_k);
+            self.stage += 1;
+            self.next_wear = law.wear.get(self.stage).map_or(f64::INFINITY, |next| next.path);
+        }
+        self.stage as u8
     }
 
     /// Name of the state, for errors.
@@ -189,7 +238,7 @@ pub(crate) fn settle(
             match motions[j].state {
                 BlockState::Stuck => stuck_mass += laws[j].mass,
                 BlockState::Sliding(sign) => {
-                    let force = laws[j].mu_k * laws[j].mass * contact;
+                    let force = motions[j].mu_k * laws[j].mass * contact;
                     friction += sign.factor() * force;
                     friction_size += force;
                 }
@@ -207,12 +256,12 @@ pub(crate) fn settle(
             if !motions[j].is_stuck() {
                 continue;
             }
-            let limit = laws[j].mu_s * contact;
+            let limit = motions[j].mu_s * contact;
             // Near N = 0 the limit carries the rounding of mu g.
-            let rounding = ROUNDING * (size + limit.max(laws[j].mu_s * STANDARD_GRAVITY));
+            let rounding = ROUNDING * (size + limit.max(motions[j].mu_s * STANDARD_GRAVITY));
             let exceeds = match breakaway {
                 // Equal blocks break away together; near N = 0 every limit is within rounding of every other.
-                Cause::Breakaway(fired, _) => laws[j].mu_s == laws[fired].mu_s,
+                Cause::Breakaway(fired, _) => motions[j].mu_s == motions[fired].mu_s,
                 Cause::Other => acceleration.abs() > limit + rounding,
             };
             if exceeds {
@@ -250,11 +299,11 @@ mod tests {
     const G: f64 = 9.80665;
 
     fn laws(spec: &[(f64, f64, f64)]) -> Vec<BlockLaw> {
-        spec.iter().map(|&(mass, mu_s, mu_k)| BlockLaw { floor: 1, mass, mu_s, mu_k }).collect()
+        spec.iter().map(|&(mass, mu_s, mu_k)| BlockLaw { floor: 1, mass, mu_s, mu_k, wear: Vec::new() }).collect()
     }
 
     fn decide(force: f64, mass: f64, laws: &[BlockLaw], velocity: &[f64]) -> Vec<BlockMotion> {
-        let mut motions: Vec<_> = velocity.iter().map(|&v| BlockMotion::new(v)).collect();
+        let mut motions: Vec<_> = laws.iter().zip(velocity).map(|(law, &v)| BlockMotion::new(law, v)).collect();
         let blocks: Vec<usize> = (0..laws.len()).collect();
         let demand = Demand::Floor { force, size: force.abs(), mass };
         settle(demand, laws, &mut motions, &blocks, G, Cause::Other, &mut Vec::new());
@@ -304,7 +353,7 @@ mod tests {
     #[test]
     fn equal_blocks_break_away_together() {
         let laws = laws(&[(1.0, 0.3, 0.3), (2.0, 0.3, 0.3)]);
-        let mut motions = vec![BlockMotion::new(0.0); 2];
+        let mut motions: Vec<_> = laws.iter().map(|law| BlockMotion::new(law, 0.0)).collect();
         let force = 0.3 * G * 6.0;
         let demand = Demand::Floor { force, size: force, mass: 3.0 };
         let mut log = Vec::new();

@@ -75,9 +75,13 @@ mod regime_bounds;
 pub mod response;
 pub mod scene;
 mod schedule;
+mod segment;
+mod sign;
 pub mod simulate;
 mod sliding;
 pub mod spectrum;
+mod spring_path;
+mod springs;
 mod state;
 mod storey;
 mod symmetric;
@@ -98,9 +102,11 @@ pub use response::{
     Energy, Event, EventCounts, EventKind, Histories, Peak, Peaks, Response, Skipped, Statistics, Status,
 };
 pub use scene::{
-    Block, Building, Damping, GravityEffect, Motion, Options, PeakOriented, Scene, SpringLaw, Storey, Wear,
+    Block, Building, Damping, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion, Options, PeakOriented, Scene, SpringLaw,
+    Storey, Wear,
 };
 pub use simulate::{simulate, simulate_until};
+pub use spring_path::{SpringEvent, SpringPath, spring_path};
 
 /// Standard gravity (m/s2), the g of every number in this crate.
 pub const STANDARD_GRAVITY: f64 = 9.806_65;

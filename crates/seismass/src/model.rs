@@ -9,6 +9,7 @@ use crate::friction::BlockLaw;
 use crate::lanes::{WIDTH, filled, padded};
 use crate::padded::Padded;
 use crate::scene::{Building, Damping, Scene};
+use crate::segment::SpringMachine;
 use crate::storey::StoreyLaw;
 use crate::symmetric::Symmetric;
 
@@ -20,7 +21,11 @@ pub(crate) struct Model {
     /// Initial stiffness of each storey, for Rayleigh damping.
     pub(crate) stiffness: Vec<f64>,
     pub(crate) laws: Vec<StoreyLaw>,
+    /// Bits that tell the tangents of a storey from each other: in a word, those of the tangent itself.
+    pub(crate) class_bits: usize,
     pub(crate) blocks: Vec<BlockLaw>,
+    /// Whether friction coefficients change with the path slipped.
+    pub(crate) wears: bool,
     /// Blocks on the ground (0) and on each floor.
     pub(crate) on_floor: Vec<Vec<usize>>,
     building: Option<Arc<Building>>,
@@ -75,12 +80,22 @@ fn damping_sizes(d: &DMatrix<f64>) -> Vec<f64> {
     (0..n).flat_map(|j| filled((0..n).map(|i| size(i, j)), n, 0.0)).collect()
 }
 
+/// Bits that tell the tangents of a storey from each other, a power of two of them.
+fn class_bits(law: &StoreyLaw) -> usize {
+    match law.spring.tangents().map(|tangents| tangents.len()) {
+        Some(..=4) => 2,
+        Some(5..=16) => 4,
+        Some(17..=256) => 8,
+        _ => u64::BITS as usize,
+    }
+}
+
 impl Model {
     pub(crate) fn new(scene: &Scene) -> Self {
         let n = scene.storeys();
         let storeys = scene.building().map_or(&[][..], |b| b.storeys());
         let collapse = scene.collapse_drift();
-        let laws = (0..n)
+        let laws: Vec<StoreyLaw> = (0..n)
             .map(|i| StoreyLaw::new(&storeys[i], scene.geometric_stiffness()[i], collapse.map(|c| c[i])))
             .collect();
         let mut on_floor = vec![Vec::new(); n + 1];
@@ -96,7 +111,9 @@ impl Model {
             symmetric_damping: OnceLock::new(),
             mass,
             stiffness,
+            class_bits: laws.iter().map(class_bits).max().unwrap_or(2),
             laws,
+            wears: scene.blocks().iter().any(|block| !block.wear.is_empty()),
             blocks: scene.blocks().iter().map(BlockLaw::new).collect(),
             on_floor,
             building: scene.building().cloned(),

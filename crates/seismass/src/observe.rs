@@ -392,14 +392,14 @@ impl Observer {
                 let floor = if law.floor > 0 { scratch[law.floor - 1] } else { 0.0 };
                 momentum += law.mass * (floor + relative);
                 if let BlockState::Sliding(sign) = state.motions[j].state {
-                    let force = sign.factor() * law.mu_k * law.mass * state.contact_at(at);
+                    let force = sign.factor() * state.motions[j].mu_k * law.mass * state.contact_at(at);
                     energy.friction += weight * length * force * relative;
                 }
             }
             energy.input -= weight * length * momentum * state.interval.ground_at(at);
         }
-        for (spring, change) in state.springs.iter().zip(state.series.changes()[0]) {
-            balance.energy.hysteretic += spring.plastic_force() * change;
+        for ((spring, change), x) in state.springs.iter().zip(state.series.changes()[0]).zip(&state.x) {
+            balance.energy.hysteretic += spring.dissipated(*x, *change);
         }
         balance.largest_input = balance.largest_input.max(balance.energy.input);
     }
@@ -435,11 +435,5 @@ fn kinetic_energy(state: &State) -> f64 {
 }
 
 fn elastic_energy(state: &State) -> f64 {
-    state
-        .springs
-        .iter()
-        .zip(&state.model.laws)
-        .zip(&state.x)
-        .map(|((spring, law), &x)| spring.elastic_energy(law, x))
-        .sum()
+    state.springs.iter().zip(&state.model.laws).zip(&state.x).map(|((spring, law), &x)| spring.stored(law, x)).sum()
 }

@@ -29,9 +29,9 @@ use crate::padded::PaddedRows;
 use crate::propagator::Whole;
 use crate::regime::{Regime, Row};
 use crate::scene::Motion;
+use crate::sign::Sign;
 use crate::sliding::{GroundBlock, Layer, LayerInLanes, Linear, OnGround, Push};
 use crate::state::{State, THIRD, off_cubic};
-use crate::storey::Sign;
 use crate::tall_run;
 use crate::taylor::MAX_PHASE;
 
@@ -249,7 +249,29 @@ pub(crate) struct Walk {
     used: usize,
     /// Blocks that slide on floors: block, layer, lane.
     on_floors: Vec<(usize, usize, usize)>,
+    /// Slips at which friction coefficients of these change.
+    wear_limits: Vec<WearLimit>,
     on_ground: OnGround,
+}
+
+/// A slip, times a sign, at which the friction coefficients of a block change.
+struct WearLimit {
+    layer: usize,
+    lane: usize,
+    sign: f64,
+    slip: f64,
+}
+
+/// Whether a block comes to a slip at which its friction changes, of layers with these slips.
+#[inline(never)]
+fn wears(limits: &[WearLimit], lowest: &[f64], others: &[Layer]) -> bool {
+    limits.iter().any(|limit| {
+        let slips = match limit.layer.checked_sub(1) {
+            Some(other) => &others[other].after[1][..],
+            None => lowest,
+        };
+        limit.sign * slips[limit.lane] >= limit.slip
+    })
 }
 
 impl Walk {
@@ -262,6 +284,7 @@ impl Walk {
             layers: Vec::new(),
             used: 0,
             on_floors: Vec::new(),
+            wear_limits: Vec::new(),
             on_ground: OnGround::new(),
         }
     }
@@ -272,6 +295,7 @@ impl Walk {
             self.layers[layer].leave::<K>(lane);
         }
         self.used = 0;
+        self.wear_limits.clear();
         self.renews_bounds = true;
         self.beaten.forget_turned();
         self.on_ground.begin(sample, state.stuck_mu[0]);
@@ -284,10 +308,10 @@ impl Walk {
     fn take_blocks<const K: usize>(&mut self, state: &State) {
         for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
             let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
-            let friction = sign * law.mu_k;
+            let friction = sign * motion.mu_k;
             let Some(lane) = law.floor.checked_sub(1) else {
-                let BlockMotion { velocity, slip, .. } = *motion;
-                self.on_ground.push(GroundBlock { block, friction, sign, velocity, slip });
+                let (BlockMotion { velocity, slip, .. }, limit) = (*motion, motion.wear_limit(sign));
+                self.on_ground.push(GroundBlock { block, friction, sign, velocity, slip, limit });
                 continue;
             };
             let free = self.layers.iter().position(|layer| layer.is_free::<K>(lane));
@@ -296,6 +320,9 @@ impl Walk {
                 self.layers.push(Layer::new(state.model));
             }
             self.layers[which].take::<K>(lane, sign, friction, motion);
+            if motion.path_to_wear() < f64::INFINITY {
+                self.wear_limits.push(WearLimit { layer: which, lane, sign, slip: motion.wear_limit(sign) });
+            }
             self.on_floors.push((block, which, lane));
             self.used = self.used.max(which + 1);
         }
@@ -496,6 +523,9 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 store(&after.velocity, velocity);
                 store(&after.slip, slip);
                 is_turning |= turning && before.turns(&after.velocity, &push);
+            }
+            if !walk.wear_limits.is_empty() {
+                is_turning |= wears(&walk.wear_limits, numbers(&layer_after.slip).as_flattened(), others);
             }
         }
         let has_contact = !VERTICAL || contact.0 > NO_CONTACT && contact.1 > NO_CONTACT;

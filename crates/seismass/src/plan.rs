@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap;
 use crate::batch::Run;
 use crate::damping::StoreyDamping;
 use crate::scene::{Building, Damping, Motion, Scene};
+use crate::segment::SpringMachine;
 use crate::storey::StoreyLaw;
 
 /// The different runs of a batch, in an order in which they share most.
@@ -116,6 +117,10 @@ fn classes_of(scenes: &[Scene]) -> Vec<(usize, usize)> {
         key.extend([structure as u64, building.map_or(u64::MAX, |(_, content)| content as u64)]);
         let blocks = scene.blocks().iter();
         key.extend(blocks.flat_map(|b| [b.mu_s, b.mu_k, b.velocity.unwrap_or(f64::NAN)]).map(f64::to_bits));
+        for (j, block) in scene.blocks().iter().enumerate().filter(|(_, block)| !block.wear.is_empty()) {
+            key.extend([j as u64, block.wear.len() as u64]);
+            key.extend(block.wear.iter().flat_map(|w| [w.path, w.mu_s, w.mu_k]).map(f64::to_bits));
+        }
         let initial = scene.initial_drift().iter().chain(scene.initial_velocity());
         key.extend(initial.chain(scene.collapse_drift().into_iter().flatten()).map(|value| value.to_bits()));
         (structure, contents.number(&key))
@@ -138,7 +143,11 @@ impl BuildingClasses {
         for ((law, storey), &mass) in laws().zip(building.storeys()).zip(building.mass()) {
             push(mass);
             push(storey.stiffness);
-            (0..3).for_each(|yielded| push(law.tangent(yielded)));
+            push(law.spring.largest_tangent());
+            // How many there are tells a list from the next one; -1: any.
+            let tangents = law.spring.tangents();
+            push(tangents.as_ref().map_or(-1.0, |tangents| tangents.len() as f64));
+            tangents.into_iter().flatten().for_each(&mut push);
         }
         match building.storey_damping() {
             StoreyDamping::None => {}
@@ -153,8 +162,10 @@ impl BuildingClasses {
         let structure = self.structures.number(&key);
         key = vec![structure as u64];
         for law in laws() {
-            key.push(law.elements().len() as u64);
-            key.extend(law.elements().iter().flat_map(|e| [e.stiffness, e.yield_force]).map(f64::to_bits));
+            // A law is told from another by the number of its parameters.
+            let parameters = law.spring.parameters();
+            key.push(parameters.len() as u64);
+            key.extend(parameters.into_iter().map(f64::to_bits));
         }
         (structure, self.contents.number(&key))
     }

@@ -61,13 +61,13 @@ pub(crate) enum Row {
 pub(crate) const ROWS: usize = Row::FourthOfRate as usize + 1;
 
 impl Regime {
-    /// The regime with `yielded[i]` plastic elements in each storey and `stuck_mass[i]` on each floor.
-    pub(crate) fn new(model: &Model, yielded: impl Fn(usize) -> u8, stuck_mass: &[f64]) -> Self {
+    /// The regime with the tangent `tangent(i)` of each storey's spring and `stuck_mass[i]` on each floor.
+    pub(crate) fn new(model: &Model, tangent: impl Fn(usize) -> f64, stuck_mass: &[f64]) -> Self {
         let width = model.width;
         let mut rows = PaddedRows::zeros(width);
         let numbers = rows.numbers_mut();
         for i in 0..model.storeys() {
-            let spring = model.laws[i].tangent(yielded(i));
+            let spring = tangent(i);
             numbers[Row::SpringTangent as usize * width + i] = spring;
             numbers[Row::Tangent as usize * width + i] = spring - model.laws[i].geometric;
             numbers[Row::Mass as usize * width + i] = model.mass[i] + stuck_mass[i];

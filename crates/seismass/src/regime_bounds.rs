@@ -178,13 +178,14 @@ mod tests {
     use crate::damping::StoreyDamping;
     use crate::regime::Regime;
     use crate::scene::{Building, Damping, GravityEffect, Scene, Storey};
+    use crate::segment::SpringMachine;
 
     /// A building of uneven floors and storeys, with P-Delta.
     fn uneven(n: usize, damping: Damping) -> Model {
         let wave = |i: usize, step: f64| 1.0 + 0.8 * (step * (i + 1) as f64).sin();
         let mass: Vec<f64> = (0..n).map(|i| 1000.0 * wave(i, 2.1)).collect();
         let yielding = Storey { second_slope: 0.1, third_slope: 0.0, ..Storey::yielding(1e5, 1e3) };
-        let storeys = (0..n).map(|i| Storey { stiffness: 1e5 * wave(i, 1.3), ..yielding }).collect();
+        let storeys = (0..n).map(|i| Storey { stiffness: 1e5 * wave(i, 1.3), ..yielding.clone() }).collect();
         let geometric = (0..n).map(|i| 3e3 * wave(i, 0.9)).collect();
         let building = Building::new(mass, storeys, damping).unwrap();
         let building = building.with_gravity(GravityEffect::GeometricStiffness(geometric)).unwrap();
@@ -227,7 +228,8 @@ mod tests {
                 }
                 let model = uneven(n, damping.clone());
                 // The tangent of one storey is negative, and its spring has none.
-                let regime = Regime::new(&model, |i| if i == n / 2 { 2 } else { (i % 2) as u8 }, &vec![500.0; n]);
+                let tangent = |i: usize, yielded: usize| model.laws[i].spring.tangents().unwrap()[yielded];
+                let regime = Regime::new(&model, |i| tangent(i, if i == n / 2 { 2 } else { i % 2 }), &vec![500.0; n]);
                 let sizes = damping_sizes(&model);
                 let row = |row: Row| &regime.row(row)[..n];
                 let tangent: Vec<f64> = row(Row::Tangent).iter().map(|k| k.abs()).collect();

@@ -10,9 +10,9 @@ use crate::damping::{StoreyDamping, natural_frequencies};
 use crate::error::{Domain, Error, Result};
 
 /// Longest motion a run takes (samples): 0.8 GB.
-const MAX_SAMPLES: usize = 100_000_000;
+pub const MAX_SAMPLES: usize = 100_000_000;
 /// Most storeys of a building: a full damping matrix takes 8 MB.
-const MAX_STOREYS: usize = 1000;
+pub const MAX_STOREYS: usize = 1000;
 
 /// A storey, floor or block by its index, named by its number where an error is written: a grid has a scene per row,
 /// and names formed in advance would cost more than its checks.
@@ -177,7 +177,7 @@ impl Storey {
         }
     }
 
-    fn validate(&self, owner: impl Display + Copy) -> Result<()> {
+    pub(crate) fn validate(&self, owner: impl Display + Copy) -> Result<()> {
         let &Self { stiffness: k, yield_shear: vy, overstrength: omega, second_slope: r2, third_slope: r3, ref law } =
             self;
         if let SpringLaw::Multilinear { backbone } = law {

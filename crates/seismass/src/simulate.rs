@@ -3,7 +3,6 @@
 use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::bernstein::Polynomial;
 use crate::error::{Error, Result};
 use crate::events::{First, Guard, Outcome};
 use crate::friction::{BlockMotion, BlockState};
@@ -17,6 +16,7 @@ use crate::propagator::RegimeCache;
 use crate::regime::Row;
 use crate::response::{Event, Response, Statistics, Status};
 use crate::scene::{Motion, Options, Scene};
+use crate::segment::SpringMachine;
 use crate::state::State;
 use crate::taylor::MAX_PHASE;
 
@@ -217,7 +217,7 @@ impl Run<'_> {
         self.observer.begin_energy(&self.state);
         self.observer.record(&self.state, 0);
         let model = self.state.model;
-        self.statistics.skipped.elastic_storeys = model.laws.iter().filter(|law| !law.can_yield()).count();
+        self.statistics.skipped.elastic_storeys = model.laws.iter().filter(|law| !law.spring.can_yield()).count();
         self.statistics.skipped.bare_floors = model.on_floor.iter().skip(1).filter(|blocks| blocks.is_empty()).count();
     }
 
@@ -242,7 +242,7 @@ impl Run<'_> {
         let regime = &state.regime;
         let tangent = &regime.row(Row::Tangent)[..state.storeys()];
         let settled = state.motions.iter().all(BlockMotion::is_stuck)
-            && state.springs.iter().all(|s| s.plastic().is_none())
+            && state.springs.iter().all(|s| s.rate_sign().is_none())
             && tangent.iter().all(|&k| k > 0.0);
         if !settled || state.vertical || !regime.is_passive() {
             return false;
@@ -259,7 +259,7 @@ impl Run<'_> {
             let (low, high) = (rest[i] - reach, rest[i] + reach);
             let inside = |(lower, upper): (f64, f64)| high < upper && low > lower;
             let a = liveliness * regime.row(Row::SecondOfAcceleration)[i];
-            inside(state.yield_bounds[i])
+            inside(state.segment_ends[i])
                 && inside(state.collapse_bounds[i])
                 && !self.observer.drift_may_peak(state, i, low, high)
                 && !self.observer.acceleration_may_peak(i, -a, a)
@@ -388,11 +388,12 @@ impl Run<'_> {
         let block = |j: usize| (format!("block {}", j + 1), self.state.motions[j].state_name());
         let on = |floor: usize| self.state.model.on_floor[floor].first().copied().unwrap_or(0);
         let (event, (element, state)) = match guard {
-            Guard::Yield { storey: i, .. } => ("yield", storey(i)),
+            Guard::SegmentEnd { storey: i, .. } => ("end of a spring's segment", storey(i)),
             Guard::Collapse { storey: i } => ("collapse", storey(i)),
-            Guard::Unload { storey: i } => ("unload", storey(i)),
+            Guard::Turn { storey: i } => ("unload", storey(i)),
             Guard::Breakaway { floor, .. } => ("slip", block(on(floor))),
             Guard::Arrival { block: j } => ("stick", block(j)),
+            Guard::Wear { block: j } => ("wear", block(j)),
             Guard::Contact => ("lift or land", block(0)),
         };
         Error::TooManyEvents { time: self.state.interval.start + tau, limit, event, element, state: state.to_string() }
@@ -432,14 +433,6 @@ struct Moment {
 }
 
 impl State<'_> {
-    /// Slip of a block since the start of the present series.
-    pub(crate) fn slip_change(&self, block: usize) -> Polynomial {
-        let velocity = self.velocity_of_block(block);
-        let h = self.series.h();
-        let terms = velocity.coefficients().iter().enumerate().map(|(k, c)| h * c / (k + 1) as f64);
-        Polynomial::new(std::iter::once(0.0).chain(terms))
-    }
-
     /// Moves drifts, drift rates and blocks to the place of the present series, which begins at `tau`; at its end,
     /// accelerations too. Returns whether all is finite.
     #[inline(always)]

@@ -179,6 +179,16 @@ pub(crate) struct GroundBlock {
     pub(crate) sign: f64,
     pub(crate) velocity: f64,
     pub(crate) slip: f64,
+    /// What sign times slip does not reach before the friction coefficient changes.
+    pub(crate) limit: f64,
+}
+
+impl GroundBlock {
+    /// Slip after a step of `h`.
+    #[inline(always)]
+    fn slip_after(&self, ground: Linear, contact: Linear, h: f64) -> f64 {
+        self.slip + (self.velocity * h - self.friction * contact.twice(h) - ground.twice(h))
+    }
 }
 
 /// Values at both ends of an interval of what is linear between them.
@@ -224,13 +234,14 @@ pub(crate) fn move_on_ground(
     let keeps = |b: &GroundBlock| {
         let rate = (-b.friction * contact.start - ground.start, -b.friction * contact.end - ground.end);
         let (low, high) = range(b.velocity, rate.0, end(b), rate.1, h * THIRD, 0.0);
-        if b.sign > 0.0 { low > 0.0 } else { high < 0.0 }
+        let slides = if b.sign > 0.0 { low > 0.0 } else { high < 0.0 };
+        slides && (b.limit == f64::INFINITY || b.sign * b.slip_after(ground, contact, h) < b.limit)
     };
     if !blocks.iter().all(keeps) {
         return false;
     }
     for block in blocks {
-        block.slip += block.velocity * h - block.friction * contact.twice(h) - ground.twice(h);
+        block.slip = block.slip_after(ground, contact, h);
         block.velocity = end(block);
     }
     true

@@ -37,8 +37,8 @@ const BLOCK: usize = 32;
 const BLOCKS_PER_SEARCH: usize = 256;
 /// Largest power of two, and its inverse, that motions are divided by.
 const LARGEST_EXPONENT: f64 = 1000.0;
-/// Shortest and longest period over the time step.
-const PERIOD_RANGE: [f64; 2] = [1e-3, 1e9];
+/// Shortest and longest period of an oscillator over the time step of its motion.
+pub const PERIOD_RANGE: [f64; 2] = [1e-3, 1e9];
 
 /// Peak relative displacement (m) of oscillators at rest at the first sample, in continuous time, the free vibration
 /// after the motion included; row-major (motions, damping, periods).

@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::padded::{Padded, PaddedRows};
 use crate::propagator::RegimeCache;
 use crate::regime::{Operator, Regime, Row};
-use crate::scene::{Motion, Scene};
+use crate::scene::{Block, Motion, Scene};
 use crate::storey::StoreySpring;
 use crate::tall_series::Effort;
 use crate::taylor::{Drive, Series, Start};
@@ -302,8 +302,8 @@ pub(crate) struct State<'a> {
     pub(crate) friction: Padded,
     /// Smallest mu_s of the blocks stuck to the ground (0) and to each floor; infinite where none is.
     pub(crate) stuck_mu: Vec<f64>,
-    /// Drift coordinates at which each storey yields next.
-    pub(crate) yield_bounds: Vec<(f64, f64)>,
+    /// Drift coordinates at which the segment of each storey's spring ends.
+    pub(crate) segment_ends: Vec<(f64, f64)>,
     /// Drift coordinates at which each storey collapses.
     pub(crate) collapse_bounds: Vec<(f64, f64)>,
     /// Drift of each storey at its spring's base.
@@ -322,7 +322,7 @@ pub(crate) struct State<'a> {
     /// Working space: what becomes of the blocks of a floor.
     pub(crate) transitions: Vec<Transition>,
     stuck_mass: Vec<f64>,
-    /// Plastic elements of each storey, two bits each, and which blocks are stuck: the key of the regime.
+    /// Class of each storey's segment, in [`Model::class_bits`] each, and which blocks are stuck: the key of the regime.
     key: Vec<u64>,
     /// Different regimes entered by this run, and changes into a regime already known to it.
     pub(crate) regimes: (usize, usize),
@@ -336,11 +336,9 @@ impl<'a> State<'a> {
         let below = |i: usize| if i > 0 { velocity[i - 1] } else { 0.0 };
         let floor_velocity = |floor: usize| if floor > 0 { velocity[floor - 1] } else { 0.0 };
         let blocks = scene.blocks().len();
-        let motions = scene
-            .blocks()
-            .iter()
-            .map(|b| BlockMotion::new(b.velocity.map_or(0.0, |w| w - floor_velocity(b.floor))))
-            .collect();
+        let relative = |b: &Block| b.velocity.map_or(0.0, |w| w - floor_velocity(b.floor));
+        let laws_of_blocks = model.blocks.iter().zip(scene.blocks());
+        let motions = laws_of_blocks.map(|(law, block)| BlockMotion::new(law, relative(block))).collect();
         cache.begin_run();
         let zero = || Padded::new(model.width, 0.0);
         Self {
@@ -355,7 +353,7 @@ impl<'a> State<'a> {
             drift_acceleration: zero(),
             jerk_slope: 0.0,
             is_formed: false,
-            springs: vec![StoreySpring::new(); n],
+            springs: model.laws.iter().map(StoreySpring::new).collect(),
             motions,
             airborne: false,
             is_sliding: false,
@@ -364,7 +362,7 @@ impl<'a> State<'a> {
             spring_load: zero(),
             friction: zero(),
             stuck_mu: vec![f64::INFINITY; n + 1],
-            yield_bounds: vec![(f64::NEG_INFINITY, f64::INFINITY); n],
+            segment_ends: vec![(f64::NEG_INFINITY, f64::INFINITY); n],
             collapse_bounds: vec![(f64::NEG_INFINITY, f64::INFINITY); n],
             base_drift: zero(),
             base_force: zero(),
@@ -382,7 +380,7 @@ impl<'a> State<'a> {
             effort: Effort::default(),
             transitions: Vec::new(),
             stuck_mass: vec![0.0; n],
-            key: vec![0; (2 * n + blocks).div_ceil(WORD)],
+            key: vec![0; (model.class_bits * n + blocks).div_ceil(WORD)],
             regimes: (0, 0),
         }
     }
@@ -422,15 +420,17 @@ impl<'a> State<'a> {
     #[inline(always)]
     fn follow_spring<V: Vector, const K: usize>(&mut self, i: usize) {
         let (spring, law) = (&self.springs[i], &self.model.laws[i]);
-        self.yield_bounds[i] = spring.yield_bounds(law);
-        let (limit, base) = (law.collapse_drift, spring.drift(0.0));
+        let segment = *spring.segment();
+        self.segment_ends[i] = segment.ends;
+        let (limit, base) = (law.collapse_drift, segment.base_drift);
         self.collapse_bounds[i] = (-limit - base, limit - base);
         self.base_drift.set_lane::<V, K>(i, base);
-        self.base_force.set_lane::<V, K>(i, spring.base_force(law));
+        self.base_force.set_lane::<V, K>(i, segment.base_force);
         self.base_load.set_lane::<V, K>(i, spring.base_load(law));
-        let plastic = spring.plastic();
-        self.bounds.follow_spring::<V, K>(i, self.guarded_drift(i), plastic);
-        set_bits(&mut self.key, 2 * i, 0b11, u64::from(spring.yielded()));
+        self.bounds.follow_spring::<V, K>(i, self.guarded_drift(i), segment.rate_sign);
+        let bits = self.model.class_bits;
+        let class = if bits == WORD { segment.tangent.to_bits() } else { u64::from(segment.class) };
+        set_bits(&mut self.key, bits * i, u64::MAX >> (WORD - bits), class);
     }
 
     #[inline(always)]
@@ -452,13 +452,13 @@ impl<'a> State<'a> {
         self.stuck_mass.fill(0.0);
         self.stuck_mu.fill(f64::INFINITY);
         self.is_sliding = false;
-        let of_springs = 2 * self.springs.len();
+        let of_springs = self.model.class_bits * self.springs.len();
         for (j, (motion, law)) in self.motions.iter().zip(&self.model.blocks).enumerate() {
             let floor = law.floor;
             set_bits(&mut self.key, of_springs + j, 1, u64::from(motion.is_stuck()));
             match motion.state {
                 BlockState::Stuck => {
-                    let least = self.stuck_mu[floor].min(law.mu_s);
+                    let least = self.stuck_mu[floor].min(motion.mu_s);
                     self.stuck_mu[floor] = least;
                     if let Some(i) = floor.checked_sub(1) {
                         self.stuck_mass[i] += law.mass;
@@ -469,7 +469,7 @@ impl<'a> State<'a> {
                     self.is_sliding = true;
                     if let Some(i) = floor.checked_sub(1) {
                         let others = self.friction.numbers::<K>()[i];
-                        self.friction.set_lane::<V, K>(i, others + sign.factor() * law.mu_k * law.mass);
+                        self.friction.set_lane::<V, K>(i, others + sign.factor() * motion.mu_k * law.mass);
                     }
                 }
                 BlockState::Airborne => {}
@@ -479,7 +479,7 @@ impl<'a> State<'a> {
 
     fn find_regime(&mut self) {
         let (model, springs, stuck_mass) = (self.model, &self.springs, &self.stuck_mass);
-        let form = || Regime::new(model, |i| springs[i].yielded(), stuck_mass);
+        let form = || Regime::new(model, |i| springs[i].segment().tangent, stuck_mass);
         let known;
         (self.regime, self.entry, known) = self.cache.enter(&self.key, form);
         if known {

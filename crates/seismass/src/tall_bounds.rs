@@ -5,8 +5,8 @@ use crate::bounds::{self, Set, members};
 use crate::lanes::{FAR, LANES, Vector, WIDTH, at, filled_to, lanes};
 use crate::observe::{Observer, PeakLanes};
 use crate::regime::Row;
+use crate::sign::Sign;
 use crate::state::State;
-use crate::storey::Sign;
 use crate::tall_operator::Sample;
 
 /// The bounds of [`crate::bounds::Bounds`] in a vector of storeys and their floors.
@@ -116,7 +116,7 @@ pub(crate) type Apart = [[f64; WIDTH]; 3];
 
 impl Bounds {
     pub(crate) fn new(state: &State, observer: &Observer, length: usize) -> Self {
-        let signs = state.springs.iter().map(|s| s.plastic().map_or(0.0, Sign::factor));
+        let signs = state.springs.iter().map(|s| s.rate_sign().map_or(0.0, Sign::factor));
         let signs = filled_to(length, signs, 0.0);
         let stuck_mu = filled_to(length, state.stuck_mu[1..].iter().map(|mu| mu.min(FAR)), FAR);
         let vectors = lanes(&signs).iter().zip(lanes(&stuck_mu)).map(|(&sign, &stuck_mu)| VectorBounds {

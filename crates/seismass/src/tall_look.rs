@@ -17,8 +17,11 @@ pub(crate) struct FloorBlock {
     pub(crate) sign: f64,
     pub(crate) velocity: f64,
     pub(crate) slip: f64,
-    /// Velocity at the end of the step.
+    /// What sign times slip does not reach before the friction coefficient changes.
+    pub(crate) limit: f64,
+    /// Velocity and slip at the end of the step.
     pub(crate) velocity_after: f64,
+    pub(crate) slip_after: f64,
 }
 
 /// Storeys and floors of a vector whose peaks a step beats, as bits of the lanes: at all; inside, where drifts and

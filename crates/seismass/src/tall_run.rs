@@ -15,9 +15,9 @@ use crate::full_step::{FullStep, Shears};
 use crate::lanes::{Vector, WIDTH, at, filled_to, for_each_path, lanes, lanes_mut};
 use crate::observe::Observer;
 use crate::scene::Motion;
+use crate::sign::Sign;
 use crate::sliding::{GroundBlock, Linear, SMALL_DIFFERENCE, move_on_ground};
 use crate::state::{State, THIRD, off_cubic, range, turned};
-use crate::storey::Sign;
 use crate::tall_bounds::{Apart, Bounds};
 use crate::tall_look::{Beaten, Closer, Curvature, FloorBlock, Suspects};
 use crate::tall_norms::{Rows, energy};
@@ -233,18 +233,23 @@ fn run_lanes<V: Vector>(
                 break;
             }
         }
-        if vertical.is_some() && !(contact.0 > NO_CONTACT && contact.1 > NO_CONTACT)
-            || watches_ground && !move_on_ground(&mut on_ground, ground, push, h, state.stuck_mu[0])
-        {
-            break;
-        }
+        let mut wears = false;
         if !on_floors.is_empty() {
             prefix_sums::<V>(&dx, &mut floors);
             for block in &mut on_floors {
                 let moved = block.friction * push.twice(h) + ground.twice(h);
-                block.slip += h * block.velocity - (moved + floors[block.floor]);
-                block.velocity = block.velocity_after;
+                block.slip_after = block.slip + (h * block.velocity - (moved + floors[block.floor]));
+                wears |= block.sign * block.slip_after >= block.limit;
             }
+        }
+        if wears
+            || vertical.is_some() && !(contact.0 > NO_CONTACT && contact.1 > NO_CONTACT)
+            || watches_ground && !move_on_ground(&mut on_ground, ground, push, h, state.stuck_mu[0])
+        {
+            break;
+        }
+        for block in &mut on_floors {
+            (block.slip, block.velocity) = (block.slip_after, block.velocity_after);
         }
         if turns {
             let time = (next - 1) as f64 * h;
@@ -295,12 +300,21 @@ fn sliding_blocks(state: &State) -> (Vec<FloorBlock>, Vec<GroundBlock>) {
     let (mut on_floors, mut on_ground) = (Vec::new(), Vec::new());
     for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
         let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
-        let (friction, velocity, slip) = (sign * law.mu_k, motion.velocity, motion.slip);
+        let (friction, velocity, slip) = (sign * motion.mu_k, motion.velocity, motion.slip);
+        let limit = motion.wear_limit(sign);
         match law.floor.checked_sub(1) {
-            Some(floor) => {
-                on_floors.push(FloorBlock { block, floor, friction, sign, velocity, slip, velocity_after: velocity })
-            }
-            None => on_ground.push(GroundBlock { block, friction, sign, velocity, slip }),
+            Some(floor) => on_floors.push(FloorBlock {
+                block,
+                floor,
+                friction,
+                sign,
+                velocity,
+                slip,
+                limit,
+                velocity_after: velocity,
+                slip_after: slip,
+            }),
+            None => on_ground.push(GroundBlock { block, friction, sign, velocity, slip, limit }),
         }
     }
     (on_floors, on_ground)

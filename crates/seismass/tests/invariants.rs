@@ -102,7 +102,7 @@ fn blocks(n: usize) -> impl Strategy<Value = Vec<Block>> {
         });
     // Some blocks have a twin: equal ones must move as one.
     (prop::collection::vec(block, 0..5), any::<bool>()).prop_map(|(mut blocks, twin)| {
-        if twin && let Some(&first) = blocks.first() {
+        if twin && let Some(first) = blocks.first().cloned() {
             blocks.push(first);
         }
         blocks

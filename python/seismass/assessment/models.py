@@ -11,9 +11,9 @@ import polars as pl
 from seismass._values import FloatArray
 from seismass.batch import simulate_many
 from seismass.errors import SimulationError
+from seismass.motion import Motion
 from seismass.own_building import OwnBuilding
 from seismass.scene import Scene
-from seismass.simulate import Motion
 from seismass.spectra import TargetSpectrum
 
 REAL: Final = "real"

@@ -257,8 +257,8 @@ def _digest(
         structure = scene.building
         assert structure is not None
         digest.update(name.encode())
-        arrays: tuple[Any, ...] = (structure.mass, structure.stiffness, structure.yield_shear, structure.overstrength)
-        arrays += (structure.second_slope, structure.third_slope, structure.damping_matrix, scene.geometric_stiffness)
+        springs = structure.springs_in_use().values()
+        arrays = (structure.mass, *springs, structure.damping_matrix, scene.geometric_stiffness)
         for array in (*arrays, structure.heights, scene.collapse_drift, scene.block_mass):
             digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
         digest.update(np.array([[block.mu_s, block.mu_k] for block in scene.blocks], dtype="<f8").tobytes())

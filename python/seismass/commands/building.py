@@ -127,7 +127,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _listing(args: argparse.Namespace) -> str:
-    """Return the example file, or the table that was asked for."""
+    """Return the example file, or the requested table."""
     if args.example:
         from seismass.building_file import example_file
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from seismass.commands.options import (
     add_motion_options,
+    add_spring_options,
     left_out,
     read_motions,
     read_target,
@@ -50,8 +51,7 @@ def add_parser(subparsers: Any) -> None:
     )
     grid.add_argument("--intensity", type=numbers_option, metavar="LIST", help="factors of the scaled motions (1)")
     grid.add_argument("--design-fraction", type=float, metavar="L", help="share of live load in the design (0.25)")
-    grid.add_argument("--overstrength", type=float, metavar="OMEGA", help="Omega (2)")
-    grid.add_argument("--second-slope", type=float, metavar="R2", help="r2, an inference (0.05)")
+    add_spring_options(grid, ("overstrength", "second_slope"))
     output = parser.add_argument_group("running and output")
     output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
     output.add_argument("--json", action="store_true", help="print metadata, rules and scatter as JSON")

@@ -7,10 +7,12 @@ import errno
 import math
 import os
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from seismass.commands.targets import TARGET_HELP, target_of
+from seismass.springs import SHAPE_FIELDS
 from seismass.units import ACCELERATION_UNITS
 
 if TYPE_CHECKING:
@@ -18,6 +20,12 @@ if TYPE_CHECKING:
     from seismass.records.builtin import BuiltinName
     from seismass.spectra import TargetSpectrum
 
+SPRING_OPTIONS: Final = {
+    "overstrength": "second yield over the first",
+    "second_slope": "slope after the first yield, an inference",
+    "third_slope": "slope after the second yield, an inference",
+}
+"""What shapes the springs of a command's buildings, with its help."""
 _LISTED_SINGLY: Final = 8
 
 
@@ -42,6 +50,18 @@ def add_target_options(group: argparse._ActionsContainer) -> None:
         metavar="S",
         help="T_L, s (8); the three defaults stand in for the Port of Long Beach and are not its published spectrum",
     )
+
+
+def add_spring_options(group: argparse._ActionsContainer, names: Iterable[str] = SPRING_OPTIONS, of: str = "") -> None:
+    """Add --overstrength, --second-slope and --third-slope, or those of them that are named; `of` precedes defaults."""
+    for name in names:
+        field = SHAPE_FIELDS[name]
+        group.add_argument(
+            f"--{name.replace('_', '-')}",
+            type=float,
+            metavar=field.symbol.upper(),
+            help=f"{SPRING_OPTIONS[name]} ({of}{field.default:g})",
+        )
 
 
 def add_reading_options(parser: argparse.ArgumentParser) -> None:

@@ -12,11 +12,15 @@ from typing import Any
 
 import polars as pl
 
+from seismass.block import Block
+from seismass.building import Building
+from seismass.damping import Rayleigh
 from seismass.errors import InvalidOption, SimulationError
 from seismass.files import write_table, written_whole
-from seismass.scene import Block, Building, Rayleigh, Scene
+from seismass.response import Response
+from seismass.scene import Scene
 from seismass.scene_file import KEYS, SceneFile, read_scene
-from seismass.simulate import Response, simulate
+from seismass.simulate import simulate
 from seismass.units import STANDARD_GRAVITY
 
 _HISTORY_SUFFIXES = (".parquet", ".csv")
@@ -179,16 +183,9 @@ def _building_lines(building: Building, scene: Scene) -> list[str]:
         f"building  {building.storeys} {noun}, periods {periods}{more} s, {_weight_text(building)}, "
         f"damping {_damping_text(building)}"
     ]
-    parameters = ", ".join(
-        f"{symbol} {_listed(values)}"
-        for symbol, values in (
-            ("V_y/W", building.yield_shear / building.weight),
-            ("Omega", building.overstrength),
-            ("r2", building.second_slope),
-            ("r3", building.third_slope),
-        )
-    )
-    lines.append(f"springs   {'elastic' if math.isinf(building.yield_shear.min()) else parameters}")
+    parameters = ", ".join(f"{symbol} {_listed(values)}" for symbol, values in building.spring_summary().items())
+    elastic = math.isinf(building.yield_shear.min()) and not building.laws
+    lines.append(f"springs   {'elastic' if elastic else ', '.join([parameters, *building.laws])}")
     if scene.geometric_stiffness.any():
         lines.append(f"P-Delta   P/(h k) {_listed(scene.geometric_stiffness / building.stiffness)}")
     return lines

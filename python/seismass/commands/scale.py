@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 
 from seismass._values import counted
 from seismass.commands.options import (
+    SPRING_OPTIONS,
     add_motion_options,
+    add_spring_options,
     check_files,
     left_out,
     positive_option,
@@ -20,13 +22,13 @@ from seismass.commands.options import (
 )
 
 if TYPE_CHECKING:
+    from seismass.building import Building
     from seismass.records import Pairs, Suite
     from seismass.scaling import ScalingResult, Selection
-    from seismass.scene import Building
     from seismass.spectra import TargetSpectrum
 
 METHODS: Final = ("asce7-10", "asce7-16", "least-squares", "least-squares-linear", "sa-t1", "mps")
-_PUSHOVER: Final = ("reduction", "yield_coefficient", "overstrength", "second_slope", "third_slope", "deformation")
+_PUSHOVER: Final = ("reduction", "yield_coefficient", *SPRING_OPTIONS, "deformation")
 _EPILOG = """examples:
   seismass scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6
   seismass scale --records records/ --target uniform_hazard.csv --json
@@ -74,9 +76,7 @@ def add_parser(subparsers: Any) -> None:
         "--reduction", type=positive_option, metavar="R", help="A_t(T) over the yield acceleration (mps)"
     )
     method.add_argument("--yield-coefficient", type=positive_option, metavar="C", help="yield acceleration, g (mps)")
-    method.add_argument("--overstrength", type=float, metavar="OMEGA", help="second yield over the first (mps: 2)")
-    method.add_argument("--second-slope", type=float, metavar="R2", help="slope after the first yield (mps: 0.05)")
-    method.add_argument("--third-slope", type=float, metavar="R3", help="slope after the second yield (mps: 0)")
+    add_spring_options(method, of="mps: ")
     method.add_argument(
         "--deformation", choices=("ratio", "median"), help="target deformation: C_R or the suite's median (mps: ratio)"
     )

@@ -8,7 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.options import (
+    SPRING_OPTIONS,
     add_reading_options,
+    add_spring_options,
     positive_option,
     read_records,
     warn_left_out,
@@ -28,7 +30,6 @@ _KINDS: Final[dict[str, Kind]] = {
     "sa": "acceleration",
 }
 _IN_G: Final = ("psa", "sa")
-_SPRING: Final = ("overstrength", "second_slope", "third_slope")
 _EPILOG = """examples:
   seismass spectrum record.AT2 --damping 0.02 0.05
   seismass spectrum column.txt --dt 0.01 --unit cm/s2
@@ -70,9 +71,7 @@ def add_parser(subparsers: Any) -> None:
     level = inelastic.add_mutually_exclusive_group()
     level.add_argument("--strength", type=positive_option, nargs="+", metavar="C", help="strengths V_y/W")
     level.add_argument("--ductility", type=positive_option, nargs="+", metavar="MU", help="ductility demands")
-    inelastic.add_argument("--overstrength", type=float, metavar="OMEGA", help="second yield over the first (2)")
-    inelastic.add_argument("--second-slope", type=float, metavar="R2", help="slope after the first yield (0.05)")
-    inelastic.add_argument("--third-slope", type=float, metavar="R3", help="slope after the second yield (0)")
+    add_spring_options(inelastic)
     parser.set_defaults(run=run)
 
 
@@ -83,7 +82,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.errors import InvalidOption
 
     inelastic = args.strength is not None or args.ductility is not None
-    unused = ("kind",) if inelastic else _SPRING
+    unused = ("kind",) if inelastic else tuple(SPRING_OPTIONS)
     for name in unused:
         if getattr(args, name) is not None:
             when = "with --strength or --ductility" if inelastic else "without --strength or --ductility"
@@ -125,7 +124,7 @@ def _inelastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataF
 
     from seismass.spectra import inelastic_spectrum
 
-    springs = {name: getattr(args, name) for name in _SPRING if getattr(args, name) is not None}
+    springs = {name: getattr(args, name) for name in SPRING_OPTIONS if getattr(args, name) is not None}
     levels = {"strength": args.strength, "ductility": args.ductility}
     tables = []
     for ratio in args.damping:

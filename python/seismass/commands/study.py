@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.options import (
+    SPRING_OPTIONS,
     add_motion_options,
+    add_spring_options,
     left_out,
     positive_option,
     read_motions,
@@ -67,9 +69,7 @@ def add_parser(subparsers: Any) -> None:
     building.add_argument(
         "--mu", type=numbers_option, default=(0.4,), metavar="MU[,MU...]", help="friction coefficients (0.4)"
     )
-    building.add_argument("--overstrength", type=float, default=2.0, help="Omega (2)")
-    building.add_argument("--second-slope", type=float, default=0.05, help="r2, an inference, not the paper's (0.05)")
-    building.add_argument("--third-slope", type=float, default=0.0, help="r3, an inference, not the paper's (0)")
+    add_spring_options(building)
     building.add_argument(
         "--damping-base",
         choices=tuple(DAMPING_TEXTS),
@@ -117,9 +117,7 @@ def run(args: argparse.Namespace) -> int:
         code=args.code,
         occupancies=None if args.occupancy is None else tuple(args.occupancy),
         mu=args.mu,
-        overstrength=args.overstrength,
-        second_slope=args.second_slope,
-        third_slope=args.third_slope,
+        **{name: getattr(args, name) for name in SPRING_OPTIONS if getattr(args, name) is not None},
         damping_base=args.damping_base,
         scaling_period=args.period,
         combination=args.combination,

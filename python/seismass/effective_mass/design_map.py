@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 
 from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_number, brief, refusal
+from seismass.block import blocks_on_floors
+from seismass.building import Building
+from seismass.damping import DEFAULT_DAMPING
 from seismass.design import Combination, response_spectrum_analysis
 from seismass.effective_mass.curve import (
     DEFAULT_FRACTIONS,
@@ -29,17 +32,10 @@ from seismass.errors import InvalidMotion, InvalidOption
 from seismass.plausibility import motion_remarks, scaling_remarks, target_remarks
 from seismass.records import Suite
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.scene import (
-    DEFAULT_DAMPING,
-    DEFAULT_OVERSTRENGTH,
-    DEFAULT_SECOND_SLOPE,
-    DEFAULT_THIRD_SLOPE,
-    Building,
-    Scene,
-    blocks_on_floors,
-)
+from seismass.scene import Scene
 from seismass.simulate import instruction_set
 from seismass.spectra import TargetSpectrum, mean_spectrum
+from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 
 SCHEMA_VERSION: Final = 1
 """Version of the tables and of the metadata of a map; see docs/effective_mass.md."""

@@ -25,8 +25,9 @@ from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached,
 from seismass.effective_mass.result import finite_values
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.errors import InvalidOption
+from seismass.motion import MotionLike
 from seismass.scene import Scene
-from seismass.simulate import MotionLike, instruction_set
+from seismass.simulate import instruction_set
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -319,9 +320,12 @@ def _with_goods(scene: Scene, friction: float, present: float) -> Scene:
     blocks = []
     for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
         if block.floor > 0 and present > 0.0:
-            kinetic = friction * (block.mu_k / block.mu_s if block.mu_s > 0.0 else 1.0)
+            factor = friction / block.mu_s if block.mu_s > 0.0 else 1.0
+            kinetic = factor * block.mu_k if block.mu_s > 0.0 else friction
+            wear = [(path, factor * mu_s, factor * mu_k) for path, mu_s, mu_k in block.wear]
             amount = {"mass": None, "mass_ratio": block.mass_ratio * present} if block.mass_ratio else {}
-            blocks.append(block.replace(**({"mass": mass * present} | amount), mu_s=friction, mu_k=kinetic, mu=None))
+            changes = {"mass": mass * present} | amount
+            blocks.append(block.replace(**changes, mu_s=friction, mu_k=kinetic, mu=None, wear=wear))
     return scene.replace(blocks=blocks)
 
 

@@ -7,8 +7,9 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 
 from seismass._values import FloatArray, as_number, brief, refusal
+from seismass.building import Building
 from seismass.errors import InvalidOption, InvalidScene
-from seismass.scene import Building, Scene
+from seismass.scene import Scene
 from seismass.units import STANDARD_GRAVITY
 
 ModelDamping: TypeAlias = Literal["same", "ratio"]

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass._values import FloatArray, brief, refusal
 from seismass.errors import InvalidMotion, SimulationError
+from seismass.motion import HasMotion, Motion, as_motion
 from seismass.scene import Scene
-from seismass.simulate import HasMotion, Motion, as_motion
 
 Progress: TypeAlias = Callable[[int, int], object]
 """Called with (runs done, runs in all)."""

@@ -27,6 +27,7 @@ from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
 from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
 from seismass.scene import Scene
 from seismass.simulate import instruction_set
+from seismass.springs import SHAPE_FIELDS
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,9 +192,7 @@ class Search:
             "instructions": instruction_set(),
             "inputs_sha256": inputs_digest(scene, self.motions, chosen),
             **chosen,
-            "second_slope": building.second_slope.tolist(),
-            "third_slope": building.third_slope.tolist(),
-            "overstrength": building.overstrength.tolist(),
+            **{name: values.tolist() for name, values in building.springs_in_use().items() if name in SHAPE_FIELDS},
             "p_delta": bool(scene.geometric_stiffness.any()),
             "motions": len(self.motions),
             "clusters": self.motions.clusters,
@@ -203,7 +202,8 @@ class Search:
 
 def without_friction(scene: Scene) -> bool:
     """Whether no goods on the floors have friction; goods with mu_s alone stick until they slide."""
-    return all(block.mu_s == 0.0 for block, floor in zip(scene.blocks, scene.block_floor, strict=True) if floor > 0)
+    coefficients = ((block.mu_s, *(mu_s for _, mu_s, _ in block.wear)) for block in scene.blocks if block.floor > 0)
+    return not any(any(each) for each in coefficients)
 
 
 class _Difference:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from itertools import chain
 from typing import Any, Final
 
 import numpy as np
@@ -135,13 +136,14 @@ def inputs_digest(scene: Scene, motions: NamedMotions, chosen: dict[str, Any]) -
     """SHA-256 of everything that the numbers depend on."""
     digest = hashlib.sha256(json.dumps(chosen, sort_keys=True).encode())
     building = building_of(scene)
-    springs = [building.mass, building.stiffness, building.yield_shear, building.overstrength]
-    springs += [building.second_slope, building.third_slope, building.damping_matrix, scene.geometric_stiffness]
+    structure = [building.mass, *building.springs_in_use().values(), building.damping_matrix, scene.geometric_stiffness]
     optional = [building.heights, scene.initial_drift, scene.initial_velocity, scene.collapse_drift]
-    for array in (*springs, *optional):
+    if building.laws:
+        digest.update(repr((building.backbone, building.hysteresis)).encode())
+    for array in (*structure, *optional):
         digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
     for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
-        digest.update(np.array([block.floor, mass, block.mu_s, block.mu_k], dtype="<f8").tobytes())
+        digest.update(np.array([block.floor, mass, block.mu_s, block.mu_k, *chain(*block.wear)], dtype="<f8").tobytes())
     for motion in motions.motions:
         digest.update(np.float64(motion.dt).tobytes())
         digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())

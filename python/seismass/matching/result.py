@@ -57,7 +57,7 @@ class MatchedRecord:
     target : str
         What the target is.
     damping, tolerance : float
-        Ratio of critical damping of the spectra, and the largest misfit that was asked for.
+        Ratio of critical damping of the spectra, and the tolerance of the misfit.
     iterations : int
         Passes made.
     matched_periods : ndarray

@@ -18,6 +18,7 @@ from seismass.records.formats.directions import azimuth_of, is_vertical
 from seismass.records.read import HEAD_BYTES, format_of, read_records
 from seismass.records.record import Record
 from seismass.records.suite import files_below
+from seismass.units import STANDARD_GRAVITY
 
 _ALL: Final = (*RECORDINGS, *SUBSTITUTES)
 _LARGEST_BYTES: Final = 8 * 1024 * 1024
@@ -239,7 +240,7 @@ def _scale(record: Record, component: Component) -> list[str]:
     """A remark where accelerations are a multiple of those recorded, or the step is another."""
     remarks = []
     if component.peak_g is not None and component.peak_sample is not None:
-        factor = float(record.acceleration[component.peak_sample - 1]) / (9.80665 * component.peak_g)
+        factor = float(record.acceleration[component.peak_sample - 1]) / (STANDARD_GRAVITY * component.peak_g)
         if abs(factor - 1.0) > _SAME_PEAK:
             remarks.append(
                 f"accelerations are {factor:.5g} times those recorded, {abs(component.peak_g):.5f} g at the peak: "

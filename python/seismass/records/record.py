@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-    from seismass.simulate import Motion
+    from seismass.motion import Motion
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -222,7 +222,7 @@ class Record(Value):
     @property
     def motion(self) -> Motion:
         """The samples as the kernel takes them."""
-        from seismass.simulate import Motion  # reading records needs no kernel
+        from seismass.motion import Motion  # reading records needs no kernel
 
         return Motion(self.acceleration, self.dt, self.vertical)
 

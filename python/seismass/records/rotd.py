@@ -130,7 +130,7 @@ def rotd(
     >>> sm.rotd(diagonal, [0.5, 1.0]).angle
     array([45., 45.])
     """
-    from seismass.simulate import Motion  # reading records needs no kernel
+    from seismass.motion import Motion  # reading records needs no kernel
     from seismass.spectra import response_spectrum
 
     if not isinstance(pair, Pair):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Final
 
 import matplotlib as mpl
@@ -12,17 +12,31 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
+from seismass.codes import code_fraction
 from seismass.effective_mass.result import EffectiveMass
 from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION
 
 GREEN: Final = "#009E73"
-STORAGE_CODES: Final[Mapping[str, float]] = {
-    "ASCE 7, NSR-10": 0.25,
-    "IS 1893, NCh2369": 0.50,
-    "NBC, NZS 1170.5": 0.60,
-    "Eurocode 8, E.030": 0.80,
+_MARKED: Final = {
+    "asce7-10": "ASCE 7",
+    "nsr-10": "NSR-10",
+    "is1893": "IS 1893",
+    "nch2369": "NCh2369",
+    "nbc": "NBC",
+    "nzs1170.5": "NZS 1170.5",
+    "ec8": "Eurocode 8",
+    "e030": "E.030",
 }
-"""Shares of codes for storage that figures mark; see `seismass.codes` for their clauses."""
+
+
+def _storage_codes() -> Iterator[tuple[str, float]]:
+    of_share = {code_id: code_fraction(code_id, "storage").fraction for code_id in _MARKED}
+    for share in dict.fromkeys(of_share.values()):
+        yield ", ".join(name for code_id, name in _MARKED.items() if of_share[code_id] == share), share
+
+
+STORAGE_CODES: Final[Mapping[str, float]] = dict(_storage_codes())
+"""Shares of codes for storage that figures mark, by the names of those that have them; see `seismass.codes`."""
 _RATIO_TICKS: Final = (0.25, 0.33, 0.5, 0.67, 0.8, 1.0, 1.25, 1.5, 2.0, 3.0, 4.0)
 
 

@@ -9,12 +9,12 @@ from typing import Any, Final
 import numpy as np
 
 from seismass._values import FloatArray, brief, frozen, refusal
+from seismass.building import Building
 from seismass.design import vibration_modes
 from seismass.errors import InvalidOption
+from seismass.motion import Motion
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import SuiteSpectra, positive_number, positive_period, suite_spectra
-from seismass.scene import Building
-from seismass.simulate import Motion
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 
 SHARE_7_16: Final = 0.9

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from seismass._values import FloatArray, brief, refusal
+from seismass.building import Building
 from seismass.design import vibration_modes
 from seismass.errors import InvalidOption
-from seismass.scene import Building
 from seismass.units import STANDARD_GRAVITY
 
 
@@ -83,7 +83,7 @@ def first_mode_oscillator(building: Building) -> FirstModeOscillator:
     Raises
     ------
     InvalidOption
-        It is no building.
+        It is no building, or has springs that are not trilinear with Masing unloading.
 
     Notes
     -----
@@ -96,6 +96,9 @@ def first_mode_oscillator(building: Building) -> FirstModeOscillator:
     """
     if not isinstance(building, Building):
         raise refusal(InvalidOption, "building", "scaling", "a Building", brief(building))
+    if building.laws:
+        requirement = "of trilinear springs with Masing unloading, as those of the oscillator are"
+        raise refusal(InvalidOption, "building", "scaling", requirement, ", ".join(building.laws))
     modes = vibration_modes(building.mass, building.stiffness)
     shape, period, modal_mass = modes.shapes[:, 0], float(modes.periods[0]), float(modes.effective_mass[0])
     loads = building.mass * shape

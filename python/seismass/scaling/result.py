@@ -30,7 +30,7 @@ class ScalingResult:
         SF1: the factor of each motion by itself; for ASCE 7 it brings the motion as close to the target as one factor
         can, in the logarithm.
     common : float
-        SF2: lifts the mean spectrum until it is not below the target, or the share of it that is asked for, at any of
+        SF2: lifts the mean spectrum until it is not below the target, or the required share of it, at any of
         the periods. 1 for methods that look at each motion alone.
     factors : ndarray, shape (motions,)
         SF1 SF2, by which accelerations are multiplied.
@@ -41,7 +41,7 @@ class ScalingResult:
     spectra : ndarray, shape (motions, periods)
         Scaled pseudo-acceleration of each motion (m/s2) there.
     governing_period : float
-        Period (s) at which the mean is lowest beside the target; for ASCE 7 it touches what is asked for there.
+        Period (s) at which the mean over the target is lowest; for ASCE 7 it touches the required level there.
     method : str
         Name of the method.
     period : float

@@ -84,7 +84,7 @@ def select_records(
     InvalidOption
         An argument is out of its range.
     InvalidMotion
-        The suite is none, or fewer records than asked for are within the limits.
+        The suite is none, or fewer records than requested are within the limits.
 
     Notes
     -----

@@ -10,8 +10,8 @@ import numpy as np
 
 from seismass._values import FloatArray, as_count, as_number, brief, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption
+from seismass.motion import motion_names
 from seismass.scaling.result import ScalingResult
-from seismass.simulate import motion_names
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.spectra.motions import check_not_zero
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from seismass._values import FloatArray, as_array, frozen, refusal
 from seismass.errors import InvalidOption
 from seismass.spectra.checks import OWNER, positive
+from seismass.spectra.period_table import PeriodTable
 from seismass.units import STANDARD_GRAVITY
 
 DEFAULT_SDS_G: Final = 1.07
@@ -68,11 +69,8 @@ def two_period_shape(sds_g: float, sd1_g: float, tl: float) -> TwoPeriod:
 
 
 @dataclass(frozen=True, eq=False)
-class MultiPeriod:
+class MultiPeriod(PeriodTable):
     """Sa (g) at periods (s), linear between them."""
-
-    periods: FloatArray
-    sa_g: FloatArray
 
     @property
     def label(self) -> str:
@@ -87,17 +85,7 @@ class MultiPeriod:
     @property
     def parameters(self) -> dict[str, Any]:
         """The table."""
-        return {"shape": "asce7_multi_period", "period": self.periods.tolist(), "sa_g": self.sa_g.tolist()}
-
-    @property
-    def shortest(self) -> float:
-        """First period (s)."""
-        return float(self.periods[0])
-
-    @property
-    def longest(self) -> float:
-        """Last period (s)."""
-        return float(self.periods[-1])
+        return {"shape": "asce7_multi_period", **self.points}
 
     def __call__(self, periods: FloatArray) -> FloatArray:
         """Return Sa (m/s2)."""

@@ -11,12 +11,13 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass._values import FloatArray, as_array, as_count, as_number, frozen, refusal
+from seismass.building import Building
 from seismass.errors import InvalidOption, SimulationError
-from seismass.scene import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE, Building
-from seismass.simulate import motion_names
+from seismass.motion import motion_names
 from seismass.spectra.elastic import response_spectrum
 from seismass.spectra.motions import GroundMotion, as_motions, check_not_zero
 from seismass.spectra.oscillators import Oscillators
+from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 from seismass.units import STANDARD_GRAVITY
 
 SCAN_STEP: Final = 0.04

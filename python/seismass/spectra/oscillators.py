@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from seismass import _kernel
 from seismass._values import FloatArray
+from seismass.building import Building
 from seismass.errors import SimulationError
-from seismass.scene import Building
 from seismass.spectra.motions import GroundMotion, held
 
 IndexArray: TypeAlias = NDArray[np.int64]

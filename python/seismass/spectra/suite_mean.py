@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from seismass import _kernel
 from seismass._values import FloatArray, as_array, as_number, counted, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption
 from seismass.spectra.checks import OWNER
@@ -62,7 +63,7 @@ class SuiteMean:
     @property
     def shortest(self) -> float:
         """A thousandth of the largest time step, as far as spectra of it go (s)."""
-        return 1e-3 * max(motion.dt for motion in self.motions)
+        return _kernel.SHORTEST_PERIOD_OVER_STEP * max(motion.dt for motion in self.motions)
 
     def __call__(self, periods: FloatArray) -> FloatArray:
         """Return the mean Sa (m/s2)."""

@@ -13,32 +13,21 @@ import numpy as np
 from seismass._values import FloatArray, as_path, frozen, printable, refusal
 from seismass.errors import RecordFormatError
 from seismass.spectra.checks import OWNER
+from seismass.spectra.period_table import PeriodTable
 from seismass.units import STANDARD_GRAVITY
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
+class CsvTable(PeriodTable):
     """Sa (g) at periods (s) from a file, linear in logarithms between them."""
 
     label: str
     file: str
-    periods: FloatArray
-    sa_g: FloatArray
 
     @property
     def parameters(self) -> dict[str, Any]:
         """The file's name and its points."""
-        return {"shape": "csv", "file": self.file, "period": self.periods.tolist(), "sa_g": self.sa_g.tolist()}
-
-    @property
-    def shortest(self) -> float:
-        """First period (s)."""
-        return float(self.periods[0])
-
-    @property
-    def longest(self) -> float:
-        """Last period (s)."""
-        return float(self.periods[-1])
+        return {"shape": "csv", "file": self.file, **self.points}
 
     def __call__(self, periods: FloatArray) -> FloatArray:
         """Return Sa (m/s2)."""
@@ -46,11 +35,11 @@ class Table:
         return STANDARD_GRAVITY * np.exp(log_ordinates)
 
 
-def csv_shape(path: str | os.PathLike[str]) -> Table:
+def csv_shape(path: str | os.PathLike[str]) -> CsvTable:
     """Return the shape of a CSV, of which `TargetSpectrum.from_csv` says what it must be."""
     source = as_path(path, OWNER, RecordFormatError)
     periods, ordinates = read_table(path)
-    return Table(printable(source.stem), printable(source.name), periods, ordinates)
+    return CsvTable(periods, ordinates, printable(source.stem), printable(source.name))
 
 
 def read_table(path: str | os.PathLike[str], *, zero: bool = False) -> tuple[FloatArray, FloatArray]:

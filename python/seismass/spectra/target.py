@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -52,7 +53,8 @@ class Shape(Protocol):
 class TargetSpectrum:
     """Pseudo-acceleration against period that motions are scaled to; call it with periods.
 
-    Make one with `asce7`, `asce7_multi_period`, `eurocode8`, `nzs1170`, `from_csv` or `mean_of`.
+    Make one with `asce7`, `asce7_multi_period`, `eurocode8`, `nzs1170`, `from_csv` or `mean_of`. Two are equal where
+    their parameters are.
 
     Parameters
     ----------
@@ -114,7 +116,7 @@ class TargetSpectrum:
         --------
         >>> import seismass as sm
         >>> target = sm.TargetSpectrum.asce7(sds_g=1.0, sd1_g=0.6)
-        >>> (target([0.0, 0.3, 1.0, 16.0]) / 9.80665).round(6).tolist()
+        >>> (target([0.0, 0.3, 1.0, 16.0]) / sm.STANDARD_GRAVITY).round(6).tolist()
         [0.4, 1.0, 0.6, 0.01875]
         """
         return cls(two_period_shape(sds_g, sd1_g, tl))
@@ -138,7 +140,7 @@ class TargetSpectrum:
         --------
         >>> import seismass as sm
         >>> target = sm.TargetSpectrum.asce7_multi_period([0.0, 0.1, 1.0, 10.0], [0.5, 1.0, 0.6, 0.03])
-        >>> (target([0.05, 0.55]) / 9.80665).round(6).tolist()
+        >>> (target([0.05, 0.55]) / sm.STANDARD_GRAVITY).round(6).tolist()
         [0.75, 0.8]
         """
         return cls(multi_period_shape(periods, sa_g))
@@ -171,7 +173,7 @@ class TargetSpectrum:
         --------
         >>> import seismass as sm
         >>> target = sm.TargetSpectrum.eurocode8(1, "C", agr_g=0.3)
-        >>> (target([0.0, 0.4, 1.2]) / 9.80665).round(6).tolist()
+        >>> (target([0.0, 0.4, 1.2]) / sm.STANDARD_GRAVITY).round(6).tolist()
         [0.345, 0.8625, 0.43125]
         """
         return cls(eurocode8_shape(kind, ground, agr_g, importance, damping))
@@ -203,7 +205,7 @@ class TargetSpectrum:
         --------
         >>> import seismass as sm
         >>> target = sm.TargetSpectrum.nzs1170("C", z=0.4)
-        >>> (target([0.2, 2.0]) / 9.80665).round(6).tolist()
+        >>> (target([0.2, 2.0]) / sm.STANDARD_GRAVITY).round(6).tolist()
         [1.172, 0.264]
         """
         return cls(nzs1170_shape(site_class, z, r, fault_distance_km))
@@ -275,7 +277,7 @@ class TargetSpectrum:
         --------
         >>> import seismass as sm
         >>> target = sm.TargetSpectrum.asce7(sds_g=1.0, sd1_g=0.6).tilted(-1.0)
-        >>> (target([0.5, 1.0, 2.0]) / 9.80665).round(6).tolist()
+        >>> (target([0.5, 1.0, 2.0]) / sm.STANDARD_GRAVITY).round(6).tolist()
         [2.0, 0.6, 0.15]
         """
         added = as_number(power, "power", "target spectrum", InvalidOption)
@@ -293,6 +295,15 @@ class TargetSpectrum:
         periods = np.geomspace(shortest, longest, 400) if shortest < longest else np.array([self.shortest])
         ordinates = self(np.clip(periods, self.shortest, self.longest))
         return float(np.max(ordinates * periods) / np.max(ordinates))
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether the other spectrum was made from the same."""
+        if not isinstance(other, TargetSpectrum):
+            return NotImplemented
+        return self is other or self.parameters == other.parameters
+
+    def __hash__(self) -> int:
+        return hash(json.dumps(self.parameters, sort_keys=True))
 
     def __call__(self, periods: ArrayLike) -> FloatArray:
         """Return Sa (m/s2) at periods (s), of the same shape.

@@ -10,8 +10,10 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 
 from seismass._values import FloatArray
+from seismass.block import blocks_on_floors
+from seismass.building import Building
 from seismass.design import SpectrumAnalysis, response_spectrum_analysis, vibration_modes
-from seismass.scene import Building, Scene, blocks_on_floors
+from seismass.scene import Scene
 from seismass.study.parameters import StudyParameters
 from seismass.units import STANDARD_GRAVITY
 

@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 import polars as pl
+from numpy.typing import NDArray
 
 from seismass._values import FloatArray
 from seismass.effective_mass import EffectiveMass, effective_mass
@@ -22,7 +23,7 @@ from seismass.units import STANDARD_GRAVITY
 def fractions_table(
     buildings: list[StudyBuilding],
     table: pl.DataFrame,
-    run_of: list[int],
+    run_of: NDArray[np.int64],
     effective: dict[Scene, EffectiveMass] | None,
 ) -> pl.DataFrame:
     """One row per building: C1, eta, min(1, eta^2), min(1, eta), and lambda_eff where it was computed.
@@ -30,7 +31,7 @@ def fractions_table(
     C1 is the mean over the motions of the peak base shear of the fully attached model over the weight of building and
     goods; null, with all that follows from it, where a run of that model collapsed or failed.
     """
-    runs = np.array(run_of).reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
+    runs = run_of.reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
     completed = (table["status"] == "completed").to_numpy()[runs].all(axis=1)
     shear = table["peak_base_shear"].to_numpy()[runs].mean(axis=1)
     weight = STANDARD_GRAVITY * np.array([_attached_mass(building.scenes["attached"]) for building in buildings])

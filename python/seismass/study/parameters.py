@@ -10,9 +10,10 @@ import numpy as np
 
 from seismass._values import as_count, as_number, brief, refusal
 from seismass.codes import CodeFraction, code_fraction
+from seismass.damping import DEFAULT_DAMPING
 from seismass.design import Combination
 from seismass.errors import InvalidOption
-from seismass.scene import DEFAULT_DAMPING, DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
+from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 
 DampingBase: TypeAlias = Literal["bare", "loaded", "own"]
 """The building in whose modes the damping ratio holds: bare, with all its goods attached, or each model's own."""

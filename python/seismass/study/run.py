@@ -11,15 +11,17 @@ from typing import Any, Final
 
 import numpy as np
 import polars as pl
+from numpy.typing import NDArray
 
 from seismass import _kernel
 from seismass._values import FloatArray, brief, printable, refusal
 from seismass.batch import simulate_many
 from seismass.errors import InvalidMotion, InvalidOption
+from seismass.motion import Motion
 from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
 from seismass.records import Suite
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.simulate import Motion, instruction_set
+from seismass.simulate import instruction_set
 from seismass.spectra import TargetSpectrum, mean_spectrum, response_spectrum
 from seismass.study.buildings import MODELS, StudyBuilding, study_buildings
 from seismass.study.fractions import effective_fractions, fractions_table
@@ -168,7 +170,7 @@ def _solve(
     motions: list[Motion],
     threads: int | None,
     progress: Callable[[int, int], object] | None,
-) -> tuple[int, list[int], pl.DataFrame]:
+) -> tuple[int, NDArray[np.int64], pl.DataFrame]:
     """Number of distinct runs, the row of each analysis among them, and the rows."""
     scenes = [building.scenes[model] for building in buildings for model in MODELS]
     scene_numbers = {scene: number for number, scene in enumerate(dict.fromkeys(scenes))}
@@ -177,7 +179,7 @@ def _solve(
     of_scene = np.array([scene_numbers[scene] for scene in scenes])
     table = simulate_many(list(scene_numbers), list(motion_numbers), threads=threads, progress=progress)
     run_of = (of_scene[:, None] * len(motion_numbers) + of_motion[None, :]).ravel()
-    return len(table), run_of.tolist(), table
+    return len(table), run_of, table
 
 
 def _remarks(
@@ -250,9 +252,8 @@ def _spectrum(
     suite: Suite, target: TargetSpectrum, scaling: ScalingResult, damping: float, threads: int | None
 ) -> pl.DataFrame:
     """Spectra over the usual periods and those of the scaling, as far as target and motions have them."""
-    shortest = max(
-        min(SPECTRUM_RANGE[0], scaling.periods[0]), target.shortest, 1e-3 * max(record.dt for record in suite)
-    )
+    shortest_of_motions = _kernel.SHORTEST_PERIOD_OVER_STEP * max(record.dt for record in suite)
+    shortest = max(min(SPECTRUM_RANGE[0], scaling.periods[0]), target.shortest, shortest_of_motions)
     longest = min(max(SPECTRUM_RANGE[1], scaling.periods[-1]), target.longest)
     periods = np.geomspace(shortest, longest, SPECTRUM_POINTS)
     scaled = scaling.factors[:, None] * response_spectrum(suite, periods, damping, threads=threads)

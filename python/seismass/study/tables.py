@@ -54,17 +54,16 @@ def typed(columns: dict[str, Any], names: Sequence[str]) -> pl.DataFrame:
     )
 
 
-def key_columns(buildings: list[StudyBuilding], repeats: NDArray[np.int64] | None = None) -> dict[str, Any]:
-    """Return the key columns, each building's as often as `repeats` says (once)."""
-    times = 1 if repeats is None else repeats
-    return {
-        key: np.repeat(np.array([building.labels[key] for building in buildings], dtype=object), times).tolist()
-        for key in KEYS
-    }
+def key_columns(buildings: list[StudyBuilding], repeats: NDArray[np.int64] | int = 1) -> dict[str, pl.Series]:
+    """Return the key columns, each building's as often as `repeats` says."""
+    schema = {key: _TYPES.get(key, pl.Float64) for key in KEYS}
+    labels = pl.DataFrame([building.labels for building in buildings], schema=schema)
+    which = np.repeat(np.arange(len(buildings), dtype=np.uint32), repeats)
+    return labels[which].to_dict()
 
 
 def responses_table(
-    buildings: list[StudyBuilding], names: list[str], table: pl.DataFrame, run_of: list[int]
+    buildings: list[StudyBuilding], names: list[str], table: pl.DataFrame, run_of: NDArray[np.int64]
 ) -> pl.DataFrame:
     """One row per building, model, motion and storey.
 
@@ -76,12 +75,11 @@ def responses_table(
         What the motions are called.
     table : polars.DataFrame
         Rows of `simulate_many`, one per distinct run.
-    run_of : list of int
+    run_of : ndarray of int, shape (analyses,)
         Row of `table` of each analysis: building by building, model by model, motion by motion.
     """
-    per_building = len(MODELS) * len(names)
-    repeats = np.full(len(buildings), per_building)
-    motions = np.tile(np.arange(1, len(names) + 1), len(buildings) * len(MODELS))
+    motion = np.tile(np.arange(len(names)), len(buildings) * len(MODELS))
+    model = np.tile(np.repeat(np.arange(len(MODELS)), len(names)), len(buildings))
     storey = pl.col("storey") - 1
 
     def per_storey(name: str) -> pl.Expr:
@@ -89,11 +87,11 @@ def responses_table(
 
     frame = pl.DataFrame(
         {
-            **key_columns(buildings, repeats),
-            "model": np.tile(np.repeat(np.array(MODELS, dtype=object), len(names)), len(buildings)).tolist(),
-            "motion": motions,
-            "record": np.array(names, dtype=object)[motions - 1].tolist(),
-            "run": np.array(run_of) + 1,
+            **key_columns(buildings, len(MODELS) * len(names)),
+            "model": pl.Series(MODELS, dtype=pl.String).gather(model),
+            "motion": motion + 1,
+            "record": pl.Series(names, dtype=pl.String).gather(motion),
+            "run": run_of + 1,
         }
     )
     frame = pl.concat([frame, table.select("status", "reason", *_PER_STOREY)[run_of]], how="horizontal")

@@ -112,7 +112,7 @@ impl<'a> Run<'a> {
         }
         let elements = model.laws.iter().zip(scene.initial_drift()).map(|(law, drift)| {
             let mut both = [Spring::default(); 2];
-            for (spring, e) in both.iter_mut().zip(law.elements()) {
+            for (spring, e) in both.iter_mut().zip(law.spring.elements()) {
                 *spring = Spring { stiffness: e.stiffness, committed: e.stiffness * drift, ..Spring::default() };
             }
             both
@@ -198,10 +198,10 @@ impl<'a> Run<'a> {
             add(&mut self.residual[i], damping);
             let law = &self.model.laws[i];
             let change = self.change[i] - if i > 0 { self.change[i - 1] } else { 0.0 };
-            let linear = law.tangent(law.elements().len() as u8) - law.geometric;
+            let linear = law.last_slope() - law.geometric;
             let mut force = linear * (self.drift[i] + change);
             for (e, spring) in self.elements[i].iter_mut().enumerate() {
-                spring.map(change, law.elements().get(e).map_or(0.0, |element| element.yield_force));
+                spring.map(change, law.spring.elements().get(e).map_or(0.0, |element| element.yield_force));
                 force += spring.force;
             }
             add(&mut self.residual[i], force);
@@ -242,7 +242,7 @@ impl<'a> Run<'a> {
             }
         };
         for (i, law) in self.model.laws.iter().enumerate() {
-            let linear = law.tangent(law.elements().len() as u8) - law.geometric;
+            let linear = law.last_slope() - law.geometric;
             add(i.checked_sub(1), i, linear + self.elements[i].iter().map(Spring::tangent).sum::<f64>());
         }
         for (j, law) in self.model.blocks.iter().enumerate() {

@@ -4,14 +4,14 @@ use super::Events;
 use crate::events::{Guard, Outcome};
 use crate::lanes::by_width;
 use crate::response::Event;
+use crate::sign::Sign;
 use crate::state::State;
-use crate::storey::Sign;
 
 /// Value of a guard `tau` after the last sample: it has fallen when this is negative.
 pub(super) fn value(state: &State, guard: Guard, tau: f64) -> f64 {
     match guard {
-        Guard::Yield { storey, sign } => {
-            let (lower, upper) = state.yield_bounds[storey];
+        Guard::SegmentEnd { storey, sign } => {
+            let (lower, upper) = state.segment_ends[storey];
             let bound = if sign == Sign::Positive { upper } else { lower };
             sign.factor() * (bound - state.x[storey])
         }
@@ -19,8 +19,8 @@ pub(super) fn value(state: &State, guard: Guard, tau: f64) -> f64 {
             let (lower, upper) = state.collapse_bounds[storey];
             (upper - state.x[storey]).min(state.x[storey] - lower)
         }
-        Guard::Unload { storey } => {
-            state.springs[storey].plastic().map_or(f64::INFINITY, |sign| sign.factor() * state.v[storey])
+        Guard::Turn { storey } => {
+            state.springs[storey].rate_sign().map_or(f64::INFINITY, |sign| sign.factor() * state.v[storey])
         }
         Guard::Breakaway { floor, sign } => {
             let acceleration = if floor > 0 { state.a[floor - 1] } else { state.interval.ground_at(tau) };
@@ -29,6 +29,10 @@ pub(super) fn value(state: &State, guard: Guard, tau: f64) -> f64 {
         Guard::Arrival { block } => {
             let motion = &state.motions[block];
             motion.sliding().map_or(f64::INFINITY, |sign| sign.factor() * motion.velocity)
+        }
+        Guard::Wear { block } => {
+            let motion = &state.motions[block];
+            if motion.sliding().is_some() { motion.path_to_wear() } else { f64::INFINITY }
         }
         Guard::Contact => {
             let sign = if state.airborne { -1.0 } else { 1.0 };
@@ -47,9 +51,9 @@ pub(super) fn fallen(state: &State, tau: f64, known: Option<Guard>) -> Option<Gu
     let storeys = (0..state.storeys()).flat_map(|storey| {
         [
             Guard::Collapse { storey },
-            Guard::Yield { storey, sign: Sign::Positive },
-            Guard::Yield { storey, sign: Sign::Negative },
-            Guard::Unload { storey },
+            Guard::SegmentEnd { storey, sign: Sign::Positive },
+            Guard::SegmentEnd { storey, sign: Sign::Negative },
+            Guard::Turn { storey },
         ]
     });
     if let Some(guard) = storeys.into_iter().find(fell) {
@@ -60,7 +64,8 @@ pub(super) fn fallen(state: &State, tau: f64, known: Option<Guard>) -> Option<Gu
     }
     let floors = (0..state.stuck_mu.len()).filter(|&floor| state.stuck_mu[floor].is_finite());
     let breakaway = floors.flat_map(|floor| both.map(|sign| Guard::Breakaway { floor, sign })).find(fell);
-    breakaway.or_else(|| (0..state.motions.len()).map(|block| Guard::Arrival { block }).find(fell))
+    let of_blocks = (0..state.motions.len()).flat_map(|block| [Guard::Arrival { block }, Guard::Wear { block }]);
+    breakaway.or_else(|| of_blocks.into_iter().find(fell))
 }
 
 /// Carries out an event at the present state. Blocks of one floor that have arrived are decided together.
@@ -77,7 +82,7 @@ pub(super) fn carry_out(state: &mut State, guard: Guard, tau: f64, events: Event
         }
     }
     let overshoot = match (guard, events) {
-        (Guard::Unload { storey }, Events::AtStepEnds) => Some((storey, state.v[storey])),
+        (Guard::Turn { storey }, Events::AtStepEnds) => Some((storey, state.v[storey])),
         _ => None,
     };
     let outcome = by_width!(state.model.width, K => crate::events::carry_out::<K>(state, guard, tau, log));

@@ -151,7 +151,7 @@ impl Leapfrog {
         let mut first = model.on_floor[0].len();
         let storeys = (0..model.storeys()).map(|i| {
             let law = &model.laws[i];
-            let mut elements = law.elements().iter().map(|e| (e.stiffness, e.yield_force));
+            let mut elements = law.spring.elements().iter().map(|e| (e.stiffness, e.yield_force));
             let both = [elements.next().unwrap_or_default(), elements.next().unwrap_or_default()];
             let drift = scene.initial_drift()[i];
             let rate = velocity(i + 1) - velocity(i);
@@ -164,7 +164,7 @@ impl Leapfrog {
                 element_force: both.map(|(k, _)| k * drift),
                 element_stiffness: both.map(|(k, _)| k),
                 element_limit: both.map(|(_, limit)| limit),
-                linear: law.tangent(law.elements().len() as u8) - law.geometric,
+                linear: law.last_slope() - law.geometric,
                 damping: stiffness_factor * model.stiffness[i],
                 force: 0.0,
                 floor_velocity: velocity(i + 1),

@@ -43,7 +43,7 @@ mod stepping;
 use thiserror::Error;
 
 use crate::error::Domain;
-use crate::scene::{Motion, Scene};
+use crate::scene::{Motion, Scene, SpringLaw};
 
 pub use history::History;
 
@@ -150,6 +150,7 @@ pub fn integrate(scene: &Scene, motion: &Motion, method: &Method) -> Result<Hist
                 stiffness_ratio,
             )?;
             fraction("tolerance", tolerance)?;
+            has_plain_laws(scene)?;
             let newton = friction_springs::Newton {
                 substeps: positive("substeps", substeps)?,
                 stiffness_ratio,
@@ -158,8 +159,22 @@ pub fn integrate(scene: &Scene, motion: &Motion, method: &Method) -> Result<Hist
             };
             friction_springs::integrate(scene, motion, &newton)
         }
-        Method::Leapfrog { substeps } => leapfrog::integrate(scene, motion, positive("substeps", substeps)?),
+        Method::Leapfrog { substeps } => {
+            has_plain_laws(scene)?;
+            leapfrog::integrate(scene, motion, positive("substeps", substeps)?)
+        }
     }
+}
+
+/// Refuses springs that are not trilinear and friction that changes with slip, which return mapping here does not know.
+fn has_plain_laws(scene: &Scene) -> Result<(), Error> {
+    let storeys = scene.building().map_or(&[][..], |building| building.storeys());
+    let other = storeys.iter().position(|storey| storey.law != SpringLaw::Trilinear);
+    let got = other.map_or(String::new(), |i| format!("another law in storey {}", i + 1));
+    require(other.is_none(), "springs", "trilinear for a method with return mapping", got)?;
+    let worn = scene.blocks().iter().position(|block| !block.wear.is_empty());
+    let got = worn.map_or(String::new(), |j| format!("wear of block {}", j + 1));
+    require(worn.is_none(), "friction", "without wear for a method with return mapping", got)
 }
 
 fn require(ok: bool, parameter: &str, requirement: &str, value: impl ToString) -> Result<(), Error> {

@@ -251,7 +251,7 @@ impl<S: Scheme> Run<'_, S> {
             if before.is_stuck() {
                 continue;
             }
-            let friction = before.sliding().map_or(0.0, |sign| sign.factor() * law.mu_k);
+            let friction = before.sliding().map_or(0.0, |sign| sign.factor() * before.mu_k);
             let [b0, b1] = [0, 1].map(|e| -friction * contact[e] - ground[e]);
             let sum = |values: &[f64]| values[..law.floor].iter().sum::<f64>();
             let velocity = before.velocity + sum(&self.start.v);

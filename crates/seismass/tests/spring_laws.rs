@@ -1,0 +1,285 @@
+//! Loops of each spring law against values computed by hand, slowly driven and in motion.
+
+#![allow(clippy::unwrap_used)]
+
+use std::sync::Arc;
+
+use seismass::{
+    Building, Damping, EventKind, Motion, Options, PeakOriented, Response, Scene, SpringLaw, SpringPath, Status,
+    Storey, simulate, spring_path,
+};
+
+fn close(value: f64, expected: f64, tolerance: f64, what: &str) {
+    let error = (value - expected).abs() / expected.abs().max(1e-300);
+    assert!(error <= tolerance, "{what}: {value} for {expected}, relative error {error:e}");
+}
+
+/// k = 100, V_y = 10 (d_y = 0.1), Omega = 2, r2 = 0.1 (cap at 1.1, 20), r3 as given.
+fn storey(third_slope: f64, law: SpringLaw) -> Storey {
+    Storey { overstrength: 2.0, second_slope: 0.1, third_slope, law, ..Storey::yielding(100.0, 10.0) }
+}
+
+fn forces(storey: &Storey, drifts: &[f64], expected: &[f64]) -> SpringPath {
+    let path = spring_path(storey, drifts).unwrap();
+    for (i, (force, expected)) in path.force.iter().zip(expected).enumerate() {
+        assert!((force - expected).abs() < 1e-11, "{i}: {force} for {expected} at {}", drifts[i]);
+    }
+    assert_eq!(path.force.len(), expected.len());
+    check_work(drifts, &path);
+    path
+}
+
+/// The work of the force along the path is what is stored and dissipated; dissipation never falls.
+fn check_work(drifts: &[f64], path: &SpringPath) {
+    let mut points = vec![(0, 0.0, 0.0)];
+    points.extend(path.events.iter().map(|e| (e.leg, e.drift, e.force)));
+    points.extend(drifts.iter().zip(&path.force).enumerate().map(|(i, (d, f))| (i + 1, *d, *f)));
+    points.sort_by_key(|p| p.0);
+    // Events of leg i come after the drift before it, which has the same number.
+    let mut ordered = vec![(0.0, 0.0)];
+    for leg in 0..drifts.len() {
+        ordered.extend(path.events.iter().filter(|e| e.leg == leg).map(|e| (e.drift, e.force)));
+        ordered.push((drifts[leg], path.force[leg]));
+    }
+    let work: f64 = ordered.windows(2).map(|p| 0.5 * (p[0].1 + p[1].1) * (p[1].0 - p[0].0)).sum();
+    let (stored, dissipated) = (path.stored.last().unwrap(), path.dissipated.last().unwrap());
+    assert!((work - stored - dissipated).abs() < 1e-10, "{work} is not {stored} + {dissipated}");
+    assert!(path.dissipated.windows(2).all(|pair| pair[1] >= pair[0] - 1e-12));
+}
+
+fn kinds(path: &SpringPath) -> Vec<(EventKind, i8, u8)> {
+    path.events.iter().map(|e| (e.kind, e.sign, e.element)).collect()
+}
+
+/// Backbone of slopes k, r2 k, r3 k with breaks at V_y and Omega V_y, and Masing: the branch back is the backbone doubled.
+#[test]
+fn trilinear() {
+    let storey = storey(0.02, SpringLaw::Trilinear);
+    forces(&storey, &[0.1, 0.6, 1.1, 2.1], &[10.0, 15.0, 20.0, 22.0]);
+    // Down from (2.1, 22): 20 N by k, 20 N by r2 k, then r3 k.
+    forces(&storey, &[2.1, 1.9, -0.1, -1.1, 2.1], &[22.0, 2.0, -18.0, -20.0, 22.0]);
+}
+
+/// Four segments of slopes 100, 50, 20, 5; the last goes on. Down from (0.6, 24.0): twice each segment.
+#[test]
+fn multilinear() {
+    let points = vec![[0.1, 10.0], [0.2, 15.0], [0.4, 19.0], [0.5, 19.5]];
+    let storey = Storey::multilinear(points);
+    let path = forces(&storey, &[0.05, 0.15, 0.3, 0.6], &[5.0, 12.5, 17.0, 20.0]);
+    let yields = [1, 2, 3].map(|n| (EventKind::Yield, 1, n));
+    assert_eq!(kinds(&path), yields);
+    let drifts = [0.6, 0.4, 0.2, -0.2, -0.4, -0.6, 0.6];
+    let path = forces(&storey, &drifts, &[20.0, 0.0, -10.0, -18.0, -19.0, -20.0, 20.0]);
+    assert_eq!(path.events[3].kind, EventKind::Unload);
+    // A closed loop between +-0.6: four times the area between the backbone and its chord, doubled.
+    let backbone = 0.5 * 0.1 * 10.0 + 0.1 * 12.5 + 0.2 * 17.0 + 0.2 * 19.5;
+    let chord = 0.5 * 0.6 * 20.0;
+    let cycle = path.dissipated[6] - path.dissipated[0];
+    assert!((cycle - 8.0 * (backbone - chord)).abs() < 1e-10, "{cycle}");
+}
+
+/// The trilinear spring with stops of 50 N/m from 0.3 m on.
+#[test]
+fn gap() {
+    let storey = storey(0.02, SpringLaw::Gap { clearance: 0.3, stop_stiffness: 50.0 });
+    // 10 + 10 * 0.2 = 12 at the stop; 10 + 4 + 50 * 0.2 at 0.5; back to 0.3 by 150, then by 100; the stop opens at 0.3.
+    let path = forces(
+        &storey,
+        &[0.3, 0.5, 0.4, 0.3, 0.2, -0.3, -0.4],
+        &[12.0, 24.0, 9.0, -6.0, -8.0 + 2.0 - 1.0, -12.0, -18.0],
+    );
+    let _ = path;
+}
+
+/// Clough: unloading with k down to zero force, then straight to the largest drift of the other side.
+#[test]
+fn peak_oriented_without_loss() {
+    let storey = storey(0.0, SpringLaw::PeakOriented(PeakOriented::default()));
+    // Up to (0.6, 15), down by k to (0.45, 0), then to the yield point (-0.1, -10), on with r2 k to (-0.6, -15).
+    let drifts = [0.6, 0.5, 0.45, 0.175, -0.1, -0.6, -0.45, 0.075, 0.6, 0.7];
+    let expected = [15.0, 5.0, 0.0, -5.0, -10.0, -15.0, 0.0, 7.5, 15.0, 16.0];
+    let path = forces(&storey, &drifts, &expected);
+    use EventKind::{Reload, Unload, Yield};
+    let log = [
+        (Yield, 1, 1),
+        (Unload, 1, 0),
+        (Reload, -1, 0),
+        (Yield, -1, 1),
+        (Unload, -1, 0),
+        (Reload, 1, 0),
+        (Yield, 1, 1),
+    ];
+    assert_eq!(kinds(&path), log);
+    // Before zero force, loading goes back to where unloading began; on a reloading line too.
+    forces(&storey, &[0.6, 0.5, 0.6, 0.7], &[15.0, 5.0, 15.0, 16.0]);
+    // The line from (0.45, 0) to (-0.1, -10): at 0.175 up by k, back at 0.175, on to -0.1.
+    let path = forces(&storey, &[0.6, 0.175, 0.2, 0.175, -0.1], &[15.0, -5.0, -2.5, -5.0, -10.0]);
+    assert_eq!(kinds(&path)[3..5], [(Unload, -1, 0), (Reload, -1, 0)]);
+}
+
+/// Takeda: k_u = 100 (0.1 / 0.9)^0.5 = 33.333... from (0.9, 18).
+#[test]
+fn unloading_stiffness_falls_with_the_largest_drift() {
+    let law = PeakOriented { unloading_exponent: 0.5, ..PeakOriented::default() };
+    let storey = storey(0.0, SpringLaw::PeakOriented(law));
+    forces(&storey, &[0.9, 0.63, 0.36, -0.1], &[18.0, 9.0, 0.0, -10.0]);
+}
+
+/// Softening: to (1.1, 20), by -20 N/m to the residual 5 N at 1.85, then flat; reloading aims at the softened peak.
+#[test]
+fn softening_to_residual_strength() {
+    let law = PeakOriented { residual_strength: 0.5, ..PeakOriented::default() };
+    let storey = storey(-0.2, SpringLaw::PeakOriented(law));
+    let path = forces(&storey, &[1.1, 1.35, 1.85, 3.0], &[20.0, 15.0, 5.0, 5.0]);
+    assert_eq!(kinds(&path), [1, 2, 3].map(|n| (EventKind::Yield, 1, n)));
+    // From (1.35, 15) to zero at 1.2, to the other side's yield point at (-0.1, -10), back from there by k to zero at 0,
+    // to (1.35, 15) with slope 15 / 1.35, and on down the softening branch.
+    forces(&storey, &[1.35, 1.2, 0.55, -0.1, 0.0, 0.675, 1.35, 1.6], &[15.0, 0.0, -5.0, -10.0, 0.0, 7.5, 15.0, 10.0]);
+}
+
+/// lambda = 20: capacity 20 * 10 * 0.1 = 20 J. The first half cycle up to (0.6, 15) dissipates 12.5 * 0.5 + 0.5 - 15^2/200
+/// = 5.625 J, so beta = 5.625 / (20 - 5.625); the force of the yield point of the other side falls by it.
+#[test]
+fn cyclic_loss_lowers_the_next_target() {
+    let law = PeakOriented { energy_capacity: 20.0, residual_strength: 0.1, ..PeakOriented::default() };
+    let storey = storey(0.0, SpringLaw::PeakOriented(law));
+    let target = 10.0 * (1.0 - 5.625 / 14.375);
+    let path = forces(&storey, &[0.6, 0.45, 0.175, -0.1], &[15.0, 0.0, -0.5 * target, -target]);
+    close(path.dissipated[1], 5.625, 1e-13, "first half cycle");
+    // Many cycles: strength comes down to the residual and no further.
+    let drifts: Vec<f64> = (0..40).map(|i| if i % 2 == 0 { 0.6 } else { -0.6 }).collect();
+    let path = spring_path(&storey, &drifts).unwrap();
+    check_work(&drifts, &path);
+    close(path.force[38], 1.0, 1e-12, "residual strength");
+}
+
+/// Without any strength left on its side a turn is followed by a reload at once: towards the yield point (-0.1, -10) of the
+/// other side, 10 * 0.1 / 3.1 N on the way to 2.9, and back on the line of no force.
+#[test]
+fn a_side_without_strength_has_no_force() {
+    let storey = storey(-0.2, SpringLaw::PeakOriented(PeakOriented::default()));
+    let path = forces(&storey, &[1.1, 2.1, 3.0, 2.9, 3.0, 3.5], &[20.0, 0.0, 0.0, -1.0 / 3.1, 0.0, 0.0]);
+    assert_eq!(kinds(&path)[3..5], [(EventKind::Unload, 1, 0), (EventKind::Reload, -1, 0)]);
+}
+
+fn oscillator(storey: Storey, mass: f64) -> Building {
+    Building::new(vec![mass], vec![storey], Damping::Modal { ratio: 0.0 }).unwrap()
+}
+
+fn run(scene: &Scene, samples: usize, dt: f64) -> Response {
+    let motion = Motion::new(vec![0.0; samples], dt, None).unwrap();
+    let options = Options { energy: true, events: true, ..Options::default() };
+    simulate(scene, &motion, &options).unwrap()
+}
+
+/// Free vibration through a gap: each half period is pi / w1-ish parts of two frequencies. From v0 at zero drift with k, the
+/// stop is reached after asin(c w / v0) / w at the velocity v1 = sqrt(v0^2 - (c w)^2), and left after a half turn of the
+/// stiffer vibration: 2 atan(v1 w2 m / (k c)) / w2.
+#[test]
+fn period_of_an_oscillator_with_a_gap() {
+    let (k, stop, mass, clearance, v0) = (100.0_f64, 700.0, 1.0, 0.02, 0.5_f64);
+    let law = SpringLaw::Gap { clearance, stop_stiffness: stop };
+    let building = oscillator(Storey { law, ..Storey::elastic(k) }, mass);
+    let scene = Scene::new(Some(Arc::new(building)), Vec::new()).unwrap();
+    let scene = scene.with_initial(vec![0.0], vec![v0]).unwrap();
+    let response = run(&scene, 400, 0.01);
+    let (w1, w2) = ((k / mass).sqrt(), ((k + stop) / mass).sqrt());
+    let v1 = (v0 * v0 - (clearance * w1).powi(2)).sqrt();
+    let quarter = (clearance * w1 / v0).asin() / w1 + (v1 * w2 * mass / (k * clearance)).atan() / w2;
+    let events = response.events.unwrap();
+    let closes: Vec<f64> =
+        events.iter().filter(|e| e.kind == EventKind::Close && e.sign == 1).map(|e| e.time).collect();
+    assert!(closes.len() > 5);
+    for (i, time) in closes.iter().enumerate() {
+        let expected = (clearance * w1 / v0).asin() / w1 + 4.0 * quarter * i as f64;
+        close(*time, expected, 2e-13, "stop touched");
+    }
+    // Energy: (k c^2 + ...) at the largest drift c + y: k (c + y)^2 + stop y^2 = m v0^2.
+    let (a, b, c) = (k + stop, 2.0 * k * clearance, k * clearance * clearance - mass * v0 * v0);
+    let y = (-b + (b * b - 4.0 * a * c).sqrt()) / (2.0 * a);
+    close(response.peaks.drift[0].value, clearance + y, 1e-13, "largest drift");
+    assert!(response.energy.unwrap().relative_residual.abs() < 1e-12);
+}
+
+/// A storey pushed by its velocity into softening collapses when its energy exceeds the area under the backbone.
+#[test]
+fn softening_to_collapse() {
+    let storey = storey(-0.2, SpringLaw::PeakOriented(PeakOriented::default()));
+    // Area under the backbone: 0.5 + 15 + 10 = 25.5 J.
+    let area: f64 = 0.5 * 0.1 * 10.0 + 15.0 * 1.0 + 0.5 * 1.0 * 20.0;
+    for (factor, collapses) in [(0.999, false), (1.001, true)] {
+        let building = oscillator(storey.clone(), 2.0);
+        let scene = Scene::new(Some(Arc::new(building)), Vec::new()).unwrap();
+        let scene = scene.with_initial(vec![0.0], vec![(factor * area).sqrt()]).unwrap();
+        let response = run(&scene, 3000, 0.01);
+        let energy = response.energy.unwrap();
+        assert!(energy.relative_residual.abs() < 1e-12, "{energy:?}");
+        match response.status {
+            Status::Collapsed { storey: 1, .. } => {
+                assert!(collapses);
+                close(response.peaks.drift[0].value, 2.1, 1e-12, "collapse drift");
+                // What is left is kinetic.
+                close(energy.kinetic, (factor - 1.0) * area, 1e-9, "kinetic energy at collapse");
+            }
+            _ => assert!(!collapses),
+        }
+    }
+}
+
+/// In motion a peak-oriented spring follows the path that it follows when driven through the same drifts.
+#[test]
+fn forces_in_motion_are_those_of_the_path() {
+    let law = PeakOriented { unloading_exponent: 0.4, energy_capacity: 60.0, residual_strength: 0.2 };
+    let laws =
+        [SpringLaw::PeakOriented(law), SpringLaw::Gap { clearance: 0.25, stop_stiffness: 80.0 }, SpringLaw::Trilinear];
+    for law in laws {
+        let softening = if matches!(law, SpringLaw::PeakOriented(_)) { -0.05 } else { 0.02 };
+        let storey = storey(softening, law);
+        let scene = Scene::new(Some(Arc::new(oscillator(storey.clone(), 1.0))), Vec::new()).unwrap();
+        let samples: Vec<f64> =
+            (0..1500).map(|i| 9.0 * (0.05 * f64::from(i)).sin() * (0.003 * f64::from(i)).cos()).collect();
+        let motion = Motion::new(samples, 0.01, None).unwrap();
+        let histories = std::num::NonZeroUsize::new(1);
+        let options = Options { histories, energy: true, events: true, ..Options::default() };
+        let response = simulate(&scene, &motion, &options).unwrap();
+        assert!(response.energy.unwrap().relative_residual.abs() < 1e-12, "{:?}", response.energy);
+        let histories = response.histories.unwrap();
+        // The drifts at samples, with those at turns between them, from the log.
+        assert!(response.events.unwrap().len() > 20);
+        let force = histories.storey_force;
+        assert!(force.iter().all(|f| f.abs() <= response.peaks.storey_shear[0].value * (1.0 + 1e-12)));
+        let path = spring_path(&storey, &histories.drift).unwrap();
+        // Turns between samples are cut off by at most the drift between them.
+        let step = histories.drift.windows(2).map(|d| (d[1] - d[0]).abs()).fold(0.0, f64::max);
+        let worst = path.force.iter().zip(&force).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 200.0 * step, "{worst} with steps of {step}");
+    }
+}
+
+#[test]
+fn what_is_no_law_is_refused() {
+    let refused = |storey: Storey, message: &str| {
+        let error = Building::new(vec![1.0], vec![storey], Damping::Modal { ratio: 0.05 }).unwrap_err();
+        assert!(error.to_string().contains(message), "{error}");
+    };
+    refused(Storey::multilinear(vec![]), "number of backbone points of storey 1 must be 1 to 100; got 0");
+    refused(
+        Storey::multilinear(vec![[0.1, 1.0], [0.1, 2.0]]),
+        "drift of backbone point 2 of storey 1 must be finite and above 0.1 m",
+    );
+    refused(Storey::multilinear(vec![[0.1, 1.0], [0.2, 3.0]]), "must be not above 10 N/m, that of the segment before");
+    refused(Storey::multilinear(vec![[0.1, 1.0], [0.2, 0.5]]), "force of backbone point 2");
+    refused(
+        storey(-0.1, SpringLaw::Trilinear),
+        "third_slope of storey 1 must be between 0 and the second slope 0.1; got -0.1",
+    );
+    refused(
+        storey(0.0, SpringLaw::Gap { clearance: 0.0, stop_stiffness: 1.0 }),
+        "clearance of storey 1 must be a positive number",
+    );
+    let law = PeakOriented { residual_strength: 1.5, ..PeakOriented::default() };
+    refused(
+        storey(0.0, SpringLaw::PeakOriented(law)),
+        "residual_strength of storey 1 must be between 0 and 1; got 1.5",
+    );
+}

@@ -1,0 +1,62 @@
+"""Cargo's profiles: no setting under which the kernel is slow without a word."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+UNITS = {"dev": 256, "test": 256, "release": 16, "bench": 16}
+"""Cargo's defaults of `codegen-units` (The Cargo Book, Profiles)."""
+PARENTS = {"test": "dev", "bench": "release"}
+
+
+def resolved(profiles: dict[str, dict[str, Any]], name: str) -> dict[str, Any]:
+    """Settings of a profile over those that it inherits, down to Cargo's default of units."""
+    own = profiles.get(name, {})
+    parent = own.get("inherits", PARENTS.get(name))
+    below = resolved(profiles, parent) if parent else {"codegen-units": UNITS[name]}
+    return below | own
+
+
+def uninlined(profiles: dict[str, dict[str, Any]]) -> list[str]:
+    """Return the profiles in which no function is inlined from one codegen unit into another."""
+    found = []
+    for name in sorted(UNITS.keys() | profiles.keys()):
+        settings = resolved(profiles, name)
+        if settings.get("lto") == "off" and settings["codegen-units"] != 1:
+            found.append(name)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("profiles", "expected"),
+    [
+        ({}, []),
+        ({"release": {"lto": "thin", "codegen-units": 1}}, []),
+        ({"release": {"lto": "off", "codegen-units": 1}}, []),
+        ({"release": {"lto": "off"}}, ["bench", "release"]),
+        ({"release": {"lto": "off"}, "dist": {"inherits": "release", "lto": "thin"}}, ["bench", "release"]),
+        ({"release": {"lto": "off"}, "dist": {"inherits": "release"}}, ["bench", "dist", "release"]),
+        ({"release": {"codegen-units": 1}, "dist": {"inherits": "release", "lto": "off"}}, []),
+        ({"test": {"lto": "off"}}, ["test"]),
+    ],
+)
+def test_profiles_without_inlining_across_units_are_found(
+    profiles: dict[str, dict[str, Any]], expected: list[str]
+) -> None:
+    assert uninlined(profiles) == expected
+
+
+def test_every_profile_inlines_across_units() -> None:
+    for file in ("Cargo.toml", ".cargo/config.toml", ".cargo/config"):
+        path = ROOT / file
+        if path.is_file():
+            assert uninlined(tomllib.loads(path.read_text()).get("profile", {})) == [], file
+
+
+def test_wheels_that_are_given_away_are_built_by_the_profile_dist() -> None:
+    manifest = tomllib.loads((ROOT / "Cargo.toml").read_text())
+    assert resolved(manifest["profile"], "dist")["strip"] is True
+    assert "--profile dist" in (ROOT / "tools" / "make-wheels").read_text()
