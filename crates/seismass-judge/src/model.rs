@@ -70,7 +70,8 @@ impl<R: Real> Model<R> {
             mass_damping: R::zero(),
         };
         for block in scene.blocks() {
-            let stage = |path: f64, mu_s: f64, mu_k: f64| Stage { path: R::of(path), mu_s: R::of(mu_s), mu_k: R::of(mu_k) };
+            let stage =
+                |path: f64, mu_s: f64, mu_k: f64| Stage { path: R::of(path), mu_s: R::of(mu_s), mu_k: R::of(mu_k) };
             let worn = block.wear.iter().map(|wear| stage(wear.path, wear.mu_s, wear.mu_k));
             let stages = [stage(0.0, block.mu_s, block.mu_k)].into_iter().chain(worn).collect();
             model.blocks.push(BlockData { floor: block.floor, mass: R::of(block.mass), stages });
@@ -116,9 +117,7 @@ impl<R: Real> Model<R> {
     /// Q: the force of springs, P-Delta and damping on each floor, at these spring forces, drifts and drift rates.
     pub(crate) fn pull(&self, springs: &[R], drift: &[R], rate: &[R], terms: Terms) -> Vec<R> {
         let damping = self.damping_forces(rate, terms);
-        let action = |i: usize| {
-            terms.of(springs[i]) + terms.of(-self.storeys[i].geometric * drift[i]) + damping[i]
-        };
+        let action = |i: usize| terms.of(springs[i]) + terms.of(-self.storeys[i].geometric * drift[i]) + damping[i];
         let mut above = R::zero();
         let velocity = floor_velocities(rate);
         let mut pull: Vec<R> = (0..self.storeys.len())

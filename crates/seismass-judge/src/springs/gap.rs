@@ -104,3 +104,60 @@ impl<R: Real + 'static> Spring<R> for Gap<R> {
         self.force = self.force * factor();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use seismass::{SpringLaw, Storey};
+
+    use super::*;
+    use crate::real::DoubleDouble;
+    use crate::springs::loops::Loop;
+    use crate::springs::{collapse_drift, spring};
+
+    /// Elastic-plastic, 100 N/m up to 10 N, with stops of 400 N/m beyond 0.25 m.
+    fn storey() -> Storey {
+        let law = SpringLaw::Gap { clearance: 0.25, stop_stiffness: 400.0 };
+        Storey { law, second_slope: 0.0, ..Storey::yielding(100.0, 10.0) }
+    }
+
+    fn gap_loop<R: Real>() {
+        let mut spring = Loop::<R>::new(&storey());
+        spring.follow(&[[0.1, 10.0], [0.25, 10.0], [0.3, 30.0]]);
+        // Unloading elastic: 500 N/m to the stop's end, 100 N/m after it.
+        spring.follow(&[[0.25, 5.0], [0.1, -10.0], [-0.25, -10.0], [-0.35, -50.0], [-0.25, 0.0]]);
+        use EventKind::{Close, Open, Unload, Yield};
+        spring.logged(&[
+            (Yield, 1, 1, 0.1, 10.0),
+            (Close, 1, 0, 0.25, 10.0),
+            (Unload, 1, 0, 0.3, 30.0),
+            (Open, 1, 0, 0.25, 5.0),
+            (Yield, -1, 1, 0.1, -10.0),
+            (Close, -1, 0, -0.25, -10.0),
+            (Unload, -1, 0, -0.35, -50.0),
+        ]);
+        // 10 N over 0.2 m and 0.45 m; the stop gives back what it took.
+        spring.close(spring.spring.dissipated(), 6.5);
+        spring.follow(&[[0.0, 10.0]]);
+        assert_eq!(spring.log[7].0, Open);
+    }
+
+    #[test]
+    fn a_loop_in_both_precisions() {
+        gap_loop::<f64>();
+        gap_loop::<DoubleDouble>();
+    }
+
+    /// 10 N meets 50 d at 0.2 m, before the stop; 30 d is met by no line before it, and 400 N/m are steeper than it; with
+    /// stops of 10 N/m, 10 + 10 (d - 0.25) = 30 d at 0.375 m.
+    #[test]
+    fn collapse_counts_the_stop() {
+        let drift = |stiffness: f64, geometric: f64| {
+            let law = SpringLaw::Gap { clearance: 0.25, stop_stiffness: stiffness };
+            let spring = spring::<f64>(&Storey { law, ..storey() });
+            collapse_drift(&spring.backbone(), geometric)
+        };
+        assert!((drift(400.0, 50.0).unwrap() - 0.2).abs() < 1e-15);
+        assert_eq!(drift(400.0, 30.0), None);
+        assert!((drift(10.0, 30.0).unwrap() - 0.375).abs() < 1e-15);
+    }
+}

@@ -129,3 +129,40 @@ impl<R: Real + 'static> Spring<R> for Masing<R> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use seismass::{EventKind, Storey};
+
+    use super::*;
+    use crate::real::DoubleDouble;
+    use crate::springs::loops::Loop;
+
+    /// k = 100 N/m, V_y = 10 N, Omega = 1.5, r2 = 0.5, r3 = 0.1: elements of 50 and 40 N/m yield at 0.1 and 0.2 m, beside
+    /// 10 N/m. From 0.3 m, 5 + 8 + 3 = 16 N, unloading has the backbone at twice its size: 2 x 10 N less after 0.2 m, to
+    /// -4 N; 2 x 15 N less after 0.4 m, to -14 N; and -15 N at -0.2 m, which is the backbone's force there.
+    fn masing_loop<R: Real>() {
+        let storey = Storey { overstrength: 1.5, second_slope: 0.5, third_slope: 0.1, ..Storey::yielding(100.0, 10.0) };
+        let mut spring = Loop::<R>::new(&storey);
+        spring.follow(&[[0.1, 10.0], [0.2, 15.0], [0.3, 16.0], [0.1, -4.0], [-0.1, -14.0], [-0.2, -15.0], [0.3, 16.0]]);
+        let (yields, unloads) = (EventKind::Yield, EventKind::Unload);
+        spring.logged(&[
+            (yields, 1, 1, 0.1, 10.0),
+            (yields, 1, 2, 0.2, 15.0),
+            (unloads, 1, 0, 0.3, 16.0),
+            (yields, -1, 1, 0.1, -4.0),
+            (yields, -1, 2, -0.1, -14.0),
+            (unloads, -1, 0, -0.2, -15.0),
+            (yields, 1, 1, 0.0, 5.0),
+            (yields, 1, 2, 0.2, 15.0),
+        ]);
+        // Element 1: 5 N over 0.2, 0.3 and 0.3 m; element 2: 8 N over 0.1, 0.1 and 0.1 m.
+        spring.close(spring.spring.dissipated(), 5.0 * 0.8 + 8.0 * 0.3);
+    }
+
+    #[test]
+    fn a_loop_in_both_precisions() {
+        masing_loop::<f64>();
+        masing_loop::<DoubleDouble>();
+    }
+}

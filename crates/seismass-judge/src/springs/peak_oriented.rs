@@ -317,3 +317,188 @@ impl<R: Real + 'static> Spring<R> for PeakOriented<R> {
         self.force = self.force * factor();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use seismass::EventKind::{Reload, Unload, Yield};
+    use seismass::SpringLaw;
+
+    use super::*;
+    use crate::real::DoubleDouble;
+    use crate::springs::loops::Loop;
+    use crate::springs::{collapse_drift, spring};
+
+    /// k = 100 N/m, V_y = 10 N, d_y = 0.1 m.
+    fn storey(omega: f64, r2: f64, r3: f64, law: seismass::PeakOriented) -> Storey {
+        let law = SpringLaw::PeakOriented(law);
+        Storey { overstrength: omega, second_slope: r2, third_slope: r3, law, ..Storey::yielding(100.0, 10.0) }
+    }
+
+    fn plain() -> seismass::PeakOriented {
+        seismass::PeakOriented::default()
+    }
+
+    /// Clough's law on a bilinear backbone of slope 10 N/m: 12 N at 0.3 m, zero at 0.18 m, straight to (-0.1, -10), on the
+    /// backbone to (-0.2, -11), zero at -0.09 m, straight to (0.3, 12). On that line, at 0.105 m, half of the way: 6 N; back
+    /// by 0.03 m to 3 N; up again to 6 N, on the line to 9 N at 0.2025 m, to the peak, and on the backbone.
+    fn clough<R: Real>() {
+        let mut spring = Loop::<R>::new(&storey(100.0, 0.1, 0.1, plain()));
+        spring.follow(&[[0.1, 10.0], [0.3, 12.0], [0.18, 0.0], [-0.1, -10.0], [-0.2, -11.0], [-0.09, 0.0]]);
+        // The stored energy is 0 and the loop closed but for its ends: triangles and trapezoids of the lines.
+        let area =
+            0.5 * 10.0 * 0.1 + 11.0 * 0.2 - 0.5 * 12.0 * 0.12 + 0.5 * 10.0 * 0.28 + 10.5 * 0.1 - 0.5 * 11.0 * 0.11;
+        spring.close(spring.spring.dissipated(), area);
+        spring.follow(&[[0.105, 6.0], [0.075, 3.0], [0.105, 6.0], [0.2025, 9.0], [0.3, 12.0], [0.4, 13.0]]);
+        spring.logged(&[
+            (Yield, 1, 1, 0.1, 10.0),
+            (Unload, 1, 0, 0.3, 12.0),
+            (Reload, -1, 0, 0.18, 0.0),
+            (Yield, -1, 1, -0.1, -10.0),
+            (Unload, -1, 0, -0.2, -11.0),
+            (Reload, 1, 0, -0.09, 0.0),
+            (Unload, 1, 0, 0.105, 6.0),
+            (Reload, 1, 0, 0.105, 6.0),
+            (Yield, 1, 1, 0.3, 12.0),
+        ]);
+    }
+
+    /// With a = 1/2 a spring that went to 4 d_y unloads with half its stiffness: 13 N at 0.4 m, zero at 0.14 m. An inner turn
+    /// at half of the line to (-0.1, -10), (-0.02 m, -5 N), unloads with k, for that side is virgin: zero at 0.03 m.
+    fn takeda<R: Real>() {
+        let law = seismass::PeakOriented { unloading_exponent: 0.5, ..plain() };
+        let mut spring = Loop::<R>::new(&storey(100.0, 0.1, 0.1, law));
+        spring.follow(&[[0.4, 13.0], [0.27, 6.5], [0.14, 0.0], [0.02, -5.0], [0.03, -4.0], [0.07, 0.0]]);
+        // From (0.07, 0) straight to (0.4, 13): half of it at 0.235 m.
+        spring.follow(&[[0.235, 6.5], [0.5, 14.0]]);
+        spring.logged(&[
+            (Yield, 1, 1, 0.1, 10.0),
+            (Unload, 1, 0, 0.4, 13.0),
+            (Reload, -1, 0, 0.14, 0.0),
+            (Unload, -1, 0, 0.02, -5.0),
+            (Reload, 1, 0, 0.07, 0.0),
+            (Yield, 1, 1, 0.4, 13.0),
+        ]);
+    }
+
+    /// Softening: 50 N/m from 0.1 m to (0.2, 15), -25 N/m to (0.6, 5), then 5 N for ever. Unloaded from (0.4, 10) to zero at
+    /// 0.3 m, virgin on the other side, whose backbone it follows to (-0.7, -5), zero at -0.65 m, back to (0.4, 10): on
+    /// branch 2 from there.
+    fn softening<R: Real>() {
+        let law = seismass::PeakOriented { residual_strength: 0.5, ..plain() };
+        let mut spring = Loop::<R>::new(&storey(1.5, 0.5, -0.25, law));
+        spring.follow(&[[0.1, 10.0], [0.2, 15.0], [0.4, 10.0], [0.3, 0.0], [-0.1, -10.0], [-0.2, -15.0], [-0.6, -5.0]]);
+        spring.follow(&[[-0.7, -5.0], [-0.65, 0.0], [0.4, 10.0], [0.6, 5.0], [0.7, 5.0]]);
+        spring.logged(&[
+            (Yield, 1, 1, 0.1, 10.0),
+            (Yield, 1, 2, 0.2, 15.0),
+            (Unload, 1, 0, 0.4, 10.0),
+            (Reload, -1, 0, 0.3, 0.0),
+            (Yield, -1, 1, -0.1, -10.0),
+            (Yield, -1, 2, -0.2, -15.0),
+            (Yield, -1, 3, -0.6, -5.0),
+            (Unload, -1, 0, -0.7, -5.0),
+            (Reload, 1, 0, -0.65, 0.0),
+            (Yield, 1, 2, 0.4, 10.0),
+            (Yield, 1, 3, 0.6, 5.0),
+        ]);
+    }
+
+    /// Elastic-plastic to 0.3 m and back dissipates 2 J of lambda V_y d_y = 5 J: the other side loses 2 / (5 - 2) of its 10 N
+    /// and yields at -10/3 N. It dissipates 1/2 10/3 0.3 + 10/3 0.1 - 1/2 10/3 10/300 = 7/9 J: the first side loses
+    /// (7/9) / (5 - 2 - 7/9) = 7/20 of its 10 N.
+    fn cyclic_loss<R: Real>() {
+        let law = seismass::PeakOriented { energy_capacity: 5.0, ..plain() };
+        let mut spring = Loop::<R>::new(&storey(2.0, 0.0, 0.0, law));
+        let third = 10.0 / 3.0;
+        spring.follow(&[[0.3, 10.0], [0.2, 0.0], [-0.1, -third], [-0.2, -third], [-0.2 + third / 100.0, 0.0]]);
+        spring.close(spring.spring.dissipated(), 2.0 + 7.0 / 9.0);
+        spring.follow(&[[0.3, 6.5], [0.5, 6.5]]);
+        let yields: Vec<_> = spring.log.iter().filter(|event| event.0 == Yield).map(|event| event.3).collect();
+        assert_eq!(yields.len(), 3);
+        assert!((yields[1] + 0.1).abs() < 1e-12 && (yields[2] - 0.3).abs() < 1e-12, "{yields:?}");
+    }
+
+    /// A capacity below what the first half cycle dissipates leaves the residual strength, here none: without force the
+    /// spring turns and reloads at once, on both sides.
+    fn exhausted<R: Real>() {
+        let law = seismass::PeakOriented { energy_capacity: 1.0, ..plain() };
+        let mut spring = Loop::<R>::new(&storey(2.0, 0.0, 0.0, law));
+        spring.follow(&[[0.3, 10.0], [0.2, 0.0], [-0.3, 0.0], [0.5, 0.0], [0.0, 0.0]]);
+        spring.logged(&[
+            (Yield, 1, 1, 0.1, 10.0),
+            (Unload, 1, 0, 0.3, 10.0),
+            (Reload, -1, 0, 0.2, 0.0),
+            (Yield, -1, 1, -0.1, 0.0),
+            (Unload, -1, 0, -0.3, 0.0),
+            (Reload, 1, 0, -0.3, 0.0),
+            (Yield, 1, 1, 0.3, 0.0),
+            (Unload, 1, 0, 0.5, 0.0),
+            (Reload, -1, 0, 0.5, 0.0),
+        ]);
+    }
+
+    /// Omega = 1 has no branch 1: softening from the yield, 10 N to 0 at 0.5 m; with c = 1 it is flat at once.
+    fn without_hardening<R: Real>() {
+        let mut spring = Loop::<R>::new(&storey(1.0, 0.5, -0.25, plain()));
+        spring.follow(&[[0.3, 5.0], [0.5, 0.0], [0.6, 0.0], [0.4, 0.0]]);
+        spring.logged(&[
+            (Yield, 1, 1, 0.1, 10.0),
+            (Yield, 1, 2, 0.5, 0.0),
+            (Unload, 1, 0, 0.6, 0.0),
+            (Reload, -1, 0, 0.6, 0.0),
+        ]);
+        let law = seismass::PeakOriented { residual_strength: 1.0, ..plain() };
+        let mut spring = Loop::<R>::new(&storey(1.0, 0.5, -0.25, law));
+        spring.follow(&[[0.3, 10.0]]);
+        spring.logged(&[(Yield, 1, 1, 0.1, 10.0), (Yield, 1, 2, 0.1, 10.0)]);
+    }
+
+    /// A loss of all strength on a softening side leaves it where branch 3 begins: it yields twice at its peak.
+    fn exhausted_on_the_softening_branch<R: Real>() {
+        let law = seismass::PeakOriented { energy_capacity: 1.0, residual_strength: 0.2, ..plain() };
+        let mut spring = Loop::<R>::new(&storey(1.0, 0.5, -0.25, law));
+        // Zero force at 0.25 m; (0, -0.1, -2), flat: branch 2 of that side is at its end.
+        spring.follow(&[[0.3, 5.0], [0.25, 0.0], [-0.1, -2.0], [-0.2, -2.0], [-0.18, 0.0], [0.3, 2.0], [0.4, 2.0]]);
+        spring.logged(&[
+            (Yield, 1, 1, 0.1, 10.0),
+            (Unload, 1, 0, 0.3, 5.0),
+            (Reload, -1, 0, 0.25, 0.0),
+            (Yield, -1, 1, -0.1, -2.0),
+            (Yield, -1, 2, -0.1, -2.0),
+            (Unload, -1, 0, -0.2, -2.0),
+            (Reload, 1, 0, -0.18, 0.0),
+            (Yield, 1, 1, 0.3, 2.0),
+            (Yield, 1, 2, 0.3, 2.0),
+        ]);
+    }
+
+    #[test]
+    fn loops_in_both_precisions() {
+        for in_precision in [
+            [clough::<f64>, clough::<DoubleDouble>],
+            [takeda::<f64>, takeda::<DoubleDouble>],
+            [softening::<f64>, softening::<DoubleDouble>],
+            [cyclic_loss::<f64>, cyclic_loss::<DoubleDouble>],
+            [exhausted::<f64>, exhausted::<DoubleDouble>],
+            [without_hardening::<f64>, without_hardening::<DoubleDouble>],
+            [exhausted_on_the_softening_branch::<f64>, exhausted_on_the_softening_branch::<DoubleDouble>],
+        ] {
+            in_precision.iter().for_each(|loops| loops());
+        }
+    }
+
+    /// (0.2, 15), then -25 N/m: zero force at 0.8 m; 12.5 N/m d met at 0.533 m; 5 N of residual strength meet 5 N/m d at 1 m,
+    /// and nothing without P-Delta.
+    #[test]
+    fn collapse_is_on_the_backbone() {
+        let drift = |residual_strength: f64, geometric: f64| {
+            let law = seismass::PeakOriented { residual_strength, ..plain() };
+            let spring = spring::<f64>(&storey(1.5, 0.5, -0.25, law));
+            collapse_drift(&spring.backbone(), geometric)
+        };
+        assert!((drift(0.0, 0.0).unwrap() - 0.8).abs() < 1e-15);
+        assert!((drift(0.0, 12.5).unwrap() - 20.0 / 37.5).abs() < 1e-15);
+        assert!((drift(0.5, 5.0).unwrap() - 1.0).abs() < 1e-15);
+        assert_eq!(drift(0.5, 0.0), None);
+    }
+}
