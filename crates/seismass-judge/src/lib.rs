@@ -19,6 +19,7 @@
 
 mod compare;
 mod events;
+pub mod law_scene;
 mod model;
 mod polynomial;
 pub mod portable_scene;

@@ -154,7 +154,7 @@ pub(crate) fn spring(draw: &mut Draw) -> (f64, f64, f64) {
     (overstrength, r2, r3)
 }
 
-fn blocks(draw: &mut Draw, storeys: usize, pga: f64) -> Vec<Block> {
+pub(crate) fn blocks(draw: &mut Draw, storeys: usize, pga: f64) -> Vec<Block> {
     let mut blocks: Vec<Block> = Vec::new();
     let typical = (pga / STANDARD_GRAVITY).clamp(0.05, 1.0);
     for floor in 0..=storeys {
