@@ -93,11 +93,11 @@ impl<R: Real> State<R> {
     /// Spring force of each storey, without P-Delta and damping, or the size of its terms.
     pub(crate) fn storey_forces(&self, terms: Terms) -> Vec<R> {
         let size = |f: R| if terms == Terms::Sizes { f.abs() } else { f };
-        let force = |(spring, &drift): (&Box<dyn Spring<R>>, &R)| {
+        let force = |(spring, drift): (&dyn Spring<R>, R)| {
             let parts = spring.parts().into_iter().fold(R::zero(), |sum, part| sum + size(part.force));
             parts + size(spring.linear() * drift)
         };
-        self.springs.iter().zip(&self.drift).map(force).collect()
+        self.springs.iter().zip(&self.drift).map(|(spring, &drift)| force((spring.as_ref(), drift))).collect()
     }
 
     /// Absolute acceleration of a floor (0: the ground) in the present regime, or the size of its terms.
