@@ -125,6 +125,17 @@ fn unloading_stiffness_falls_with_the_largest_drift() {
     forces(&storey, &[0.9, 0.63, 0.36, -0.1], &[18.0, 9.0, 0.0, -10.0]);
 }
 
+/// Unloading is not softer than the line from the origin: from (0.4, 37) with 92.5 N/m, where Takeda's is 50, to the origin,
+/// and from there to the yield point of the other side.
+#[test]
+fn unloading_ends_before_the_origin() {
+    let law = PeakOriented { unloading_exponent: 0.5, ..PeakOriented::default() };
+    let law = SpringLaw::PeakOriented(law);
+    let storey =
+        Storey { overstrength: 100.0, second_slope: 0.9, third_slope: 0.0, law, ..Storey::yielding(100.0, 10.0) };
+    forces(&storey, &[0.4, 0.2, 0.0, -0.05, -0.35], &[37.0, 18.5, 0.0, -5.0, -32.5]);
+}
+
 /// Softening: to (1.1, 20), by -20 N/m to the residual 5 N at 1.85, then flat; reloading aims at the softened peak.
 #[test]
 fn softening_to_residual_strength() {
