@@ -85,6 +85,7 @@ pub enum SpringLaw {
 /// Unloading, strength loss and residual strength of a peak-oriented spring.
 ///
 /// Unloading goes down to zero force with the stiffness k (d_y / d_max)^a (Takeda, Sozen and Nielsen 1970; a = 0: Clough),
+/// which is not below F_max / d_max, so that it ends before the origin;
 /// reloading straight to the point of the largest drift in that direction so far. Each half cycle between two zeros of the
 /// force lowers the force of the point that the next one aims at by the factor 1 - E_i / (lambda V_y d_y - sum of E_j), E_i
 /// the energy dissipated in it and E_j in it and those before (Rahnama and Krawinkler 1993, exponent 1).

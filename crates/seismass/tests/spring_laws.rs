@@ -5,8 +5,8 @@
 use std::sync::Arc;
 
 use seismass::{
-    Building, Damping, EventKind, Motion, Options, PeakOriented, Response, Scene, SpringLaw, SpringPath, Status,
-    Storey, simulate, spring_path,
+    Block, Building, Damping, EventKind, Motion, Options, PeakOriented, Response, Scene, SpringLaw, SpringPath, Status,
+    Storey, Wear, simulate, spring_path,
 };
 
 fn close(value: f64, expected: f64, tolerance: f64, what: &str) {
@@ -123,6 +123,17 @@ fn unloading_stiffness_falls_with_the_largest_drift() {
     let law = PeakOriented { unloading_exponent: 0.5, ..PeakOriented::default() };
     let storey = storey(0.0, SpringLaw::PeakOriented(law));
     forces(&storey, &[0.9, 0.63, 0.36, -0.1], &[18.0, 9.0, 0.0, -10.0]);
+}
+
+/// Unloading is not softer than the line from the origin: from (0.4, 37) with 92.5 N/m, where Takeda's is 50, to the origin,
+/// and from there to the yield point of the other side.
+#[test]
+fn unloading_ends_before_the_origin() {
+    let law = PeakOriented { unloading_exponent: 0.5, ..PeakOriented::default() };
+    let law = SpringLaw::PeakOriented(law);
+    let storey =
+        Storey { overstrength: 100.0, second_slope: 0.9, third_slope: 0.0, law, ..Storey::yielding(100.0, 10.0) };
+    forces(&storey, &[0.4, 0.2, 0.0, -0.05, -0.35], &[37.0, 18.5, 0.0, -5.0, -32.5]);
 }
 
 /// Softening: to (1.1, 20), by -20 N/m to the residual 5 N at 1.85, then flat; reloading aims at the softened peak.
@@ -282,4 +293,165 @@ fn what_is_no_law_is_refused() {
         storey(0.0, SpringLaw::PeakOriented(law)),
         "residual_strength of storey 1 must be between 0 and 1; got 1.5",
     );
+}
+
+/// Uniform numbers in [0, 1) of a linear congruential generator (Knuth's MMIX constants).
+struct Draw(u64);
+
+impl Draw {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+
+    fn law(&mut self, stiffness: f64, strength: f64) -> Storey {
+        let drift = strength / stiffness;
+        let base = Storey {
+            overstrength: if self.next() < 0.3 { 1.0 } else { self.between(1.05, 2.5) },
+            second_slope: if self.next() < 0.2 { 0.0 } else { self.between(0.01, 0.4) },
+            third_slope: 0.0,
+            ..Storey::yielding(stiffness, strength)
+        };
+        match (4.0 * self.next()) as usize {
+            0 => {
+                let mut point = [drift, strength];
+                let mut slope = stiffness;
+                let mut points = vec![point];
+                for _ in 0..(6.0 * self.next()) as usize {
+                    slope *= self.between(0.1, 0.9);
+                    let length = drift * self.between(0.2, 3.0);
+                    point = [point[0] + length, point[1] + slope * length];
+                    points.push(point);
+                }
+                Storey::multilinear(points)
+            }
+            1 => {
+                let clearance = drift * self.between(0.3, 4.0);
+                let law = SpringLaw::Gap { clearance, stop_stiffness: stiffness * self.between(0.1, 10.0) };
+                Storey { law, ..base }
+            }
+            2 => {
+                let law = PeakOriented {
+                    unloading_exponent: if self.next() < 0.5 { 0.0 } else { self.between(0.1, 0.8) },
+                    energy_capacity: if self.next() < 0.4 { f64::INFINITY } else { self.between(20.0, 400.0) },
+                    residual_strength: self.between(0.05, 0.8),
+                };
+                let third_slope = if self.next() < 0.5 { 0.0 } else { -self.between(0.01, 0.2) };
+                Storey { third_slope, law: SpringLaw::PeakOriented(law), ..base }
+            }
+            _ => base,
+        }
+    }
+
+    fn block(&mut self, floor: usize, mass: f64) -> Block {
+        let mu_s = self.between(0.05, 0.4);
+        let mut block = Block { mu_k: mu_s * self.between(0.6, 1.0), ..Block::new(floor, mass, mu_s) };
+        let mut path = 0.0;
+        for _ in 0..(4.0 * self.next()) as usize {
+            path += self.between(0.001, 0.05);
+            let mu_s = block.mu_s * self.between(0.5, 1.5);
+            block.wear.push(Wear { path, mu_s, mu_k: mu_s * self.between(0.6, 1.0) });
+        }
+        block
+    }
+
+    /// One to three storeys of any law, a block on most floors, a motion of three sines.
+    fn scene(&mut self) -> (Scene, Vec<f64>) {
+        let n = 1 + (3.0 * self.next()) as usize;
+        let storeys = (0..n).map(|i| {
+            let strength = 1000.0 * 9.80665 * self.between(0.05, 0.3) * (n - i) as f64;
+            let stiffness = 1000.0 * self.between(100.0, 900.0) * (n - i) as f64;
+            self.law(stiffness, strength)
+        });
+        let storeys = storeys.collect();
+        let building = Building::new(vec![1000.0; n], storeys, Damping::Modal { ratio: 0.03 }).unwrap();
+        let mut blocks = Vec::new();
+        for floor in 1..=n {
+            let mass = self.between(100.0, 1500.0);
+            if self.next() < 0.7 {
+                blocks.push(self.block(floor, mass));
+            }
+        }
+        let waves: Vec<[f64; 3]> =
+            (0..3).map(|_| [self.between(0.5, 4.0), self.between(3.0, 25.0), self.between(0.0, 6.0)]).collect();
+        let at = |t: f64| waves.iter().map(|[a, w, phase]| a * (w * t + phase).sin()).sum::<f64>();
+        let samples = (0..600).map(|i| at(0.02 * f64::from(i))).collect();
+        (Scene::new(Some(Arc::new(building)), blocks).unwrap(), samples)
+    }
+}
+
+fn whole(scene: &Scene, samples: Vec<f64>, dt: f64) -> Response {
+    let options = Options { energy: true, events: true, ..Options::default() };
+    simulate(scene, &Motion::new(samples, dt, None).unwrap(), &options).unwrap()
+}
+
+fn counts(response: &Response) -> Vec<(EventKind, usize, i8, u8)> {
+    response.events.as_ref().unwrap().iter().map(|e| (e.kind, e.number, e.sign, e.element)).collect()
+}
+
+/// Of random scenes of all laws and of wear: energies balance; the opposite motion gives the opposite response, bit for
+/// bit; sample intervals cut in four, where steps are other ones, give the same response and the same log.
+#[test]
+fn invariants_of_random_scenes() {
+    let mut draw = Draw(20_260_101);
+    let mut seen = std::collections::HashMap::new();
+    for number in 0..200 {
+        let (scene, samples) = draw.scene();
+        let response = whole(&scene, samples.clone(), 0.02);
+        let residual = response.energy.unwrap().relative_residual;
+        assert!(residual.abs() < 1e-11, "scene {number}: residual {residual:e}");
+        for (kind, ..) in counts(&response) {
+            *seen.entry(kind).or_insert(0) += 1;
+        }
+        let opposite = whole(&scene, samples.iter().map(|a| -a).collect(), 0.02);
+        assert_eq!(response.peaks, opposite.peaks, "scene {number}");
+        for (one, other) in response.residual_drift.iter().zip(&opposite.residual_drift) {
+            assert_eq!(*one, -other, "scene {number}");
+        }
+        let mut quarters: Vec<f64> = Vec::new();
+        for pair in samples.windows(2) {
+            quarters.extend((0..4).map(|part| pair[0] + (pair[1] - pair[0]) * 0.25 * f64::from(part)));
+        }
+        quarters.extend(samples.last());
+        let divided = whole(&scene, quarters, 0.005);
+        assert_eq!(counts(&response), counts(&divided), "scene {number}");
+        assert_eq!(response.status, divided.status, "scene {number}");
+        let worst = |other: &Response| {
+            let drifts = response.peaks.drift.iter().zip(&other.peaks.drift);
+            let pairs = drifts.chain(response.peaks.slip.iter().zip(&other.peaks.slip));
+            pairs.map(|(a, b)| (a.value - b.value).abs() / a.value.max(1e-9)).fold(0.0, f64::max)
+        };
+        // The samples between are rounded: a change of the input, which softening and slips may amplify.
+        let moved = whole(&scene, samples.iter().map(|a| a * (1.0 + 1e-11)).collect(), 0.02);
+        let tolerance = 1e-12_f64.max(1e-14 * worst(&moved) / 1e-11);
+        assert!(worst(&divided) < tolerance, "scene {number}: {:e} above {tolerance:e}", worst(&divided));
+    }
+    for kind in
+        [EventKind::Yield, EventKind::Unload, EventKind::Reload, EventKind::Close, EventKind::Open, EventKind::Wear]
+    {
+        assert!(seen.get(&kind).is_some_and(|&n| n > 200), "{kind:?} in {seen:?}");
+    }
+}
+
+/// A block pushed over the ground: mu = 0.2 for the first 0.1 m, 0.1 after. v0^2 = 2 g (0.2 * 0.1 + 0.1 s).
+#[test]
+fn friction_changes_with_the_path() {
+    let g = seismass::STANDARD_GRAVITY;
+    let v0 = 1.0_f64;
+    let wear = vec![Wear { path: 0.1, mu_s: 0.1, mu_k: 0.1 }];
+    let block = Block { velocity: Some(v0), wear, ..Block::new(0, 2.0, 0.2) };
+    let scene = Scene::new(None, vec![block]).unwrap();
+    let response = whole(&scene, vec![0.0; 300], 0.01);
+    let v1 = (v0 * v0 - 2.0 * g * 0.2 * 0.1).sqrt();
+    let first = (v0 - v1) / (0.2 * g);
+    let events = response.events.as_ref().unwrap();
+    assert_eq!(counts(&response), [(EventKind::Wear, 1, 1, 1), (EventKind::Stick, 1, 1, 0)]);
+    close(events[0].time, first, 1e-13, "wear");
+    close(events[1].time, first + v1 / (0.1 * g), 1e-7, "stop");
+    close(response.residual_slip[0], 0.1 + v1 * v1 / (2.0 * g * 0.1), 1e-13, "slip");
+    close(response.energy.unwrap().friction, 0.5 * 2.0 * v0 * v0, 1e-13, "energy");
 }

@@ -14,13 +14,11 @@ pub(crate) struct Gap {
     stiffness: f64,
     /// The side that touches.
     touching: Option<Sign>,
-    /// Force of the stop at the base.
-    force: f64,
 }
 
 impl Gap {
     pub(crate) fn new(spring: Masing, clearance: f64, stiffness: f64) -> Self {
-        Self { spring, clearance, stiffness, touching: None, force: 0.0 }
+        Self { spring, clearance, stiffness, touching: None }
     }
 
     /// Coordinates at which a stop is touched or left.
@@ -28,9 +26,15 @@ impl Gap {
         let base = self.spring.segment().base_drift;
         match self.touching {
             None => (-self.clearance - base, self.clearance - base),
-            Some(Sign::Positive) => (-self.force / self.stiffness, f64::INFINITY),
-            Some(Sign::Negative) => (f64::NEG_INFINITY, -self.force / self.stiffness),
+            Some(Sign::Positive) => (self.clearance - base, f64::INFINITY),
+            Some(Sign::Negative) => (f64::NEG_INFINITY, -self.clearance - base),
         }
+    }
+
+    /// Force of the stop at coordinate `x`.
+    fn stop_force(&self, x: f64) -> f64 {
+        let at = |sign: Sign| self.stiffness * (self.spring.segment().base_drift - sign.factor() * self.clearance + x);
+        self.touching.map_or(0.0, at)
     }
 
     fn stop_tangent(&self) -> f64 {
@@ -42,10 +46,10 @@ impl SpringMachine for Gap {
     fn segment(&self) -> Segment {
         let (spring, stops) = (self.spring.segment(), self.ends_of_stops());
         Segment {
-            base_force: spring.base_force + self.force,
+            base_force: spring.base_force + self.stop_force(0.0),
             tangent: spring.tangent + self.stop_tangent(),
             ends: (spring.ends.0.max(stops.0), spring.ends.1.min(stops.1)),
-            range: spring.range.max(self.clearance),
+            range: spring.range.max(self.clearance).max(spring.base_drift.abs()),
             class: 2 * spring.class + u8::from(self.touching.is_some()),
             ..spring
         }
@@ -58,13 +62,8 @@ impl SpringMachine for Gap {
             Sign::Negative => spring.0 >= stops.0,
         };
         if is_of_spring {
-            let crossing = self.spring.end(x, sign);
-            self.force += self.stop_tangent() * x;
-            return crossing;
+            return self.spring.end(x, sign);
         }
-        self.spring.rebase(x);
-        // A stop has no force where it is touched or left.
-        self.force = 0.0;
         let (kind, side) = match self.touching.take() {
             Some(side) => (EventKind::Open, side),
             None => {
@@ -72,16 +71,17 @@ impl SpringMachine for Gap {
                 (EventKind::Close, sign)
             }
         };
+        // The drift is the clearance exactly, wherever the base was: the stop has no force, and its next end is here.
+        self.spring.rebase_to(x, side.factor() * self.clearance);
         Crossing::new(kind, side)
     }
 
     fn turn(&mut self, x: f64) -> Crossing {
-        self.force += self.stop_tangent() * x;
         self.spring.turn(x)
     }
 
     fn stored(&self, x: f64, geometric: f64) -> f64 {
-        let force = self.force + self.stop_tangent() * x;
+        let force = self.stop_force(x);
         self.spring.stored(x, geometric) + 0.5 * force * force / self.stiffness
     }
 

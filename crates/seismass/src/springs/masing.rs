@@ -88,6 +88,12 @@ impl Masing {
         self.base_drift += x;
     }
 
+    /// The base moves to coordinate `x`, where the drift is known.
+    pub(crate) fn rebase_to(&mut self, x: f64, drift: f64) {
+        self.rebase(x);
+        self.base_drift = drift;
+    }
+
     /// Tangent with so many plastic elements.
     fn tangent(&self, yielded: usize) -> f64 {
         self.elements[yielded..].iter().map(|e| e.stiffness).sum::<f64>() + self.linear

@@ -58,12 +58,13 @@ impl Shape {
         }
     }
 
-    /// Stiffness of unloading once the largest drift has been `drift`.
-    fn unloading(&self, drift: f64) -> f64 {
+    /// Stiffness of unloading from the side whose largest drift is `drift`, with `force` there. Not below that of the line
+    /// from the origin: the force is zero before the drift is, and what is dissipated is not negative.
+    fn unloading(&self, drift: f64, force: f64) -> f64 {
         if self.exponent == 0.0 || drift <= self.yield_drift {
             return self.stiffness;
         }
-        self.stiffness * libm::pow(self.yield_drift / drift, self.exponent)
+        (self.stiffness * libm::pow(self.yield_drift / drift, self.exponent)).max(force / drift)
     }
 
     /// How many segments have been left on a branch.
@@ -148,8 +149,11 @@ impl PeakOriented {
         let (shape, force) = (&self.shape, self.base_force + self.tangent() * x);
         let stiffness = match self.mode {
             Mode::Virgin => shape.stiffness,
-            Mode::Loading(_, Loading::Backbone(_)) => shape.unloading((self.base_drift + x).abs()),
-            Mode::Loading(sign, Loading::Reloading(_)) => shape.unloading(self.peaks[side(sign)].drift),
+            Mode::Loading(_, Loading::Backbone(_)) => shape.unloading((self.base_drift + x).abs(), force.abs()),
+            Mode::Loading(sign, Loading::Reloading(_)) => {
+                let Peak { drift, force, .. } = self.peaks[side(sign)];
+                shape.unloading(drift, force)
+            }
             Mode::Unloading { stiffness, .. } => stiffness,
         };
         0.5 * force * force / stiffness
@@ -249,7 +253,7 @@ impl SpringMachine for PeakOriented {
         if let Loading::Backbone(branch) = left {
             *peak = Peak { drift: drift.max(self.shape.yield_drift), force: turn_force, branch };
         }
-        let stiffness = self.shape.unloading(peak.drift);
+        let stiffness = self.shape.unloading(peak.drift, peak.force);
         self.mode = Mode::Unloading { sign, stiffness, turn_force, left };
         Crossing::new(EventKind::Unload, sign)
     }
