@@ -13,9 +13,9 @@ use crate::random_scene::{Draw, blocks, mass_above, samples_of, spring};
 /// A scene and a motion drawn from a seed.
 ///
 /// 1 to 4 storeys, each with a law of its own or all with one: backbones of 1 to 6 points, some of them on a line or flat
-/// at the end; gaps before and after yield; peak-oriented springs with and without Takeda's exponent (as far as
-/// unloading ends before the origin), cyclic loss, softening and residual strength; P-Delta; initial drifts and velocities; no blocks, or up to three per floor and on the
-/// ground, whose friction falls or grows with the path they slip; sines, noise and steps, with and without vertical motion.
+/// at the end; gaps before and after yield; peak-oriented springs with and without Takeda's exponent, cyclic loss, softening
+/// and residual strength; P-Delta; initial drifts and velocities; no blocks, or up to three per floor and on the ground, whose
+/// friction falls or grows with the path they slip; sines, noise and steps, with and without vertical motion.
 ///
 /// # Errors
 /// None for any seed, as tests of this crate assert; validation is the scene's own.
@@ -100,32 +100,19 @@ fn storey(draw: &mut Draw, law: u64, stiffness: f64, yield_shear: f64) -> Storey
             Storey { yield_shear, law: SpringLaw::Gap { clearance, stop_stiffness }, ..trilinear }
         }
         _ => {
-            // Takeda's stiffness on a backbone that goes on rising would come to unload past the origin.
             let takeda = draw.one_in(2);
             let third_slope = match draw.one_in(2) {
                 true => -draw.scale(0.01, 0.5),
-                false if takeda => 0.0,
                 false => third_slope,
             };
-            let largest = largest_exponent(overstrength, second_slope);
             let law = SpringLaw::PeakOriented(PeakOriented {
-                unloading_exponent: if takeda { largest * draw.between(0.1, 0.95) } else { 0.0 },
+                unloading_exponent: if takeda { draw.between(0.1, 0.95) } else { 0.0 },
                 energy_capacity: if draw.one_in(2) { f64::INFINITY } else { draw.scale(2.0, 200.0) },
                 residual_strength: if draw.one_in(2) { 0.0 } else { draw.between(0.05, 1.0) },
             });
             Storey { third_slope, law, ..trilinear }
         }
     }
-}
-
-/// The exponent a with which unloading from the end of the second branch, at the ductility m, comes to zero force at the
-/// origin: m^(1 - a) = Omega. On a third branch that does not rise the ductility alone grows.
-fn largest_exponent(overstrength: f64, second_slope: f64) -> f64 {
-    if overstrength == 1.0 || second_slope == 0.0 {
-        return 1.0;
-    }
-    let ductility = 1.0 + (overstrength - 1.0) / second_slope;
-    1.0 - overstrength.ln() / ductility.ln()
 }
 
 fn backbone(draw: &mut Draw, stiffness: f64, yield_shear: f64) -> Vec<[f64; 2]> {

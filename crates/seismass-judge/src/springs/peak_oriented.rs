@@ -128,21 +128,26 @@ impl<R: Real> PeakOriented<R> {
         }
     }
 
-    /// k (d_y / d_max)^a.
-    fn unloading_stiffness(&self, largest_drift: R) -> R {
-        if self.exponent == R::zero() {
+    /// k (d_y / d_max)^a, at least F_max / d_max, of a largest drift and the force there.
+    fn unloading_stiffness(&self, drift: R, force: R) -> R {
+        if self.exponent == R::zero() || drift <= self.yield_drift {
             return self.stiffness;
         }
-        self.stiffness * (self.yield_drift / largest_drift.max(self.yield_drift)).power(self.exponent)
+        (self.stiffness * (self.yield_drift / drift).power(self.exponent)).max(force / drift)
+    }
+
+    /// The unloading stiffness of a side by its peak.
+    fn by_peak(&self, side: Sign) -> R {
+        let peak = &self.peaks[index(side)];
+        self.unloading_stiffness(peak.drift, peak.force)
     }
 
     /// The unloading stiffness that belongs to the present side, at this drift.
     fn present_unloading_stiffness(&self, drift: R) -> R {
-        let largest = |side: Sign| self.peaks[index(side)].drift;
         match self.mode {
             Mode::Elastic => self.stiffness,
-            Mode::Backbone { side, .. } => self.unloading_stiffness(largest(side).max(side.times(drift))),
-            Mode::Unloading { side, .. } | Mode::Reloading { side, .. } => self.unloading_stiffness(largest(side)),
+            Mode::Backbone { side, .. } => self.unloading_stiffness(side.times(drift), side.times(self.force)),
+            Mode::Unloading { side, .. } | Mode::Reloading { side, .. } => self.by_peak(side),
         }
     }
 
@@ -150,7 +155,7 @@ impl<R: Real> PeakOriented<R> {
         match self.mode {
             Mode::Elastic => self.stiffness,
             Mode::Backbone { branch, .. } => self.branches[branch].slope,
-            Mode::Unloading { side, .. } => self.unloading_stiffness(self.peaks[index(side)].drift),
+            Mode::Unloading { side, .. } => self.by_peak(side),
             Mode::Reloading { slope, .. } => slope,
         }
     }
