@@ -445,7 +445,8 @@ mod tests {
     /// Omega = 1 has no branch 1: softening from the yield, 10 N to 0 at 0.5 m; with c = 1 it is flat at once.
     fn without_hardening<R: Real>() {
         let mut spring = Loop::<R>::new(&storey(1.0, 0.5, -0.25, plain()));
-        spring.follow(&[[0.3, 5.0], [0.5, 0.0], [0.6, 0.0], [0.4, 0.0]]);
+        // From (0.6, 0) straight to (-0.1, -10).
+        spring.follow(&[[0.3, 5.0], [0.5, 0.0], [0.6, 0.0], [0.4, -20.0 / 7.0]]);
         spring.logged(&[
             (Yield, 1, 1, 0.1, 10.0),
             (Yield, 1, 2, 0.5, 0.0),
