@@ -94,14 +94,7 @@ fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Bui
         let stiffness = if equal { k } else { k * draw.between(0.4, 2.0) };
         let yield_shear = if elastic || draw.one_in(8) { f64::INFINITY } else { strength * above * pga.max(1.0) };
         let (overstrength, second_slope, third_slope) = if equal { law } else { spring(draw) };
-        storeys.push(Storey {
-            stiffness,
-            yield_shear,
-            overstrength,
-            second_slope,
-            third_slope,
-            law: Default::default(),
-        });
+        storeys.push(Storey { overstrength, second_slope, third_slope, ..Storey::yielding(stiffness, yield_shear) });
     }
     let ratio = draw.one_of(&[0.0, 0.01, 0.05, 0.2]);
     let damping = match draw.bits() % 4 {
@@ -164,7 +157,7 @@ pub(crate) fn blocks(draw: &mut Draw, storeys: usize, pga: f64) -> Vec<Block> {
             let mut block = before.unwrap_or_else(|| {
                 let mu_s = if draw.one_in(25) { 0.0 } else { typical * draw.scale(0.1, 2.0) };
                 let mu_k = mu_s * draw.one_of(&[1.0, 1.0, 1.0, 0.9, 0.6, 0.0]);
-                Block { floor, mass: draw.scale(50.0, 3000.0), mu_s, mu_k, velocity: None, wear: Vec::new() }
+                Block { mu_k, ..Block::new(floor, draw.scale(50.0, 3000.0), mu_s) }
             });
             if draw.one_in(12) {
                 block.velocity = Some(draw.between(-0.5, 0.5));

@@ -52,12 +52,10 @@ fn building(input: &mut Input) -> Result<Building, Box<dyn Error>> {
     }
     let storeys = (0..mass.len())
         .map(|i| Storey {
-            stiffness: lists[0][i],
-            yield_shear: lists[1][i],
             overstrength: lists[2][i],
             second_slope: lists[3][i],
             third_slope: lists[4][i],
-            law: Default::default(),
+            ..Storey::yielding(lists[0][i], lists[1][i])
         })
         .collect();
     let ratio = number(input, "damping")?;

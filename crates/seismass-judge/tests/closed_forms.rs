@@ -18,7 +18,7 @@ fn mu(value: f64) -> f64 {
 }
 
 fn ground_block(mu_s: f64, mu_k: f64) -> Scene {
-    let block = Block { floor: 0, mass: 1.0, mu_s: mu(mu_s), mu_k: mu(mu_k), velocity: None, wear: Vec::new() };
+    let block = Block { mu_k: mu(mu_k), ..Block::new(0, 1.0, mu(mu_s)) };
     Scene::new(None, vec![block]).unwrap()
 }
 
@@ -161,14 +161,7 @@ fn a_stuck_block_is_mass() {
 #[test]
 fn collapse_is_where_the_backbone_meets_p_delta() {
     for (geometric, drift) in [(4.0, 5.0), (40.0, 0.3)] {
-        let storey = Storey {
-            stiffness: 100.0,
-            yield_shear: 10.0,
-            overstrength: 2.0,
-            second_slope: 0.1,
-            third_slope: 0.0,
-            law: Default::default(),
-        };
+        let storey = Storey { overstrength: 2.0, second_slope: 0.1, third_slope: 0.0, ..Storey::yielding(100.0, 10.0) };
         let building = Building::new(vec![1.0], vec![storey], Damping::Modal { ratio: 0.05 }).unwrap();
         let building = building.with_gravity(GravityEffect::GeometricStiffness(vec![geometric])).unwrap();
         let scene = Scene::new(Some(Arc::new(building)), vec![]).unwrap();

@@ -385,7 +385,6 @@ mod tests {
     use super::*;
     use crate::lanes::Plain;
     use crate::scene::{Building, Damping, Scene, Storey};
-    use crate::segment::SpringMachine;
 
     const STOREYS: usize = 21;
 
@@ -397,7 +396,7 @@ mod tests {
         let storeys = (0..STOREYS).map(|i| Storey::elastic(1e6 * wave(i, 1.3))).collect();
         let building = Building::new(mass, storeys, Damping::Rayleigh { ratio: 0.05, modes: [1, 5] }).unwrap();
         let model = Model::new(&Scene::new(Some(Arc::new(building)), Vec::new()).unwrap());
-        let regime = Regime::new(&model, |i| model.laws[i].spring.largest_tangent(), &[0.0; STOREYS]);
+        let regime = Regime::new(&model, |i| model.laws[i].spring.law().largest_tangent(), &[0.0; STOREYS]);
         let rates = |x: &[f64], v: &[f64]| {
             let mut a = vec![0.0; STOREYS];
             regime.accelerations(&model, x, v, &[0.0; STOREYS], &mut a);

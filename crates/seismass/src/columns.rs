@@ -74,7 +74,7 @@ impl SceneColumns {
             }
             // Friction is judged whether or not the row has the block; what it does not have needs no floor.
             let present = ratio > 0.0;
-            let block = Block { floor, mass: 1.0, mu_s, mu_k, velocity: None, wear: Vec::new() };
+            let block = Block { mu_k, ..Block::new(floor, 1.0, mu_s) };
             block.validate(owner, if present { mass.len() } else { floor })?;
             if present {
                 blocks.push(Block { mass: ratio * mass[floor - 1], ..block });
@@ -151,7 +151,7 @@ mod tests {
     fn a_row_is_a_scene_and_a_ratio_of_zero_no_block() {
         let (scenes, of_row) = columns().scenes().unwrap();
         assert_eq!(of_row, [0, 1, 0]);
-        let block = |floor, mass| Block { floor, mass, mu_s: 0.3, mu_k: 0.2, velocity: None, wear: Vec::new() };
+        let block = |floor, mass| Block { mu_k: 0.2, ..Block::new(floor, mass, 0.3) };
         assert_eq!(scenes[0].blocks(), [block(1, 500.0)]);
         assert_eq!(scenes[1].blocks(), [block(1, 500.0), block(2, 1500.0)]);
         assert_eq!(scenes[1], columns().scene(1).unwrap());

@@ -9,7 +9,6 @@ use crate::friction::BlockLaw;
 use crate::lanes::{WIDTH, filled, padded};
 use crate::padded::Padded;
 use crate::scene::{Building, Damping, Scene};
-use crate::segment::SpringMachine;
 use crate::storey::StoreyLaw;
 use crate::symmetric::Symmetric;
 
@@ -82,7 +81,7 @@ fn damping_sizes(d: &DMatrix<f64>) -> Vec<f64> {
 
 /// Bits that tell the tangents of a storey from each other, a power of two of them.
 fn class_bits(law: &StoreyLaw) -> usize {
-    match law.spring.tangents().map(|tangents| tangents.len()) {
+    match law.spring.law().tangents().map(|tangents| tangents.len()) {
         Some(..=4) => 2,
         Some(5..=16) => 4,
         Some(17..=256) => 8,

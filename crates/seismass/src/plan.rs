@@ -11,7 +11,6 @@ use rustc_hash::FxHashMap;
 use crate::batch::Run;
 use crate::damping::StoreyDamping;
 use crate::scene::{Building, Damping, Motion, Scene};
-use crate::segment::SpringMachine;
 use crate::storey::StoreyLaw;
 
 /// The different runs of a batch, in an order in which they share most.
@@ -143,9 +142,9 @@ impl BuildingClasses {
         for ((law, storey), &mass) in laws().zip(building.storeys()).zip(building.mass()) {
             push(mass);
             push(storey.stiffness);
-            push(law.spring.largest_tangent());
+            push(law.spring.law().largest_tangent());
             // How many there are tells a list from the next one; -1: any.
-            let tangents = law.spring.tangents();
+            let tangents = law.spring.law().tangents();
             push(tangents.as_ref().map_or(-1.0, |tangents| tangents.len() as f64));
             tangents.into_iter().flatten().for_each(&mut push);
         }
@@ -162,8 +161,8 @@ impl BuildingClasses {
         let structure = self.structures.number(&key);
         key = vec![structure as u64];
         for law in laws() {
-            // A law is told from another by the number of its parameters.
-            let parameters = law.spring.parameters();
+            // Equal structures have laws of one kind in each storey: their tangents differ in number or in order.
+            let parameters = law.spring.law().parameters();
             key.push(parameters.len() as u64);
             key.extend(parameters.into_iter().map(f64::to_bits));
         }

@@ -20,7 +20,6 @@ use crate::lanes::{
 };
 use crate::model::Model;
 use crate::regime::{Operator, Regime, Row};
-use crate::segment::SpringMachine;
 use crate::tall_step::TallStep;
 use crate::taylor::{INVERSE, MAX_PHASE, terms};
 
@@ -520,7 +519,7 @@ impl RegimeCache {
             if heaviest > MAX_MASS_RATIO * lightest {
                 0.0
             } else {
-                Regime::new(model, |i| model.laws[i].spring.largest_tangent(), &stuck_mass).frequency
+                Regime::new(model, |i| model.laws[i].spring.law().largest_tangent(), &stuck_mass).frequency
             }
         })
     }
@@ -649,7 +648,7 @@ mod tests {
             }
             let model = Model::new(&uneven(n, damping.clone()));
             let stuck: Vec<f64> = (0..n).map(|i| if i % 2 == 0 { 700.0 } else { 0.0 }).collect();
-            let regime = Regime::new(&model, |i| model.laws[i].spring.largest_tangent(), &stuck);
+            let regime = Regime::new(&model, |i| model.laws[i].spring.law().largest_tangent(), &stuck);
             let (h, order) = (0.7 / regime.frequency, 14);
             let formed = |few: bool| {
                 let mut sums = vec![0.0; 2 * n * 4 * WIDTH];

@@ -178,7 +178,6 @@ mod tests {
     use crate::damping::StoreyDamping;
     use crate::regime::Regime;
     use crate::scene::{Building, Damping, GravityEffect, Scene, Storey};
-    use crate::segment::SpringMachine;
 
     /// A building of uneven floors and storeys, with P-Delta.
     fn uneven(n: usize, damping: Damping) -> Model {
@@ -228,7 +227,7 @@ mod tests {
                 }
                 let model = uneven(n, damping.clone());
                 // The tangent of one storey is negative, and its spring has none.
-                let tangent = |i: usize, yielded: usize| model.laws[i].spring.tangents().unwrap()[yielded];
+                let tangent = |i: usize, yielded: usize| model.laws[i].spring.law().tangents().unwrap()[yielded];
                 let regime = Regime::new(&model, |i| tangent(i, if i == n / 2 { 2 } else { i % 2 }), &vec![500.0; n]);
                 let sizes = damping_sizes(&model);
                 let row = |row: Row| &regime.row(row)[..n];

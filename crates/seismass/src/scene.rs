@@ -54,6 +54,8 @@ fn check_length(parameter: &str, owner: &str, expected: usize, of: &str, got: us
 
 /// Most points of a multilinear backbone.
 pub const MAX_BACKBONE_POINTS: usize = 100;
+/// Slopes of a backbone that differ by less than this, relatively, are those of points on a line, but for rounding.
+pub(crate) const SAME_SLOPE: f64 = 1e-9;
 /// Most changes of a block's friction coefficients over its slip path.
 pub const MAX_WEAR_STAGES: usize = 100;
 
@@ -85,10 +87,10 @@ pub enum SpringLaw {
 /// Unloading, strength loss and residual strength of a peak-oriented spring.
 ///
 /// Unloading goes down to zero force with the stiffness k (d_y / d_max)^a (Takeda, Sozen and Nielsen 1970; a = 0: Clough),
-/// which is not below F_max / d_max, so that it ends before the origin;
-/// reloading straight to the point of the largest drift in that direction so far. Each half cycle between two zeros of the
-/// force lowers the force of the point that the next one aims at by the factor 1 - E_i / (lambda V_y d_y - sum of E_j), E_i
-/// the energy dissipated in it and E_j in it and those before (Rahnama and Krawinkler 1993, exponent 1).
+/// or F_max / d_max where that is larger, so that it ends before the origin. Reloading goes straight to the point of the
+/// largest drift in that direction so far. Each half cycle between two zeros of the force lowers the force of the point that
+/// the next one aims at by the factor 1 - E_i / (lambda V_y d_y - sum of E_j), E_i the energy dissipated in it and E_j in it
+/// and those before (Rahnama and Krawinkler 1993, exponent 1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PeakOriented {
     /// Exponent a of the unloading stiffness, 0 <= a < 1.
@@ -122,7 +124,7 @@ pub struct Storey {
     pub second_slope: f64,
     /// Third slope over the first, r3, with 0 <= r3 <= r2 <= 1; from -1 on with a peak-oriented law.
     pub third_slope: f64,
-    /// What the spring does beside.
+    /// The law of the spring.
     pub law: SpringLaw,
 }
 
@@ -213,7 +215,7 @@ impl PeakOriented {
     }
 }
 
-/// Whether points are a backbone: drifts and forces increase, forces not necessarily, and slopes do not.
+/// Whether points are a backbone: drifts increase, forces do not decrease, slopes do not increase.
 fn check_backbone(points: &[[f64; 2]], owner: impl Display + Copy) -> Result<()> {
     let (count, name) = (points.len(), "number of backbone points");
     let requirement = format_args!("1 to {MAX_BACKBONE_POINTS}");
@@ -226,8 +228,7 @@ fn check_backbone(points: &[[f64; 2]], owner: impl Display + Copy) -> Result<()>
         let is_force = next_force.is_finite() && next_force >= force && next_force > 0.0;
         check(is_force, &name("force"), owner, format_args!("finite, positive and not below {force} N"), next_force)?;
         let next_slope = (next_force - force) / (next_drift - drift);
-        // Points on a line have equal slopes but for rounding.
-        let falls = next_slope <= slope * (1.0 + 1e-9);
+        let falls = next_slope <= slope * (1.0 + SAME_SLOPE);
         let requirement = format_args!("not above {slope} N/m, that of the segment before");
         check(falls, &name("slope of the segment"), owner, requirement, next_slope)?;
         ([drift, force], slope) = ([next_drift, next_force], next_slope);

@@ -2,7 +2,7 @@
 //!
 //! Between two events a storey spring is a straight line of force over drift. A law gives that line with the drifts at
 //! which it ends, and changes its own state when it does; force and drift are continuous there. A new law is a file in
-//! `springs/`, one entry in the list of laws there, and one way to give its parameters in `scene`.
+//! `springs/`, a variant of `Spring`, and one way to give its parameters in `scene`.
 
 use crate::response::EventKind;
 use crate::sign::Sign;

@@ -16,7 +16,6 @@ use crate::propagator::RegimeCache;
 use crate::regime::Row;
 use crate::response::{Event, Response, Statistics, Status};
 use crate::scene::{Motion, Options, Scene};
-use crate::segment::SpringMachine;
 use crate::state::State;
 use crate::taylor::MAX_PHASE;
 
@@ -217,7 +216,7 @@ impl Run<'_> {
         self.observer.begin_energy(&self.state);
         self.observer.record(&self.state, 0);
         let model = self.state.model;
-        self.statistics.skipped.elastic_storeys = model.laws.iter().filter(|law| !law.spring.can_yield()).count();
+        self.statistics.skipped.elastic_storeys = model.laws.iter().filter(|law| !law.spring.law().can_yield()).count();
         self.statistics.skipped.bare_floors = model.on_floor.iter().skip(1).filter(|blocks| blocks.is_empty()).count();
     }
 

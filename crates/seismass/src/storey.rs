@@ -1,7 +1,7 @@
 //! A storey's spring in a run: its law, the segment that it is on, and when the storey collapses (`numerics`, section 3).
 
 use crate::scene::Storey;
-use crate::segment::{Crossing, Segment, SpringMachine};
+use crate::segment::{Crossing, Segment};
 use crate::sign::Sign;
 use crate::springs::Spring;
 
@@ -19,13 +19,13 @@ pub(crate) struct StoreyLaw {
 impl StoreyLaw {
     pub(crate) fn new(storey: &Storey, geometric: f64, collapse_drift: Option<f64>) -> Self {
         let spring = Spring::new(storey);
-        let collapse_drift = collapse_drift.unwrap_or_else(|| spring.backbone().collapse_drift(geometric));
+        let collapse_drift = collapse_drift.unwrap_or_else(|| spring.law().backbone().collapse_drift(geometric));
         Self { spring, geometric, collapse_drift }
     }
 
     /// Slope of the backbone beyond all its breaks, without P-Delta.
     pub(crate) fn last_slope(&self) -> f64 {
-        self.spring.backbone().last_slope
+        self.spring.law().backbone().last_slope
     }
 }
 
@@ -39,7 +39,7 @@ pub(crate) struct StoreySpring {
 impl StoreySpring {
     /// A virgin spring.
     pub(crate) fn new(law: &StoreyLaw) -> Self {
-        Self { segment: law.spring.segment(), spring: law.spring.clone() }
+        Self { segment: law.spring.law().segment(), spring: law.spring.clone() }
     }
 
     /// The segment that it is on.
@@ -56,7 +56,7 @@ impl StoreySpring {
 
     /// Name of the state, for errors.
     pub(crate) fn state_name(&self) -> &'static str {
-        self.spring.state_name()
+        self.spring.law().state_name()
     }
 
     /// Drift at coordinate `x`.
@@ -72,26 +72,26 @@ impl StoreySpring {
 
     /// The segment ends at coordinate `x`, which becomes the new base.
     pub(crate) fn end(&mut self, x: f64, sign: Sign) -> Crossing {
-        let crossing = self.spring.end(x, sign);
-        self.segment = self.spring.segment();
+        let crossing = self.spring.law_mut().end(x, sign);
+        self.segment = self.spring.law().segment();
         crossing
     }
 
     /// The drift rate turns at coordinate `x`, which becomes the new base.
     pub(crate) fn turn(&mut self, x: f64) -> Crossing {
-        let crossing = self.spring.turn(x);
-        self.segment = self.spring.segment();
+        let crossing = self.spring.law_mut().turn(x);
+        self.segment = self.spring.law().segment();
         crossing
     }
 
     /// Energy stored at coordinate `x`, less the work of P-Delta.
     pub(crate) fn stored(&self, law: &StoreyLaw, x: f64) -> f64 {
-        self.spring.stored(x, law.geometric)
+        self.spring.law().stored(x, law.geometric)
     }
 
     /// Energy dissipated on the way from coordinate `x` by `change`.
     pub(crate) fn dissipated(&self, x: f64, change: f64) -> f64 {
-        self.spring.dissipated(x, change)
+        self.spring.law().dissipated(x, change)
     }
 }
 

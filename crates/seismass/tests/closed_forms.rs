@@ -33,8 +33,7 @@ fn every(samples: usize) -> Options {
 }
 
 fn on_ground(mu_s: f64, mu_k: f64) -> Scene {
-    let block =
-        Block { floor: 0, mass: 1.0, mu_s: mu_s * FRICTION, mu_k: mu_k * FRICTION, velocity: None, wear: Vec::new() };
+    let block = Block { mu_k: mu_k * FRICTION, ..Block::new(0, 1.0, mu_s * FRICTION) };
     Scene::new(None, vec![block]).unwrap()
 }
 
@@ -124,7 +123,7 @@ fn rows_at_the_time_of_an_event_are_those_after_it() {
     for step in 0..2000 {
         let mu = 0.05 + 1e-4 * f64::from(step);
         let velocity = mu * STANDARD_GRAVITY * (dt * f64::from(1 + step % (samples - 2)));
-        let block = Block { floor: 0, mass: 1.0, mu_s: mu, mu_k: mu, velocity: Some(velocity), wear: Vec::new() };
+        let block = Block { velocity: Some(velocity), ..Block::new(0, 1.0, mu) };
         let response = simulate(&Scene::new(None, vec![block]).unwrap(), &motion, &every(1)).unwrap();
         let stop = last_event(&response, EventKind::Stick);
         for (row, &velocity) in response.histories.unwrap().block_velocity.iter().enumerate() {

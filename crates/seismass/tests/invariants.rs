@@ -96,10 +96,8 @@ fn storeys(n: usize) -> impl Strategy<Value = Vec<Storey>> {
 }
 
 fn blocks(n: usize) -> impl Strategy<Value = Vec<Block>> {
-    let block =
-        (0..=n, 0.1..2.0f64, 0.02..0.5f64, prop_oneof![Just(1.0), 0.5..1.0f64]).prop_map(|(floor, mass, mu, ratio)| {
-            Block { floor, mass: mass * 1000.0, mu_s: mu, mu_k: mu * ratio, velocity: None, wear: Vec::new() }
-        });
+    let block = (0..=n, 0.1..2.0f64, 0.02..0.5f64, prop_oneof![Just(1.0), 0.5..1.0f64])
+        .prop_map(|(floor, mass, mu, ratio)| Block { mu_k: mu * ratio, ..Block::new(floor, mass * 1000.0, mu) });
     // Some blocks have a twin: equal ones must move as one.
     (prop::collection::vec(block, 0..5), any::<bool>()).prop_map(|(mut blocks, twin)| {
         if twin && let Some(first) = blocks.first().cloned() {

@@ -193,7 +193,7 @@ fn rich() -> (Scene, Motion) {
         .unwrap()
         .with_gravity(GravityEffect::GeometricStiffness(vec![9e3, 6e3, 3e3]))
         .unwrap();
-    let block = |floor, mass, mu_s, mu_k| Block { floor, mass, mu_s, mu_k, velocity: None, wear: Vec::new() };
+    let block = |floor, mass, mu_s, mu_k| Block { mu_k, ..Block::new(floor, mass, mu_s) };
     let blocks = vec![
         block(1, 300.0, 0.25, 0.2),
         block(3, 500.0, 0.3, 0.3),

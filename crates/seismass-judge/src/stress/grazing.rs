@@ -291,7 +291,7 @@ mod tests {
     /// slips or stays, and a kernel that stays is explained; not so one that then moves in a way of its own.
     #[test]
     fn a_graze_explains_its_own_branch_alone() {
-        let block = Block { floor: 0, mass: 1.0, mu_s: 0.2, mu_k: 0.1, velocity: None, wear: Vec::new() };
+        let block = Block { mu_k: 0.1, ..Block::new(0, 1.0, 0.2) };
         let scene = Scene::new(None, vec![block]).unwrap();
         let motion = |excess: f64| {
             let peak = 0.2 * STANDARD_GRAVITY * (1.0 + excess);

@@ -59,14 +59,7 @@ fn building(draw: &mut Draw, mass: Vec<f64>, blocks: &[Block], pga: f64) -> Resu
         let stiffness = k * draw.scale(1.0 / contrast, 2.0 * contrast);
         let (overstrength, second_slope, third_slope) = spring(draw);
         let yield_shear = if draw.one_in(4) { f64::INFINITY } else { strength * above * pga };
-        storeys.push(Storey {
-            stiffness,
-            yield_shear,
-            overstrength,
-            second_slope,
-            third_slope,
-            law: Default::default(),
-        });
+        storeys.push(Storey { overstrength, second_slope, third_slope, ..Storey::yielding(stiffness, yield_shear) });
     }
     let ratio = draw.one_of(&[0.0, 1e-4, 0.05, 0.5, 2.0]);
     let damping =
@@ -96,7 +89,7 @@ fn blocks(draw: &mut Draw, mass: &[f64], pga: f64) -> Vec<Block> {
             let floor_mass = if floor > 0 { mass[floor - 1] } else { 1000.0 };
             let alpha = if draw.one_in(3) { draw.scale(1e-9, 1e6) } else { draw.scale(0.05, 20.0) };
             let velocity = draw.one_in(12).then(|| draw.between(-1.0, 1.0) * pga * 0.1);
-            blocks.push(Block { floor, mass: alpha * floor_mass, mu_s, mu_k, velocity, wear: Vec::new() });
+            blocks.push(Block { mu_k, velocity, ..Block::new(floor, alpha * floor_mass, mu_s) });
         }
     }
     if mass.is_empty() && blocks.is_empty() {

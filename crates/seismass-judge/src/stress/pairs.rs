@@ -226,14 +226,7 @@ mod tests {
     /// An undamped, elastic-plastic oscillator of 8 rad/s that starts at so many times the velocity that takes it to
     /// its yield force, in t = pi / 16 = 0.196 s.
     fn oscillator(velocity: f64, samples: usize) -> (Scene, Motion) {
-        let storey = Storey {
-            stiffness: 64.0,
-            yield_shear: 1.0,
-            overstrength: 1.0,
-            second_slope: 0.0,
-            third_slope: 0.0,
-            law: Default::default(),
-        };
+        let storey = Storey { overstrength: 1.0, second_slope: 0.0, third_slope: 0.0, ..Storey::yielding(64.0, 1.0) };
         let building = Building::new(vec![1.0], vec![storey], Damping::Modal { ratio: 0.0 }).unwrap();
         let scene = Scene::new(Some(Arc::new(building)), Vec::new()).unwrap();
         let scene = scene.with_initial(vec![0.0], vec![0.125 * velocity]).unwrap();

@@ -71,14 +71,7 @@ fn building(draw: &mut Draw, mass: Vec<f64>, blocks: &[Block], pga: f64) -> Resu
         }
         let (overstrength, second_slope, third_slope) = law.unwrap_or_else(|| spring(draw));
         let yield_shear = if elastic || draw.one_in(3) { f64::INFINITY } else { strength * above * pga };
-        storeys.push(Storey {
-            stiffness,
-            yield_shear,
-            overstrength,
-            second_slope,
-            third_slope,
-            law: Default::default(),
-        });
+        storeys.push(Storey { overstrength, second_slope, third_slope, ..Storey::yielding(stiffness, yield_shear) });
     }
     let ratio = draw.one_of(&[0.0, 0.01, 0.05, 0.05, 0.2]);
     let damping = match draw.bits() % 4 {
@@ -105,14 +98,7 @@ fn blocks(draw: &mut Draw, mass: &[f64], pga: f64) -> Vec<Block> {
             let mu_s = if draw.one_in(20) { 0.0 } else { typical * draw.scale(0.1, 3.0) };
             let mu_k = mu_s * draw.one_of(&[1.0, 1.0, 0.9, 0.5]);
             let velocity = draw.one_in(12).then(|| draw.between(-0.5, 0.5));
-            blocks.push(Block {
-                floor,
-                mass: mass[floor - 1] * draw.scale(0.05, 5.0),
-                mu_s,
-                mu_k,
-                velocity,
-                wear: Vec::new(),
-            });
+            blocks.push(Block { mu_k, velocity, ..Block::new(floor, mass[floor - 1] * draw.scale(0.05, 5.0), mu_s) });
         }
     }
     blocks

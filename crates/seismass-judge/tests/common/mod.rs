@@ -95,12 +95,10 @@ pub fn read_reference(path: &Path) -> (Scene, Motion, Value) {
     let (k, vy, omega) = (column("stiffness"), column("yield_shear"), column("overstrength"));
     let (r2, r3) = (column("second_slope"), column("third_slope"));
     let storey = |i: usize| Storey {
-        stiffness: k[i],
-        yield_shear: vy[i],
         overstrength: omega[i],
         second_slope: r2[i],
         third_slope: r3[i],
-        law: Default::default(),
+        ..Storey::yielding(k[i], vy[i])
     };
     let mut building = Building::new(mass, (0..n).map(storey).collect(), damping(&b["damping"], n)).unwrap();
     if !b["geometric_stiffness"].is_null() {
@@ -108,12 +106,8 @@ pub fn read_reference(path: &Path) -> (Scene, Motion, Value) {
         building = building.with_gravity(GravityEffect::GeometricStiffness(geometric)).unwrap();
     }
     let block = |value: &Value| Block {
-        floor: value["floor"].as_u64().unwrap() as usize,
-        mass: number(&value["mass"]),
-        mu_s: number(&value["mu_s"]),
         mu_k: number(&value["mu_k"]),
-        velocity: None,
-        wear: Vec::new(),
+        ..Block::new(value["floor"].as_u64().unwrap() as usize, number(&value["mass"]), number(&value["mu_s"]))
     };
     let blocks = file["blocks"].as_array().unwrap().iter().map(block).collect();
     let scene = Scene::new(Some(Arc::new(building)), blocks).unwrap();

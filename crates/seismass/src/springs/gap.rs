@@ -23,7 +23,7 @@ impl Gap {
 
     /// Coordinates at which a stop is touched or left.
     fn ends_of_stops(&self) -> (f64, f64) {
-        let base = self.spring.segment().base_drift;
+        let base = self.spring.base_drift();
         match self.touching {
             None => (-self.clearance - base, self.clearance - base),
             Some(Sign::Positive) => (self.clearance - base, f64::INFINITY),
@@ -33,7 +33,7 @@ impl Gap {
 
     /// Force of the stop at coordinate `x`.
     fn stop_force(&self, x: f64) -> f64 {
-        let at = |sign: Sign| self.stiffness * (self.spring.segment().base_drift - sign.factor() * self.clearance + x);
+        let at = |sign: Sign| self.stiffness * (self.spring.base_drift() - sign.factor() * self.clearance + x);
         self.touching.map_or(0.0, at)
     }
 

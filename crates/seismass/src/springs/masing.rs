@@ -4,12 +4,9 @@
 use std::sync::Arc;
 
 use crate::response::EventKind;
-use crate::scene::Storey;
+use crate::scene::{SAME_SLOPE, Storey};
 use crate::segment::{Backbone, Crossing, Segment, SpringMachine};
 use crate::sign::Sign;
-
-/// Slopes that differ by less than this, relatively, are those of points on a line.
-const SAME_SLOPE: f64 = 1e-9;
 
 /// An elastic-perfectly-plastic element.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -80,8 +77,13 @@ impl Masing {
         if e >= self.yielded { (force + stiffness * x).clamp(-limit, limit) } else { force }
     }
 
+    /// Drift at the base.
+    pub(crate) fn base_drift(&self) -> f64 {
+        self.base_drift
+    }
+
     /// The base moves to coordinate `x`.
-    pub(crate) fn rebase(&mut self, x: f64) {
+    fn rebase(&mut self, x: f64) {
         for e in self.yielded..self.elements.len() {
             self.forces[e] = self.force(e, x);
         }

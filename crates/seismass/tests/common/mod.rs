@@ -60,12 +60,10 @@ pub fn read(path: &Path) -> (Scene, Motion, Value) {
         (get("stiffness"), get("yield_shear"), get("overstrength"), get("second_slope"), get("third_slope"));
     let storeys = (0..n)
         .map(|i| Storey {
-            stiffness: k[i],
-            yield_shear: vy[i],
             overstrength: omega[i],
             second_slope: r2[i],
             third_slope: r3[i],
-            law: Default::default(),
+            ..Storey::yielding(k[i], vy[i])
         })
         .collect();
     let d = &b["damping"];
@@ -89,12 +87,12 @@ pub fn read(path: &Path) -> (Scene, Motion, Value) {
         .unwrap()
         .iter()
         .map(|b| Block {
-            floor: b["floor"].as_u64().unwrap() as usize,
-            mass: b["mass"].as_f64().unwrap(),
-            mu_s: b["mu_s"].as_f64().unwrap(),
             mu_k: b["mu_k"].as_f64().unwrap(),
-            velocity: None,
-            wear: Vec::new(),
+            ..Block::new(
+                b["floor"].as_u64().unwrap() as usize,
+                b["mass"].as_f64().unwrap(),
+                b["mu_s"].as_f64().unwrap(),
+            )
         })
         .collect();
     let folder = path.parent().unwrap();

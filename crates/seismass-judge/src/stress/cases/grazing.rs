@@ -147,14 +147,7 @@ fn decaying_sine() -> Outcome {
 }
 
 fn plastic_velocity() -> Outcome {
-    let storey = Storey {
-        stiffness: 100.0,
-        yield_shear: 1.0,
-        overstrength: 2.0,
-        second_slope: 0.0,
-        third_slope: 0.0,
-        law: Default::default(),
-    };
+    let storey = Storey { overstrength: 2.0, second_slope: 0.0, third_slope: 0.0, ..Storey::yielding(100.0, 1.0) };
     let scene = standing(building(vec![1.0], vec![storey], 0.0)?, vec![])?;
     // Pushed beyond yield, braked by `brake`, pushed again.
     let solve = |brake: f64| {

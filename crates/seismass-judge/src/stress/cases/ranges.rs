@@ -225,14 +225,7 @@ fn slopes() -> Outcome {
     let (mut worst, mut events) = (0.0, 0);
     for (second_slope, third_slope) in [(0.0, 0.0), (1e-12, 0.0), (0.3, 0.3), (0.3, 0.0), (1.0, 0.0), (1.0, 1.0)] {
         for overstrength in [1.0, 1.0 + 1e-12, 2.0] {
-            let storey = Storey {
-                stiffness: 300.0,
-                yield_shear: 2.5,
-                overstrength,
-                second_slope,
-                third_slope,
-                law: Default::default(),
-            };
+            let storey = Storey { overstrength, second_slope, third_slope, ..Storey::yielding(300.0, 2.5) };
             let storeys = building(vec![1.0; 2], vec![storey; 2], 0.05)?;
             let scene = standing(storeys, vec![Block::new(1, 0.5, 0.2), Block::new(2, 0.5, 0.2)])?;
             let spring = |fault: String| format!("r2 {second_slope}, r3 {third_slope}, Omega {overstrength}: {fault}");

@@ -59,12 +59,10 @@ fn in_mode(mu: f64, yield_drift: f64) -> Result<(Scene, Scene), String> {
     };
     let damping = Damping::Modal { ratio: 0.02 };
     let spring = |stiffness: f64, drift: f64| Storey {
-        stiffness,
-        yield_shear: stiffness * drift,
         overstrength: 1.5,
         second_slope: 0.3,
         third_slope: 0.1,
-        law: Default::default(),
+        ..Storey::yielding(stiffness, stiffness * drift)
     };
     let uniform = text(Building::uniform(FLOORS, PERIOD, 1.0, damping.clone()))?;
     let storeys = uniform.storeys().iter().enumerate();
@@ -120,14 +118,7 @@ fn everything_in_mode() -> Outcome {
 }
 
 fn both_elements() -> Outcome {
-    let storey = Storey {
-        stiffness: 400.0,
-        yield_shear: 2.0,
-        overstrength: 1.5,
-        second_slope: 0.3,
-        third_slope: 0.05,
-        law: Default::default(),
-    };
+    let storey = Storey { overstrength: 1.5, second_slope: 0.3, third_slope: 0.05, ..Storey::yielding(400.0, 2.0) };
     let scene = standing(building(vec![1.0], vec![storey], 0.05)?, vec![])?;
     // Pushed beyond second yield, braked until its velocity just turns, pushed on.
     let pushed = |brake: usize| motion([vec![-6.0; 16], vec![6.0; brake], vec![-9.0; 60]].concat(), 0.01);
