@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Final, TypedDict, cast
+from typing import TYPE_CHECKING, Any, Final, TypedDict, cast
 
 import numpy as np
 import polars as pl
@@ -12,6 +12,12 @@ from seismass import _kernel
 from seismass._values import FloatArray, frozen, refusal
 from seismass.errors import InvalidOption
 from seismass.forks import require_polars
+from seismass.motion import Motion, MotionLike, as_motion
+
+if TYPE_CHECKING:
+    from seismass.plots.accessor import ResponsePlots
+    from seismass.records import Record
+    from seismass.scene import Scene
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
 """Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""
@@ -62,18 +68,55 @@ class Response:
     """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
 
     Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
-    `simulate` was asked for them, energies and events likewise. Responses pickle, and compare by content.
+    `simulate` was asked for them, energies and events likewise. A response refers to its scene and to its motion.
+    Responses pickle with both, and are equal where their numbers are, whatever scene and motion these came from.
     """
 
-    __slots__ = ("_dt", "_heights", "_known", "_run")
+    __slots__ = ("_dt", "_duration", "_given", "_known", "_run", "_scene")
     _run: _kernel.Response | None
     _known: dict[str, Any]
+    _scene: Scene
+    _given: MotionLike
+    _duration: float | None
 
-    def __init__(self, run: _kernel.Response, dt: float, heights: FloatArray | None) -> None:
+    def __init__(
+        self, run: _kernel.Response, dt: float, scene: Scene, motion: MotionLike, duration: float | None
+    ) -> None:
         self._run = run
         self._known = {}
         self._dt = dt
-        self._heights = heights
+        self._scene = scene
+        self._given = motion
+        self._duration = duration
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was solved."""
+        return self._scene
+
+    @property
+    def motion(self) -> Motion:
+        """The motion as it was solved, up to the `duration` that `simulate` was asked for."""
+        motion = as_motion(self._given, "motion", "response")
+        return motion if self._duration is None else motion.with_duration(self._duration)
+
+    @property
+    def record(self) -> Record | None:
+        """The record that was given to `simulate` as the motion, whole; None where it was a `Motion`."""
+        from seismass.records import Record
+
+        return self._given if isinstance(self._given, Record) else None
+
+    @property
+    def plot(self) -> ResponsePlots:
+        """Figures of the response: `response.plot.drift()` and the other functions of `seismass.plots`."""
+        from seismass.plots.accessor import ResponsePlots  # matplotlib is slow to import
+
+        return ResponsePlots(self)
+
+    @property
+    def _heights(self) -> FloatArray | None:
+        return None if self._scene.building is None else self._scene.building.heights
 
     def _get(self, name: str) -> Any:
         """Return what the kernel holds under a name, converted once."""
@@ -310,7 +353,13 @@ class Response:
     __hash__ = None  # type: ignore[assignment]
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"known": self._everything(), "dt": self._dt, "heights": self._heights}
+        return {
+            "known": self._everything(),
+            "dt": self._dt,
+            "scene": self._scene,
+            "motion": self._given,
+            "duration": self._duration,
+        }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._run = None
@@ -319,7 +368,9 @@ class Response:
             if isinstance(value, np.ndarray):
                 value.setflags(write=False)
         self._dt = state["dt"]
-        self._heights = state["heights"]
+        self._scene = state["scene"]
+        self._given = state["motion"]
+        self._duration = state["duration"]
 
     def __repr__(self) -> str:
         collapsed = f", storey {self.collapsed_storey}" if self.collapsed_storey is not None else ""
