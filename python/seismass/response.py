@@ -12,12 +12,12 @@ from seismass import _kernel
 from seismass._values import FloatArray, frozen, refusal
 from seismass.errors import InvalidOption
 from seismass.forks import require_polars
-from seismass.motion import Motion, MotionLike, as_motion
+from seismass.motion import Motion
+from seismass.scene import Scene
 
 if TYPE_CHECKING:
     from seismass.plots.accessor import ResponsePlots
     from seismass.records import Record
-    from seismass.scene import Scene
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
 """Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""
@@ -68,44 +68,26 @@ class Response:
     """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
 
     Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
-    `simulate` was asked for them, energies and events likewise. A response refers to its scene and to its motion.
-    Responses pickle with both, and are equal where their numbers are, whatever scene and motion these came from.
+    `simulate` was asked for them, energies and events likewise. Responses pickle with their scene and motion, and are
+    equal where their numbers are, whatever scene and motion these came from.
     """
 
-    __slots__ = ("_dt", "_duration", "_given", "_known", "_run", "_scene")
+    __slots__ = ("_known", "_run", "motion", "record", "scene")
     _run: _kernel.Response | None
     _known: dict[str, Any]
-    _scene: Scene
-    _given: MotionLike
-    _duration: float | None
+    scene: Scene
+    """The scene that was solved."""
+    motion: Motion
+    """The motion that it was solved under, with the duration of the run."""
+    record: Record | None
+    """The record that was given as the motion, whole; None where it was a `Motion`."""
 
-    def __init__(
-        self, run: _kernel.Response, dt: float, scene: Scene, motion: MotionLike, duration: float | None
-    ) -> None:
+    def __init__(self, run: _kernel.Response, scene: Scene, motion: Motion, record: Record | None) -> None:
         self._run = run
         self._known = {}
-        self._dt = dt
-        self._scene = scene
-        self._given = motion
-        self._duration = duration
-
-    @property
-    def scene(self) -> Scene:
-        """The scene that was solved."""
-        return self._scene
-
-    @property
-    def motion(self) -> Motion:
-        """The motion as it was solved, up to the `duration` that `simulate` was asked for."""
-        motion = as_motion(self._given, "motion", "response")
-        return motion if self._duration is None else motion.with_duration(self._duration)
-
-    @property
-    def record(self) -> Record | None:
-        """The record that was given to `simulate` as the motion, whole; None where it was a `Motion`."""
-        from seismass.records import Record
-
-        return self._given if isinstance(self._given, Record) else None
+        self.scene = scene
+        self.motion = motion
+        self.record = record
 
     @property
     def plot(self) -> ResponsePlots:
@@ -116,7 +98,7 @@ class Response:
 
     @property
     def _heights(self) -> FloatArray | None:
-        return None if self._scene.building is None else self._scene.building.heights
+        return None if self.scene.building is None else self.scene.building.heights
 
     def _get(self, name: str) -> Any:
         """Return what the kernel holds under a name, converted once."""
@@ -223,7 +205,7 @@ class Response:
         """Times of the rows of the histories, shape (rows,)."""
         if "time" not in self._known:
             every = self._asked("time", "histories", stored="every")
-            self._known["time"] = frozen(np.arange(len(self.drift)) * every * self._dt)
+            self._known["time"] = frozen(np.arange(len(self.drift)) * every * self.motion.dt)
         return self._array("time")
 
     @property
@@ -345,7 +327,7 @@ class Response:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Response):
             return NotImplemented
-        if self._dt != other._dt or not _same(self._heights, other._heights):
+        if self.motion.dt != other.motion.dt or not _same(self._heights, other._heights):
             return False
         mine, theirs = self._everything(), other._everything()
         return all(_same(mine[name], theirs[name]) for name in _KERNEL_VALUES)
@@ -353,13 +335,7 @@ class Response:
     __hash__ = None  # type: ignore[assignment]
 
     def __getstate__(self) -> dict[str, Any]:
-        return {
-            "known": self._everything(),
-            "dt": self._dt,
-            "scene": self._scene,
-            "motion": self._given,
-            "duration": self._duration,
-        }
+        return {"known": self._everything(), "scene": self.scene, "motion": self.motion, "record": self.record}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._run = None
@@ -367,10 +343,9 @@ class Response:
         for value in self._known.values():
             if isinstance(value, np.ndarray):
                 value.setflags(write=False)
-        self._dt = state["dt"]
-        self._scene = state["scene"]
-        self._given = state["motion"]
-        self._duration = state["duration"]
+        self.scene = state["scene"]
+        self.motion = state["motion"]
+        self.record = state["record"]
 
     def __repr__(self) -> str:
         collapsed = f", storey {self.collapsed_storey}" if self.collapsed_storey is not None else ""
