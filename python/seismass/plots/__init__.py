@@ -3,8 +3,24 @@
 Each takes `ax`, axes to draw into. `figure_svg` and `inline_svg` give figures as text.
 """
 
+from seismass.plots.growth import energy, slip_path
 from seismass.plots.histories import acceleration, drift, slip
+from seismass.plots.hysteresis import loops
+from seismass.plots.profiles import floor_spectra, profile
 from seismass.plots.svg import DARK_CSS, figure_svg, inline_svg
 from seismass.plots.timeline import events
 
-__all__ = ["DARK_CSS", "acceleration", "drift", "events", "figure_svg", "inline_svg", "slip"]
+__all__ = [
+    "DARK_CSS",
+    "acceleration",
+    "drift",
+    "energy",
+    "events",
+    "figure_svg",
+    "floor_spectra",
+    "inline_svg",
+    "loops",
+    "profile",
+    "slip",
+    "slip_path",
+]

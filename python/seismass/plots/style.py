@@ -20,6 +20,9 @@ GREY: Final = "#8C8C8C"
 INK: Final = "#222222"
 PAPER: Final = "#FFFFFF"
 
+PERIOD_TICKS: Final = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
+"""Periods (s) that logarithmic axes name."""
+
 SERIES: Final[tuple[dict[str, Any], ...]] = (
     {"color": BLUE, "linestyle": "-"},
     {"color": VERMILION, "linestyle": (0, (5, 2))},

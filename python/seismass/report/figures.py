@@ -11,11 +11,9 @@ import polars as pl
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.plots.style import BLUE, GREY, LAMBDA, STYLE, VERMILION, lay_out, plain
+from seismass.plots.style import BLUE, GREY, LAMBDA, PERIOD_TICKS, STYLE, VERMILION, lay_out, plain
 from seismass.study import StudyResult, motions_text
 from seismass.units import STANDARD_GRAVITY
-
-PERIOD_TICKS: Final = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 
 LEAST_WIDTH: Final = 7.0
 """Least width of a figure with a legend of two columns (inches)."""
