@@ -3,6 +3,8 @@
 Each takes `ax`, axes to draw into. `figure_svg` and `inline_svg` give figures as text.
 """
 
+from seismass.plots.batches import fragility, fragility_fit, ida, scatter
+from seismass.plots.drift_profiles import drift_profiles
 from seismass.plots.growth import energy, slip_path
 from seismass.plots.histories import acceleration, drift, slip
 from seismass.plots.hysteresis import loops
@@ -14,13 +16,18 @@ __all__ = [
     "DARK_CSS",
     "acceleration",
     "drift",
+    "drift_profiles",
     "energy",
     "events",
     "figure_svg",
     "floor_spectra",
+    "fragility",
+    "fragility_fit",
+    "ida",
     "inline_svg",
     "loops",
     "profile",
+    "scatter",
     "slip",
     "slip_path",
 ]
