@@ -1,6 +1,6 @@
 """How much of a building's live load acts as mass in an earthquake: exact sliding-block shear-building simulation."""
 
-from seismass import _kernel
+from seismass import _kernel, design
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
 from seismass.block import Block, blocks_on_floors
@@ -140,6 +140,7 @@ __all__ = [
     "catalogue",
     "code_fraction",
     "code_table",
+    "design",
     "effective_mass",
     "effective_mass_map",
     "effective_mass_of_design",
