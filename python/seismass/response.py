@@ -12,6 +12,8 @@ from seismass import _kernel
 from seismass._values import FloatArray, frozen, refusal
 from seismass.errors import InvalidOption
 from seismass.forks import require_polars
+from seismass.motion import Motion
+from seismass.scene import Scene
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
 """Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""
@@ -65,15 +67,23 @@ class Response:
     `simulate` was asked for them, energies and events likewise. Responses pickle, and compare by content.
     """
 
-    __slots__ = ("_dt", "_heights", "_known", "_run")
+    __slots__ = ("_known", "_run", "motion", "scene")
     _run: _kernel.Response | None
     _known: dict[str, Any]
+    scene: Scene
+    """The scene that was solved."""
+    motion: Motion
+    """The motion that it was solved under, with the duration of the run."""
 
-    def __init__(self, run: _kernel.Response, dt: float, heights: FloatArray | None) -> None:
+    def __init__(self, run: _kernel.Response, scene: Scene, motion: Motion) -> None:
         self._run = run
         self._known = {}
-        self._dt = dt
-        self._heights = heights
+        self.scene = scene
+        self.motion = motion
+
+    @property
+    def _heights(self) -> FloatArray | None:
+        return None if self.scene.building is None else self.scene.building.heights
 
     def _get(self, name: str) -> Any:
         """Return what the kernel holds under a name, converted once."""
@@ -180,7 +190,7 @@ class Response:
         """Times of the rows of the histories, shape (rows,)."""
         if "time" not in self._known:
             every = self._asked("time", "histories", stored="every")
-            self._known["time"] = frozen(np.arange(len(self.drift)) * every * self._dt)
+            self._known["time"] = frozen(np.arange(len(self.drift)) * every * self.motion.dt)
         return self._array("time")
 
     @property
@@ -302,7 +312,7 @@ class Response:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Response):
             return NotImplemented
-        if self._dt != other._dt or not _same(self._heights, other._heights):
+        if self.motion.dt != other.motion.dt or not _same(self._heights, other._heights):
             return False
         mine, theirs = self._everything(), other._everything()
         return all(_same(mine[name], theirs[name]) for name in _KERNEL_VALUES)
@@ -310,7 +320,7 @@ class Response:
     __hash__ = None  # type: ignore[assignment]
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"known": self._everything(), "dt": self._dt, "heights": self._heights}
+        return {"known": self._everything(), "scene": self.scene, "motion": self.motion}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._run = None
@@ -318,8 +328,8 @@ class Response:
         for value in self._known.values():
             if isinstance(value, np.ndarray):
                 value.setflags(write=False)
-        self._dt = state["dt"]
-        self._heights = state["heights"]
+        self.scene = state["scene"]
+        self.motion = state["motion"]
 
     def __repr__(self) -> str:
         collapsed = f", storey {self.collapsed_storey}" if self.collapsed_storey is not None else ""

@@ -72,7 +72,7 @@ def simulate(
         else as_count(histories, "histories", "simulate", InvalidOption, least=1)
     )
     run = _kernel.simulate(scene._kernel, chosen._kernel, every, bool(displacements_only), bool(energy), bool(events))
-    return Response(run, chosen.dt, None if scene.building is None else scene.building.heights)
+    return Response(run, scene, chosen)
 
 
 def instruction_set() -> str:
