@@ -32,6 +32,7 @@ from seismass.design.periods import (
     period_table,
     upper_limit_coefficient,
 )
+from seismass.design.pushover import Pattern, Pushover, pushover
 from seismass.design.spectrum_analysis import SpectrumAnalysis, response_spectrum_analysis
 from seismass.design.systems import SystemFactors, importance_factor, system_factors, system_table
 
@@ -47,7 +48,9 @@ __all__ = [
     "DriftLimit",
     "LateralForces",
     "Modes",
+    "Pattern",
     "PeriodRule",
+    "Pushover",
     "SpectrumAnalysis",
     "SystemFactors",
     "code_period",
@@ -60,6 +63,7 @@ __all__ = [
     "importance_factor",
     "modal_correlation",
     "period_table",
+    "pushover",
     "response_spectrum_analysis",
     "seismic_response_coefficient",
     "stability_coefficient",

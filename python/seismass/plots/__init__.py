@@ -4,7 +4,8 @@ Each takes `ax`, axes to draw into. `figure_svg` and `inline_svg` give figures a
 """
 
 from seismass.plots.histories import acceleration, drift, slip
+from seismass.plots.pushover import pushover
 from seismass.plots.svg import DARK_CSS, figure_svg, inline_svg
 from seismass.plots.timeline import events
 
-__all__ = ["DARK_CSS", "acceleration", "drift", "events", "figure_svg", "inline_svg", "slip"]
+__all__ = ["DARK_CSS", "acceleration", "drift", "events", "figure_svg", "inline_svg", "pushover", "slip"]
