@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pickle
 import re
+import runpy
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
 
@@ -15,6 +17,7 @@ from matplotlib.figure import Figure
 import seismass as sm
 from seismass.plots.accessor import ResponsePlots
 
+ROOT = Path(__file__).parents[1]
 G = sm.STANDARD_GRAVITY
 
 
@@ -290,3 +293,19 @@ def test_a_collapsed_run_is_drawn_to_its_end(record: sm.Record) -> None:
         assert draw(fallen).axes[0].get_xlim()[1] == pytest.approx(fallen.end_time, abs=record.dt)
     with pytest.raises(sm.InvalidOption, match="response of floor spectra must be that of a completed run"):
         fallen.plot.floor_spectra()
+
+
+def test_code_of_the_page_runs_and_its_figures_are_there() -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "plots_page.py"))
+    names = tool["made"]()
+    assert all(isinstance(names[name], Figure) for name in tool["FIGURES"])
+    page = (ROOT / "docs" / "plots.md").read_text(encoding="utf-8")
+    shown = set(re.findall(r"\(figures/(\w+)\.png\)", page))
+    assert shown == set(tool["FIGURES"].values())
+    assert all((ROOT / "docs" / "figures" / f"{file}.png").is_file() for file in shown)
+    response = names["response"]
+    assert f"Storey 1 drifts most, {1e3 * response.peak_drift.max():.0f} mm." in page
+    assert response.peak_drift.argmax() == 0
+    rows = re.findall(r"^\| (`.*?) \|", page, re.MULTILINE)
+    listed = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
+    assert listed == {name for name in vars(ResponsePlots) if not name.startswith("_")}

@@ -3,7 +3,7 @@
 import importlib
 from typing import TYPE_CHECKING
 
-from seismass import _kernel
+from seismass import _kernel, design
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
 from seismass.block import Block, blocks_on_floors
@@ -154,6 +154,7 @@ __all__ = [
     "catalogue",
     "code_fraction",
     "code_table",
+    "design",
     "effective_mass",
     "effective_mass_map",
     "effective_mass_of_design",

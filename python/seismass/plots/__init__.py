@@ -9,6 +9,7 @@ from seismass.plots.growth import energy, slip_path
 from seismass.plots.histories import acceleration, drift, slip
 from seismass.plots.hysteresis import loops
 from seismass.plots.profiles import floor_spectra, profile
+from seismass.plots.pushover import pushover
 from seismass.plots.svg import DARK_CSS, figure_svg, inline_svg
 from seismass.plots.timeline import events
 
@@ -27,6 +28,7 @@ __all__ = [
     "inline_svg",
     "loops",
     "profile",
+    "pushover",
     "scatter",
     "slip",
     "slip_path",
