@@ -1,6 +1,7 @@
 """How much of a building's live load acts as mass in an earthquake: exact sliding-block shear-building simulation."""
 
 from seismass import _kernel
+from seismass.animation import Animation, animate
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
 from seismass.block import Block, blocks_on_floors
@@ -85,6 +86,7 @@ __version__ = _kernel.VERSION
 
 __all__ = [
     "STANDARD_GRAVITY",
+    "Animation",
     "Assessment",
     "Block",
     "Building",
@@ -129,6 +131,7 @@ __all__ = [
     "SyntheticParameters",
     "TargetSpectrum",
     "__version__",
+    "animate",
     "assess",
     "attached_scene",
     "baker2007",

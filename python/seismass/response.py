@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Final, TypedDict, cast
+from typing import TYPE_CHECKING, Any, Final, TypedDict, cast
 
 import numpy as np
 import polars as pl
@@ -14,6 +14,10 @@ from seismass.errors import InvalidOption
 from seismass.forks import require_polars
 from seismass.motion import Motion
 from seismass.scene import Scene
+
+if TYPE_CHECKING:
+    from seismass.animation import Animation
+    from seismass.codes import Use
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
 """Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""
@@ -294,6 +298,25 @@ class Response:
     def statistics(self) -> Statistics:
         """Work done by the kernel (intervals, steps, events, regimes), what was skipped, and the instructions used."""
         return cast(Statistics, {**self._get("statistics"), "instructions": self._get("instructions")})
+
+    def animate(
+        self, *, code: str = "asce7-10", use: Use = "storage", fraction: float | None = None, title: str | None = None
+    ) -> Animation:
+        """Return the animation of this run beside the model of a code, as `animate` makes it of scene and motion.
+
+        Parameters
+        ----------
+        code, use, fraction, title
+            As for `animate`.
+
+        Returns
+        -------
+        Animation
+            To be shown in a notebook, or written as a page, a GIF or a film. No histories need to have been kept.
+        """
+        from seismass.animation import animate
+
+        return animate(self.scene, self.motion, code=code, use=use, fraction=fraction, title=title)
 
     def _array(self, name: str) -> FloatArray:
         array: FloatArray = self._get(name)
