@@ -170,6 +170,7 @@ def test_response_animates_what_was_solved() -> None:
     response = pickle.loads(pickle.dumps(sm.simulate(SCENE, RECORD, duration=5.0)))
     animation = response.animate(fraction=0.3)
     assert response.scene == SCENE
+    assert animation.note == RECORD.name
     assert (animation.shown.rows - 1) * animation.shown.step == pytest.approx(5.0, abs=animation.shown.step)
     assert animation.shown.runs[1].attached == 0.3
     assert animation._repr_html_().startswith('<iframe srcdoc="&lt;!doctype html')
