@@ -21,7 +21,6 @@ from seismass.design.modes import (
 )
 from seismass.errors import InvalidOption
 
-
 MODAL_BASE_SHEAR_SHARE: Final = 0.85
 """Share of the base shear of lateral forces that a modal one must reach: ASCE/SEI 7-10, 12.9.4.1 (verified)."""
 
@@ -137,9 +136,9 @@ class SpectrumAnalysis:
 
         Notes
         -----
-        ASCE/SEI 7-10, 12.9.2 and 12.9.4.1 (verified): forces by I_e/R, then by 0.85 V/V_t where V_t is smaller than 0.85
-        V. Drifts are those under the forces before they are scaled up; times C_d/I_e they are the design drifts. The
-        share of ASCE/SEI 7-16 and 7-22 is 1.0 (second-hand).
+        ASCE/SEI 7-10, 12.9.2 and 12.9.4.1 (verified): forces by I_e/R, then by 0.85 V/V_t where V_t is smaller than
+        0.85 V. Drifts are those under the forces before they are scaled up; times C_d/I_e they are the design drifts.
+        The share of ASCE/SEI 7-16 and 7-22 is 1.0 (second-hand).
         """
         factors = {"reduction": reduction, "importance": importance, "share": share}
         if base_shear is not None:
