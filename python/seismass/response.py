@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Final, TypedDict, cast
+from typing import TYPE_CHECKING, Any, Final, TypedDict, cast
 
 import numpy as np
 import polars as pl
@@ -14,6 +14,10 @@ from seismass.errors import InvalidOption
 from seismass.forks import require_polars
 from seismass.motion import Motion
 from seismass.scene import Scene
+
+if TYPE_CHECKING:
+    from seismass.plots.accessor import ResponsePlots
+    from seismass.records import Record
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
 """Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""
@@ -64,22 +68,33 @@ class Response:
     """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
 
     Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
-    `simulate` was asked for them, energies and events likewise. Responses pickle, and compare by content.
+    `simulate` was asked for them, energies and events likewise. Responses pickle with their scene and motion, and are
+    equal where their numbers are, whatever scene and motion these came from.
     """
 
-    __slots__ = ("_known", "_run", "motion", "scene")
+    __slots__ = ("_known", "_run", "motion", "record", "scene")
     _run: _kernel.Response | None
     _known: dict[str, Any]
     scene: Scene
     """The scene that was solved."""
     motion: Motion
     """The motion that it was solved under, with the duration of the run."""
+    record: Record | None
+    """The record that was given as the motion, whole; None where it was a `Motion`."""
 
-    def __init__(self, run: _kernel.Response, scene: Scene, motion: Motion) -> None:
+    def __init__(self, run: _kernel.Response, scene: Scene, motion: Motion, record: Record | None) -> None:
         self._run = run
         self._known = {}
         self.scene = scene
         self.motion = motion
+        self.record = record
+
+    @property
+    def plot(self) -> ResponsePlots:
+        """Figures of the response: `response.plot.drift()` and the other functions of `seismass.plots`."""
+        from seismass.plots.accessor import ResponsePlots  # matplotlib is slow to import
+
+        return ResponsePlots(self)
 
     @property
     def _heights(self) -> FloatArray | None:
@@ -320,7 +335,7 @@ class Response:
     __hash__ = None  # type: ignore[assignment]
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"known": self._everything(), "scene": self.scene, "motion": self.motion}
+        return {"known": self._everything(), "scene": self.scene, "motion": self.motion, "record": self.record}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._run = None
@@ -330,6 +345,7 @@ class Response:
                 value.setflags(write=False)
         self.scene = state["scene"]
         self.motion = state["motion"]
+        self.record = state["record"]
 
     def __repr__(self) -> str:
         collapsed = f", storey {self.collapsed_storey}" if self.collapsed_storey is not None else ""

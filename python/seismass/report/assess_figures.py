@@ -17,8 +17,8 @@ from seismass.assessment.advice import NAMES
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
 from seismass.assessment.result import Assessment
 from seismass.effective_mass import EffectiveMass
+from seismass.plots.style import BLUE, GREY, INK, STYLE, VERMILION
 from seismass.report.effective_figures import STORAGE_CODES
-from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION
 
 SKY: Final = "#56B4E9"
 GREEN: Final = "#009E73"

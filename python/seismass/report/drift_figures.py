@@ -9,17 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.report.figures import (
-    BLUE,
-    GREEN,
-    GREY,
-    LEAST_WIDTH,
-    VERMILION,
-    labels_of,
-    occupancy_title,
-    plain,
-    suite_caption,
-)
+from seismass.plots.style import BLUE, GREEN, GREY, VERMILION, plain
+from seismass.report.figures import LEAST_WIDTH, labels_of, occupancy_title, suite_caption
 from seismass.study import Model, StudyResult
 
 LOOKS: Final[dict[Model, dict[str, Any]]] = {

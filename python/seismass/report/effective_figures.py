@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from seismass.codes import code_fraction
 from seismass.effective_mass.result import EffectiveMass
-from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION
+from seismass.plots.style import BLUE, GREY, INK, STYLE, VERMILION
 
 GREEN: Final = "#009E73"
 _MARKED: Final = {

@@ -1,50 +1,26 @@
-"""What the figures share: style, files, captions; and the spectra of a study (paper, Fig. 1).
-
-Figures are made without pyplot, so that nothing global changes; colours are those of Okabe and Ito.
-"""
+"""What figures of studies share beside their style: files, captions; and the spectra of a study (paper, Fig. 1)."""
 
 from __future__ import annotations
 
 import textwrap
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import Final, Literal
 
 import matplotlib as mpl
 import polars as pl
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from seismass.plots.style import BLUE, GREY, STYLE, VERMILION, plain
 from seismass.study import StudyResult, motions_text
 from seismass.units import STANDARD_GRAVITY
 
-BLUE: Final = "#0072B2"
-VERMILION: Final = "#D55E00"
-GREEN: Final = "#009E73"
-GREY: Final = "#8C8C8C"
-INK: Final = "#222222"
 PERIOD_TICKS: Final = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 
 LEAST_WIDTH: Final = 7.0
 """Least width of a figure with a legend of two columns (inches)."""
 CAPTION_CHARACTERS: Final = 15
 """Characters of a caption per inch of a figure's width, in 7.5 points."""
-
-STYLE: Final[Any] = {
-    "font.family": "DejaVu Sans",
-    "font.size": 9.0,
-    "axes.titlesize": 9.0,
-    "axes.labelsize": 9.0,
-    "axes.edgecolor": GREY,
-    "axes.labelcolor": INK,
-    "axes.linewidth": 0.7,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "xtick.labelsize": 8.0,
-    "ytick.labelsize": 8.0,
-    "legend.fontsize": 9.0,
-    "text.color": INK,
-    "svg.hashsalt": "seismass",  # the same figure is the same file
-}
 
 
 def save_figure(figure: Figure, kind: Literal["png", "svg"], path: Path) -> None:
@@ -83,11 +59,6 @@ def suite_caption(result: StudyResult, mu: float | None = None, *, inches: float
         f"damping {100.0 * chosen['damping']:g} % in the {damped}; target: {plain(result.metadata['target']['label'])}"
     )
     return textwrap.fill(text, int(CAPTION_CHARACTERS * inches))
-
-
-def plain(text: str) -> str:
-    """Return a text of the user's in which matplotlib finds no formula."""
-    return text.replace("$", r"\$")
 
 
 def labels_of(values: pl.Series) -> dict[float, str]:

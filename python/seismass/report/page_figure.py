@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import hashlib
-import io
 import re
 from typing import Final
 
-import matplotlib as mpl
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from seismass._values import brief, refusal
 from seismass.errors import InvalidOption
-from seismass.report.figures import STYLE
+from seismass.plots import figure_svg
 
 LEAST_SCALE: Final = 0.62
 """How far a figure shrinks before it is scrolled: text of 9 points is then one of 7.4 pixels high."""
@@ -55,7 +53,7 @@ def figure_html(figure: Figure | str, caption: str, alt: str) -> Markup:
     """
     if not alt.strip():
         raise refusal(InvalidOption, "alt", "figure", "a description", brief(alt))
-    svg = _drawn(figure) if isinstance(figure, Figure) else figure
+    svg = figure_svg(figure) if isinstance(figure, Figure) else figure
     root = _ROOT.search(svg)
     if root is None or "viewBox=" not in root[1] or "</svg>" not in svg:
         raise refusal(InvalidOption, "figure", "page", "an SVG with a viewBox", brief(svg[:60]))
@@ -78,14 +76,6 @@ def figure_html(figure: Figure | str, caption: str, alt: str) -> Markup:
         body=Markup(body),
         caption=caption,
     )
-
-
-def _drawn(figure: Figure) -> str:
-    """The SVG of a figure, its text as text."""
-    file = io.StringIO()
-    with mpl.rc_context({**STYLE, "svg.fonttype": "none"}):
-        figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None}, facecolor="white")
-    return file.getvalue()
 
 
 def _with_own_ids(body: str, unique: str) -> str:

@@ -6,8 +6,9 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from seismass.plots.style import BLUE, GREEN, GREY, STYLE, VERMILION
 from seismass.report.drift_figures import drift_figure
-from seismass.report.figures import BLUE, GREEN, GREY, STYLE, VERMILION, labels_of, spectrum_figure, suite_caption
+from seismass.report.figures import labels_of, spectrum_figure, suite_caption
 from seismass.report.underestimation_figure import underestimation_figure
 from seismass.study import StudyResult
 

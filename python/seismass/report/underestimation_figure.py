@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from seismass.report.figures import GREY, INK, LEAST_WIDTH, labels_of, occupancy_title, plain, suite_caption
+from seismass.plots.style import GREY, INK, plain
+from seismass.report.figures import LEAST_WIDTH, labels_of, occupancy_title, suite_caption
 from seismass.study import StudyResult
 
 ALPHA_COLOURS: Final = ("#56B4E9", "#0072B2", "#002B4D")
