@@ -21,12 +21,12 @@ from contestants import opensees
 from contestants.opensees import Recipe
 from scenes import BenchmarkScene
 from seismass.validation.recordings import components, label
-from seismass.validation.section4 import COMPARED_SLOPES, KEPT, PEAK_G, samples_digest, section4_scene
+from seismass.validation.three_storeys import COMPARED_SLOPES, KEPT, PEAK_G, samples_digest, section4_scene
 
 SUITE: Final = Path("records/paper_seven.csv")
 RECIPES: Final = (Recipe(1e4, 5, ladder=True), Recipe(1e5, 50, ladder=True))
-"""Stiffness of friction springs over that of storey 1, and steps per sample interval; Newmark with KrylovNewton, other algorithms and
-shorter steps where it does not converge."""
+"""Stiffness of friction springs over that of storey 1, and steps per sample interval: Newmark with KrylovNewton, and
+with other algorithms and shorter steps where it does not converge."""
 EVERY: Final = 4
 """Sample intervals between the instants that are kept."""
 

@@ -8,8 +8,14 @@ import time
 from pathlib import Path
 from typing import Any
 
-from seismass.commands.options import add_records_options, add_target_options, read_motions, read_target, threads_option
-from seismass.commands.options import warn_left_out
+from seismass.commands.options import (
+    add_records_options,
+    add_target_options,
+    read_motions,
+    read_target,
+    threads_option,
+    warn_left_out,
+)
 
 _EPILOG = """examples:
   seismass validate

@@ -10,9 +10,9 @@ import polars as pl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from seismass.report.figures import BLUE, GREEN, GREY, INK, STYLE, VERMILION
-from seismass.validation.platform import CENTRAL, DAMPINGS, FRICTIONS, MASS_RATIOS, Platform
-from seismass.validation.section4 import EXACT, FRICTION_SPRINGS, OPENSEES, PEAK_G, STOREYS, Histories, Section4
+from seismass.plots.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.validation.shaking_table import CENTRAL, DAMPINGS, FRICTIONS, MASS_RATIOS, Platform
+from seismass.validation.three_storeys import EXACT, FRICTION_SPRINGS, OPENSEES, PEAK_G, STOREYS, Histories, Section4
 
 _LINES: Final = {
     EXACT: {"color": BLUE, "linewidth": 3.0, "alpha": 0.4},
@@ -83,7 +83,8 @@ def sliding_figure(result: Section4) -> Figure:
             rows = runs.filter(component=name, peak_g=peak).sort("second_slope")
             for floor, color in enumerate((BLUE, GREEN, VERMILION)):
                 slip = 1e3 * rows["peak_slip"].list.get(floor).to_numpy()
-                axes.bar(np.arange(len(slopes)) + width * (floor - 1), slip, width, color=color, label=f"floor {floor + 1}")
+                place = np.arange(len(slopes)) + width * (floor - 1)
+                axes.bar(place, slip, width, color=color, label=f"floor {floor + 1}")
             axes.set_title(f"{name}, peak {peak:g} g", fontsize=8.5)
             axes.set_xticks(range(len(slopes)), [f"{slope:g}" for slope in slopes])
         for axes in panels[-1]:
@@ -109,20 +110,21 @@ def platform_figure(result: Platform, component: str) -> Figure:
     every = f"µ {FRICTIONS[0]:g} to {FRICTIONS[-1]:g}, damping {DAMPINGS[0]:g} to {DAMPINGS[-1]:g}"
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.0, 6.6), layout="constrained")
-        panels = figure.subplot_mosaic([[f"{bands[0].mass_ratio}"] * 2, [f"{bands[1].mass_ratio}"] * 2, ["drift", "ratio"]])
-        for band in bands:
-            axes = panels[f"{band.mass_ratio}"]
-            axes.fill_between(band.time, 1e3 * band.low, 1e3 * band.high, color=BLUE, alpha=0.25, linewidth=0.0, label=every)
-            axes.plot(band.time, 1e3 * band.central, color=BLUE, linewidth=1.1, label=f"µ = {mu:g}, damping {damping:g}")
-            attached = "block attached"
-            axes.plot(band.time, 1e3 * band.attached, color=GREY, linewidth=0.7, linestyle=(0, (3, 2)), label=attached)
-            axes.set_title(f"α = {band.mass_ratio:g}, platform of T = {period:g} s", fontsize=8.5, loc="left")
+        panels = figure.subplot_mosaic([["first"] * 2, ["second"] * 2, ["drift", "ratio"]])
+        central = f"µ = {mu:g}, damping {damping:g}"
+        for name, band in zip(("first", "second"), bands, strict=True):
+            axes, time = panels[name], band.time
+            low, high, middle, attached = (1e3 * value for value in (band.low, band.high, band.central, band.attached))
+            axes.fill_between(time, low, high, color=BLUE, alpha=0.25, linewidth=0.0, label=every)
+            axes.plot(time, middle, color=BLUE, linewidth=1.1, label=central)
+            axes.plot(time, attached, color=GREY, linewidth=0.7, linestyle=(0, (3, 2)), label="block attached")
+            axes.set_title(rf"$\alpha$ = {band.mass_ratio:g}, platform of T = {period:g} s", fontsize=8.5, loc="left")
             axes.set_ylabel("drift (mm)")
             axes.set_xlim(0.0, float(band.time[-1]))
             axes.set_xlabel("time of the model (s)")
         _over_period(panels["drift"], result.runs.filter(component=component, amplitude=amplitude))
         _heavier_over_lighter(panels["ratio"], result.runs.filter(component=component, amplitude=amplitude))
-        handles, labels = panels[f"{bands[0].mass_ratio}"].get_legend_handles_labels()
+        handles, labels = panels["first"].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
     return figure
 
@@ -130,12 +132,16 @@ def platform_figure(result: Platform, component: str) -> Figure:
 def _over_period(axes: Axes, runs: pl.DataFrame) -> None:
     """Range of peak drifts over friction and damping at each period."""
     for ratio, color in zip(MASS_RATIOS, (GREEN, VERMILION), strict=True):
-        rows = runs.filter(mass_ratio=ratio).group_by("period").agg(
-            low=pl.col("peak_drift").min(), high=pl.col("peak_drift").max()
+        rows = (
+            runs.filter(mass_ratio=ratio)
+            .group_by("period")
+            .agg(low=pl.col("peak_drift").min(), high=pl.col("peak_drift").max())
         )
         rows = rows.sort("period")
         low, high = (1e3 * rows[name].to_numpy() for name in ("low", "high"))
-        axes.fill_between(rows["period"], low, high, color=color, alpha=0.3, linewidth=0.0, label=f"α = {ratio:g}")
+        axes.fill_between(
+            rows["period"], low, high, color=color, alpha=0.3, linewidth=0.0, label=rf"$\alpha$ = {ratio:g}"
+        )
     axes.set_yscale("log")
     axes.yaxis.set_major_formatter("{x:g}")
     axes.set_xlabel("period of the platform (s)")
@@ -151,7 +157,7 @@ def _heavier_over_lighter(axes: Axes, runs: pl.DataFrame) -> None:
     both = lighter.join(heavier, on=keys, suffix="_heavier")
     ratios = both.select("period", ratio=pl.col("peak_drift_heavier") / pl.col("peak_drift"))
     sliding = runs.select("period", ratio=pl.col("peak_drift") / pl.col("attached_drift"))
-    labels = (f"α = {MASS_RATIOS[1]:g} over {MASS_RATIOS[0]:g}", "sliding over attached")
+    labels = (rf"$\alpha$ = {MASS_RATIOS[1]:g} over {MASS_RATIOS[0]:g}", "sliding over attached")
     for table, color, label in zip((ratios, sliding), (INK, BLUE), labels, strict=True):
         rows = table.group_by("period").agg(low=pl.col("ratio").min(), high=pl.col("ratio").max()).sort("period")
         axes.fill_between(rows["period"], rows["low"], rows["high"], color=color, alpha=0.3, linewidth=0.0, label=label)

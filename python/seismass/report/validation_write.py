@@ -11,7 +11,7 @@ import polars as pl
 
 from seismass.report.folder import write_folder
 from seismass.validation import Claim, Platform, Section4, Validation, claims_table
-from seismass.validation.section4 import COMPARED_SLOPES, STOREYS
+from seismass.validation.three_storeys import COMPARED_SLOPES, STOREYS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -106,7 +106,9 @@ def validation_figures(result: Validation) -> dict[str, Figure]:
         for slope in COMPARED_SLOPES
     }
     figures["section4_sliding"] = sliding_figure(result.section4)
-    return figures | {f"platform_{name}": platform_figure(result.platform, name) for name in _components(result.platform)}
+    return figures | {
+        f"platform_{name}": platform_figure(result.platform, name) for name in _components(result.platform)
+    }
 
 
 def _components(platform: Platform) -> list[str]:

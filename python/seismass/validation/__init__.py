@@ -15,10 +15,10 @@ from seismass.errors import InvalidMotion
 from seismass.records import Suite, builtin_suite
 from seismass.spectra import TargetSpectrum
 from seismass.study import Sensitivity, StudyResult, run_study
-from seismass.validation.claims import Claim, Verdict, claims, claims_table
-from seismass.validation.platform import Band, Platform, platform, platform_scene
+from seismass.validation.paper_claims import Claim, Verdict, claims, claims_table
 from seismass.validation.recordings import STAND_INS, Station, components
-from seismass.validation.section4 import Histories, Section4, section4, section4_scene
+from seismass.validation.shaking_table import Band, Platform, platform, platform_scene
+from seismass.validation.three_storeys import Histories, Section4, section4, section4_scene
 
 __all__ = [
     "STAND_INS",

@@ -7,19 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
 import polars as pl
 
 from seismass.study import Sensitivity, StudyResult
-from seismass.validation.platform import MASS_RATIOS, Platform
-from seismass.validation.section4 import OPENSEES, Section4
+from seismass.validation.shaking_table import MASS_RATIOS, Platform
+from seismass.validation.three_storeys import OPENSEES, Section4
 
 Verdict: TypeAlias = Literal["reproduced", "depends", "not reproduced", "not tested"]
 
 SAME_SERIES_PERCENT: Final = 1.0
-"""Difference of histories over the largest drift up to which they are "essentially the same": no line's width in print."""
+"""Difference of histories over the largest drift up to which they are "essentially the same": below a line's width."""
 MOST: Final = 0.9
 """Share of all cases from which on a statement holds."""
 AS_LARGE_AS: Final = 100.0
@@ -127,8 +128,8 @@ def _comparison(section4: Section4) -> Iterator[_Row]:
         "section 4, abstract",
         "The model and two finite-element programs produce essentially the same time series of drift and slip.",
         "reproduced" if drift <= SAME_SERIES_PERCENT and slip <= SAME_SERIES_PERCENT else "not reproduced",
-        f"Largest difference from the exact kernel over {finest.height} histories of {' and '.join(programs)}, with the "
-        f"stiffest friction spring: drift {drift:.1e} %, slip {slip:.1e} % of the largest.{missing}",
+        f"Largest difference from the exact kernel over {finest.height} histories of {' and '.join(programs)}, with "
+        f"the stiffest friction spring: drift {drift:.1e} %, slip {slip:.1e} % of the largest.{missing}",
         "stiffness of the springs that stand for friction; the difference is inversely proportional to it",
     )
     runs = section4.runs
@@ -162,9 +163,10 @@ def _comparison(section4: Section4) -> Iterator[_Row]:
 
 def _ranges(runs: pl.DataFrame) -> str:
     slopes, peaks = runs["second_slope"].unique().sort(), runs["peak_g"].unique().sort()
+    components = runs["component"].n_unique()
     return (
-        f"{runs['component'].n_unique()} component(s), r2 from {slopes[0]:g} to {slopes[-1]:g}, peaks from {peaks[0]:g} "
-        f"to {peaks[-1]:g} g"
+        f"{components} component{'s' * (components > 1)}, r2 from {slopes[0]:g} to {slopes[-1]:g}, peaks from "
+        f"{peaks[0]:g} to {peaks[-1]:g} g"
     )
 
 
@@ -204,8 +206,8 @@ def _study(study: StudyResult, sensitivity: Sensitivity | None) -> Iterator[_Row
             "section 5, conclusions",
             f"The underestimation is larger for greater {claim}.",
             _of_growth(grows / steps, grows_first / steps_first) if steps and steps_first else "not tested",
-            f"It grows in {grows} of {steps} steps of {name} over all storeys, in {grows_first} of {steps_first} of first "
-            f"storeys. {_means(first, name)}",
+            f"It grows in {grows} of {steps} steps of {name} over all storeys, in {grows_first} of {steps_first} of "
+            f"first storeys. {_means(first, name)}",
             "storey" if name == "alpha" else "storey, second slope and overstrength",
         )
     yield _periods(yielding.filter(place="first"))
@@ -307,8 +309,10 @@ def _largest(yielding: pl.DataFrame, sensitivity: Sensitivity | None) -> _Row:
     depends = "one record, and the statistic over the records"
     if sensitivity is not None:
         spans = [
-            f"{occupancy} {rows['largest_percent'].min():+.0f} to {rows['largest_percent'].max():+.0f} %"
-            for (occupancy,), rows in sensitivity.table.group_by("occupancy", maintain_order=True)
+            f"{occupancy} {low:+.0f} to {high:+.0f} %"
+            for occupancy, low, high in sensitivity.table.group_by("occupancy", maintain_order=True)
+            .agg(low=pl.col("largest_percent").min(), high=pl.col("largest_percent").max())
+            .rows()
         ]
         depends += f"; over all choices of the sensitivity study, first storeys: {', '.join(spans)}"
     return "section 5", claim, verdict, f"{'. '.join(parts)}.", depends
@@ -319,12 +323,13 @@ def _less_sliding(first: pl.DataFrame) -> _Row:
     by = first.with_columns(sliding=100.0 * (pl.col("ratio_sliding") - 1.0).abs())
     means = by.group_by("R").agg(pl.col("sliding").mean()).sort("R")
     values = means["sliding"].to_list()
-    falls = all(after < before for before, after in zip(values, values[1:], strict=False)) and len(values) > 1
+    falls = all(after < before for before, after in pairwise(values)) and len(values) > 1
     keys = ["occupancy", "mu", "storeys", "storey", "R"]
     step = by.sort("alpha").select("R", step=pl.col("sliding").diff().over(keys)).drop_nulls()
     less = step.filter(pl.col("step") < -_ROUNDING)
     with_alpha = ", ".join(
-        f"R = {factor:g}: {less.filter(R=factor).height} of {rows.height}" for (factor,), rows in step.sort("R").group_by("R", maintain_order=True)
+        f"R = {factor:g}: {less.filter(R=factor).height} of {rows.height}"
+        for (factor,), rows in step.sort("R").group_by("R", maintain_order=True)
     )
     text = ", ".join(f"{value:.1f} % at R = {factor:g}" for factor, value in means.rows())
     verdict: Verdict = "not reproduced"

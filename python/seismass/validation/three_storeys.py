@@ -194,12 +194,16 @@ def _scaled(record: Record) -> Motion:
     return record.scaled(PEAK_G / record.pga_g).motion
 
 
+def _times(motion: Motion) -> FloatArray:
+    return np.asarray(np.arange(motion.samples) * motion.dt, dtype=np.float64)
+
+
 def _exact(record: Record, second_slope: float) -> Histories:
     motion = _scaled(record)
     response = simulate(section4_scene(second_slope), motion, histories=True)
-    assert response.drift is not None and response.slip is not None
-    time = np.arange(motion.samples) * motion.dt
-    return Histories(EXACT, "", label(record), second_slope, 1, time, response.drift, response.slip)
+    assert response.drift is not None
+    assert response.slip is not None
+    return Histories(EXACT, "", label(record), second_slope, 1, _times(motion), response.drift, response.slip)
 
 
 def _springs(record: Record, second_slope: float) -> Iterator[Histories]:
@@ -207,7 +211,7 @@ def _springs(record: Record, second_slope: float) -> Iterator[Histories]:
     motion = _scaled(record)
     scene = section4_scene(second_slope)
     for ratio, substeps in SPRINGS:
-        time, drift, slip = np.arange(motion.samples) * motion.dt, _NOTHING, _NOTHING
+        time, drift, slip = _times(motion), _NOTHING, _NOTHING
         try:
             found = _kernel.integrate_reference(
                 scene._kernel, motion._kernel, "friction_springs", substeps, stiffness_ratio=ratio
@@ -224,7 +228,7 @@ def _opensees(record: Record, second_slope: float) -> Iterator[Histories]:
     for row in kept().filter(samples=samples_digest(record), second_slope=second_slope).rows(named=True):
         drift, slip = (np.array(row[name], dtype=np.float64).reshape(-1, STOREYS) for name in ("drift", "slip"))
         setting = setting_label(row["stiffness_ratio"], row["substeps"])
-        time = np.arange(len(drift)) * row["every"] * row["dt"]
+        time = np.asarray(np.arange(len(drift)) * (row["every"] * row["dt"]), dtype=np.float64)
         yield Histories(OPENSEES, setting, label(record), second_slope, row["every"], time, drift, slip)
 
 
