@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from seismass._values import brief, refusal
 from seismass.errors import InvalidOption
-from seismass.plots.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION
+from seismass.plots.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, lay_out
 
 FONTS: Final = "'DejaVu Sans', Verdana, sans-serif"
 """Fonts of inline figures. The second has the widths of the first, by which figures are laid out."""
@@ -73,6 +73,7 @@ def figure_svg(figure: Figure) -> str:
         raise refusal(InvalidOption, "figure", "SVG", "a matplotlib Figure", brief(figure))
     written = io.StringIO()
     with mpl.rc_context(STYLE):
+        lay_out(figure)
         figure.savefig(written, format="svg", metadata={"Date": None, "Creator": None}, facecolor="white")
     return written.getvalue()
 
