@@ -4,6 +4,7 @@ import importlib
 from typing import TYPE_CHECKING
 
 from seismass import _kernel, design
+from seismass.animation import Animation, animate
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
 from seismass.block import Block, blocks_on_floors
@@ -99,6 +100,7 @@ __version__ = _kernel.VERSION
 
 __all__ = [
     "STANDARD_GRAVITY",
+    "Animation",
     "Assessment",
     "Block",
     "Building",
@@ -143,6 +145,7 @@ __all__ = [
     "SyntheticParameters",
     "TargetSpectrum",
     "__version__",
+    "animate",
     "assess",
     "attached_scene",
     "baker2007",

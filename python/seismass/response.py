@@ -16,6 +16,8 @@ from seismass.motion import Motion
 from seismass.scene import Scene
 
 if TYPE_CHECKING:
+    from seismass.animation import Animation
+    from seismass.codes import Use
     from seismass.plots.accessor import ResponsePlots
     from seismass.records import Record
 
@@ -309,6 +311,27 @@ class Response:
     def statistics(self) -> Statistics:
         """Work done by the kernel (intervals, steps, events, regimes), what was skipped, and the instructions used."""
         return cast(Statistics, {**self._get("statistics"), "instructions": self._get("instructions")})
+
+    def animate(
+        self, *, code: str = "asce7-10", use: Use = "storage", fraction: float | None = None, title: str | None = None
+    ) -> Animation:
+        """Return the animation of this run beside the model of a code, as `animate` makes it of scene and motion.
+
+        Parameters
+        ----------
+        code, use, fraction, title
+            As for `animate`.
+
+        Returns
+        -------
+        Animation
+            To be shown in a notebook, or written as a page, a GIF or a film. No histories need to have been kept.
+        """
+        from seismass.animation import animate
+
+        name = "" if self.record is None else self.record.name
+        note = ", ".join(part for part in (self.scene.note, name) if part)
+        return animate(self.scene, self.motion, code=code, use=use, fraction=fraction, title=title, note=note)
 
     def _array(self, name: str) -> FloatArray:
         array: FloatArray = self._get(name)
