@@ -13,9 +13,16 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.text import Text
 
 import seismass as sm
 from seismass.plots.accessor import ResponsePlots
+from seismass.plots.timeline import MARKS
+from seismass.report.figures import save_figure
+from seismass.report.study_figures import study_figures
+from seismass.response import EVENT_KINDS
+from seismass.study import run_study
 
 ROOT = Path(__file__).parents[1]
 G = sm.STANDARD_GRAVITY
@@ -311,3 +318,41 @@ def test_code_of_the_page_runs_and_its_figures_are_there() -> None:
     rows = re.findall(r"^\| (`.*?) \|", page, re.MULTILINE)
     listed = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
     assert listed == {name for name in vars(ResponsePlots) if not name.startswith("_")}
+
+
+def test_figures_of_a_study_are_drawn_once_for_each_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Their cost is in drawing and in finding places: one drawing a file, and places once for all drift profiles."""
+    result = run_study(sm.builtin_suite("seven"), sm.TargetSpectrum.asce7())
+    calls: list[str] = []
+
+    def counted(owner: type, name: str) -> None:
+        inner = getattr(owner, name)
+
+        def outer(*args: Any, **kwargs: Any) -> Any:
+            calls.append(name)
+            return inner(*args, **kwargs)
+
+        monkeypatch.setattr(owner, name, outer)
+
+    counted(Figure, "draw")
+    counted(ConstrainedLayoutEngine, "execute")
+    figures = study_figures(result)
+    assert calls == ["execute"] * 3  # spectrum, underestimation, drift profiles
+    assert len(figures) == 6
+    calls.clear()
+    for name, figure in figures.items():
+        save_figure(figure, "png", tmp_path / f"{name}.png")
+        save_figure(figure, "svg", tmp_path / f"{name}.svg")
+    assert calls == ["draw"] * 12
+    places = [[axes.get_position().bounds for axes in figures[f"drift_R{factor}"].axes] for factor in (1, 2, 4, 6)]
+    assert places[0] == places[1] == places[2] == places[3]
+    assert not any("$" in text.get_text() for figure in figures.values() for text in figure.findobj(Text))
+
+
+def test_series_differ_in_grey(response: sm.Response) -> None:
+    """Lines in one panel have dashes of their own, and kinds of events a marker or a filling of their own."""
+    axes = sm.plots.floor_spectra(response).axes[0]
+    dashes = [(line.get_linestyle(), line._dash_pattern) for line in axes.lines[1:4]]
+    assert len({str(one) for one in dashes}) == 3
+    looks = {(mark["marker"], mark.get("markerfacecolor")) for mark in MARKS.values()}
+    assert len(looks) == len(MARKS) == len(EVENT_KINDS)

@@ -11,8 +11,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
-from scipy.optimize import minimize
-from scipy.special import log_ndtr
 
 from seismass._values import FloatArray, as_array, as_number, brief, refusal
 from seismass.errors import InvalidOption
@@ -145,6 +143,8 @@ def fragility(
     InvalidOption
         A column is missing, all runs failed, the limit is no number, or `ax` is no Axes.
     """
+    from scipy.stats import norm  # slow to import
+
     bound = as_number(limit, "limit", "fragility", InvalidOption)
     levels, demands = _by_motion(table, intensity, demand, "fragility")
     exceeded = (demands > bound).sum(axis=0)
@@ -167,7 +167,7 @@ def fragility(
         if fit is not None:
             median, beta = fit
             way = np.linspace(0.0, end, 301)[1:]
-            curve = np.exp(log_ndtr(np.log(way / median) / beta))
+            curve = norm.cdf(np.log(way / median) / beta)
             label = f"lognormal, median {median:.3g}, dispersion {beta:.2f}"
             axes.plot(way, curve, color=BLUE, linewidth=1.8, label=label, gid="curve")
         axes.set_xlim(0.0, end)
@@ -208,6 +208,9 @@ def fragility_fit(intensity: ArrayLike, exceeded: ArrayLike, number: ArrayLike) 
     Binomial likelihood as in Baker (2015), Earthquake Spectra 31:579-599, eq. 11. In a + b ln(x), with b = 1/beta and
     a = -ln(median)/beta, it is concave.
     """
+    from scipy.optimize import minimize  # slow to import
+    from scipy.special import log_ndtr
+
     owner = "fragility fit"
     x = as_array(intensity, "intensity", owner, InvalidOption)
     k, n = (as_array(v, name, owner, InvalidOption) for v, name in ((exceeded, "exceeded"), (number, "number")))

@@ -61,12 +61,22 @@ MU: Final = "\N{GREEK SMALL LETTER MU}"
 """Symbols as letters: a formula takes as long to be set as a whole panel."""
 
 
-def lay_out(figure: Figure) -> Figure:
-    """Place what a figure has, once and for all, and return it: each file is then a single drawing."""
+def lay_out(figure: Figure, like: Figure | None = None) -> Figure:
+    """Place what a figure has, once and for all, and return it: each file is then a single drawing.
+
+    A figure of the same size with the same panels, whose texts are as long, may lend its places: `like`.
+    """
     engine = figure.get_layout_engine()
-    if engine is not None:
+    if engine is None:
+        return figure
+    if like is None:
         engine.execute(figure)
-        figure.set_layout_engine(None)
+    else:
+        for axes, model in zip(figure.axes, like.axes, strict=True):
+            axes.set_position(model.get_position())
+        for text, other in zip(figure.texts, like.texts, strict=True):
+            text.set_position(other.get_position())
+    figure.set_layout_engine(None)
     return figure
 
 

@@ -29,8 +29,11 @@ def study_figures(result: StudyResult) -> dict[str, Figure]:
         for mu, name in frictions.items():
             behind = f"_mu{name}" if len(frictions) > 1 else ""
             figures[f"underestimation{behind}"] = underestimation_figure(result, mu)
+            first = None
             for factor, label in factors.items():
-                figures[f"drift_R{label}{behind}"] = drift_figure(result, factor, mu)
+                figure = drift_figure(result, factor, mu)
+                figures[f"drift_R{label}{behind}"] = lay_out(figure, like=first)
+                first = first or figure
         for figure in figures.values():
             lay_out(figure)
     return figures
