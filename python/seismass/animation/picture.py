@@ -196,7 +196,7 @@ class Picture:
             slot = 1.7 * half / count[block.floor]
             storey = (self._shown.heights[min(block.floor, scene.storeys - 1)] if scene.storeys else total) * scale
             wide = max(6.0, min(0.62 * slot, 0.9 * half) * size)
-            high = max(4.0, min(0.5 * storey, 0.8 * wide, 46.0) * size)
+            high = max(4.0, min(0.5 * storey, 0.8 * wide, 46.0 if scene.storeys else 100.0) * size)
             home = xs[block.floor] - 0.85 * half + slot * (taken[block.floor] + 0.5)
             taken[block.floor] += 1
             base = ys[block.floor]
