@@ -164,7 +164,9 @@ def test_inline_figures_stand_beside_each_other(response: sm.Response) -> None:
         sm.plots.inline_svg(drift, "Drift <of> storeys", "Three panels & more."),
         sm.plots.inline_svg(slip, "Slip"),
         sm.plots.inline_svg(slip, "Slip", name="second"),
+        sm.plots.inline_svg(sm.plots.energy(response, points=20), "Energies"),
     ]
+    assert "<pattern" in texts[3]
     every = [one for text in texts for one in ids(text)]
     assert len(every) == len(set(every)) > 10
     for text in texts:
@@ -264,7 +266,7 @@ def test_energies_end_with_those_of_the_response(response: sm.Response) -> None:
     total = next(line for line in axes.lines if line.get_gid() == "input")
     assert total.get_xdata()[-1] == response.end_time
     assert total.get_ydata()[-1] == 1e-3 * response.energy["input"]
-    tops = {band.get_gid(): band.get_paths()[0].vertices for band in axes.collections}
+    tops = {band.get_gid(): band.get_paths()[0].vertices for band in axes.collections if band.get_gid()}
     assert set(tops) == {"viscous", "hysteretic", "friction", "elastic", "kinetic"}
     ends = {name: path[path[:, 0] == response.end_time, 1].max() for name, path in tops.items()}
     assert ends["viscous"] == pytest.approx(1e-3 * response.energy["viscous"], rel=1e-12)

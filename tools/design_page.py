@@ -62,7 +62,7 @@ PRINTED: Final = (
     ("period.approximate, period.limit", "{0[0]:.3f}, {0[1]:.3f}"),
     ("C_s", "{:.4f}"),
     ("forces.shear[0] / 1e6", "{:.3f}"),
-    ("analysis.base_shear / frame.R / 1e6", "{:.3f}"),
+    ("analysis.for_design(frame.R, base_shear=forces.base_shear).shear[0] / 1e6", "{:.3f}"),
     ("path.capacity / forces.base_shear", "{:.2f}"),
     ("path.mechanism", "{}"),
 )

@@ -33,18 +33,25 @@ from seismass.design.periods import (
     upper_limit_coefficient,
 )
 from seismass.design.pushover import Pattern, Pushover, pushover
-from seismass.design.spectrum_analysis import SpectrumAnalysis, response_spectrum_analysis
+from seismass.design.spectrum_analysis import (
+    MODAL_BASE_SHEAR_SHARE,
+    DesignDemand,
+    SpectrumAnalysis,
+    response_spectrum_analysis,
+)
 from seismass.design.systems import SystemFactors, importance_factor, system_factors, system_table
 from seismass.design.weight import FloorUse, SeismicWeight, effective_seismic_weight
 
 __all__ = [
     "DISTRIBUTION_CODES",
     "DRIFT_LIMIT_CODES",
+    "MODAL_BASE_SHEAR_SHARE",
     "PERIOD_CODES",
     "THETA_CAP",
     "THETA_THRESHOLD",
     "CodePeriod",
     "Combination",
+    "DesignDemand",
     "DistributionRule",
     "DriftLimit",
     "FloorUse",

@@ -9,6 +9,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from seismass._values import FloatArray, as_count
 from seismass.errors import InvalidOption
@@ -62,12 +63,15 @@ def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None 
     with mpl.rc_context(STYLE):
         place = single(ax, "energy figure", size=(7.0, 3.8))
         axes = place.axes[0]
-        floor = np.zeros(len(times))
+        floor, handles = np.zeros(len(times)), []
         for name, colour, hatch in _BANDS:
             if np.any(values[name] != 0.0):
                 top = floor + values[name]
-                look: Any = {"facecolor": colour, "edgecolor": colour, "hatch": hatch, "alpha": 0.35, "linewidth": 0.0}
-                axes.fill_between(times, floor, top, **look, label=name, gid=name)
+                axes.fill_between(times, floor, top, facecolor=colour, alpha=0.3, linewidth=0.0, gid=name)
+                if hatch:
+                    # Apart from the fill, whose transparency a hatch in SVG would not have.
+                    axes.fill_between(times, floor, top, **_hatched(colour, hatch))
+                handles.append((name, colour, hatch))
                 floor = top
         total = values["initial"] + values["input"]
         axes.plot(times, total, color=INK, linewidth=1.4, label="input", gid="input")
@@ -76,8 +80,16 @@ def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None 
         axes.set_xlabel("time (s)")
         axes.set_ylabel(f"energy ({unit})")
         grid_lines(axes)
-        place.legend(axes.get_legend_handles_labels()[0], columns=6)
+        names = [name for name, _, _ in handles] + ["input"]
+        patches = [
+            (Patch(facecolor=colour, alpha=0.3), Patch(**_hatched(colour, hatch))) for _, colour, hatch in handles
+        ]
+        place.legend([*patches, axes.lines[0]], columns=6, labels=names)
     return place.figure
+
+
+def _hatched(colour: str, hatch: str) -> dict[str, Any]:
+    return {"facecolor": "none", "edgecolor": colour, "hatch": hatch, "linewidth": 0.0}
 
 
 def slip_path(

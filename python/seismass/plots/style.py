@@ -47,6 +47,7 @@ STYLE: Final[Any] = {
     "ytick.labelsize": 8.0,
     "legend.fontsize": 9.0,
     "text.color": INK,
+    "hatch.linewidth": 0.5,
     "svg.fonttype": "none",  # text stays text: it can be selected, and takes less room than outlines
     "svg.hashsalt": "seismass",  # the same figure is the same file
     "figure.autolayout": False,
