@@ -32,6 +32,8 @@ ifeq ($(filter-out --quick,$(BENCH_OPTIONS)),)
 	$(PYTHON) tools/spring_loops_page.py
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/ground_motions.py $(BENCH_OPTIONS)
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/matching.py $(BENCH_OPTIONS)
+	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/validation.py
+	[ -z "$$SEISMASS_SHARED" ] || $(PYTHON) tools/validation_page.py
 endif
 	$(BENCH_VENV)/bin/python benchmarks/work_precision.py $(BENCH_OPTIONS)
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import runpy
+from pathlib import Path
 
 import numpy as np
 import polars as pl
@@ -11,6 +13,8 @@ import pytest
 import seismass as sm
 from seismass import design
 from seismass.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
+
+ROOT = Path(__file__).parents[1]
 
 
 @pytest.mark.parametrize("code_id", design.DISTRIBUTION_CODES)
@@ -185,3 +189,10 @@ def test_stability_and_drift_of_storeys_by_hand() -> None:
     assert without["theta"].null_count() == 3
     assert without["drift_ok"].to_list() == [True, True, True]  # 0.04/4 and 0.08/4
     assert without.filter(pl.col("p_delta").is_not_null()).height == 0
+
+
+def test_the_page_is_current() -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "design_page.py"))
+    page = tool["page"](tool["example"]())
+    assert (ROOT / "docs" / "design.md").read_text(encoding="utf-8") == page
+    assert "{" not in page.replace("{ ", "")

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 import seismass as sm
 from seismass import design
+from seismass.scaling.oscillator import pushover_curve
 
 
 def along_the_kernel(building: sm.Building, path: design.Pushover) -> None:
@@ -180,17 +181,22 @@ def buildings(draw: st.DrawFn) -> sm.Building:
     stiffness = np.array(listed(50.0, 200.0))
     shape: dict[str, object] = {"overstrength": listed(1.0, 2.5), "yield_shear": listed(5.0, 20.0)}
     second = np.array(listed(0.02, 0.5))
-    law = draw(st.sampled_from(["masing", "gap", "peak-oriented"]))
+    law = draw(st.sampled_from(["masing", "gap", "peak-oriented", "mixed"]))
     share = np.array(listed(0.0, 1.0))
-    if law == "peak-oriented":
+    shape["third_slope"] = share * second
+    if law in ("peak-oriented", "mixed"):
+        kinds = ["peak-oriented"] if law == "peak-oriented" else ["masing", "peak-oriented"]
+        hysteresis = [
+            "peak-oriented",
+            *draw(st.lists(st.sampled_from(kinds), min_size=storeys - 1, max_size=storeys - 1)),
+        ]
+        softening = np.minimum(share * (0.3 + second) - 0.3, second)
+        shape["third_slope"] = np.where(np.array(hysteresis) == "masing", share * second, softening)
         shape |= {
-            "hysteresis": law,
-            "third_slope": np.minimum(share * (0.3 + second) - 0.3, second),
+            "hysteresis": hysteresis,
             "residual_strength": listed(0.0, 0.6),
+            "unloading_exponent": listed(0.0, 0.6),
         }
-        shape["unloading_exponent"] = listed(0.0, 0.6)
-    else:
-        shape["third_slope"] = share * second
     if law == "gap":
         shape |= {"clearance": listed(0.2, 1.0), "stop_stiffness": listed(50.0, 300.0)}
     return sm.Building(
@@ -225,6 +231,18 @@ def test_slow_run_of_the_kernel_follows_the_path() -> None:
     drift = [np.interp(wanted, path.base_shear, path.drift[:, i]) for i in range(3)]
     np.testing.assert_allclose(response.drift[-1], drift, rtol=5e-4)
     assert (response.peak_drift > 1.05 * building.yield_shear / building.stiffness)[0]
+
+
+def test_curve_is_that_of_modal_pushover_scaling() -> None:
+    """The curve of scaling is another implementation: trilinear storeys, no P-Delta, up to the first mechanism."""
+    building = sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.15, 0.11], overstrength=[1.8, 2.2, 1.5])
+    path = design.pushover(building, "modal", drift_limit=10.0)
+    share = np.cumsum(path.force[::-1])[::-1]
+    base_shear = np.linspace(0.0, 0.999, 200) * path.capacity
+    roof = pushover_curve(building, share, base_shear)
+    np.testing.assert_allclose(
+        np.interp(base_shear, path.base_shear[:-1], path.roof_displacement[:-1]), roof, rtol=1e-12
+    )
 
 
 def test_table_and_figure() -> None:

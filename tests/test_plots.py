@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pickle
 import re
+import runpy
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
 
@@ -15,6 +17,7 @@ from matplotlib.figure import Figure
 import seismass as sm
 from seismass.plots.accessor import ResponsePlots
 
+ROOT = Path(__file__).parents[1]
 G = sm.STANDARD_GRAVITY
 
 
@@ -161,7 +164,9 @@ def test_inline_figures_stand_beside_each_other(response: sm.Response) -> None:
         sm.plots.inline_svg(drift, "Drift <of> storeys", "Three panels & more."),
         sm.plots.inline_svg(slip, "Slip"),
         sm.plots.inline_svg(slip, "Slip", name="second"),
+        sm.plots.inline_svg(sm.plots.energy(response, points=20), "Energies"),
     ]
+    assert "<pattern" in texts[3]
     every = [one for text in texts for one in ids(text)]
     assert len(every) == len(set(every)) > 10
     for text in texts:
@@ -201,3 +206,108 @@ def test_inline_figures_refuse_what_makes_no_element() -> None:
         sm.plots.inline_svg("none", "Empty")
     with pytest.raises(sm.InvalidOption, match=r"figure of SVG must be a matplotlib Figure; got None"):
         sm.plots.figure_svg(None)  # type: ignore[arg-type]
+
+
+def test_loops_are_those_of_the_run_within_their_backbone(response: sm.Response) -> None:
+    figure = sm.plots.loops(response)
+    assert len(figure.axes) == 3
+    building = response.scene.building
+    assert building is not None
+    for number, axes in enumerate(figure.axes):
+        drawn = {line.get_gid(): line for line in axes.lines}
+        np.testing.assert_array_equal(drawn["loop"].get_xdata(), 1e3 * response.drift[:, number])
+        np.testing.assert_array_equal(drawn["loop"].get_ydata(), 1e-3 * response.storey_force[:, number])
+        way, force = drawn["backbone"].get_xdata(), 1e3 * drawn["backbone"].get_ydata()
+        assert way[-1] == -way[0] == 1e3 * response.peak_drift[number]
+        np.testing.assert_array_equal(force, -force[::-1])
+        # Trilinear (Building): k to V_y, second slope to Omega V_y, then the third, which is 0 here.
+        k, v_y = building.stiffness[number], building.yield_shear[number]
+        second = v_y + 0.05 * k * (1e-3 * np.abs(way) - v_y / k)
+        expected = np.minimum(np.minimum(k * 1e-3 * np.abs(way), second), 2.0 * v_y)
+        np.testing.assert_allclose(np.abs(force), expected, rtol=1e-9)
+
+
+def test_profile_has_the_peaks_and_limits(response: sm.Response) -> None:
+    figure = sm.plots.profile(response, limits={"drift": 2.0})
+    drift, acceleration, shear, slip = figure.axes
+    ratio = response.peak_drift_ratio
+    assert ratio is not None
+    np.testing.assert_array_equal(drift.patches[0].get_data().values, 100.0 * ratio)
+    assert drift.lines[0].get_xdata()[0] == 2.0
+    floors = np.append(response.motion.pga, response.peak_floor_acceleration) / G
+    np.testing.assert_array_equal(acceleration.lines[0].get_xdata(), floors)
+    np.testing.assert_array_equal(acceleration.lines[0].get_ydata(), [0, 1, 2, 3])
+    np.testing.assert_array_equal(shear.patches[0].get_data().values, 1e-3 * response.peak_storey_shear)
+    np.testing.assert_array_equal(slip.lines[0].get_xdata(), 1e3 * response.peak_slip)
+    with pytest.raises(sm.InvalidOption, match="limits of profile must be for some of drift, acceleration; got 'slip'"):
+        sm.plots.profile(response, quantities=("drift", "acceleration"), limits={"slip": 10.0})
+    with pytest.raises(
+        sm.InvalidOption, match="quantities of profile must be some of drift, acceleration, shear, slip"
+    ):
+        sm.plots.profile(response, quantities="velocity")
+    with pytest.raises(sm.InvalidOption, match="ax of profile must be a list of 4 Axes; got one Axes"):
+        sm.plots.profile(response, ax=Figure().add_subplot())
+
+
+def test_floor_spectra_are_exact_spectra_of_the_histories(response: sm.Response) -> None:
+    periods = [0.1, 0.5, 1.0]
+    axes = sm.plots.floor_spectra(response, floors=3, periods=periods).axes[0]
+    roof = sm.Motion(response.floor_acceleration[:, 2], response.motion.dt)
+    for line, motion in zip(axes.lines, (response.motion, roof), strict=False):
+        np.testing.assert_array_equal(line.get_ydata(), sm.response_spectrum(motion, periods)[0] / G)
+    thinned = sm.simulate(scene(), response.motion, histories=2)
+    with pytest.raises(sm.InvalidOption, match="histories of floor spectra must be True, a row at every sample; got 2"):
+        thinned.plot.floor_spectra()
+
+
+def test_energies_end_with_those_of_the_response(response: sm.Response) -> None:
+    """The stack is the balance: its top is the input at each time, to the residual of the balance."""
+    axes = sm.plots.energy(response, points=20).axes[0]
+    total = next(line for line in axes.lines if line.get_gid() == "input")
+    assert total.get_xdata()[-1] == response.end_time
+    assert total.get_ydata()[-1] == 1e-3 * response.energy["input"]
+    tops = {band.get_gid(): band.get_paths()[0].vertices for band in axes.collections if band.get_gid()}
+    assert set(tops) == {"viscous", "hysteretic", "friction", "elastic", "kinetic"}
+    ends = {name: path[path[:, 0] == response.end_time, 1].max() for name, path in tops.items()}
+    assert ends["viscous"] == pytest.approx(1e-3 * response.energy["viscous"], rel=1e-12)
+    assert ends["hysteretic"] - ends["viscous"] == pytest.approx(1e-3 * response.energy["hysteretic"], rel=1e-12)
+    assert ends["kinetic"] == pytest.approx(1e-3 * response.energy["input"], rel=1e-9)
+
+
+def test_slip_paths_grow_to_those_of_the_response(response: sm.Response) -> None:
+    axes = sm.plots.slip_path(response, points=20).axes[0]
+    for number, line in enumerate(axes.lines):
+        path = line.get_ydata()
+        assert (np.diff(path) >= 0.0).all()
+        assert path[0] == 0.0
+        assert path[-1] == 1e3 * response.slip_path[number]
+    with pytest.raises(sm.InvalidOption, match="points of figure of slip paths must be a whole number of at least 2"):
+        sm.plots.slip_path(response, points=1)
+
+
+def test_a_collapsed_run_is_drawn_to_its_end(record: sm.Record) -> None:
+    building = scene().building
+    assert building is not None
+    weak = sm.Scene(building, [], collapse_drift=0.03)
+    fallen = sm.simulate(weak, record, histories=True)
+    assert fallen.status == "collapsed"
+    for draw in (sm.plots.drift, sm.plots.acceleration, sm.plots.events, sm.plots.energy):
+        assert draw(fallen).axes[0].get_xlim()[1] == pytest.approx(fallen.end_time, abs=record.dt)
+    with pytest.raises(sm.InvalidOption, match="response of floor spectra must be that of a completed run"):
+        fallen.plot.floor_spectra()
+
+
+def test_code_of_the_page_runs_and_its_figures_are_there() -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "plots_page.py"))
+    names = tool["made"]()
+    assert all(isinstance(names[name], Figure) for name in tool["FIGURES"])
+    page = (ROOT / "docs" / "plots.md").read_text(encoding="utf-8")
+    shown = set(re.findall(r"\(figures/(\w+)\.png\)", page))
+    assert shown == set(tool["FIGURES"].values())
+    assert all((ROOT / "docs" / "figures" / f"{file}.png").is_file() for file in shown)
+    response = names["response"]
+    assert f"Storey 1 drifts most, {1e3 * response.peak_drift.max():.0f} mm." in page
+    assert response.peak_drift.argmax() == 0
+    rows = re.findall(r"^\| (`.*?) \|", page, re.MULTILINE)
+    listed = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
+    assert listed == {name for name in vars(ResponsePlots) if not name.startswith("_")}

@@ -370,6 +370,11 @@ class Response:
         self.motion = state["motion"]
         self.record = state["record"]
 
+    def _repr_html_(self) -> str:
+        from seismass.sketches.results import response_html
+
+        return response_html(self)
+
     def __repr__(self) -> str:
         collapsed = f", storey {self.collapsed_storey}" if self.collapsed_storey is not None else ""
         drift = f", peak drift {_in_mm(self.peak_drift)} mm" if len(self.peak_drift) else ""

@@ -273,7 +273,7 @@ def _about_limits(building: OwnBuilding) -> list[str]:
         theta = "ASCE/SEI 7-10, 12.8.7, 0.5/(beta C_d) and at most 0.25"
     return [
         f"Limits: drift ratio {building.drift_limit:g} ({drift}), stability coefficient {building.theta_limit:g} "
-        f"({theta}); clauses from memory, unverified. Drifts are nonlinear: no C_d is applied; V is the spring force."
+        f"({theta}). Drifts are nonlinear: no C_d is applied; V is the spring force."
     ]
 
 

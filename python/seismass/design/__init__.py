@@ -1,4 +1,4 @@
-"""Design of shear buildings: modes, response spectrum analysis, lateral forces, code periods, limits.
+"""Design of shear buildings: modes, response spectrum analysis, lateral forces, weights, limits of codes, pushover.
 
 Numbers of codes have their clause and say how they were checked, in the words of `seismass.code_table`.
 """
@@ -33,24 +33,34 @@ from seismass.design.periods import (
     upper_limit_coefficient,
 )
 from seismass.design.pushover import Pattern, Pushover, pushover
-from seismass.design.spectrum_analysis import SpectrumAnalysis, response_spectrum_analysis
+from seismass.design.spectrum_analysis import (
+    MODAL_BASE_SHEAR_SHARE,
+    DesignDemand,
+    SpectrumAnalysis,
+    response_spectrum_analysis,
+)
 from seismass.design.systems import SystemFactors, importance_factor, system_factors, system_table
+from seismass.design.weight import FloorUse, SeismicWeight, effective_seismic_weight
 
 __all__ = [
     "DISTRIBUTION_CODES",
     "DRIFT_LIMIT_CODES",
+    "MODAL_BASE_SHEAR_SHARE",
     "PERIOD_CODES",
     "THETA_CAP",
     "THETA_THRESHOLD",
     "CodePeriod",
     "Combination",
+    "DesignDemand",
     "DistributionRule",
     "DriftLimit",
+    "FloorUse",
     "LateralForces",
     "Modes",
     "Pattern",
     "PeriodRule",
     "Pushover",
+    "SeismicWeight",
     "SpectrumAnalysis",
     "SystemFactors",
     "code_period",
@@ -58,6 +68,7 @@ __all__ = [
     "distribution_table",
     "drift_limit",
     "drift_limit_table",
+    "effective_seismic_weight",
     "equivalent_lateral_forces",
     "exponent_k",
     "importance_factor",

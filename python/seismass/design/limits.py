@@ -223,8 +223,8 @@ def storey_checks(
     Parameters
     ----------
     shear, drift : array_like, shape (storeys,)
-        Storey shears (N) and elastic drifts (m) under the design forces, those of `LateralForces`, or those of a
-        `SpectrumAnalysis` times I_e/R.
+        Storey shears (N) and elastic drifts (m) under the same design forces: those of `LateralForces`, or those of
+        `SpectrumAnalysis.for_design` without a base shear.
     heights : array_like
         Storey heights (m); one number stands for all storeys.
     c_d, importance : float

@@ -174,7 +174,8 @@ def pushover(
     unload. Storeys that reach a plateau together share the drift as S_i/k_i, the limit of a small common slope; where
     they soften together, the drift goes to the one with the steepest fall over S_i, the lowest where they are equal.
     The path ends at a drift limit, without strength, or where a storey would have to unload along a falling line.
-    There are no steps to choose: every point is a corner of a spring's curve.
+    There are no steps to choose: every point is a corner of a spring's curve. An `energy_capacity` has no effect, since
+    no storey completes a half cycle.
 
     Examples
     --------

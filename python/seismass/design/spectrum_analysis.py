@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, brief, frozen, refusal
+from seismass._values import FloatArray, as_array, as_number, brief, frozen, refusal
 from seismass.design.modes import (
     Combination,
     Modes,
@@ -19,6 +20,31 @@ from seismass.design.modes import (
     vibration_modes,
 )
 from seismass.errors import InvalidOption
+
+MODAL_BASE_SHEAR_SHARE: Final = 0.85
+"""Share of the base shear of lateral forces that a modal one must reach: ASCE/SEI 7-10, 12.9.4.1 (verified)."""
+
+
+@dataclass(frozen=True, eq=False)
+class DesignDemand:
+    """Demands of a response spectrum analysis for the design.
+
+    Attributes
+    ----------
+    shear : ndarray, shape (storeys,)
+        Storey shears (N).
+    drift : ndarray, shape (storeys,)
+        Elastic storey drifts under the forces before they were scaled up (m).
+    overturning : ndarray, shape (storeys,), or None
+        Overturning moments at the foot of each storey (N m); None without heights.
+    scale : float
+        What forces were scaled up by, 1 or more.
+    """
+
+    shear: FloatArray
+    drift: FloatArray
+    overturning: FloatArray | None
+    scale: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +108,52 @@ class SpectrumAnalysis:
                 "overturning": nothing if self.overturning is None else self.overturning,
             },
             schema_overrides={"storey": pl.UInt32, "drift_ratio": pl.Float64, "overturning": pl.Float64},
+        )
+
+    def for_design(
+        self,
+        reduction: float,
+        *,
+        importance: float = 1.0,
+        base_shear: float | None = None,
+        share: float = MODAL_BASE_SHEAR_SHARE,
+    ) -> DesignDemand:
+        """Return shears, drifts and moments divided by R/I_e, and scaled up to the base shear of lateral forces.
+
+        Parameters
+        ----------
+        reduction, importance : float
+            R and I_e.
+        base_shear : float, optional
+            V of the equivalent lateral forces (N), by the same R and I_e; without it nothing is scaled up.
+        share : float
+            Share of V below which forces are scaled up to it: 0.85 in ASCE/SEI 7-10.
+
+        Raises
+        ------
+        InvalidOption
+            A number is not positive.
+
+        Notes
+        -----
+        ASCE/SEI 7-10, 12.9.2 and 12.9.4.1 (verified): forces by I_e/R, then by 0.85 V/V_t where V_t is smaller than
+        0.85 V. Drifts are those under the forces before they are scaled up; times C_d/I_e they are the design drifts.
+        The share of ASCE/SEI 7-16 and 7-22 is 1.0 (second-hand).
+        """
+        factors = {"reduction": reduction, "importance": importance, "share": share}
+        if base_shear is not None:
+            factors["base_shear"] = base_shear
+        for name, value in factors.items():
+            if not 0.0 < as_number(value, name, "design", InvalidOption) < np.inf:
+                raise refusal(InvalidOption, name, "design", "a positive number", f"{value:g}")
+        factor = importance / reduction
+        least = 0.0 if base_shear is None else share * base_shear
+        scale = max(least / (factor * self.base_shear), 1.0) if self.base_shear > 0.0 else 1.0
+        return DesignDemand(
+            shear=frozen(scale * factor * self.storey_shear),
+            drift=frozen(factor * self.storey_drift),
+            overturning=None if self.overturning is None else frozen(scale * factor * self.overturning),
+            scale=scale,
         )
 
     def mode_table(self) -> pl.DataFrame:

@@ -8,7 +8,7 @@ from typing import Any, Concatenate, ParamSpec
 
 from matplotlib.figure import Figure
 
-from seismass.plots import histories, timeline
+from seismass.plots import growth, histories, hysteresis, profiles, timeline
 from seismass.response import Response
 
 P = ParamSpec("P")
@@ -33,6 +33,11 @@ class ResponsePlots:
     drift = _method(histories.drift)
     slip = _method(histories.slip)
     acceleration = _method(histories.acceleration)
+    loops = _method(hysteresis.loops)
+    slip_path = _method(growth.slip_path)
+    energy = _method(growth.energy)
+    profile = _method(profiles.profile)
+    floor_spectra = _method(profiles.floor_spectra)
     events = _method(timeline.events)
 
     def __repr__(self) -> str:

@@ -41,14 +41,15 @@ class Panels:
         assert isinstance(found, Figure)
         return found
 
-    def legend(self, handles: Sequence[Any], columns: int = 4) -> None:
+    def legend(self, handles: Sequence[Any], columns: int = 4, labels: Sequence[str] | None = None) -> None:
         """Say what markers and lines are: above a figure of its own, inside axes that were given."""
         if not handles:
             return
+        named: dict[str, Any] = {} if labels is None else {"labels": labels}
         if self.own:
-            self.figure.legend(handles=handles, loc="outside upper center", ncols=columns, frameon=False)
+            self.figure.legend(handles=handles, **named, loc="outside upper center", ncols=columns, frameon=False)
         else:
-            self.axes[0].legend(handles=handles, fontsize=8.0, framealpha=0.8)
+            self.axes[0].legend(handles=handles, **named, fontsize=8.0, framealpha=0.8)
 
 
 def panels(

@@ -73,7 +73,7 @@ def pushover(path: Pushover, *, labels: bool = True, ax: Axes | None = None) -> 
 
 def _label(axes: Axes, events: pl.DataFrame, roof: FloatArray, shear: FloatArray) -> None:
     """Number the storeys of events; those of points that are close together have one label, in their order."""
-    reach = (0.04 * float(roof.max()), 0.06 * float(shear.max()))
+    reach = (0.08 * float(roof.max()), 0.06 * float(shear.max()))
     groups: list[tuple[int, list[int]]] = []
     for point, storey in events.select("point", "storey").iter_rows():
         if groups:

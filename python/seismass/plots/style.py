@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+from matplotlib.figure import Figure
+
 BLUE: Final = "#0072B2"
 VERMILION: Final = "#D55E00"
 GREEN: Final = "#009E73"
@@ -17,6 +19,9 @@ SKY: Final = "#56B4E9"
 GREY: Final = "#8C8C8C"
 INK: Final = "#222222"
 PAPER: Final = "#FFFFFF"
+
+PERIOD_TICKS: Final = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
+"""Periods (s) that logarithmic axes name."""
 
 SERIES: Final[tuple[dict[str, Any], ...]] = (
     {"color": BLUE, "linestyle": "-"},
@@ -42,9 +47,27 @@ STYLE: Final[Any] = {
     "ytick.labelsize": 8.0,
     "legend.fontsize": 9.0,
     "text.color": INK,
+    "hatch.linewidth": 0.5,
     "svg.fonttype": "none",  # text stays text: it can be selected, and takes less room than outlines
     "svg.hashsalt": "seismass",  # the same figure is the same file
+    "figure.autolayout": False,
+    "figure.constrained_layout.use": False,
 }
+
+ALPHA: Final = "\N{GREEK SMALL LETTER ALPHA}"
+ETA: Final = "\N{GREEK SMALL LETTER ETA}"
+LAMBDA: Final = "\N{GREEK SMALL LETTER LAMDA}"
+MU: Final = "\N{GREEK SMALL LETTER MU}"
+"""Symbols as letters: a formula takes as long to be set as a whole panel."""
+
+
+def lay_out(figure: Figure) -> Figure:
+    """Place what a figure has, once and for all, and return it: each file is then a single drawing."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+        figure.set_layout_engine(None)
+    return figure
 
 
 def plain(text: str) -> str:

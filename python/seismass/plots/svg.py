@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from seismass._values import brief, refusal
 from seismass.errors import InvalidOption
-from seismass.plots.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION
+from seismass.plots.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, lay_out
 
 FONTS: Final = "'DejaVu Sans', Verdana, sans-serif"
 """Fonts of inline figures. The second has the widths of the first, by which figures are laid out."""
@@ -73,6 +73,7 @@ def figure_svg(figure: Figure) -> str:
         raise refusal(InvalidOption, "figure", "SVG", "a matplotlib Figure", brief(figure))
     written = io.StringIO()
     with mpl.rc_context(STYLE):
+        lay_out(figure)
         figure.savefig(written, format="svg", metadata={"Date": None, "Creator": None}, facecolor="white")
     return written.getvalue()
 
@@ -167,9 +168,9 @@ def _shortened(element: ET.Element, numbers: dict[str, str]) -> None:
             attributes["href"] = f"#{numbers[value[1:]]}" if value.startswith("#") else "".join(value.split())
         elif key == "style":
             coloured = _COLOUR.sub(lambda found: _VARIABLES.get(found[0], found[0]), value)
-            attributes["style"] = _FONT.sub("", coloured).replace(": ", ":").replace("; ", ";")
+            attributes["style"] = _placed(_FONT.sub("", coloured), numbers).replace(": ", ":").replace("; ", ";")
         elif key == "clip-path":
-            attributes[key] = _URL.sub(lambda found: f"url(#{numbers[found[1]]})", value)
+            attributes[key] = _placed(value, numbers)
         elif key == "d":
             attributes[key] = _COMMAND.sub(r"\1", _rounded(value)).strip()
         elif key in _GEOMETRY:
@@ -181,6 +182,10 @@ def _shortened(element: ET.Element, numbers: dict[str, str]) -> None:
             attributes[key] = value
     element.attrib.clear()
     element.attrib.update(attributes)
+
+
+def _placed(value: str, numbers: dict[str, str]) -> str:
+    return _URL.sub(lambda found: f"url(#{numbers[found[1]]})", value)
 
 
 def _rounded(value: str, digits: int = 2) -> str:

@@ -73,10 +73,17 @@ def has_events(response: Response) -> bool:
     return response._get("event_time") is not None
 
 
-def mark_events(axes: Axes, times: FloatArray, kind: str, history: tuple[FloatArray, FloatArray]) -> bool:
-    """Mark events on a history of times and values; return whether there are any."""
+def mark_events(
+    axes: Axes,
+    times: FloatArray,
+    kind: str,
+    history: tuple[FloatArray, FloatArray],
+    across: tuple[FloatArray, FloatArray] | None = None,
+) -> bool:
+    """Mark events on a history of times and values, against time or another history; return whether there are any."""
     if len(times):
-        axes.plot(times, np.interp(times, *history), **MARKS[kind], linestyle="", markeredgewidth=0.8, zorder=3)
+        x = times if across is None else np.interp(times, *across)
+        axes.plot(x, np.interp(times, *history), **MARKS[kind], linestyle="", markeredgewidth=0.8, zorder=3)
     return bool(len(times))
 
 

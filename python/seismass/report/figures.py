@@ -11,11 +11,9 @@ import polars as pl
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.plots.style import BLUE, GREY, STYLE, VERMILION, plain
+from seismass.plots.style import BLUE, GREY, LAMBDA, PERIOD_TICKS, STYLE, VERMILION, lay_out, plain
 from seismass.study import StudyResult, motions_text
 from seismass.units import STANDARD_GRAVITY
-
-PERIOD_TICKS: Final = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 
 LEAST_WIDTH: Final = 7.0
 """Least width of a figure with a legend of two columns (inches)."""
@@ -26,6 +24,7 @@ CAPTION_CHARACTERS: Final = 15
 def save_figure(figure: Figure, kind: Literal["png", "svg"], path: Path) -> None:
     """Write a figure as PNG or SVG, without a date, so that equal figures are equal files."""
     with mpl.rc_context(STYLE):
+        lay_out(figure)
         metadata = {"Software": None} if kind == "png" else {"Date": None, "Creator": None}
         figure.savefig(path, format=kind, dpi=160, metadata=metadata, facecolor="white")
 
@@ -71,7 +70,7 @@ def labels_of(values: pl.Series) -> dict[float, str]:
 def occupancy_title(occupancy: str, design: float, analysis: float) -> str:
     """Return what a figure calls an occupancy: its name with lambda, or with that of the design and of the analysis."""
     shares = f"{design:g}" if design == analysis else f"{design:g}, {analysis:g}"
-    return rf"{plain(occupancy)}, $\lambda$ = {shares}"
+    return f"{plain(occupancy)}, {LAMBDA} = {shares}"
 
 
 def spectrum_figure(result: StudyResult) -> Figure:
