@@ -107,11 +107,11 @@
     const bottom = 30;
     const roof = storeys && data.blocks.some((block) => block.floor === storeys);
     const top = 72 + (roof ? Math.min(46, (0.5 * (height - 150)) / storeys) : 0);
-    const total = data.heights.reduce((sum, one) => sum + one, 0) || 3;
+    const total = data.heights.reduce((sum, one) => sum + one, 0) || 1.2; // m of ground
     const scale = (height - top - bottom) / total;
     const middle = left + width / 2;
     const floor = height - bottom;
-    const half = Math.min(width * 0.27, Math.max(0.42 * total * scale, 40));
+    const half = Math.min(width * 0.27, Math.max((storeys ? 0.42 : 1.5) * total * scale, 40));
     const row = Math.min(at, run.rows - 1);
     const colour = colourOf(run);
     const flash = (age) => (still.matches || age < 0 ? 0 : Math.max(0, 1 - age / (FLASH * Number(speed.value))));
@@ -235,7 +235,7 @@
       context.moveTo(x, y);
       context.lineTo(x, y - Math.min(6, high));
       context.stroke();
-      if (data.blocks.length > 1 && high >= 17) {
+      if (data.blocks.length > 1 && high >= 22) {
         text(context, String(j + 1), x, y - high / 2 + 3, { size: 11, align: "center", colour: state ? colours.paper : colours.ink });
       }
     });
