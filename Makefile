@@ -67,7 +67,7 @@ test-rust:
 	cargo test --locked --workspace --exclude seismass-python
 
 # Two processes, a file's tests in one of them: they share its fixtures.
-test-python: build
+test-python: build $(VENV)/browser
 	$(PYTHON) -m pytest --numprocesses 2 --dist loadfile
 
 test-wheel: build
@@ -101,6 +101,10 @@ $(VENV)/installed: $(VENV)/created pyproject.toml
 	$(PYTHON) -m pip install --quiet --upgrade 'pip>=25.1'
 	$(PYTHON) -m pip install --quiet --group dev
 	@touch $@
+
+# Without it, or without a Chromium on the path, the tests that open pages are skipped with a word.
+$(VENV)/browser: $(VENV)/installed
+	@$(PYTHON) -m pip install --quiet --group browser && touch $@ || echo "no Playwright: pages are not opened" >&2
 
 $(BENCH_VENV)/made: tools/find-python tools/make-bench-env benchmarks/requirements.txt
 	sh tools/make-bench-env $(BENCH_VENV)

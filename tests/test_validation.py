@@ -13,6 +13,7 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
+from seismass.report.validation_write import differences_text
 from seismass.study import StudyResult
 from seismass.validation import (
     STAND_INS,
@@ -24,6 +25,7 @@ from seismass.validation import (
     platform_scene,
     section4,
     section4_scene,
+    three_storeys,
     validate,
 )
 from seismass.validation.shaking_table import CENTRAL, MASS_RATIOS
@@ -131,6 +133,18 @@ def test_opensees_has_no_part_in_other_samples() -> None:
     found = section4([replace(record, acceleration=record.acceleration[:1500])])
     assert set(found.differences["program"]) == {FRICTION_SPRINGS}
     assert {item.program for item in found.histories} == {EXACT, FRICTION_SPRINGS}
+
+
+def test_a_program_that_does_not_converge_has_no_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Newton's method does not converge with springs of 1e5 k at a twentieth of the sample interval."""
+    monkeypatch.setattr(three_storeys, "SPRINGS", ((1e5, 20),))
+    (record,) = components("Brawley Airport")
+    cut = replace(record, acceleration=record.acceleration[:1000])
+    found = section4([cut])
+    assert {item.program for item in found.histories} == {EXACT}
+    assert found.differences["program"].to_list() == [FRICTION_SPRINGS] * 2
+    assert found.differences["drift_mm"].null_count() == 2
+    assert all(line.split()[-2:] == ["-", "-"] for line in differences_text(found)[1:])
 
 
 def test_the_platform_is_that_of_fig_4(built_in: Validation) -> None:
@@ -255,7 +269,8 @@ def test_command_as_json(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_page_is_current(shared: Path) -> None:
     module = runpy.run_path(str(ROOT / "tools" / "validation_page.py"))
-    page = module["page"](module["recorded"](shared))
+    suite = module["recorded"](shared)
+    page = module["page"](suite, validate(suite))
     assert module["PAGE"].read_text(encoding="utf-8") == page
     for name in ("section4_225", "section4_315", "sliding", "platform"):
         assert (module["FIGURES"] / f"validation_{name}.png").is_file()

@@ -10,7 +10,7 @@ from matplotlib import get_data_path
 from PIL import Image, ImageDraw, ImageFont
 
 from seismass._values import FloatArray
-from seismass.animation.shown import Run
+from seismass.animation.shown import GROUND_HEIGHT, Run
 
 if TYPE_CHECKING:
     from seismass.animation.animation import Animation
@@ -135,10 +135,10 @@ class Picture:
         heights, storeys = self._shown.heights, len(self._shown.heights)
         roof = any(block.floor == storeys for block in self._animation.scene.blocks) and storeys
         top = 66.0 + (min(46.0, 90.0 / storeys) if roof else 0.0)
-        total = float(heights.sum()) or 3.0
+        total = float(heights.sum()) or GROUND_HEIGHT
         scale = (BUILDINGS - top - 24.0) / total
         middle, ground = left + 0.5 * width, BUILDINGS - 24.0
-        half = min(0.27 * width, max(0.42 * total * scale, 40.0))
+        half = min(0.27 * width, max((0.42 if storeys else 1.5) * total * scale, 40.0))
         colour = REAL if run.attached is None else MODEL
         self._text(draw, (middle, 4), run.label[:1].upper() + run.label[1:], colour, 14, "ma")
         self._text(draw, (middle, 23), run.what, SOFT, 12, "ma")
@@ -196,7 +196,7 @@ class Picture:
             slot = 1.7 * half / count[block.floor]
             storey = (self._shown.heights[min(block.floor, scene.storeys - 1)] if scene.storeys else total) * scale
             wide = max(6.0, min(0.62 * slot, 0.9 * half) * size)
-            high = max(4.0, min(0.5 * storey, 0.8 * wide, 46.0) * size)
+            high = max(4.0, min(0.5 * storey, 0.8 * wide, 46.0 if scene.storeys else 100.0) * size)
             home = xs[block.floor] - 0.85 * half + slot * (taken[block.floor] + 0.5)
             taken[block.floor] += 1
             base = ys[block.floor]

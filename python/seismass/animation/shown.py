@@ -20,11 +20,15 @@ ROWS_PER_SECOND: Final = 30.0
 MOST_VALUES: Final = 100_000
 """Most values that are kept of a run: 0.2 MB. A long motion of a tall building has fewer rows a second."""
 DRAWN_STOREY: Final = 3.0
-"""Height (m) of storeys as drawn where heights are not known, and of the picture of blocks on the ground alone."""
+"""Height (m) of storeys as drawn where heights are not known."""
+GROUND_HEIGHT: Final = 1.2
+"""Height (m) of the picture of blocks on the ground alone."""
 FACTORS: Final = (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300, 500, 700, 1000)
 """By which displacements may be enlarged."""
 LARGEST_SWAY: Final = 0.15
-"""Largest displacement as drawn, over the width of a building's picture."""
+"""Largest displacement of a floor or block as drawn, over the height of the building."""
+LARGEST_SLIDE: Final = 0.4
+"""The same of blocks on the ground alone, over the height of their picture."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +134,8 @@ def shown(scenes: list[tuple[str, float | None, Scene]], motion: Motion) -> Show
     low, high = _ranges(motion.acceleration / STANDARD_GRAVITY, every, rows)
     ratio = real.peak_drift / heights
     storey = int(np.argmax(ratio)) if len(ratio) else 0
-    factor = _factor(runs, float(heights.sum()) or DRAWN_STOREY)
+    room = LARGEST_SWAY * float(heights.sum()) if len(heights) else LARGEST_SLIDE * GROUND_HEIGHT
+    factor = _factor(runs, room)
     return Shown(tuple(runs), every * motion.dt, rows, low, high, heights, factor, storey)
 
 
@@ -141,8 +146,8 @@ def _ranges(values: FloatArray, every: int, rows: int) -> tuple[FloatArray, Floa
     return windows.min(axis=1), windows.max(axis=1)
 
 
-def _factor(runs: list[Run], height: float) -> float:
-    """The largest factor with which no floor or block leaves its picture, which is about as wide as it is high."""
+def _factor(runs: list[Run], room: float) -> float:
+    """The largest factor with which no floor or block goes farther than there is room in the picture (m)."""
     largest = 0.0
     for run in runs:
         for moved in (run.floor_displacement, run.response.slip[: run.rows]):
@@ -150,5 +155,5 @@ def _factor(runs: list[Run], height: float) -> float:
                 largest = max(largest, float(np.abs(moved).max()))
     if largest == 0.0:
         return 1.0
-    fitting = [factor for factor in FACTORS if factor * largest <= LARGEST_SWAY * height]
+    fitting = [factor for factor in FACTORS if factor * largest <= room]
     return float(fitting[-1] if fitting else FACTORS[0])

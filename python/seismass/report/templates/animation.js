@@ -107,11 +107,11 @@
     const bottom = 30;
     const roof = storeys && data.blocks.some((block) => block.floor === storeys);
     const top = 72 + (roof ? Math.min(46, (0.5 * (height - 150)) / storeys) : 0);
-    const total = data.heights.reduce((sum, one) => sum + one, 0) || 3;
+    const total = data.heights.reduce((sum, one) => sum + one, 0) || 1.2; // m of ground
     const scale = (height - top - bottom) / total;
     const middle = left + width / 2;
     const floor = height - bottom;
-    const half = Math.min(width * 0.27, Math.max(0.42 * total * scale, 40));
+    const half = Math.min(width * 0.27, Math.max((storeys ? 0.42 : 1.5) * total * scale, 40));
     const row = Math.min(at, run.rows - 1);
     const colour = colourOf(run);
     const flash = (age) => (still.matches || age < 0 ? 0 : Math.max(0, 1 - age / (FLASH * Number(speed.value))));
@@ -177,8 +177,10 @@
     context.restore();
 
     const shake = (ground.low[Math.round(at)] + ground.high[Math.round(at)]) / 2 / (data.ground.peak || 1);
-    arrow(context, middle, floor + 16, shake * width * 0.3);
-    text(context, width < 260 ? "ground" : "ground acceleration", left + width * 0.06, floor + 20, { size: 11, colour: colours.soft });
+    const [label, edge] = [width < 260 ? "ground" : "ground acceleration", left + width * 0.06];
+    text(context, label, edge, floor + 20, { size: 11, colour: colours.soft });
+    const room = middle - edge - context.measureText(label).width - 6;
+    arrow(context, middle, floor + 16, shake * Math.min(width * 0.3, room));
   }
 
   function drawBlocks(context, run, place) {
@@ -194,7 +196,7 @@
       const slot = (1.7 * half) / count;
       const storey = (storeys ? data.heights[Math.min(block.floor, storeys - 1)] : total) * scale;
       const wide = Math.max(6, Math.min(0.62 * slot, 0.9 * half) * (0.4 + 0.6 * block.size));
-      const high = Math.max(4, Math.min(0.5 * storey, 0.8 * wide, 46) * (0.4 + 0.6 * block.size));
+      const high = Math.max(4, Math.min(0.5 * storey, 0.8 * wide, storeys ? 46 : 120) * (0.4 + 0.6 * block.size));
       const home = xs[block.floor] - 0.85 * half + slot * (position + 0.5);
       const base = ys[block.floor];
       if (run.attached !== null) {
@@ -233,7 +235,7 @@
       context.moveTo(x, y);
       context.lineTo(x, y - Math.min(6, high));
       context.stroke();
-      if (data.blocks.length > 1 && high >= 17) {
+      if (data.blocks.length > 1 && high >= 22) {
         text(context, String(j + 1), x, y - high / 2 + 3, { size: 11, align: "center", colour: state ? colours.paper : colours.ink });
       }
     });
@@ -333,7 +335,7 @@
         stroke(context, curve, 2, [[x - 26, top - 11], [x - 5, top - 11]]);
         x -= 36;
       }
-      text(context, panel.title, x0, top - 7, { size: 12, fit: x - x0 });
+      text(context, panel.title, x0 + 5, top - 7, { size: 12, fit: x - x0 - 5 });
       if (panel.range !== undefined) {
         context.strokeStyle = colours.ink;
         context.lineWidth = 1;
