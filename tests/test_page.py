@@ -155,6 +155,7 @@ def test_figure_is_svg_with_a_title_and_identifiers_of_its_own() -> None:
     assert "<title>a &#34;rising&#34; line</title>" in one
     assert "<?xml" not in one
     assert "<metadata" not in one
+    assert "<style" not in one  # that of matplotlib is of all elements of the page
     assert 'class="inverts"' in one
     assert "max-width:288pt" in one  # 4 inches of 72 points
     assert ">drift</text>" in one

@@ -111,37 +111,49 @@ def inline_svg(figure: Figure | str, title: str, description: str = "", *, name:
         name = "f" + hashlib.sha256("\0".join((text, title, description)).encode()).hexdigest()[:10]
     elif not _NAME.fullmatch(name):
         raise refusal(InvalidOption, "name", "inline figure", "a letter, then letters, digits, - and _", brief(name))
-    try:
-        root = ET.fromstring(text)
-    except ET.ParseError:
-        raise refusal(InvalidOption, "figure", "inline figure", "a Figure, or SVG text", brief(figure)) from None
-    used = {reference for element in root.iter() for reference in _references(element)}
-    numbers = {old: f"{name}-{number}" for number, old in enumerate(sorted(used), start=1)}
-    for element in list(root.iter()):
-        _shortened(element, numbers)
-    for unwanted in (root.find("metadata"), root.find("defs/style/..")):
-        if unwanted is not None:
-            root.remove(unwanted)
+    root = _element(text, name)
     labelled = f"{name}-title {name}-desc" if description else f"{name}-title"
-    width = float(root.attrib["width"].removesuffix("pt"))
-    box = root.attrib["viewBox"]
-    root.attrib.clear()
-    root.attrib.update(
-        {
-            "viewBox": box,
-            "width": "100%",
-            "role": "img",
-            "aria-labelledby": labelled,
-            "style": f"max-width:{width / 0.75:g}px;height:auto;font-family:{FONTS};"
-            "stroke-linejoin:round;stroke-linecap:butt",
-        }
-    )
+    width = float(root.attrib.pop("width").removesuffix("pt"))
+    del root.attrib["height"]
+    root.attrib |= {
+        "width": "100%",
+        "role": "img",
+        "aria-labelledby": labelled,
+        "style": f"max-width:{width / 0.75:g}px;height:auto",
+    }
     for place, (tag, said) in enumerate((("title", title), ("desc", description))):
         if said:
             child = ET.Element(tag, {"id": f"{name}-{tag}"})
             child.text = said
             root.insert(place, child)
     return ET.tostring(root, encoding="unicode")
+
+
+def short_svg(figure: Figure) -> str:
+    """Return a figure as an `<svg>` element of its size that has no title yet, shortened as `inline_svg` does."""
+    return ET.tostring(_element(figure_svg(figure), "f"), encoding="unicode")
+
+
+def _element(text: str, name: str) -> ET.Element:
+    """Return the SVG that matplotlib wrote as an element of HTML, its ids beginning with a name."""
+    try:
+        root = ET.fromstring(text)
+    except ET.ParseError:
+        raise refusal(InvalidOption, "figure", "inline figure", "a Figure, or SVG text", brief(text)) from None
+    if not {"viewBox", "width", "height"} <= set(root.attrib):
+        raise refusal(InvalidOption, "figure", "inline figure", "SVG with a viewBox, width and height", brief(text))
+    used = {reference for element in root.iter() for reference in _references(element)}
+    numbers = {old: f"{name}-{number}" for number, old in enumerate(sorted(used), start=1)}
+    size = {key: root.attrib[key] for key in ("viewBox", "width", "height")}
+    for element in list(root.iter()):
+        _shortened(element, numbers)
+    for unwanted in (root.find("metadata"), root.find("defs/style/..")):
+        if unwanted is not None:
+            root.remove(unwanted)
+    root.attrib.clear()
+    # What the style that was removed said of every element, and matplotlib of every text.
+    root.attrib |= {**size, "font-family": FONTS, "stroke-linejoin": "round", "stroke-linecap": "butt"}
+    return root
 
 
 def _references(element: ET.Element) -> Iterator[str]:

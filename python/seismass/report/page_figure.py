@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from seismass._values import brief, refusal
 from seismass.errors import InvalidOption
-from seismass.plots import figure_svg
+from seismass.plots.svg import short_svg
 
 LEAST_SCALE: Final = 0.62
 """How far a figure shrinks before it is scrolled: text of 9 points is then one of 7.4 pixels high."""
@@ -53,7 +53,7 @@ def figure_html(figure: Figure | str, caption: str, alt: str) -> Markup:
     """
     if not alt.strip():
         raise refusal(InvalidOption, "alt", "figure", "a description", brief(alt))
-    svg = figure_svg(figure) if isinstance(figure, Figure) else figure
+    svg = short_svg(figure) if isinstance(figure, Figure) else figure
     root = _ROOT.search(svg)
     if root is None or "viewBox=" not in root[1] or "</svg>" not in svg:
         raise refusal(InvalidOption, "figure", "page", "an SVG with a viewBox", brief(svg[:60]))
