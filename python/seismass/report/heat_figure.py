@@ -18,8 +18,8 @@ LARGEST: Final = 100.0
 LEAST_ROWS: Final = 3
 """Rows of the height that a figure has at least."""
 _MAP: Final = LinearSegmentedColormap.from_list("underestimation", (BLUE, PAPER, VERMILION))
-_DARK: Final = 0.85
-"""Share of the strongest colour from which on numbers are white."""
+_STRONGEST: Final = 0.7
+"""Share of a full colour on which numbers are still legible."""
 
 
 def heat_figure(result: StudyFrames, mu: float) -> Figure:
@@ -69,11 +69,17 @@ def _cells(summary: pl.DataFrame, rows: list[Any], columns: list[Any]) -> np.nda
 
 
 def _draw(axes: Axes, cells: np.ndarray[Any, np.dtype[np.float64]]) -> None:
-    norm = Normalize(-LARGEST, LARGEST, clip=True)
+    norm = Normalize(-LARGEST / _STRONGEST, LARGEST / _STRONGEST)
     height, width = cells.shape
     # Rectangles, for a picture within an SVG would be blurred.
     axes.pcolormesh(
-        np.arange(width + 1) - 0.5, np.arange(height + 1) - 0.5, cells, cmap=_MAP, norm=norm, edgecolors=PAPER, lw=0.6
+        np.arange(width + 1) - 0.5,
+        np.arange(height + 1) - 0.5,
+        cells.clip(-LARGEST, LARGEST),
+        cmap=_MAP,
+        norm=norm,
+        edgecolors=PAPER,
+        lw=0.6,
     )
     axes.set_ylim(height - 0.5, -0.5)
     for (row, column), value in np.ndenumerate(cells):
@@ -81,8 +87,7 @@ def _draw(axes: Axes, cells: np.ndarray[Any, np.dtype[np.float64]]) -> None:
             axes.text(column, row, "\N{EN DASH}", ha="center", va="center", fontsize=7.0, color=GREY)
             continue
         text = f"{round(value):+d}".replace("-", "\N{MINUS SIGN}").replace("+0", "0")
-        colour = PAPER if abs(value) > _DARK * LARGEST else INK
-        axes.text(column, row, text, ha="center", va="center", fontsize=7.0, color=colour)
+        axes.text(column, row, text, ha="center", va="center", fontsize=7.0, color=INK)
     axes.tick_params(length=0.0)
     for spine in axes.spines.values():
         spine.set_visible(False)
