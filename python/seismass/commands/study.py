@@ -102,10 +102,10 @@ def add_parser(subparsers: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
     from seismass.report.findings import findings_text
-    from seismass.report.folder import check_out
+    from seismass.report.folder import PAGE, check_out
     from seismass.report.sensitivity import sensitivity_text
     from seismass.report.study_tables import study_tables
-    from seismass.report.write import PAGE, write_study
+    from seismass.report.write import write_study
     from seismass.study import StudyParameters, run_study, study_sensitivity
     from seismass.study.example import study_example
     from seismass.validation import paper_scenes, validate

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 import polars as pl
 
 from seismass.files import written_whole
-from seismass.report.folder import write_folder
+from seismass.report.folder import PAGE, write_folder
 from seismass.report.study_tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, StudyTables, read_study_tables
 from seismass.study.columns import TABLES, units_of
 
@@ -23,8 +23,6 @@ FIGURE_FILE: Final = re.compile(
     r"|section4_[\w.-]+|platform_[\w.-]+)\.(?:png|svg)"
 )
 """Names of the files of a study's figures; another file of a folder is not touched."""
-PAGE: Final = "report.html"
-"""File of the page."""
 
 
 def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bool = False) -> list[Path]:
