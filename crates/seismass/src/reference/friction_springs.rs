@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, Dyn, LU};
 use super::history::{History, check_finite};
 use super::{Error, require};
 use crate::STANDARD_GRAVITY;
-use crate::model::Model;
+use crate::machines::model::Model;
 use crate::response::Status;
 use crate::scene::{Motion, Scene};
 

@@ -3,8 +3,8 @@
 use super::Events;
 use crate::events::{Guard, Outcome};
 use crate::lanes::by_width;
+use crate::machines::sign::Sign;
 use crate::response::Event;
-use crate::sign::Sign;
 use crate::state::State;
 
 /// Value of a guard `tau` after the last sample: it has fallen when this is negative.

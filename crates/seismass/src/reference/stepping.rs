@@ -12,13 +12,13 @@ use super::roots::first_fall;
 use super::scheme::{Columns, Scheme, StepMap, System};
 use super::{Error, Events};
 use crate::events::{Guard, Outcome};
-use crate::friction::{BlockMotion, BlockState};
-use crate::model::Model;
-use crate::propagator::RegimeCache;
+use crate::machines::block::{BlockMotion, BlockState};
+use crate::machines::model::Model;
 use crate::regime::Row;
 use crate::response::{Event, Status};
 use crate::scene::{Motion, Scene};
 use crate::state::State;
+use crate::step::dense::RegimeCache;
 
 /// Events one step may have for each storey and block.
 const EVENTS_PER_MACHINE: usize = 64;

@@ -12,9 +12,9 @@ use rayon::prelude::*;
 
 use super::oscillator::{Oscillator, Step};
 use super::{Load, validate};
-use crate::batch::{Control, in_pool};
 use crate::error::{Error, Result};
 use crate::scene::Motion;
+use crate::threads::{Control, in_pool};
 
 /// Steps between two looks whether the caller wants to stop.
 const STEPS_PER_LOOK: usize = 4096;

@@ -1,0 +1,6 @@
+//! Runs of whole sample intervals without events.
+
+pub(crate) mod closer;
+pub(crate) mod run;
+pub(crate) mod sliding;
+pub(crate) mod tall;

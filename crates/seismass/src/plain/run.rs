@@ -1,0 +1,725 @@
+//! Runs of whole sample intervals by the propagator, each accepted only when bounds prove that no guard fell inside
+//! it.
+//!
+//! Value and rate at both ends give the Bezier points of a cubic; the quantity differs from that cubic by at most
+//! h^4 / 384 times its largest fourth derivative, which the regime bounds. The loop itself looks at each end once: a
+//! value must keep the distance of h / 3 times its rate from its bound, and the margin of the fourth derivative, to
+//! either side. Steps that this does not clear are looked at closer ([`crate::plain::closer`]), by the Bezier points
+//! themselves.
+//!
+//! The loop ([`clear_steps`]) is a function of its own whose steps call no other, so that what it needs stays in
+//! registers; what is between two calls of it is kept in a [`Walk`].
+
+use std::mem::take;
+use std::sync::Arc;
+
+use crate::STANDARD_GRAVITY;
+use crate::events::NO_CONTACT;
+use crate::lanes::padded::PaddedRows;
+use crate::lanes::{
+    FAR, Pair, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, prefix_sums,
+    store,
+};
+use crate::machines::block::BlockMotion;
+use crate::machines::model::Model;
+use crate::machines::sign::Sign;
+use crate::plain::closer::{Beaten, BoundsInLanes, Closer, Sample};
+use crate::plain::sliding::{GroundBlock, Layer, LayerInLanes, Linear, OnGround, Push};
+use crate::plain::tall;
+use crate::record::histories::{Pen, RowInLanes};
+use crate::record::observer::Observer;
+use crate::regime::{Regime, Row};
+use crate::scene::Motion;
+use crate::state::limits::{self, Set};
+use crate::state::{State, THIRD, off_cubic};
+use crate::step::dense::Whole;
+use crate::step::series::MAX_PHASE;
+
+/// What bounds the fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
+pub(crate) const MARGINS: [Row; 4] =
+    [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration, Row::ThirdOfAcceleration];
+
+/// Rows (dx, dv, a, j) of a column of the step.
+type Column<const K: usize> = [[[f64; WIDTH]; K]; 4];
+
+/// What a run of plain steps reads.
+struct Course<'a, const K: usize> {
+    regime: &'a Regime,
+    h: f64,
+    /// Columns of the step: of each drift, of each drift rate, of the ground acceleration and of its change.
+    of_drift: &'a [Column<K>],
+    of_rate: &'a [Column<K>],
+    of_ground: &'a Column<K>,
+    of_change: &'a Column<K>,
+    /// Effect of constant floor loads; with vertical motion, of friction at unit contact force and at a unit ramp.
+    constant: &'a Column<K>,
+    friction: &'a Column<K>,
+    friction_ramp: &'a Column<K>,
+}
+
+impl<'a, const K: usize> Course<'a, K> {
+    /// None where the regime has no propagator of this width.
+    #[inline(always)]
+    fn new(state: &'a State, h: f64) -> Option<Self> {
+        let regime = &state.regime;
+        let Whole::Dense(propagator) = &regime.steps(state.vertical)?.whole else { return None };
+        let (of_drift, others) = four_rows(propagator.state_and_motion_columns()).split_at_checked(state.storeys())?;
+        let (of_rate, others) = others.split_at_checked(state.storeys())?;
+        let [of_ground, of_change, ..] = others else { return None };
+        let effects = &state.effects;
+        Some(Self {
+            regime,
+            h,
+            of_drift,
+            of_rate,
+            of_ground,
+            of_change,
+            constant: effects.constant.vectors().first_chunk()?,
+            friction: effects.friction.vectors().first_chunk()?,
+            friction_ramp: effects.friction_ramp.vectors().first_chunk()?,
+        })
+    }
+}
+
+#[inline(always)]
+fn four_rows<const K: usize>(values: &[f64]) -> &[Column<K>] {
+    columns_of::<K>(values).as_chunks::<4>().0
+}
+
+/// A column of one vector as two pairs of rows: (dx, dv) and (a, j).
+#[inline(always)]
+fn pairs_of<V: Vector, const K: usize>(column: &Column<K>) -> [V::Pair; 2] {
+    let mut pairs = [V::Pair::splat(0.0); 2];
+    for (pair, rows) in pairs.iter_mut().zip(column.as_flattened().as_chunks().0) {
+        *pair = V::Pair::load(rows);
+    }
+    pairs
+}
+
+/// rows += column * weight.
+#[inline(always)]
+fn add<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column: &Column<K>, weight: V) {
+    for r in 0..4 {
+        for k in 0..K {
+            rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
+        }
+    }
+}
+
+/// rows += columns * weights.
+#[inline(always)]
+fn multiply<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], columns: &[Column<K>], weights: &[V; K]) {
+    let values = numbers(weights);
+    let each = columns.iter().zip(values.as_flattened());
+    if K > 1 && V::Pair::IS_ONE {
+        // Two vectors at a time: half of the sums' room is left.
+        let mut sums = [[V::Pair::splat(0.0); K]; 4];
+        for r in 0..4 {
+            for k in 0..K / 2 {
+                sums[r][k] = V::Pair::of([rows[r][2 * k], rows[r][2 * k + 1]]);
+            }
+        }
+        for (column, &weight) in each {
+            let weight = V::Pair::splat(weight);
+            for r in 0..4 {
+                for (k, pair) in column[r].as_chunks().0.iter().enumerate() {
+                    sums[r][k] = V::Pair::load(pair).mul_add(weight, sums[r][k]);
+                }
+            }
+        }
+        for r in 0..4 {
+            for k in 0..K / 2 {
+                [rows[r][2 * k], rows[r][2 * k + 1]] = sums[r][k].halves();
+            }
+        }
+    } else if K <= 2 {
+        for (column, &weight) in each {
+            add(rows, column, V::splat(weight));
+        }
+    } else {
+        // As many rows at a time as stay in the registers.
+        for pair in [[0, 1], [2, 3]] {
+            for (column, &weight) in each.clone() {
+                let weight = V::splat(weight);
+                for r in pair {
+                    for k in 0..K {
+                        rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The step of a scene of one vector with so many storeys, from columns of each drift and of each drift rate, of the ground
+/// acceleration and of its change: two rows at a time.
+///
+/// Two sums: half the latency of one, which is what a small step waits for.
+#[inline(always)]
+fn small_step<V: Vector, const K: usize, const S: usize>(
+    course: &Course<K>,
+    [of_drift, of_rate]: [&[Column<K>; S]; 2],
+    [ground, change]: [f64; 2],
+    [x, v]: [V; 2],
+) -> [V; 4] {
+    let (ground, change) = (V::Pair::splat(ground), V::Pair::splat(change));
+    let (of_change, of_ground) = (pairs_of::<V, K>(course.of_change), pairs_of::<V, K>(course.of_ground));
+    let mut rows = pairs_of::<V, K>(course.constant);
+    let mut of_rates = [V::Pair::splat(0.0); 2];
+    for r in 0..2 {
+        rows[r] = of_ground[r].mul_add(ground, of_change[r].mul_add(change, rows[r]));
+    }
+    for c in 0..S {
+        let (x, v) = (V::Pair::lane(x, c), V::Pair::lane(v, c));
+        let (of_drift, of_rate) = (pairs_of::<V, K>(&of_drift[c]), pairs_of::<V, K>(&of_rate[c]));
+        for r in 0..2 {
+            rows[r] = of_drift[r].mul_add(x, rows[r]);
+            of_rates[r] = of_rate[r].mul_add(v, of_rates[r]);
+        }
+    }
+    let ([dx, dv], [a, jerk]) = (rows[0].add(of_rates[0]).halves(), rows[1].add(of_rates[1]).halves());
+    [dx, dv, a, jerk]
+}
+
+/// Forms the effects of the floor loads on the step of the present regime, if they have changed.
+#[inline(always)]
+fn prepare_effects<V: Vector, const K: usize, const VERTICAL: bool>(state: &mut State) {
+    if state.effects.valid {
+        return;
+    }
+    let steps = state.regime.steps(state.vertical);
+    let Some(Whole::Dense(propagator)) = steps.map(|steps| &steps.whole) else { return };
+    let of_loads = four_rows(propagator.load_columns());
+    let (mut loads, friction): ([V; K], [V; K]) = (load(&state.spring_load), load(&state.friction));
+    let effects = &mut state.effects;
+    if VERTICAL {
+        let of_ramps = four_rows(propagator.ramp_columns());
+        put_product::<V, K>(of_loads, &friction, &mut effects.friction);
+        put_product::<V, K>(of_ramps, &friction, &mut effects.friction_ramp);
+    } else {
+        for k in 0..K {
+            loads[k] = friction[k].mul_add(V::splat(STANDARD_GRAVITY), loads[k]);
+        }
+    }
+    put_product::<V, K>(of_loads, &loads, &mut effects.constant);
+    effects.valid = true;
+}
+
+/// rows = columns * weights.
+#[inline(always)]
+fn put_product<V: Vector, const K: usize>(columns: &[Column<K>], weights: &[V; K], rows: &mut PaddedRows<4>) {
+    if K == 1 {
+        // In pairs, as the step reads them.
+        let mut product = [V::Pair::splat(0.0); 2];
+        for (column, &weight) in columns.iter().zip(numbers(weights).as_flattened()) {
+            let column = pairs_of::<V, K>(column);
+            for r in 0..2 {
+                product[r] = column[r].mul_add(V::Pair::splat(weight), product[r]);
+            }
+        }
+        for (out, rows) in rows.vectors_mut::<K>().as_flattened_mut().as_chunks_mut().0.iter_mut().zip(product) {
+            rows.store(out);
+        }
+        return;
+    }
+    let mut product = [[V::splat(0.0); K]; 4];
+    multiply(&mut product, columns, weights);
+    for (out, row) in rows.vectors_mut::<K>().iter_mut().zip(&product) {
+        *out = numbers(row);
+    }
+}
+
+/// Lanes, as bits, in which the larger of two values and a norm times the margin per unit of it are not below a bound.
+#[inline(always)]
+fn not_clear<V: Vector>((before, after): (V, V), norm: V, margin: V, bound: V) -> Set {
+    Set::from(norm.mul_add(margin, before.max(after)).not_below(bound))
+}
+
+/// A run of plain steps between two calls of [`clear_steps`]: the blocks that slide, and the peaks that are beaten.
+pub(crate) struct Walk {
+    beaten: Beaten,
+    /// Series formed for turns beyond peaks, and turns looked at.
+    pub(crate) series: usize,
+    pub(crate) isolated: usize,
+    /// Whether the bounds are to follow springs and peaks before the next step: not where a run goes on with those that it
+    /// has made for peaks not taken yet.
+    renews_bounds: bool,
+    layers: Vec<Layer>,
+    /// Layers in which blocks slide: the first so many.
+    used: usize,
+    /// Blocks that slide on floors: block, layer, lane.
+    on_floors: Vec<(usize, usize, usize)>,
+    /// Slips at which friction coefficients of these change.
+    wear_limits: Vec<WearLimit>,
+    on_ground: OnGround,
+}
+
+/// A slip, times a sign, at which the friction coefficients of a block change.
+struct WearLimit {
+    layer: usize,
+    lane: usize,
+    sign: f64,
+    slip: f64,
+}
+
+/// Whether a block comes to a slip at which its friction changes, of layers with these slips.
+#[inline(never)]
+fn wears(limits: &[WearLimit], lowest: &[f64], others: &[Layer]) -> bool {
+    limits.iter().any(|limit| {
+        let slips = match limit.layer.checked_sub(1) {
+            Some(other) => &others[other].after[1][..],
+            None => lowest,
+        };
+        limit.sign * slips[limit.lane] >= limit.slip
+    })
+}
+
+impl Walk {
+    pub(crate) fn new(model: &Model) -> Self {
+        Self {
+            beaten: Beaten::new(model),
+            series: 0,
+            isolated: 0,
+            renews_bounds: true,
+            layers: Vec::new(),
+            used: 0,
+            on_floors: Vec::new(),
+            wear_limits: Vec::new(),
+            on_ground: OnGround::new(),
+        }
+    }
+
+    /// Takes up the sliding blocks at a sample.
+    fn begin<const K: usize>(&mut self, state: &State, sample: usize) {
+        for (_, layer, lane) in self.on_floors.drain(..) {
+            self.layers[layer].leave::<K>(lane);
+        }
+        self.used = 0;
+        self.wear_limits.clear();
+        self.renews_bounds = true;
+        self.beaten.forget_turned();
+        self.on_ground.begin(sample, state.stuck_mu[0]);
+        if state.is_sliding {
+            self.take_blocks::<K>(state);
+        }
+    }
+
+    #[inline(always)]
+    fn take_blocks<const K: usize>(&mut self, state: &State) {
+        for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
+            let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
+            let friction = sign * motion.mu_k;
+            let Some(lane) = law.floor.checked_sub(1) else {
+                let (BlockMotion { velocity, slip, .. }, limit) = (*motion, motion.wear_limit(sign));
+                self.on_ground.push(GroundBlock { block, friction, sign, velocity, slip, limit });
+                continue;
+            };
+            let free = self.layers.iter().position(|layer| layer.is_free::<K>(lane));
+            let which = free.unwrap_or(self.layers.len());
+            if free.is_none() {
+                self.layers.push(Layer::new(state.model));
+            }
+            self.layers[which].take::<K>(lane, sign, friction, motion);
+            if motion.path_to_wear() < f64::INFINITY {
+                self.wear_limits.push(WearLimit { layer: which, lane, sign, slip: motion.wear_limit(sign) });
+            }
+            self.on_floors.push((block, which, lane));
+            self.used = self.used.max(which + 1);
+        }
+    }
+
+    /// Brings the sliding blocks up to date.
+    #[inline(always)]
+    fn put_blocks<const K: usize>(&self, motions: &mut [BlockMotion]) {
+        for &(block, layer, lane) in &self.on_floors {
+            (motions[block].velocity, motions[block].slip) = self.layers[layer].motion::<K>(lane);
+        }
+        for ground in self.on_ground.sliding() {
+            (motions[ground.block].velocity, motions[ground.block].slip) = (ground.velocity, ground.slip);
+        }
+    }
+}
+
+/// Contact force per unit mass at a sample.
+#[inline(always)]
+fn contact_at(vertical: &[f64], sample: usize) -> f64 {
+    STANDARD_GRAVITY + vertical.get(sample).copied().unwrap_or(0.0)
+}
+
+for_each_path! {
+    /// Takes plain steps from interval `first` until `end`, as long as one look at each end clears them; returns the
+    /// interval reached. The step that was not cleared is left in `walk`. `S` is the number of storeys where it is known,
+    /// else 0; `SLIDING`: blocks may slide on floors.
+    fn clear_steps[K: usize, S: usize, SLIDING: bool, VERTICAL: bool](
+        state: &mut State, walk: &mut Walk, observer: &mut Observer, motion: &Motion, first: usize, end: usize,
+    ) -> usize = clear_steps_in_lanes
+}
+
+#[inline(always)]
+fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, const VERTICAL: bool>(
+    state: &mut State,
+    walk: &mut Walk,
+    observer: &mut Observer,
+    motion: &Motion,
+    first: usize,
+    end: usize,
+) -> usize {
+    if take(&mut walk.renews_bounds) {
+        state.update_bounds::<V, K>(observer);
+    }
+    let mut pen = observer.histories.as_mut().map(Pen::new);
+    prepare_effects::<V, K, VERTICAL>(state);
+    let Some(course) = Course::<K>::new(state, motion.dt()) else { return first };
+    let (Some(of_drifts), Some(of_rates)) = (course.of_drift.first_chunk::<S>(), course.of_rate.first_chunk::<S>())
+    else {
+        return first;
+    };
+    let few_columns = [of_drifts, of_rates];
+    let h = course.h;
+    let (length, third, per_second) = (V::splat(h), V::splat(h * THIRD), 1.0 / h);
+    let regime = course.regime;
+    let (mass, tangent): ([V; K], [V; K]) = (regime.lanes(Row::RootMass), regime.lanes(Row::RootTangent));
+    let growth = regime.growth_over(h);
+    // Per unit of the norm at the start of a step.
+    let widening = V::splat(growth * off_cubic(h));
+    let mut margins = [[V::splat(0.0); K]; 4];
+    for which in 0..4 {
+        margins[which] = regime.lanes(MARGINS[which]);
+        for k in 0..K {
+            margins[which][k] = margins[which][k].mul(widening);
+        }
+    }
+    let mut sample = Sample::<V, K>::of(state);
+    let mut bounds = BoundsInLanes::<V, K>::of(state);
+    let samples = motion.acceleration();
+    let vertical = motion.vertical().unwrap_or(&[]);
+    // Rate of the floor accelerations per slope of the contact force: it turns at every sample.
+    let mut jerk_per_slope: [V; K] = load(&state.friction);
+    for (jerk, inverse_mass) in jerk_per_slope.iter_mut().zip(regime.lanes::<V, K>(Row::InverseMass)) {
+        *jerk = jerk.mul(inverse_mass);
+    }
+    let mut slope_before = state.jerk_slope;
+    let mut apart_before = bounds.apart(&sample, third);
+    let (mut lowest, others) = match walk.layers[..walk.used].split_first_mut() {
+        Some((lowest, others)) if SLIDING => (Some(lowest), others),
+        _ => (None, &mut [][..]),
+    };
+    let nothing = [V::splat(0.0); K];
+    let mut layer = match &lowest {
+        Some(lowest) => LayerInLanes::<V, K>::of(lowest),
+        None => {
+            let turn = [V::splat(FAR); K];
+            LayerInLanes { friction: nothing, sign: nothing, turn, velocity: nothing, slip: nothing }
+        }
+    };
+    let last = end.min(samples.len() - 1);
+    let within = limits::first(state.storeys());
+    // Of scenes of one vector, without vertical motion: formed where it changes. Others have no registers left for it.
+    let mut few_accelerations = bounds.of_accelerations(0, V::splat(STANDARD_GRAVITY));
+    let mut reached = first;
+    let mut open = None;
+    for interval in samples.get(first..=last).unwrap_or(&[]).windows(2) {
+        let &[before, after] = interval else { break };
+        let change = after - before;
+        let contact = match VERTICAL {
+            true => (contact_at(vertical, reached), contact_at(vertical, reached + 1)),
+            false => (STANDARD_GRAVITY, STANDARD_GRAVITY),
+        };
+        if VERTICAL {
+            let slope = (vertical[reached + 1] - vertical[reached]) * per_second;
+            for k in 0..K {
+                sample.jerk[k] = jerk_per_slope[k].mul_add(V::splat(slope - slope_before), sample.jerk[k]);
+                apart_before[2][k] = third.mul_add(sample.jerk[k].abs(), sample.a[k].abs());
+            }
+            slope_before = slope;
+        }
+        // The norm that bounds the fourth derivatives, itself bounded by the sum of its terms' sizes.
+        let slope = V::splat(change * per_second);
+        let mut sizes = V::splat(0.0);
+        for k in 0..K {
+            sizes = mass[k].mul_add(sample.jerk[k].sub(slope).abs(), sizes);
+            sizes = tangent[k].mul_add(sample.q[k].abs(), sizes);
+        }
+        let norm = sizes.total();
+        // The step.
+        let mut rows = [[V::splat(0.0); K]; 4];
+        if S > 0 {
+            let drive = [before, change];
+            let few = small_step::<V, K, S>(&course, few_columns, drive, [sample.x[0], sample.v[0]]);
+            for r in 0..4 {
+                rows[r] = [few[r]; K];
+            }
+        } else {
+            let (ground, ramp) = (V::splat(before), V::splat(change));
+            for r in 0..4 {
+                for k in 0..K {
+                    let constant = V::load(&course.constant[r][k]);
+                    let row = V::load(&course.of_change[r][k]).mul_add(ramp, constant);
+                    rows[r][k] = V::load(&course.of_ground[r][k]).mul_add(ground, row);
+                    if VERTICAL {
+                        let friction = V::load(&course.friction[r][k]).mul_add(V::splat(contact.0), rows[r][k]);
+                        rows[r][k] =
+                            V::load(&course.friction_ramp[r][k]).mul_add(V::splat(contact.1 - contact.0), friction);
+                    }
+                }
+            }
+            multiply(&mut rows, course.of_drift, &sample.x);
+            if K == 2 && V::Pair::IS_ONE {
+                // Two sums: half the latency of one.
+                let mut of_rates = [[V::splat(0.0); K]; 4];
+                multiply(&mut of_rates, course.of_rate, &sample.v);
+                for r in 0..4 {
+                    for k in 0..K {
+                        rows[r][k] = rows[r][k].add(of_rates[r][k]);
+                    }
+                }
+            } else {
+                multiply(&mut rows, course.of_rate, &sample.v);
+            }
+        }
+        let [dx, dv, a, jerk] = rows;
+        let mut taken = Sample { x: sample.x, v: sample.v, a, jerk, q: differences(&a, V::splat(after)) };
+        for k in 0..K {
+            taken.x[k] = sample.x[k].add(dx[k]);
+            taken.v[k] = sample.v[k].add(dv[k]);
+        }
+        // The proof.
+        let mut apart_after = bounds.apart(&taken, third);
+        let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
+        let mut suspects: [Set; 3] = [0; 3];
+        for k in 0..K {
+            let most = |which: usize| (apart_before[which][k], apart_after[which][k]);
+            let limit = match K == 1 && !VERTICAL {
+                true => few_accelerations,
+                false => bounds.of_accelerations(k, least_contact),
+            };
+            suspects[0] |= not_clear(most(0), norm, margins[0][k], bounds.reach[k]) << (WIDTH * k);
+            suspects[1] |= not_clear(most(1), norm, margins[1][k], bounds.turn[k]) << (WIDTH * k);
+            suspects[2] |= not_clear(most(2), norm, margins[2][k], limit) << (WIDTH * k);
+        }
+        let (mut layer_after, mut is_turning) = (layer, false);
+        if SLIDING {
+            let mut beyond = dx;
+            let mut of_velocity = margins[3];
+            for k in 0..K {
+                beyond[k] = dx[k].sub(length.mul(sample.v[k]));
+                of_velocity[k] = norm.mul(margins[3][k]);
+            }
+            let push = Push {
+                h,
+                ground: Linear { start: before, end: after },
+                contact: Linear { start: contact.0, end: contact.1 },
+                velocity: prefix_sums(&dv),
+                displacement: prefix_sums(&beyond),
+                a: [sample.a, taken.a],
+                margin: of_velocity,
+            };
+            (layer_after, is_turning) = layer.pushed(&push);
+            is_turning = is_turning && layer.turns(&layer_after.velocity, &push);
+            for other in others.iter_mut() {
+                let before = LayerInLanes::<V, K>::of(other);
+                let (after, turning) = before.pushed(&push);
+                let [velocity, slip] = &mut other.after;
+                store(&after.velocity, velocity);
+                store(&after.slip, slip);
+                is_turning |= turning && before.turns(&after.velocity, &push);
+            }
+            if !walk.wear_limits.is_empty() {
+                is_turning |= wears(&walk.wear_limits, numbers(&layer_after.slip).as_flattened(), others);
+            }
+        }
+        let has_contact = !VERTICAL || contact.0 > NO_CONTACT && contact.1 > NO_CONTACT;
+        if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact {
+            for suspects in &mut suspects {
+                *suspects &= within;
+            }
+            let samples = [&sample, &taken];
+            let closer = Closer::look(suspects, &bounds, &state.bounds, samples, (norm, &margins), h, least_contact);
+            let (fails, time) = (closer.fails || is_turning || !has_contact, (reached + 1) as f64 * h);
+            let in_state = (&state.bounds, &mut bounds);
+            if !walk.beaten.note(&closer, fails, reached == first, samples, time, in_state) {
+                open = (fails && has_contact).then_some((closer, norm));
+                break;
+            }
+            apart_after = bounds.apart(&taken, third);
+            few_accelerations = bounds.of_accelerations(0, least_contact);
+        }
+        (sample, apart_before, layer) = (taken, apart_after, layer_after);
+        for other in others.iter_mut() {
+            other.accept();
+        }
+        reached += 1;
+        if let Some(pen) = &mut pen
+            && pen.sample() == reached
+        {
+            let mut blocks = None;
+            if SLIDING && pen.recorder().has_one_on_each() {
+                blocks = Some(pen.recorder().blocks(&layer.taken(), &layer.velocity, &layer.slip));
+            } else if SLIDING {
+                let (velocity, slip) = (numbers(&layer.velocity), numbers(&layer.slip));
+                for &(block, of_layer, lane) in &walk.on_floors {
+                    let (velocity, slip) = match of_layer.checked_sub(1).and_then(|other| others.get(other)) {
+                        Some(other) => (&other.velocity[..], &other.slip[..]),
+                        None => (velocity.as_flattened(), slip.as_flattened()),
+                    };
+                    pen.recorder().move_block(block, velocity[lane], slip[lane]);
+                }
+            }
+            pen.append(state.model, &RowInLanes { x: &sample.x, v: &sample.v, a: &sample.a }, blocks);
+        }
+    }
+    if let Some(pen) = pen {
+        pen.lay_down();
+    }
+    if let Some(lowest) = &mut lowest {
+        store(&layer.velocity, &mut lowest.velocity);
+        store(&layer.slip, &mut lowest.slip);
+    }
+    state.jerk_slope = slope_before;
+    if walk.beaten.any() {
+        bounds.put_into(&mut state.bounds);
+    }
+    if let Some((closer, norm)) = open {
+        let [norm, ..] = numbers(&[norm])[0];
+        let ranges = &mut state.ranges;
+        ranges.set_margins(norm * growth, h);
+        ranges.keep(&closer.ranges, closer.suspects);
+        ranges.suspects[0] |= walk.beaten.followed();
+        ranges.suspects[1] |= walk.beaten.followed();
+        ranges.are_known = true;
+    }
+    sample.put_into(state);
+    reached
+}
+
+/// [`clear_steps`] of the present scene.
+fn clear_steps_of_scene(
+    state: &mut State,
+    walk: &mut Walk,
+    observer: &mut Observer,
+    motion: &Motion,
+    first: usize,
+    end: usize,
+) -> usize {
+    let steps = match (state.storeys(), walk.used > 0, state.vertical) {
+        (1, false, false) => clear_steps::<1, 1, false, false>,
+        (2, false, false) => clear_steps::<1, 2, false, false>,
+        (3, false, false) => clear_steps::<1, 3, false, false>,
+        (4, false, false) => clear_steps::<1, 4, false, false>,
+        (1, true, false) => clear_steps::<1, 1, true, false>,
+        (2, true, false) => clear_steps::<1, 2, true, false>,
+        (3, true, false) => clear_steps::<1, 3, true, false>,
+        (4, true, false) => clear_steps::<1, 4, true, false>,
+        (5..=8, false, false) => clear_steps::<2, 0, false, false>,
+        (9..=16, false, false) => clear_steps::<4, 0, false, false>,
+        (5..=8, true, false) => clear_steps::<2, 0, true, false>,
+        (9..=16, true, false) => clear_steps::<4, 0, true, false>,
+        (17..=32, _, false) => clear_steps::<8, 0, true, false>,
+        (_, _, false) => clear_steps::<WIDEST, 0, true, false>,
+        (..=4, _, true) => clear_steps::<1, 0, true, true>,
+        (5..=8, _, true) => clear_steps::<2, 0, true, true>,
+        (9..=16, _, true) => clear_steps::<4, 0, true, true>,
+        (17..=32, _, true) => clear_steps::<8, 0, true, true>,
+        (_, _, true) => clear_steps::<WIDEST, 0, true, true>,
+    };
+    steps(state, walk, observer, motion, first, end)
+}
+
+/// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
+fn run(
+    state: &mut State,
+    walk: &mut Walk,
+    observer: &mut Observer,
+    motion: &Motion,
+    first: usize,
+    end: usize,
+) -> usize {
+    let h = motion.dt();
+    let samples = motion.acceleration();
+    let vertical = motion.vertical().filter(|_| state.vertical).unwrap_or(&[]);
+    let contact = |sample: usize| contact_at(vertical, sample);
+    let drive = |i: usize| {
+        (Linear { start: samples[i], end: samples[i + 1] }, Linear { start: contact(i), end: contact(i + 1) })
+    };
+    by_width!(state.model.width, K => walk.begin::<K>(state, first));
+    if let Some(recorder) = &mut observer.histories {
+        recorder.take_up(state);
+    }
+    let mut reached = first;
+    while reached < end {
+        let mut last = end;
+        if walk.on_ground.is_watched() {
+            let sliding = !walk.on_ground.sliding().is_empty();
+            last = walk.on_ground.go_ahead(reached, end, sliding && observer.histories.is_some(), h, drive);
+            if last == reached {
+                break;
+            }
+            for block in walk.on_ground.sliding() {
+                if let Some(recorder) = &mut observer.histories {
+                    recorder.move_block(block.block, block.velocity, block.slip);
+                }
+            }
+        }
+        let first = reached;
+        reached = clear_steps_of_scene(state, walk, observer, motion, reached, last);
+        walk.beaten.take_steps(state, observer, (first + 1) as f64 * h);
+        if reached > first {
+            walk.beaten.forget_turned();
+        }
+        if reached == last {
+            continue;
+        }
+        let (turns, waits) = walk.beaten.take_turns();
+        if turns == [0; 2] {
+            break;
+        }
+        walk.beaten.take_followed(state, observer, reached as f64 * h);
+        if waits {
+            // Whether a step is plain must not depend on where its run began.
+            walk.renews_bounds = true;
+            continue;
+        }
+        if state.regime.frequency * h > MAX_PHASE {
+            break;
+        }
+        // The series of the step gives the extremes; then the run goes on.
+        state.begin_interval(motion, reached);
+        walk.beaten.turn(state, observer, h, turns);
+        walk.renews_bounds = true;
+        walk.series += 1;
+        walk.isolated += (turns[0].count_ones() + turns[1].count_ones()) as usize;
+    }
+    walk.on_ground.go_back(reached, h, drive);
+    by_width!(state.model.width, K => walk.put_blocks::<K>(&mut state.motions));
+    walk.beaten.take_followed(state, observer, reached as f64 * h);
+    reached
+}
+
+impl State<'_> {
+    /// Takes plain steps from interval `first` until `end`, or until one is not plain, and records their histories;
+    /// returns the interval reached, whose start the state is then at.
+    pub(crate) fn plain_run(
+        &mut self,
+        walk: &mut Walk,
+        observer: &mut Observer,
+        motion: &Motion,
+        first: usize,
+        end: usize,
+    ) -> usize {
+        if self.airborne || !self.cache.visit(self.entry, self.model, self.vertical) {
+            return first;
+        }
+        let reached = match self.regime.steps(self.vertical).map(|steps| &steps.whole) {
+            Some(Whole::Tall(step)) => {
+                let step = Arc::clone(step);
+                tall::run::run(self, observer, motion, &step, first, end)
+            }
+            _ => run(self, walk, observer, motion, first, end),
+        };
+        self.is_formed |= reached > first;
+        if self.is_sliding {
+            observer.observe_slips(self, reached as f64 * motion.dt());
+        }
+        reached
+    }
+}

@@ -1,0 +1,263 @@
+//! The closer look at a step of a tall regime that the loop does not clear, by quintics.
+
+use crate::lanes::{Vector, WIDTH, at};
+use crate::plain::sliding::SMALL_DIFFERENCE;
+use crate::plain::tall::bounds::Bounds;
+use crate::plain::tall::norms::{Norms, Rows};
+use crate::regime::operator_long::{Operator, Sample};
+use crate::state::limits::signs;
+use crate::state::{THIRD, off_cubic, ranges};
+
+/// A block that slides on a floor.
+pub(crate) struct FloorBlock {
+    pub(crate) block: usize,
+    pub(crate) floor: usize,
+    /// Sign times mu_k.
+    pub(crate) friction: f64,
+    pub(crate) sign: f64,
+    pub(crate) velocity: f64,
+    pub(crate) slip: f64,
+    /// What sign times slip does not reach before the friction coefficient changes.
+    pub(crate) limit: f64,
+    /// Velocity and slip at the end of the step.
+    pub(crate) velocity_after: f64,
+    pub(crate) slip_after: f64,
+}
+
+/// Storeys and floors of a vector whose peaks a step beats, as bits of the lanes: at all; inside, where drifts and
+/// accelerations turn.
+pub(crate) struct Beaten {
+    pub(crate) vector: usize,
+    pub(crate) drifts: u32,
+    pub(crate) accelerations: u32,
+    pub(crate) drifts_inside: u32,
+    pub(crate) accelerations_inside: u32,
+}
+
+impl Beaten {
+    pub(crate) fn turns(&self) -> bool {
+        self.drifts_inside | self.accelerations_inside != 0
+    }
+}
+
+/// The quintic through values and two derivatives at both ends of a step stays between the least and the largest of its
+/// Bezier points; what deviates from it by at most `margin` stays within these widened by it.
+#[inline(always)]
+fn quintic_range(start: [f64; 3], end: [f64; 3], h: f64, margin: f64) -> (f64, f64) {
+    let (fifth, twentieth) = (h / 5.0, h * h / 20.0);
+    let points = [
+        start[0],
+        start[0] + fifth * start[1],
+        start[0] + 2.0 * fifth * start[1] + twentieth * start[2],
+        end[0] - 2.0 * fifth * end[1] + twentieth * end[2],
+        end[0] - fifth * end[1],
+        end[0],
+    ];
+    let smaller = |a: f64, b: f64| if a < b { a } else { b };
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    (
+        points.into_iter().fold(f64::INFINITY, smaller) - margin,
+        points.into_iter().fold(f64::NEG_INFINITY, larger) + margin,
+    )
+}
+
+/// [`quintic_range`] of several.
+#[inline(always)]
+fn quintic_ranges<V: Vector>(start: [V; 3], end: [V; 3], h: f64, margin: V) -> (V, V) {
+    let (fifth, two_fifths, twentieth) = (V::splat(h / 5.0), V::splat(2.0 * h / 5.0), V::splat(h * h / 20.0));
+    let points = [
+        fifth.mul_add(start[1], start[0]),
+        twentieth.mul_add(start[2], two_fifths.mul_add(start[1], start[0])),
+        twentieth.mul_add(end[2], end[0].sub(two_fifths.mul(end[1]))),
+        end[0].sub(fifth.mul(end[1])),
+        end[0],
+    ];
+    let (mut low, mut high) = (start[0], start[0]);
+    for point in points {
+        (low, high) = (low.min(point), high.max(point));
+    }
+    (low.sub(margin), high.add(margin))
+}
+
+/// Second derivatives of floor accelerations and first ones of drift accelerations at both ends of a step, and the norm of
+/// the derivatives there.
+pub(crate) struct Curvature {
+    /// Of floor accelerations, and of drift accelerations: with room for the band before the first storey and after the
+    /// last, at least a zero for the ground.
+    a: [Vec<f64>; 2],
+    q_rate: [Vec<f64>; 2],
+    room: usize,
+    /// Second derivatives of drift accelerations, third ones of floor accelerations.
+    q: Vec<f64>,
+    jerk: Vec<f64>,
+    /// The norms that bound sixth derivatives as [`crate::regime::Regime::liveliness_of`] does fourth ones.
+    norms: Norms,
+}
+
+impl Curvature {
+    /// For a band of so many values before and after the storeys.
+    pub(crate) fn new(length: usize, margin: usize) -> Self {
+        let room = margin.max(1);
+        let zero = || vec![0.0; length];
+        let with_room = || [vec![0.0; length + 2 * room], vec![0.0; length + 2 * room]];
+        let norms = Norms::new(length / WIDTH);
+        Self { a: with_room(), q_rate: with_room(), room, q: zero(), jerk: zero(), norms }
+    }
+
+    /// Second derivatives of the floor accelerations at the start (0) or the end (1), after a zero for the ground.
+    #[inline(always)]
+    pub(crate) fn a(&self, which: usize) -> &[f64] {
+        &self.a[which][self.room - 1..]
+    }
+
+    /// First derivatives of the drift accelerations.
+    #[inline(always)]
+    pub(crate) fn q_rate(&self, which: usize) -> &[f64] {
+        &self.q_rate[which][self.room..]
+    }
+
+    /// Derivatives at the start of drift accelerations and of the rates of floor accelerations, with so many values before
+    /// the first storey.
+    #[inline(always)]
+    pub(crate) fn with_margin(&self, margin: usize) -> [&[f64]; 2] {
+        let from = self.room - margin;
+        [&self.q_rate[0][from..], &self.a[0][from..]]
+    }
+
+    /// Forms the derivatives at one end.
+    #[inline(always)]
+    pub(crate) fn form_end<V: Vector>(&mut self, operator: &Operator, which: usize, sample: &Sample, margin: usize) {
+        let (q, jerk, nothing) = (&sample.q[margin..], &sample.jerk, &operator.nothing);
+        let (q_rate, a) = (&mut self.q_rate[which][self.room..], &mut self.a[which][self.room..]);
+        operator.derivatives::<V>(q, jerk, V::splat(1.0), nothing, q_rate, a);
+    }
+
+    /// Forms the norms, from the derivatives at the start.
+    #[inline(always)]
+    pub(crate) fn form_norms<V: Vector>(&mut self, operator: &Operator, rows: &Rows) {
+        let (q_rate, a) = (&self.q_rate[0][self.room..], &self.a[0][self.room - 1..]);
+        operator.derivatives(q_rate, a, V::splat(1.0), &operator.nothing, &mut self.q, &mut self.jerk);
+        self.norms.form::<V>(rows, &self.jerk, &self.q);
+    }
+}
+
+/// A vector of storeys and their floors of which some were not cleared: bits of the lanes.
+pub(crate) struct Suspects {
+    pub(crate) vector: usize,
+    pub(crate) drifts: u32,
+    pub(crate) rates: u32,
+    pub(crate) accelerations: u32,
+}
+
+/// A step that the loop did not clear.
+pub(crate) struct Closer<'a> {
+    pub(crate) rows: &'a Rows,
+    pub(crate) bounds: &'a Bounds,
+    pub(crate) start: &'a Sample,
+    pub(crate) end: &'a Sample,
+    pub(crate) curvature: &'a Curvature,
+    pub(crate) margin: usize,
+    pub(crate) h: f64,
+    pub(crate) contact: (f64, f64),
+    /// Drifts and accelerations below rounding of the largest so far: a storey that no wave has reached yet knows its
+    /// own no better.
+    pub(crate) least: (f64, f64),
+}
+
+impl Closer<'_> {
+    /// What the quintics of vector `k` may miss, per unit of the bounds of fourth derivatives.
+    #[inline(always)]
+    fn sixth(&self, k: usize) -> f64 {
+        let h3 = self.h * self.h * self.h;
+        self.curvature.norms.values[k] * (h3 * h3 / 46080.0)
+    }
+
+    /// Which peaks the suspect lanes of a vector of storeys and floors beat; nothing if a guard may fall inside the step.
+    #[inline(always)]
+    pub(crate) fn look<V: Vector>(&self, suspects: &Suspects) -> Option<Beaten> {
+        let Suspects { vector, drifts, rates, accelerations } = *suspects;
+        let (mut of_drifts, mut of_accelerations) = ((0, 0), (0, 0));
+        if drifts | rates != 0 {
+            of_drifts = self.look_at_drifts::<V>(vector, drifts, rates)?;
+        }
+        if accelerations != 0 {
+            of_accelerations = self.look_at_accelerations::<V>(vector, accelerations)?;
+        }
+        Some(Beaten {
+            vector,
+            drifts: of_drifts.0,
+            accelerations: of_accelerations.0,
+            drifts_inside: of_drifts.1,
+            accelerations_inside: of_accelerations.1,
+        })
+    }
+
+    /// Lanes whose drifts beat a peak, and those of them where they turn.
+    #[inline(always)]
+    fn look_at_drifts<V: Vector>(&self, k: usize, drifts: u32, rates: u32) -> Option<(u32, u32)> {
+        let (start, end) = (self.start, self.end);
+        let (q_rate, q_rate_end) = (self.curvature.q_rate(0), self.curvature.q_rate(1));
+        let (x, x_end) = (at::<V>(&start.x, k), at::<V>(&end.x, k));
+        let (v, v_end) = (at::<V>(&start.v, k), at::<V>(&end.v, k));
+        let (q, q_end) = (at::<V>(&start.q[self.margin..], k), at::<V>(&end.q[self.margin..], k));
+        let (bounds, zero, sixth) = (&self.bounds.vectors[k], V::splat(0.0), V::splat(self.sixth(k)));
+        let rate_margin = sixth.mul(at(&self.rows.fourth[1], k));
+        let (from, to) = ([v, q, at(q_rate, k)], [v_end, q_end, at(q_rate_end, k)]);
+        let (positive, negative) = signs(quintic_ranges(from, to, self.h, rate_margin));
+        let sign = V::load(&bounds.sign);
+        let (forward, backward) = (!zero.not_below(sign), !sign.not_below(zero));
+        if (forward & !positive | backward & !negative) & rates != 0 {
+            return None;
+        }
+        let margin = sixth.mul(at(&self.rows.fourth[0], k));
+        let (low, high) = quintic_ranges([x, v, q], [x_end, v_end, q_end], self.h, margin);
+        let (middle, reach) = (V::load(&bounds.middle), V::load(&bounds.reach));
+        let outside = (high.not_below(middle.add(reach)) | middle.sub(reach).not_below(low)) & drifts;
+        let (lower, upper) = self.bounds.guarded_drifts::<V>(k);
+        if (high.not_below(upper) | lower.not_below(low)) & outside != 0 {
+            return None;
+        }
+        let matters = x.abs().max(x_end.abs()).not_below(V::splat(self.least.0));
+        Some((outside, outside & matters & !(positive | negative)))
+    }
+
+    /// Lanes whose floor accelerations beat a peak, and those of them where they turn.
+    #[inline(always)]
+    fn look_at_accelerations<V: Vector>(&self, k: usize, suspects: u32) -> Option<(u32, u32)> {
+        let (start, end) = (self.start, self.end);
+        let (second, second_end) = (self.curvature.a(0), self.curvature.a(1));
+        let (a, a_end) = (at::<V>(&start.a[1..], k), at::<V>(&end.a[1..], k));
+        let (jerk, jerk_end) = (at::<V>(&start.jerk[1..], k), at::<V>(&end.jerk[1..], k));
+        let (second, second_end) = (at::<V>(&second[1..], k), at::<V>(&second_end[1..], k));
+        let margin = V::splat(self.sixth(k)).mul(at(&self.rows.fourth[2], k));
+        let (low, high) = quintic_ranges([a, jerk, second], [a_end, jerk_end, second_end], self.h, margin);
+        let size = high.max(V::splat(0.0).sub(low));
+        let limit = V::load(&self.bounds.vectors[k].stuck_mu).mul(V::splat(self.contact.0.min(self.contact.1)));
+        if size.not_below(limit) & suspects != 0 {
+            return None;
+        }
+        let beats = size.not_below(self.bounds.acceleration_peaks(k)) & suspects;
+        if beats == 0 {
+            return Some((0, 0));
+        }
+        let fifth = V::splat(self.curvature.norms.values[k] * off_cubic(self.h)).mul(at(&self.rows.fourth[3], k));
+        let third = V::splat(self.h * THIRD);
+        let (positive, negative) = signs(ranges([jerk, second], [jerk_end, second_end], third, fifth));
+        let matters = a.abs().max(a_end.abs()).not_below(V::splat(self.least.1));
+        Some((beats, beats & matters & !(positive | negative)))
+    }
+
+    /// Whether the relative velocity of a block keeps its sign; `floor` is the change of its floor's velocity.
+    pub(crate) fn keeps_sliding(&self, block: &FloorBlock, contact_slope: f64, floor: f64) -> bool {
+        let i = block.floor;
+        let at = |sample: &Sample, velocity: f64, contact: f64| {
+            let pushed = (block.friction * contact, block.friction * contact_slope);
+            [velocity, -pushed.0 - sample.a[i + 1], -pushed.1 - sample.jerk[i + 1]]
+        };
+        let (start, end) =
+            (at(self.start, block.velocity, self.contact.0), at(self.end, block.velocity_after, self.contact.1));
+        let (low, high) = quintic_range(start, end, self.h, self.sixth(i / WIDTH) * self.rows.fourth[3][i]);
+        let least = SMALL_DIFFERENCE * floor.abs();
+        if block.sign > 0.0 { low > least } else { high < -least }
+    }
+}

@@ -1,0 +1,3 @@
+//! Polynomials: their ranges and first falls.
+
+pub(crate) mod bernstein;

@@ -1,0 +1,439 @@
+//! What is kept of a run: peaks in continuous time, histories, energies.
+
+use std::num::NonZeroUsize;
+
+use crate::error::Result;
+use crate::lanes::padded::{Padded, vector_of};
+use crate::lanes::{FAR, LANES, Plain, Vector, WIDTH, at, by_width, for_each_path, load};
+use crate::machines::block::BlockState;
+use crate::machines::model::Model;
+use crate::polynomial::bernstein::Polynomial;
+use crate::record::histories::Recorder;
+use crate::regime::{Row, viscous_power};
+use crate::response::{Energy, Peak, Peaks};
+use crate::scene::Options;
+use crate::state::State;
+use crate::state::limits::{Set, members, signs};
+
+/// Abscissae in [0, 1] and weights of the 12-point Gauss-Legendre rule: exact to degree 23.
+const GAUSS: [(f64, f64); 12] = [
+    (0.009219682876640375, 0.023587668193255914),
+    (0.04794137181476257, 0.05346966299765921),
+    (0.11504866290284765, 0.08003916427167311),
+    (0.2063410228566913, 0.10158371336153296),
+    (0.3160842505009099, 0.1167462682691774),
+    (0.43738329574426554, 0.12457352290670139),
+    (0.5626167042557345, 0.12457352290670139),
+    (0.6839157494990901, 0.1167462682691774),
+    (0.7936589771433087, 0.10158371336153296),
+    (0.8849513370971523, 0.08003916427167311),
+    (0.9520586281852375, 0.05346966299765921),
+    (0.9907803171233597, 0.023587668193255914),
+];
+
+/// Peaks of storeys or floors, padded: beyond the last they are far, and nothing beats them.
+pub(crate) struct PeakLanes {
+    size: Padded,
+    time: Padded,
+}
+
+impl PeakLanes {
+    fn new(storeys: usize) -> Self {
+        let zeros = || std::iter::repeat_n(0.0, storeys);
+        Self { size: Padded::filled(zeros(), storeys, FAR), time: Padded::filled(zeros(), storeys, 0.0) }
+    }
+
+    /// Sizes, padded.
+    pub(crate) fn sizes(&self) -> &[f64] {
+        &self.size
+    }
+
+    /// Takes one value if it beats its peak; tells whether it did.
+    #[inline]
+    fn take(&mut self, i: usize, value: f64, time: f64) -> bool {
+        let beats = value.abs() > self.size[i];
+        if beats {
+            (self.size[i], self.time[i]) = (value.abs(), time);
+        }
+        beats
+    }
+
+    /// [`PeakLanes::take`] within the code of a path, of which vectors are read soon.
+    #[inline(always)]
+    fn take_lane<V: Vector, const K: usize>(&mut self, i: usize, value: f64, time: f64) -> bool {
+        let values = V::splat(0.0).with_lane(i % WIDTH, value);
+        self.take_vector::<V, K>(vector_of::<K>(i), values, time) != 0
+    }
+
+    /// Takes the values of vector `k` that beat their peaks; tells, as bits, which did.
+    #[inline(always)]
+    fn take_vector<V: Vector, const K: usize>(&mut self, k: usize, values: V, time: f64) -> u32 {
+        let kept = self.size.vector::<V, K>(k);
+        let beaten = !kept.not_below(values.abs()) & LANES;
+        // What is no number beats nothing.
+        self.size.set_vector::<V, K>(k, values.abs().max(kept));
+        let times = self.time.vector::<V, K>(k);
+        self.time.set_vector::<V, K>(k, times.with(beaten, V::splat(time)));
+        beaten
+    }
+
+    fn peaks(&self, storeys: usize) -> Vec<Peak> {
+        self.size.iter().zip(&self.time).take(storeys).map(|(&value, &time)| Peak { value, time }).collect()
+    }
+}
+
+/// Keeps peaks, histories and energies.
+pub(crate) struct Observer {
+    pub(crate) drift: PeakLanes,
+    pub(crate) shear: PeakLanes,
+    pub(crate) acceleration: PeakLanes,
+    slip: Vec<Peak>,
+    pub(crate) histories: Option<Recorder>,
+    energy: Option<EnergyBalance>,
+    /// Whether peaks of drift, shear or acceleration were beaten since last asked.
+    beaten: bool,
+}
+
+/// Running energy integrals.
+#[derive(Debug, Default)]
+struct EnergyBalance {
+    energy: Energy,
+    largest_input: f64,
+}
+
+for_each_path! {
+    /// See [`Observer::observe_building`].
+    fn take_building[K: usize](observer: &mut Observer, state: &State, time: f64) = building_by_path
+}
+
+#[inline(always)]
+fn building_by_path<V: Vector, const K: usize>(observer: &mut Observer, state: &State, time: f64) {
+    observer.take_building_in_lanes::<V, K>(state, time);
+}
+
+impl Observer {
+    /// An observer of a run over so many samples, of which every `substeps`-th is one of the caller's.
+    ///
+    /// # Errors
+    /// As [`Recorder::new`].
+    pub(crate) fn new(model: &Model, options: &Options, samples: usize, substeps: usize) -> Result<Self> {
+        let (n, blocks) = (model.storeys(), model.blocks.len());
+        let recorder = |every: NonZeroUsize| Recorder::new(model, options, samples, every.get(), substeps);
+        let histories = options.histories.map(recorder).transpose()?;
+        Ok(Self {
+            drift: PeakLanes::new(n),
+            shear: PeakLanes::new(n),
+            acceleration: PeakLanes::new(n),
+            slip: vec![Default::default(); blocks],
+            histories,
+            energy: options.energy.then(EnergyBalance::default),
+            beaten: true,
+        })
+    }
+
+    /// The peaks so far, of so many storeys.
+    pub(crate) fn peaks(&self, storeys: usize) -> Peaks {
+        let [drift, floor_acceleration, storey_shear] =
+            [&self.drift, &self.acceleration, &self.shear].map(|peaks| peaks.peaks(storeys));
+        Peaks { drift, slip: self.slip.clone(), floor_acceleration, storey_shear }
+    }
+
+    /// Sizes of the peaks of drift, shear and floor acceleration.
+    #[inline(always)]
+    pub(crate) fn peak_sizes<V: Vector, const K: usize>(&self) -> [[V; K]; 3] {
+        [load(&self.drift.size), load(&self.shear.size), load(&self.acceleration.size)]
+    }
+
+    /// Whether energies are kept: then every step needs its series too.
+    pub(crate) fn keeps_energy(&self) -> bool {
+        self.energy.is_some()
+    }
+
+    /// Whether a drift coordinate between `low` and `high` could beat a peak of storey `i`.
+    #[inline]
+    pub(crate) fn drift_may_peak(&self, state: &State, i: usize, low: f64, high: f64) -> bool {
+        let [[drift_low, shear_low], [drift_high, shear_high]] = [low, high].map(|x| drift_and_shear(state, i, x));
+        drift_low.abs().max(drift_high.abs()) > self.drift.size[i]
+            || shear_low.abs().max(shear_high.abs()) > self.shear.size[i]
+    }
+
+    /// Whether an acceleration between `low` and `high` could beat the peak of floor `i`.
+    #[inline]
+    pub(crate) fn acceleration_may_peak(&self, i: usize, low: f64, high: f64) -> bool {
+        low.abs().max(high.abs()) > self.acceleration.size[i]
+    }
+
+    /// Takes drift and shear at a drift coordinate of storey `i` into their peaks.
+    #[inline]
+    pub(crate) fn take_drift(&mut self, state: &State, i: usize, x: f64, time: f64) {
+        let [drift, shear] = drift_and_shear(state, i, x);
+        self.beaten |= self.drift.take(i, drift, time) | self.shear.take(i, shear, time);
+    }
+
+    /// Takes the acceleration of floor `i` into its peak.
+    #[inline]
+    pub(crate) fn take_acceleration(&mut self, i: usize, a: f64, time: f64) {
+        self.beaten |= self.acceleration.take(i, a, time);
+    }
+
+    /// Whether peaks of drift, shear or acceleration were beaten since last asked.
+    #[inline]
+    pub(crate) fn take_beaten(&mut self) -> bool {
+        std::mem::take(&mut self.beaten)
+    }
+
+    /// Takes the present values into the peaks.
+    pub(crate) fn observe_values(&mut self, state: &State, time: f64) {
+        self.observe_building(state, time);
+        self.observe_slips(state, time);
+    }
+
+    /// Takes the present drifts and floor accelerations into the peaks.
+    pub(crate) fn observe_building(&mut self, state: &State, time: f64) {
+        by_width!(state.model.width, K => take_building::<K>(self, state, time));
+    }
+
+    /// Takes the present slips into their peaks.
+    #[inline]
+    pub(crate) fn observe_slips(&mut self, state: &State, time: f64) {
+        for (peak, motion) in self.slip.iter_mut().zip(&state.motions) {
+            peak.take(motion.slip, time);
+        }
+    }
+
+    /// Takes the present floor accelerations into their peaks.
+    #[inline(always)]
+    pub(crate) fn take_accelerations_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, time: f64) {
+        let mut beaten = 0;
+        for k in 0..state.vectors::<K>() {
+            beaten |= self.acceleration.take_vector::<V, K>(k, state.a.vector::<V, K>(k), time);
+        }
+        self.beaten |= beaten != 0;
+    }
+
+    /// [`Observer::observe_building`] within the code of a path.
+    #[inline(always)]
+    pub(crate) fn take_building_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, time: f64) {
+        let tangents = state.regime.row(Row::SpringTangent);
+        let mut beaten = 0;
+        for k in 0..state.vectors::<K>() {
+            let (x, tangent): (V, V) = (state.x.vector::<V, K>(k), at(tangents, k));
+            beaten |= self.drift.take_vector::<V, K>(k, state.base_drift.vector::<V, K>(k).add(x), time);
+            let shear = state.base_force.vector::<V, K>(k).add(tangent.mul(x));
+            beaten |= self.shear.take_vector::<V, K>(k, shear, time);
+        }
+        self.beaten |= beaten != 0;
+        self.take_accelerations_in_lanes::<V, K>(state, time);
+    }
+
+    /// Takes the extremes inside the present series, whose ranges are formed, from `tau` to its place `end`, before the
+    /// state is advanced.
+    #[inline(always)]
+    pub(crate) fn observe_series<V: Vector, const K: usize>(
+        &mut self,
+        state: &State,
+        tau: f64,
+        end: f64,
+        isolated: &mut usize,
+    ) {
+        let start = state.interval.start + tau;
+        let [drifts, _, accelerations] = state.ranges.suspects;
+        if drifts | accelerations == 0 {
+            return;
+        }
+        for k in 0..state.vectors::<K>() {
+            let suspects = state.ranges.suspects_in::<K>(0, k);
+            if suspects != 0 {
+                // A plastic storey's rate is a guard: it does not turn before an event.
+                let (forward, backward) = signs(state.ranges.rates::<V, K>(k));
+                let steady = forward | backward | state.bounds.plastic_in::<V, K>(k);
+                for lane in members(suspects & !Set::from(steady)) {
+                    let i = WIDTH * k + lane;
+                    let (low, high) = state.ranges.drift::<K>(i);
+                    if self.drift_may_peak(state, i, low, high) {
+                        *isolated += 1;
+                        self.take_turns_of_drift::<V, K>(state, i, start, end);
+                    }
+                }
+            }
+            let suspects = state.ranges.suspects_in::<K>(2, k);
+            if suspects != 0 {
+                for lane in members(suspects & !Set::from(state.steady::<V, K>(k))) {
+                    let i = WIDTH * k + lane;
+                    let (low, high) = state.ranges.acceleration::<K>(i);
+                    if self.acceleration_may_peak(i, low, high) {
+                        *isolated += 1;
+                        self.take_turns_of_acceleration::<V, K>(state, i, start, end);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Takes the turns of a storey's drift inside the present series, which starts at the time `start`, up to its place
+    /// `end` into its peaks.
+    #[inline(always)]
+    fn take_turns_of_drift<V: Vector, const K: usize>(&mut self, state: &State, i: usize, start: f64, end: f64) {
+        let mut rate = state.series.zeros();
+        state.series.drift_rate::<V, K>(i, 1.0, &mut rate);
+        let (first, others) = rate.sign_changes::<V>();
+        for s in first.into_iter().chain(others).filter(|&s| s < end) {
+            let mut drift = state.series.zeros();
+            state.series.drift::<V, K>(i, 1.0, 0.0, &mut drift);
+            let [drift, shear] = drift_and_shear(state, i, drift.at::<V>(s));
+            let time = start + s * state.series.h();
+            self.beaten |= self.drift.take_lane::<V, K>(i, drift, time) | self.shear.take_lane::<V, K>(i, shear, time);
+        }
+    }
+
+    /// The same of a floor's acceleration.
+    #[inline(always)]
+    fn take_turns_of_acceleration<V: Vector, const K: usize>(&mut self, state: &State, i: usize, start: f64, end: f64) {
+        let mut acceleration = state.series.zeros();
+        state.series.acceleration::<V, K>(i + 1, 1.0, [0.0; 2], &mut acceleration);
+        let (first, others) = acceleration.derivative().sign_changes::<V>();
+        for s in first.into_iter().chain(others).filter(|&s| s < end) {
+            let time = start + s * state.series.h();
+            self.beaten |= self.acceleration.take_lane::<V, K>(i, acceleration.at::<V>(s), time);
+        }
+    }
+
+    /// Takes the turns of the drifts of some storeys and of the accelerations of some floors inside the present series, of
+    /// a whole interval.
+    #[inline(always)]
+    pub(crate) fn take_turns<V: Vector, const K: usize>(&mut self, state: &State, [drifts, accelerations]: [Set; 2]) {
+        for i in members(drifts) {
+            self.take_turns_of_drift::<V, K>(state, i, state.interval.start, 1.0);
+        }
+        for i in members(accelerations) {
+            self.take_turns_of_acceleration::<V, K>(state, i, state.interval.start, 1.0);
+        }
+    }
+
+    /// Takes the turns of airborne blocks inside the present series, from `tau` to its place `end`, before the state is
+    /// advanced.
+    pub(crate) fn observe_flights(&mut self, state: &mut State, tau: f64, end: f64) {
+        let (start, h) = (state.interval.start + tau, state.series.h());
+        for j in 0..state.motions.len() {
+            let velocity = state.velocity_of_block(j);
+            let slip = state.slip_change(j);
+            let at_start = state.motions[j].slip;
+            let (peak, motion) = (&mut self.slip[j], &mut state.motions[j]);
+            // A turn at the very end of one series is none inside the next.
+            motion.end_stretch();
+            let (first, others) = velocity.sign_changes::<Plain>();
+            for s in first.into_iter().chain(others).filter(|&s| s < end) {
+                let value = at_start + slip.at::<Plain>(s);
+                peak.take(value, start + s * h);
+                motion.turn_at(value);
+            }
+        }
+    }
+
+    /// Appends the present state to the histories, if they have a row at a sample.
+    #[inline]
+    pub(crate) fn record(&mut self, state: &State, sample: usize) {
+        if let Some(recorder) = &mut self.histories {
+            recorder.append_state(state, sample);
+        }
+    }
+
+    /// [`Observer::record`] within the code of a path.
+    #[inline(always)]
+    pub(crate) fn record_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, sample: usize) {
+        if let Some(recorder) = &mut self.histories {
+            recorder.append_state_in_lanes::<V, K>(state, sample);
+        }
+    }
+
+    /// Writes the row of a sample, if the histories have one, again: an event fell at its very time.
+    pub(crate) fn record_again(&mut self, state: &State, sample: usize) {
+        if self.histories.as_mut().is_some_and(|recorder| recorder.take_back(sample)) {
+            self.record(state, sample);
+        }
+    }
+
+    /// What writes the histories, if they have a row at a sample, all rows before it being written.
+    #[inline]
+    pub(crate) fn recorder_at(&mut self, sample: usize) -> Option<&mut Recorder> {
+        self.histories.as_mut().filter(|recorder| recorder.next_sample() == sample)
+    }
+
+    /// Notes the energy at the start.
+    pub(crate) fn begin_energy(&mut self, state: &State) {
+        if let Some(balance) = &mut self.energy {
+            balance.energy.initial = kinetic_energy(state) + elastic_energy(state);
+        }
+    }
+
+    /// Adds the energies of the present series, from `tau` to its place `end`, before the state is advanced.
+    pub(crate) fn add_energy(&mut self, state: &State, tau: f64, end: f64) {
+        let Some(balance) = &mut self.energy else { return };
+        let n = state.storeys();
+        let length = state.series.h() * end;
+        let (mut rates, mut scratch) = (vec![0.0; n], vec![0.0; n]);
+        let velocities: Vec<Option<Polynomial>> = (0..state.motions.len())
+            .map(|j| (!state.motions[j].is_stuck()).then(|| state.velocity_of_block(j)))
+            .collect();
+        for (node, weight) in GAUSS {
+            let s = node * end;
+            let at = tau + s * state.series.h();
+            state.series.rates_at(s, &mut rates);
+            let energy = &mut balance.energy;
+            energy.viscous += weight * length * viscous_power(state.model, &rates, &mut scratch);
+            let mut velocity = 0.0;
+            for i in 0..n {
+                velocity += rates[i];
+                scratch[i] = velocity;
+            }
+            let mut momentum: f64 = state.model.mass.iter().zip(&scratch).map(|(m, v)| m * v).sum();
+            for (j, law) in state.model.blocks.iter().enumerate() {
+                let relative = velocities[j].as_ref().map_or(0.0, |p| p.at::<Plain>(s));
+                let floor = if law.floor > 0 { scratch[law.floor - 1] } else { 0.0 };
+                momentum += law.mass * (floor + relative);
+                if let BlockState::Sliding(sign) = state.motions[j].state {
+                    let force = sign.factor() * state.motions[j].mu_k * law.mass * state.contact_at(at);
+                    energy.friction += weight * length * force * relative;
+                }
+            }
+            energy.input -= weight * length * momentum * state.interval.ground_at(at);
+        }
+        for ((spring, change), x) in state.springs.iter().zip(state.series.changes()[0]).zip(&state.x) {
+            balance.energy.hysteretic += spring.dissipated(*x, *change);
+        }
+        balance.largest_input = balance.largest_input.max(balance.energy.input);
+    }
+
+    /// The energies at the end, with their residual.
+    pub(crate) fn finish_energy(&self, state: &State) -> Option<Energy> {
+        let balance = self.energy.as_ref()?;
+        let mut energy = balance.energy;
+        energy.kinetic = kinetic_energy(state);
+        energy.elastic = elastic_energy(state);
+        let spent = energy.kinetic + energy.elastic + energy.viscous + energy.hysteretic + energy.friction;
+        let scale = energy.initial + balance.largest_input;
+        let residual = energy.initial + energy.input - spent;
+        energy.relative_residual = if residual == 0.0 { 0.0 } else { residual / scale };
+        Some(energy)
+    }
+}
+
+/// Drift and shear of storey `i` at a drift coordinate.
+#[inline(always)]
+fn drift_and_shear(state: &State, i: usize, x: f64) -> [f64; 2] {
+    [state.springs[i].drift(x), state.base_force[i] + state.regime.row(Row::SpringTangent)[i] * x]
+}
+
+fn kinetic_energy(state: &State) -> f64 {
+    let floors: Vec<f64> = state.floor_velocities().collect();
+    let building: f64 = state.model.mass.iter().zip(&floors).map(|(m, v)| 0.5 * m * v * v).sum();
+    let blocks = state.motions.iter().zip(&state.model.blocks).map(|(motion, law)| {
+        let velocity = motion.velocity + if law.floor > 0 { floors[law.floor - 1] } else { 0.0 };
+        0.5 * law.mass * velocity * velocity
+    });
+    building + blocks.sum::<f64>()
+}
+
+fn elastic_energy(state: &State) -> f64 {
+    state.springs.iter().zip(&state.model.laws).zip(&state.x).map(|((spring, law), &x)| spring.stored(law, x)).sum()
+}

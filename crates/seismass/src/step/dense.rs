@@ -1,0 +1,680 @@
+//! The exact steps of a regime, formed once: over one whole sample interval, and as tables of its Taylor series; and the
+//! cache of regimes.
+//!
+//! Within an interval, floor accelerations are linear in drifts and drift rates, and loads are linear in time; so from
+//! the second order on everything is linear in the drift accelerations q and their rates alone, which obey the
+//! homogeneous system. Its series of unit vectors give all: summed, the step of a whole interval; kept, tables that make
+//! of a series independent products in place of a chain. An interval too long for one series is halved until it is
+//! short enough, and the step composed with itself.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use rustc_hash::FxBuildHasher;
+
+use crate::lanes::{
+    Aligned, MAX_LANES, Pair, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers,
+    store, unit,
+};
+use crate::machines::model::Model;
+use crate::regime::{Operator, Regime, Row};
+use crate::step::few;
+use crate::step::series::{INVERSE, MAX_PHASE, terms};
+use crate::step::tall::TallStep;
+
+/// Memory one cache may take before it starts afresh (bytes).
+const CACHE_BYTES: usize = 64 << 20;
+/// Most storeys of which tables of the series are kept.
+const MAX_TABLE: usize = 2 * WIDTH;
+/// Most storeys for which steps and tables are formed at once: those of one vector. With more, most regimes of a strong
+/// motion are left before they have paid for themselves.
+const MAX_AT_ONCE: usize = WIDTH;
+
+/// Most storeys for which one matrix without zeros is taken though a tall step would do.
+const MAX_DENSE: usize = 16;
+/// Largest ratio of a floor's mass, with blocks, to the smallest mass of a floor at which intervals are solved in substeps.
+/// Each plain step repeats the rounding of its matrix, some 1e-15 of the drift rates: with many substeps it sums up to what
+/// can be seen in the energy of a floor so heavy.
+const MAX_MASS_RATIO: f64 = 1e4;
+
+/// The steps of a regime.
+pub(crate) struct Steps {
+    /// Series of the regime over a step of its own; none above [`MAX_TABLE`] storeys.
+    pub(crate) table: Option<Table>,
+    pub(crate) whole: Whole,
+}
+
+/// The step of a regime over one whole sample interval.
+pub(crate) enum Whole {
+    Dense(Propagator),
+    Tall(Arc<TallStep>),
+}
+
+/// Taylor terms of the floor accelerations from the second order on, over a step `h`, of unit drift accelerations and
+/// of unit rates of these: by order, by column, by floor padded to whole vectors.
+///
+/// Of one vector, where two are read at once, columns of two orders alternate, the first of them even; zeros stand for an
+/// order beyond the last.
+pub(crate) struct Table {
+    pub(crate) h: f64,
+    /// Order of the last terms.
+    pub(crate) order: usize,
+    pub(crate) terms: Aligned,
+}
+
+impl Table {
+    /// Whether the columns of two orders alternate, of a scene of `K` vectors.
+    #[inline(always)]
+    pub(crate) const fn is_in_pairs<V: Vector, const K: usize>() -> bool {
+        K == 1 && V::Pair::IS_ONE
+    }
+
+    /// The place of the first column of an order among all, of which an order has so many.
+    #[inline(always)]
+    pub(crate) fn first_column<V: Vector, const K: usize>(columns: usize, order: usize) -> usize {
+        if Self::is_in_pairs::<V, K>() { 2 * columns * (order / 2 - 1) + order % 2 } else { columns * (order - 2) }
+    }
+
+    /// How far the columns of an order are apart.
+    #[inline(always)]
+    pub(crate) const fn columns_apart<V: Vector, const K: usize>() -> usize {
+        if Self::is_in_pairs::<V, K>() { 2 } else { 1 }
+    }
+
+    /// Columns that there are, with those beyond the last order, whether or not two orders alternate.
+    fn columns(storeys: usize, order: usize) -> usize {
+        let orders = order - 1;
+        2 * storeys * if storeys <= WIDTH { orders.next_multiple_of(2) } else { orders }
+    }
+}
+
+/// The step of a regime over one sample interval, acting on rows (dx, dv, a, j): changes of drifts and drift rates,
+/// floor accelerations and their rates at the end, each padded to whole vectors.
+pub(crate) struct Propagator {
+    storeys: usize,
+    rows: usize,
+    /// Columns, one after the other: of the state (x, v); of a constant ground acceleration and of one that grows from
+    /// zero by one per interval; of constant floor loads; where vertical motion needs them, of floor loads that grow from
+    /// zero by one per interval.
+    columns: Aligned,
+}
+
+/// What a column of the step is the effect of, all else being zero.
+#[derive(Clone, Copy)]
+enum Cause {
+    Drift(usize),
+    DriftRate(usize),
+    Load(usize),
+    /// A floor load that grows from zero by one per second.
+    Ramp(usize),
+    Ground,
+    /// A ground acceleration that grows from zero by one per second.
+    GroundRamp,
+}
+
+impl Cause {
+    /// Of a column of a step of `n` storeys.
+    #[inline(always)]
+    fn of(column: usize, n: usize) -> Self {
+        match column.checked_sub(2 * n) {
+            None if column < n => Self::Drift(column),
+            None => Self::DriftRate(column - n),
+            Some(0) => Self::Ground,
+            Some(1) => Self::GroundRamp,
+            Some(load) if load < n + 2 => Self::Load(load - 2),
+            Some(ramp) => Self::Ramp(ramp - n - 2),
+        }
+    }
+}
+
+/// Columns of a step of `n` storeys, with the ramps of floor loads or without.
+fn column_count(n: usize, with_ramps: bool) -> usize {
+    if with_ramps { 4 * n + 2 } else { 3 * n + 2 }
+}
+
+for_each_path! {
+    /// What a step of length `h` adds to (dx, dv, a, j) beyond the first order, of unit drift accelerations and of unit
+    /// rates of these: `sums` gets columns of four padded rows. `terms` gets those of a [`Table`], if it has room.
+    fn form_remainders(model: &Model, regime: &Regime, h: f64, order: usize, sums: &mut [f64], terms: &mut [f64])
+        = remainders_by_width
+}
+
+#[inline(always)]
+fn remainders_by_width<V: Vector>(
+    model: &Model,
+    regime: &Regime,
+    h: f64,
+    order: usize,
+    sums: &mut [f64],
+    terms: &mut [f64],
+) {
+    match model.storeys() {
+        1 => few::remainders::<V, 1>(model, regime, h, order, sums, terms),
+        2 => few::remainders::<V, 2>(model, regime, h, order, sums, terms),
+        3 => few::remainders::<V, 3>(model, regime, h, order, sums, terms),
+        4 => few::remainders::<V, 4>(model, regime, h, order, sums, terms),
+        _ => by_width!(model.width, K => remainders::<V, K>(model, regime, h, order, sums, terms)),
+    }
+}
+
+/// [`form_remainders`] storey by storey: the series of (q, q') = unit vectors, as drifts and drift rates of the homogeneous
+/// system, whose accelerations then are the second derivatives of the floor accelerations.
+#[inline(always)]
+fn remainders<V: Vector, const K: usize>(
+    model: &Model,
+    regime: &Regime,
+    h: f64,
+    order: usize,
+    sums: &mut [f64],
+    terms: &mut [f64],
+) {
+    let (n, width) = (model.storeys(), WIDTH * K);
+    let operator = Operator::<V, K>::new(model, regime);
+    let zero = [V::splat(0.0); K];
+    let inside: [V; K] = load(&model.lanes.inside);
+    let keeps_terms = !terms.is_empty();
+    for storey in 0..n {
+        let (mut x, mut v) = ([unit(storey), zero], [zero, unit(storey)]);
+        let mut floors = [zero, operator.floor_velocities(&v[1])];
+        let places = [storey, n + storey];
+        let mut rows = [[zero; 4]; 2];
+        for k in 0..=order {
+            let (once, twice) = (h * INVERSE[k + 1], h * h * (INVERSE[k + 1] * INVERSE[k + 2]));
+            let (once, twice) = (V::splat(once), V::splat(twice));
+            for column in 0..2 {
+                let a = operator.accelerations(&x[column], &v[column], &floors[column], zero);
+                let drift_acceleration = differences(&a, V::splat(0.0));
+                let mut term = zero;
+                for l in 0..K {
+                    let rows = &mut rows[column];
+                    term[l] = twice.mul(a[l]);
+                    rows[0][l] = twice.mul_add(x[column][l], rows[0][l]);
+                    rows[1][l] = once.mul_add(x[column][l], rows[1][l]);
+                    rows[2][l] = rows[2][l].add(term[l]);
+                    rows[3][l] = once.mul_add(a[l], rows[3][l]);
+                    x[column][l] = once.mul(v[column][l]);
+                    v[column][l] = once.mul(drift_acceleration[l]).mul(inside[l]);
+                    floors[column][l] = once.mul(a[l]);
+                }
+                if keeps_terms && k + 2 <= order {
+                    let first = Table::first_column::<V, K>(2 * n, k + 2);
+                    store(&term, &mut terms[(first + Table::columns_apart::<V, K>() * places[column]) * width..]);
+                }
+            }
+        }
+        for column in 0..2 {
+            let out = &mut sums[4 * places[column] * width..];
+            for r in 0..4 {
+                store(&rows[column][r], &mut out[r * width..]);
+            }
+        }
+    }
+}
+
+for_each_path! {
+    /// Forms the columns over a step of length `h`, whose remainders are `sums`: rows (dx, dv, a, j).
+    fn form_columns(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64])
+        = columns_by_width
+}
+
+#[inline(always)]
+fn columns_by_width<V: Vector>(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64]) {
+    match model.storeys() {
+        1 => few::columns::<V, 1>(model, regime, h, sums, out),
+        2 => few::columns::<V, 2>(model, regime, h, sums, out),
+        3 => few::columns::<V, 3>(model, regime, h, sums, out),
+        4 => few::columns::<V, 4>(model, regime, h, sums, out),
+        _ => by_width!(model.width, K => columns::<V, K>(model, regime, h, sums, out)),
+    }
+}
+
+/// [`form_columns`] one after the other.
+#[inline(always)]
+fn columns<V: Vector, const K: usize>(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64]) {
+    let operator = Operator::<V, K>::new(model, regime);
+    let (sums_of_q, sums_of_rate) =
+        columns_of::<K>(sums).as_chunks::<4>().0[..2 * model.storeys()].split_at(model.storeys());
+    let columns = out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0.as_chunks_mut::<4>().0;
+    for (column, out) in columns.iter_mut().enumerate() {
+        let zero = [V::splat(0.0); K];
+        let (mut x, mut v, mut force, mut slope, mut ground, mut ground_slope) = (zero, zero, zero, zero, 0.0, 0.0);
+        match Cause::of(column, model.storeys()) {
+            Cause::Drift(i) => x = unit(i),
+            Cause::DriftRate(i) => v = unit(i),
+            Cause::Load(i) => force = unit(i),
+            Cause::Ramp(i) => slope = unit(i),
+            Cause::Ground => ground = 1.0,
+            Cause::GroundRamp => ground_slope = 1.0,
+        }
+        let a = operator.accelerations(&x, &v, &operator.floor_velocities(&v), force);
+        let (q, mut floors) = (differences(&a, V::splat(ground)), a);
+        for k in 0..K {
+            floors[k] = a[k].sub(V::splat(ground));
+        }
+        let jerk = operator.accelerations(&v, &q, &floors, slope);
+        let rate = differences(&jerk, V::splat(ground_slope));
+        let mut rows = [zero; 4];
+        for k in 0..K {
+            rows[0][k] = V::splat(h).mul(v[k]);
+            rows[2][k] = V::splat(h).mul_add(jerk[k], a[k]);
+            rows[3][k] = jerk[k];
+        }
+        for (sums, weights) in [(sums_of_q, numbers(&q)), (sums_of_rate, numbers(&rate))] {
+            for (sums, &weight) in sums.iter().zip(weights.as_flattened()) {
+                let weight = V::splat(weight);
+                for r in 0..4 {
+                    for k in 0..K {
+                        rows[r][k] = V::load(&sums[r][k]).mul_add(weight, rows[r][k]);
+                    }
+                }
+            }
+        }
+        for r in 0..4 {
+            out[r] = numbers(&rows[r]);
+        }
+    }
+}
+
+for_each_path! {
+    /// The step taken twice: its columns, of changes of drifts and drift rates over `h`, each padded to whole vectors. Ramps
+    /// are per second.
+    fn doubled(changes: &[f64], storeys: usize, width: usize, h: f64) -> Vec<f64> = doubled_by_width
+}
+
+#[inline(always)]
+fn doubled_by_width<V: Vector>(changes: &[f64], storeys: usize, width: usize, h: f64) -> Vec<f64> {
+    by_width!(width, K => doubled_columns::<V, K>(changes, storeys, h))
+}
+
+#[inline(always)]
+fn doubled_columns<V: Vector, const K: usize>(changes: &[f64], n: usize, h: f64) -> Vec<f64> {
+    let mut out = vec![0.0; changes.len()];
+    let columns = columns_of::<K>(changes).as_chunks::<2>().0;
+    let columns_out = out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0.as_chunks_mut::<2>().0;
+    for (c, (column, out)) in columns.iter().zip(columns_out).enumerate() {
+        let mut sums = [[V::splat(0.0); K]; 2];
+        let mut add = |column: &[[[f64; WIDTH]; K]; 2], weight: f64| {
+            let weight = V::splat(weight);
+            for r in 0..2 {
+                for k in 0..K {
+                    sums[r][k] = V::load(&column[r][k]).mul_add(weight, sums[r][k]);
+                }
+            }
+        };
+        // What the first half changes in the state goes on in the second, and a ramp is at `h` there.
+        let [of_drifts, of_rates] = column.each_ref().map(|rows| &rows.as_flattened()[..n]);
+        for (state, &weight) in columns.iter().zip(of_drifts.iter().chain(of_rates)) {
+            add(state, weight);
+        }
+        match Cause::of(c, n) {
+            Cause::GroundRamp => add(&columns[c - 1], h),
+            Cause::Ramp(_) => add(&columns[c - n], h),
+            _ => {}
+        }
+        add(column, 2.0);
+        for r in 0..2 {
+            out[r] = numbers(&sums[r]);
+        }
+    }
+    out
+}
+
+impl Steps {
+    /// The steps of a regime over `dt`, by one series where it converges fast enough, else by halving. `sums` is working
+    /// space.
+    fn new(model: &Model, regime: &Regime, dt: f64, with_ramps: bool, sums: &mut Vec<f64>) -> Self {
+        let n = model.storeys();
+        if Self::are_tall(model, regime, dt) {
+            return Self { table: None, whole: Whole::Tall(Arc::new(TallStep::new(model, regime, dt))) };
+        }
+        let width = model.width;
+        let phase = regime.frequency * dt;
+        let halvings = if phase > MAX_PHASE { libm::log2(phase / MAX_PHASE).ceil() } else { 0.0 };
+        let h = dt * libm::exp2(-halvings);
+        // Parts of a halved interval may be longer than its table's step.
+        let order = terms::<Plain>(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
+        sums.resize(2 * n * 4 * width, 0.0);
+        let mut table = Aligned::unset(if n <= MAX_TABLE { Table::columns(n, order) * width } else { 0 });
+        form_remainders(model, regime, h, order, sums, &mut table);
+        let formed = |with_ramps: bool| {
+            let mut columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
+            form_columns(model, regime, h, sums, &mut columns);
+            columns
+        };
+        let mut columns;
+        if halvings > 0.0 {
+            let mut changes: Vec<f64> =
+                formed(true).chunks_exact(4 * width).flat_map(|rows| &rows[..2 * width]).copied().collect();
+            let mut length = h;
+            for _ in 0..halvings as usize {
+                changes = doubled(&changes, n, width, length);
+                length *= 2.0;
+            }
+            columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
+            let changes = changes.chunks_exact(2 * width);
+            for (i, (column, change)) in columns.chunks_exact_mut(4 * width).zip(changes).enumerate() {
+                column_of_change(model, regime, Cause::of(i, n), change, dt, column);
+            }
+        } else {
+            columns = formed(with_ramps);
+        }
+        // Ramps per interval instead of per second.
+        let (others, ramps) = columns.split_at_mut(column_count(n, false) * 4 * width);
+        let ground_ramp = &mut others[(2 * n + 1) * 4 * width..][..4 * width];
+        ground_ramp.iter_mut().chain(ramps).for_each(|entry| *entry /= dt);
+        let table = (n <= MAX_TABLE).then_some(Table { h, order, terms: table });
+        Self { table, whole: Whole::Dense(Propagator { storeys: n, rows: 4 * width, columns }) }
+    }
+
+    /// Whether the step is that of a tall regime.
+    fn are_tall(model: &Model, regime: &Regime, dt: f64) -> bool {
+        model.storeys() > MAX_DENSE && TallStep::exists(regime, dt)
+    }
+
+    /// Memory taken (bytes), with the columns of ramps or without, whether or not they are there: what a run counts must
+    /// not depend on which runs came before it.
+    fn bytes(&self, with_ramps: bool) -> usize {
+        match &self.whole {
+            Whole::Dense(propagator) => {
+                let columns = column_count(propagator.storeys, with_ramps) * propagator.rows;
+                8 * (columns + self.table.as_ref().map_or(0, |table| table.terms.len()))
+            }
+            Whole::Tall(step) => step.bytes(),
+        }
+    }
+}
+
+impl Propagator {
+    /// Columns of constant floor loads, one after the other.
+    #[inline(always)]
+    pub(crate) fn load_columns(&self) -> &[f64] {
+        let first = 2 * self.storeys + 2;
+        self.columns.get(first * self.rows..(first + self.storeys) * self.rows).unwrap_or(&[])
+    }
+
+    /// Columns of floor loads that grow from zero by one per interval; none where vertical motion has not asked for them.
+    #[inline(always)]
+    pub(crate) fn ramp_columns(&self) -> &[f64] {
+        self.columns.get(column_count(self.storeys, false) * self.rows..).unwrap_or(&[])
+    }
+
+    /// Columns of the state (x, v), one after the other, and those of the motion after them: of a constant ground
+    /// acceleration, and of one that grows from zero by one.
+    #[inline(always)]
+    pub(crate) fn state_and_motion_columns(&self) -> &[f64] {
+        &self.columns
+    }
+}
+
+/// Forms the rows (dx, dv, a, j) of a column from its change of the state over `h`: dx and dv, each padded.
+fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64], h: f64, out: &mut [f64]) {
+    let n = model.storeys();
+    let [dx, dv] = [0, model.width].map(|first| &change[first..first + n]);
+    let (mut x, mut v) = (dx.to_vec(), dv.to_vec());
+    let (mut load, mut slope, mut ground) = (vec![0.0; n], vec![0.0; n], 0.0);
+    match cause {
+        Cause::Drift(i) => x[i] += 1.0,
+        Cause::DriftRate(i) => v[i] += 1.0,
+        Cause::Load(i) => load[i] = 1.0,
+        Cause::Ramp(i) => (load[i], slope[i]) = (h, 1.0),
+        Cause::Ground => ground = 1.0,
+        Cause::GroundRamp => ground = h,
+    }
+    let (mut a, mut jerk) = (vec![0.0; n], vec![0.0; n]);
+    regime.accelerations(model, &x, &v, &load, &mut a);
+    let mut below = ground;
+    let drift_acceleration: Vec<f64> = a.iter().map(|&a| a - std::mem::replace(&mut below, a)).collect();
+    regime.accelerations(model, &v, &drift_acceleration, &slope, &mut jerk);
+    for (row, part) in out.chunks_exact_mut(model.width).zip([dx, dv, &a, &jerk]) {
+        row[..n].copy_from_slice(part);
+        row[n..].fill(0.0);
+    }
+}
+
+/// An entry of the cache: a regime, and how often the present run took a whole interval in it.
+struct Entry {
+    /// Shared with the run that is in it.
+    regime: Rc<Regime>,
+    run: u64,
+    visits: u32,
+}
+
+/// Places of entries by key. Most keys are one word.
+#[derive(Default)]
+struct Index {
+    of_words: HashMap<u64, usize, FxBuildHasher>,
+    of_longer: HashMap<Vec<u64>, usize, FxBuildHasher>,
+}
+
+impl Index {
+    #[inline]
+    fn get(&self, key: &[u64]) -> Option<usize> {
+        match key {
+            [word] => self.of_words.get(word),
+            _ => self.of_longer.get(key),
+        }
+        .copied()
+    }
+
+    fn insert(&mut self, key: &[u64], index: usize) {
+        match key {
+            &[word] => self.of_words.insert(word, index),
+            _ => self.of_longer.insert(key.to_vec(), index),
+        };
+    }
+}
+
+/// The regimes met so far by scenes of equal structure at one time step.
+///
+/// What a run computes never depends on what is cached: where the steps of a regime pay only after some time, a run takes
+/// its first [`RegimeCache::series_visits`] intervals by series whether or not another run has already paid for them.
+pub(crate) struct RegimeCache {
+    dt: f64,
+    /// See [`RegimeCache::frequency`]; none before it is asked for.
+    frequency: Option<f64>,
+    entries: Vec<Entry>,
+    index: Index,
+    run: u64,
+    /// Memory taken by all entries.
+    bytes: usize,
+    /// Memory taken by what the present run has met.
+    run_bytes: usize,
+    /// Working space of forming steps.
+    sums: Vec<f64>,
+}
+
+impl RegimeCache {
+    /// Whole intervals of a regime that a run solves by series before its steps are formed. To form them costs like
+    /// n^3, a series saved like n^2 with full damping matrices and like n with others: about as many series as there are
+    /// storeys pay for them. Up to [`MAX_AT_ONCE`] storeys they are formed at once.
+    fn series_visits(storeys: usize) -> u32 {
+        if storeys <= MAX_AT_ONCE { 0 } else { storeys as u32 }
+    }
+
+    /// A cache of steps of `dt`.
+    pub(crate) fn new(dt: f64) -> Self {
+        let (entries, sums) = (Vec::new(), Vec::new());
+        Self { dt, frequency: None, entries, index: Index::default(), run: 0, bytes: 0, run_bytes: 0, sums }
+    }
+
+    /// Makes it one of steps of `dt`: what it holds of others is forgotten.
+    pub(crate) fn set_time_step(&mut self, dt: f64) {
+        if self.dt.to_bits() != dt.to_bits() {
+            self.dt = dt;
+            self.clear();
+        }
+    }
+
+    /// The frequency that a step of a run must suit (rad/s): a bound on those of the elastic building, all blocks stuck.
+    /// 0, so that any step does, where floors and their blocks differ too much in mass ([`MAX_MASS_RATIO`]).
+    pub(crate) fn frequency(&mut self, model: &Model) -> f64 {
+        *self.frequency.get_or_insert_with(|| {
+            let mut stuck_mass = vec![0.0; model.storeys()];
+            for block in model.blocks.iter().filter(|block| block.floor > 0) {
+                stuck_mass[block.floor - 1] += block.mass;
+            }
+            let heaviest = model.mass.iter().zip(&stuck_mass).map(|(floor, stuck)| floor + stuck).fold(0.0, f64::max);
+            let lightest = model.mass.iter().copied().fold(f64::INFINITY, f64::min);
+            if heaviest > MAX_MASS_RATIO * lightest {
+                0.0
+            } else {
+                Regime::new(model, |i| model.laws[i].spring.law().largest_tangent(), &stuck_mass).frequency
+            }
+        })
+    }
+
+    /// Begins a run: counts of visits start afresh.
+    pub(crate) fn begin_run(&mut self) {
+        self.run += 1;
+        self.run_bytes = 0;
+        if self.bytes > CACHE_BYTES {
+            self.clear();
+        }
+    }
+
+    fn clear(&mut self) {
+        *self = Self { run: self.run, frequency: self.frequency, ..Self::new(self.dt) };
+    }
+
+    /// The regime of a key, formed by `form` when it is new. Returns it, its index, and whether this run knew it.
+    pub(crate) fn enter(&mut self, key: &[u64], form: impl FnOnce() -> Regime) -> (Rc<Regime>, usize, bool) {
+        if self.run_bytes > CACHE_BYTES {
+            self.clear();
+        }
+        let index = match self.index.get(key) {
+            Some(index) => index,
+            None => {
+                let regime = Rc::new(form());
+                self.bytes += Self::entry_bytes(&regime, key);
+                self.entries.push(Entry { regime, run: 0, visits: 0 });
+                self.index.insert(key, self.entries.len() - 1);
+                self.entries.len() - 1
+            }
+        };
+        let entry = &mut self.entries[index];
+        let known = entry.run == self.run;
+        if !known {
+            entry.run = self.run;
+            entry.visits = 0;
+            self.run_bytes += Self::entry_bytes(&entry.regime, key);
+        }
+        (Rc::clone(&entry.regime), index, known)
+    }
+
+    fn entry_bytes(regime: &Regime, key: &[u64]) -> usize {
+        8 * regime.row(Row::Mass).len() * 16 + 16 * key.len() + 256
+    }
+
+    /// Whether series of a regime go by its table, which then exists: once the present run has taken as many intervals in
+    /// it as are solved without.
+    #[inline]
+    pub(crate) fn prepare_table(&mut self, index: usize, model: &Model, vertical: bool) -> bool {
+        let n = model.storeys();
+        let entry = &self.entries[index];
+        if n == 0 || n > MAX_TABLE || n > MAX_AT_ONCE && entry.visits <= Self::series_visits(n) {
+            return false;
+        }
+        if entry.regime.steps(vertical).is_none() {
+            self.form_steps(index, model, vertical);
+        }
+        true
+    }
+
+    #[cold]
+    fn form_steps(&mut self, index: usize, model: &Model, vertical: bool) {
+        let regime = &self.entries[index].regime;
+        let steps = Steps::new(model, regime, self.dt, vertical, &mut self.sums);
+        self.bytes += steps.bytes(vertical);
+        regime.keep_steps(steps, vertical);
+    }
+
+    /// Counts a whole interval in a regime; true once its propagator is to be used, which then exists.
+    pub(crate) fn visit(&mut self, index: usize, model: &Model, vertical: bool) -> bool {
+        let entry = &mut self.entries[index];
+        let n = model.storeys();
+        let is_tall = Steps::are_tall(model, &entry.regime, self.dt);
+        if n == 0 || n > MAX_LANES && !is_tall {
+            return false;
+        }
+        let series_visits = if is_tall { TallStep::series_visits(model) } else { Self::series_visits(n) };
+        entry.visits = entry.visits.saturating_add(1);
+        if entry.visits <= series_visits {
+            return false;
+        }
+        if entry.regime.steps(vertical).is_none() {
+            self.form_steps(index, model, vertical);
+        }
+        let entry = &self.entries[index];
+        if entry.visits == series_visits + 1 {
+            self.run_bytes += entry.regime.steps(vertical).map_or(0, |steps| steps.bytes(vertical));
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::scene::{Block, Building, Damping, GravityEffect, Scene, Storey};
+
+    /// A building of uneven floors and storeys, with P-Delta, and a block on each floor.
+    fn uneven(n: usize, damping: Damping) -> Scene {
+        let wave = |i: usize, step: f64| 1.0 + 0.8 * (step * (i + 1) as f64).sin();
+        let mass: Vec<f64> = (0..n).map(|i| 1000.0 * wave(i, 2.1)).collect();
+        let storeys = (0..n).map(|i| Storey::elastic(1e5 * wave(i, 1.3))).collect();
+        let geometric = (0..n).map(|i| 3e3 * wave(i, 0.9)).collect();
+        let building = Building::new(mass, storeys, damping).unwrap();
+        let building = building.with_gravity(GravityEffect::GeometricStiffness(geometric)).unwrap();
+        Scene::new(Some(Arc::new(building)), (1..=n).map(|floor| Block::new(floor, 700.0, 0.3)).collect()).unwrap()
+    }
+
+    fn are_close(found: &[f64], expected: &[f64], what: &str) {
+        let largest = expected.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() <= 1e-14 * largest, "{what}: {found:e} for {expected:e} of {largest:e}");
+        }
+    }
+
+    /// Products from the right and from the left, and rows by derivatives and cause by cause.
+    #[test]
+    fn few_storeys_take_the_steps_of_many() {
+        let dampings = [Damping::Modal { ratio: 0.05 }, Damping::Rayleigh { ratio: 0.03, modes: [1, 2] }];
+        for (n, damping) in (1..=4).flat_map(|n| dampings.clone().map(|damping| (n, damping))) {
+            if n == 1 && matches!(damping, Damping::Rayleigh { .. }) {
+                continue;
+            }
+            let model = Model::new(&uneven(n, damping.clone()));
+            let stuck: Vec<f64> = (0..n).map(|i| if i % 2 == 0 { 700.0 } else { 0.0 }).collect();
+            let regime = Regime::new(&model, |i| model.laws[i].spring.law().largest_tangent(), &stuck);
+            let (h, order) = (0.7 / regime.frequency, 14);
+            let formed = |few: bool| {
+                let mut sums = vec![0.0; 2 * n * 4 * WIDTH];
+                let mut terms = vec![0.0; WIDTH * Table::columns(n, order)];
+                let mut out = vec![0.0; column_count(n, true) * 4 * WIDTH];
+                if few {
+                    remainders_by_width::<Plain>(&model, &regime, h, order, &mut sums, &mut terms);
+                    columns_by_width::<Plain>(&model, &regime, h, &sums, &mut out);
+                } else {
+                    remainders::<Plain, 1>(&model, &regime, h, order, &mut sums, &mut terms);
+                    columns::<Plain, 1>(&model, &regime, h, &sums, &mut out);
+                }
+                [terms, out]
+            };
+            let ([terms, out], [expected_terms, expected_out]) = (formed(true), formed(false));
+            let of_order = 2 * n * WIDTH;
+            for (found, expected) in terms.chunks(of_order).zip(expected_terms.chunks(of_order)) {
+                are_close(found, expected, &format!("terms of {n} storeys"));
+            }
+            for (c, (found, expected)) in
+                out.chunks_exact(4 * WIDTH).zip(expected_out.chunks_exact(4 * WIDTH)).enumerate()
+            {
+                for (r, (found, expected)) in found.chunks(WIDTH).zip(expected.chunks(WIDTH)).enumerate() {
+                    are_close(found, expected, &format!("{damping:?}, {n} storeys, column {c}, row {r}"));
+                }
+            }
+        }
+    }
+}
