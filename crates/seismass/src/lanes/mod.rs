@@ -16,7 +16,7 @@ pub enum InstructionSet {
     Baseline,
     /// 256-bit vectors and fused multiply-add (x86-64-v3).
     Avx2,
-    /// The same with twice the registers, and vectors of 512 bits where two are taken at once (x86-64-v4).
+    /// The same with twice the registers (x86-64-v4): the same bits.
     Avx512,
 }
 
@@ -227,28 +227,8 @@ impl<T> Deref for OnLine<T> {
     }
 }
 
-/// Two vectors that are taken at once.
-pub(crate) trait Pair<V>: Copy {
-    /// Whether it is one vector of the path.
-    const IS_ONE: bool;
-
-    fn splat(value: f64) -> Self;
-    /// One lane of a vector in all.
-    fn lane(of: V, lane: usize) -> Self;
-    fn of(halves: [V; 2]) -> Self;
-    fn load(values: &[[f64; WIDTH]; 2]) -> Self;
-    fn store(self, values: &mut [[f64; WIDTH]; 2]);
-    fn add(self, other: Self) -> Self;
-    fn mul(self, other: Self) -> Self;
-    /// self * factor + term, fused where the path has it.
-    fn mul_add(self, factor: Self, term: Self) -> Self;
-    fn halves(self) -> [V; 2];
-}
-
 /// Four lanes.
 pub(crate) trait Vector: Copy {
-    type Pair: Pair<Self>;
-
     fn splat(value: f64) -> Self;
     fn load(values: &[f64; WIDTH]) -> Self;
     /// From numbers that are not in memory yet: to put them there and load them at once would wait for each.
@@ -297,51 +277,7 @@ impl Plain {
     }
 }
 
-impl<V: Vector> Pair<V> for [V; 2] {
-    const IS_ONE: bool = false;
-
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        [V::splat(value); 2]
-    }
-    #[inline(always)]
-    fn lane(of: V, lane: usize) -> Self {
-        [of.broadcast(lane); 2]
-    }
-    #[inline(always)]
-    fn of(halves: [V; 2]) -> Self {
-        halves
-    }
-    #[inline(always)]
-    fn load(values: &[[f64; WIDTH]; 2]) -> Self {
-        [V::load(&values[0]), V::load(&values[1])]
-    }
-    #[inline(always)]
-    fn store(self, values: &mut [[f64; WIDTH]; 2]) {
-        self[0].store(&mut values[0]);
-        self[1].store(&mut values[1]);
-    }
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        [self[0].add(other[0]), self[1].add(other[1])]
-    }
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        [self[0].mul(other[0]), self[1].mul(other[1])]
-    }
-    #[inline(always)]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        [self[0].mul_add(factor[0], term[0]), self[1].mul_add(factor[1], term[1])]
-    }
-    #[inline(always)]
-    fn halves(self) -> [V; 2] {
-        self
-    }
-}
-
 impl Vector for Plain {
-    type Pair = [Plain; 2];
-
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self([value; WIDTH])
@@ -585,12 +521,12 @@ macro_rules! for_each_path {
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
             fn avx512 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused<crate::lanes::InOne> $($(, $constant)*)?>($($arg),*)
+                $inner::<crate::lanes::Fused $($(, $constant)*)?>($($arg),*)
             }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma")]
             fn avx2 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused<crate::lanes::Apart> $($(, $constant)*)?>($($arg),*)
+                $inner::<crate::lanes::Fused $($(, $constant)*)?>($($arg),*)
             }
             match crate::lanes::InstructionSet::in_use() {
                 // SAFETY: `in_use` returns only what this machine has.
@@ -607,67 +543,36 @@ macro_rules! for_each_path {
 pub(crate) use for_each_path;
 
 #[cfg(target_arch = "x86_64")]
-pub(crate) use x86::{Apart, Fused, InOne};
+pub(crate) use x86::Fused;
 
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code)]
 mod x86 {
     use std::arch::x86_64::*;
-    use std::marker::PhantomData;
 
-    use super::{Pair, Vector, WIDTH};
+    use super::{Vector, WIDTH};
 
-    /// How pairs of a vector are taken.
-    pub(crate) trait Pairing: Copy {
-        type Pair: Pair<Fused<Self>>;
-    }
-
-    /// One vector after the other.
-    #[derive(Clone, Copy)]
-    pub(crate) struct Apart;
-
-    impl Pairing for Apart {
-        type Pair = [Fused<Self>; 2];
-    }
-
-    /// As one vector of 512 bits.
-    #[derive(Clone, Copy)]
-    pub(crate) struct InOne;
-
-    impl Pairing for InOne {
-        type Pair = Wide;
-    }
-
-    /// A 256-bit vector with fused multiply-add, of which pairs are taken as `P` says.
+    /// A 256-bit vector with fused multiply-add.
     ///
-    /// To be used only inside functions compiled for `avx2,fma`, and for `avx512f` too where that is [`InOne`], which call
-    /// nothing that is not inlined into them: these are reached through [`super::InstructionSet::in_use`] alone. A closure
-    /// is a call: it is compiled for the baseline, and each operation of a vector in it becomes a call too.
+    /// To be used only inside functions compiled for `avx2,fma`, which call nothing that is not inlined into them: these
+    /// are reached through [`super::InstructionSet::in_use`] alone. A closure is a call: it is compiled for the baseline,
+    /// and each operation of a vector in it becomes a call too.
     #[derive(Clone, Copy)]
-    pub(crate) struct Fused<P>(__m256d, PhantomData<P>);
-
-    impl<P> Fused<P> {
-        #[inline(always)]
-        fn new(lanes: __m256d) -> Self {
-            Self(lanes, PhantomData)
-        }
-    }
+    pub(crate) struct Fused(__m256d);
 
     // SAFETY, of all blocks below: see the type.
-    impl<P: Pairing> Vector for Fused<P> {
-        type Pair = P::Pair;
-
+    impl Vector for Fused {
         #[inline(always)]
         fn splat(value: f64) -> Self {
-            Self::new(unsafe { _mm256_set1_pd(value) })
+            Self(unsafe { _mm256_set1_pd(value) })
         }
         #[inline(always)]
         fn load(values: &[f64; WIDTH]) -> Self {
-            Self::new(unsafe { _mm256_loadu_pd(values.as_ptr()) })
+            Self(unsafe { _mm256_loadu_pd(values.as_ptr()) })
         }
         #[inline(always)]
         fn of([first, second, third, fourth]: [f64; WIDTH]) -> Self {
-            Self::new(unsafe { _mm256_set_pd(fourth, third, second, first) })
+            Self(unsafe { _mm256_set_pd(fourth, third, second, first) })
         }
         #[inline(always)]
         fn store(self, values: &mut [f64; WIDTH]) {
@@ -675,43 +580,43 @@ mod x86 {
         }
         #[inline(always)]
         fn add(self, other: Self) -> Self {
-            Self::new(unsafe { _mm256_add_pd(self.0, other.0) })
+            Self(unsafe { _mm256_add_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn sub(self, other: Self) -> Self {
-            Self::new(unsafe { _mm256_sub_pd(self.0, other.0) })
+            Self(unsafe { _mm256_sub_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn mul(self, other: Self) -> Self {
-            Self::new(unsafe { _mm256_mul_pd(self.0, other.0) })
+            Self(unsafe { _mm256_mul_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn div(self, other: Self) -> Self {
-            Self::new(unsafe { _mm256_div_pd(self.0, other.0) })
+            Self(unsafe { _mm256_div_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn sqrt(self) -> Self {
-            Self::new(unsafe { _mm256_sqrt_pd(self.0) })
+            Self(unsafe { _mm256_sqrt_pd(self.0) })
         }
         #[inline(always)]
         fn mul_add(self, factor: Self, term: Self) -> Self {
-            Self::new(unsafe { _mm256_fmadd_pd(self.0, factor.0, term.0) })
+            Self(unsafe { _mm256_fmadd_pd(self.0, factor.0, term.0) })
         }
         #[inline(always)]
         fn abs(self) -> Self {
-            Self::new(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
+            Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
         }
         #[inline(always)]
         fn min(self, other: Self) -> Self {
-            Self::new(unsafe { _mm256_min_pd(self.0, other.0) })
+            Self(unsafe { _mm256_min_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn max(self, other: Self) -> Self {
-            Self::new(unsafe { _mm256_max_pd(self.0, other.0) })
+            Self(unsafe { _mm256_max_pd(self.0, other.0) })
         }
         #[inline(always)]
         fn broadcast(self, lane: usize) -> Self {
-            Self::new(unsafe {
+            Self(unsafe {
                 match lane {
                     0 => _mm256_permute4x64_pd::<0b00_00_00_00>(self.0),
                     1 => _mm256_permute4x64_pd::<0b01_01_01_01>(self.0),
@@ -723,7 +628,7 @@ mod x86 {
         #[inline(always)]
         fn shifted_up(self, before: Self) -> Self {
             // (before 2, 3, self 0, 1), of which the upper of each pair goes to the lower of the next.
-            Self::new(unsafe {
+            Self(unsafe {
                 let middle = _mm256_permute2f128_pd::<0x21>(before.0, self.0);
                 _mm256_shuffle_pd::<0b0101>(middle, self.0)
             })
@@ -731,14 +636,14 @@ mod x86 {
         #[inline(always)]
         fn shifted_down(self, after: Self) -> Self {
             // (self 2, 3, after 0, 1).
-            Self::new(unsafe {
+            Self(unsafe {
                 let middle = _mm256_permute2f128_pd::<0x21>(self.0, after.0);
                 _mm256_shuffle_pd::<0b0101>(self.0, middle)
             })
         }
         #[inline(always)]
         fn with(self, bits: u32, other: Self) -> Self {
-            Self::new(unsafe {
+            Self(unsafe {
                 let of_lanes = _mm256_set_epi64x(8, 4, 2, 1);
                 let set = _mm256_and_si256(_mm256_set1_epi64x(i64::from(bits)), of_lanes);
                 let mask = _mm256_cmpeq_epi64(set, of_lanes);
@@ -750,7 +655,7 @@ mod x86 {
             // Of a choice of lanes that is stored the compiler makes a store of these alone, which what is read next has to
             // wait for: bits, and masks that it does not see through, are none.
             static MASKS: [[i64; WIDTH]; WIDTH] = [[-1, 0, 0, 0], [0, -1, 0, 0], [0, 0, -1, 0], [0, 0, 0, -1]];
-            Self::new(unsafe {
+            Self(unsafe {
                 let mask = _mm256_loadu_pd(MASKS[lane % WIDTH].as_ptr().cast());
                 _mm256_or_pd(_mm256_andnot_pd(mask, self.0), _mm256_and_pd(mask, _mm256_set1_pd(value)))
             })
@@ -762,10 +667,10 @@ mod x86 {
                 let (more_even, more_odd) =
                     (_mm256_unpacklo_pd(third.0, fourth.0), _mm256_unpackhi_pd(third.0, fourth.0));
                 [
-                    Self::new(_mm256_permute2f128_pd::<0x20>(even, more_even)),
-                    Self::new(_mm256_permute2f128_pd::<0x20>(odd, more_odd)),
-                    Self::new(_mm256_permute2f128_pd::<0x31>(even, more_even)),
-                    Self::new(_mm256_permute2f128_pd::<0x31>(odd, more_odd)),
+                    Self(_mm256_permute2f128_pd::<0x20>(even, more_even)),
+                    Self(_mm256_permute2f128_pd::<0x20>(odd, more_odd)),
+                    Self(_mm256_permute2f128_pd::<0x31>(even, more_even)),
+                    Self(_mm256_permute2f128_pd::<0x31>(odd, more_odd)),
                 ]
             }
         }
@@ -786,61 +691,10 @@ mod x86 {
         }
         #[inline(always)]
         fn total(self) -> Self {
-            Self::new(unsafe {
+            Self(unsafe {
                 let pairs = _mm256_add_pd(self.0, _mm256_permute2f128_pd::<0x01>(self.0, self.0));
                 _mm256_add_pd(pairs, _mm256_permute_pd::<0b0101>(pairs))
             })
-        }
-    }
-
-    /// A vector of 512 bits.
-    #[derive(Clone, Copy)]
-    pub(crate) struct Wide(__m512d);
-
-    impl Pair<Fused<InOne>> for Wide {
-        const IS_ONE: bool = true;
-
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            Self(unsafe { _mm512_set1_pd(value) })
-        }
-        #[inline(always)]
-        fn lane(of: Fused<InOne>, lane: usize) -> Self {
-            Self(unsafe {
-                let of = _mm512_castpd256_pd512(of.0);
-                match lane {
-                    0 => _mm512_broadcastsd_pd(_mm512_castpd512_pd128(of)),
-                    _ => _mm512_permutexvar_pd(_mm512_set1_epi64(lane as i64), of),
-                }
-            })
-        }
-        #[inline(always)]
-        fn of([low, high]: [Fused<InOne>; 2]) -> Self {
-            Self(unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low.0), high.0) })
-        }
-        #[inline(always)]
-        fn load(values: &[[f64; WIDTH]; 2]) -> Self {
-            Self(unsafe { _mm512_loadu_pd(values.as_ptr().cast()) })
-        }
-        #[inline(always)]
-        fn store(self, values: &mut [[f64; WIDTH]; 2]) {
-            unsafe { _mm512_storeu_pd(values.as_mut_ptr().cast(), self.0) }
-        }
-        #[inline(always)]
-        fn add(self, other: Self) -> Self {
-            Self(unsafe { _mm512_add_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn mul(self, other: Self) -> Self {
-            Self(unsafe { _mm512_mul_pd(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn mul_add(self, factor: Self, term: Self) -> Self {
-            Self(unsafe { _mm512_fmadd_pd(self.0, factor.0, term.0) })
-        }
-        #[inline(always)]
-        fn halves(self) -> [Fused<InOne>; 2] {
-            unsafe { [Fused::new(_mm512_castpd512_pd256(self.0)), Fused::new(_mm512_extractf64x4_pd::<1>(self.0))] }
         }
     }
 }

@@ -17,8 +17,7 @@ use crate::STANDARD_GRAVITY;
 use crate::events::NO_CONTACT;
 use crate::lanes::padded::PaddedRows;
 use crate::lanes::{
-    FAR, Pair, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, prefix_sums,
-    store,
+    FAR, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
 };
 use crate::machines::block::BlockMotion;
 use crate::machines::model::Model;
@@ -86,16 +85,6 @@ fn four_rows<const K: usize>(values: &[f64]) -> &[Column<K>] {
     columns_of::<K>(values).as_chunks::<4>().0
 }
 
-/// A column of one vector as two pairs of rows: (dx, dv) and (a, j).
-#[inline(always)]
-fn pairs_of<V: Vector, const K: usize>(column: &Column<K>) -> [V::Pair; 2] {
-    let mut pairs = [V::Pair::splat(0.0); 2];
-    for (pair, rows) in pairs.iter_mut().zip(column.as_flattened().as_chunks().0) {
-        *pair = V::Pair::load(rows);
-    }
-    pairs
-}
-
 /// rows += column * weight.
 #[inline(always)]
 fn add<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column: &Column<K>, weight: V) {
@@ -111,28 +100,7 @@ fn add<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column: &Column<K>, we
 fn multiply<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], columns: &[Column<K>], weights: &[V; K]) {
     let values = numbers(weights);
     let each = columns.iter().zip(values.as_flattened());
-    if K > 1 && V::Pair::IS_ONE {
-        // Two vectors at a time: half of the sums' room is left.
-        let mut sums = [[V::Pair::splat(0.0); K]; 4];
-        for r in 0..4 {
-            for k in 0..K / 2 {
-                sums[r][k] = V::Pair::of([rows[r][2 * k], rows[r][2 * k + 1]]);
-            }
-        }
-        for (column, &weight) in each {
-            let weight = V::Pair::splat(weight);
-            for r in 0..4 {
-                for (k, pair) in column[r].as_chunks().0.iter().enumerate() {
-                    sums[r][k] = V::Pair::load(pair).mul_add(weight, sums[r][k]);
-                }
-            }
-        }
-        for r in 0..4 {
-            for k in 0..K / 2 {
-                [rows[r][2 * k], rows[r][2 * k + 1]] = sums[r][k].halves();
-            }
-        }
-    } else if K <= 2 {
+    if K <= 2 {
         for (column, &weight) in each {
             add(rows, column, V::splat(weight));
         }
@@ -152,7 +120,7 @@ fn multiply<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], columns: &[Column
 }
 
 /// The step of a scene of one vector with so many storeys, from columns of each drift and of each drift rate, of the ground
-/// acceleration and of its change: two rows at a time.
+/// acceleration and of its change.
 ///
 /// Two sums: half the latency of one, which is what a small step waits for.
 #[inline(always)]
@@ -162,23 +130,24 @@ fn small_step<V: Vector, const K: usize, const S: usize>(
     [ground, change]: [f64; 2],
     [x, v]: [V; 2],
 ) -> [V; 4] {
-    let (ground, change) = (V::Pair::splat(ground), V::Pair::splat(change));
-    let (of_change, of_ground) = (pairs_of::<V, K>(course.of_change), pairs_of::<V, K>(course.of_ground));
-    let mut rows = pairs_of::<V, K>(course.constant);
-    let mut of_rates = [V::Pair::splat(0.0); 2];
-    for r in 0..2 {
-        rows[r] = of_ground[r].mul_add(ground, of_change[r].mul_add(change, rows[r]));
+    let (ground, change) = (V::splat(ground), V::splat(change));
+    let mut rows = [V::splat(0.0); 4];
+    let mut of_rates = rows;
+    for r in 0..4 {
+        let of_change = V::load(&course.of_change[r][0]).mul_add(change, V::load(&course.constant[r][0]));
+        rows[r] = V::load(&course.of_ground[r][0]).mul_add(ground, of_change);
     }
     for c in 0..S {
-        let (x, v) = (V::Pair::lane(x, c), V::Pair::lane(v, c));
-        let (of_drift, of_rate) = (pairs_of::<V, K>(&of_drift[c]), pairs_of::<V, K>(&of_rate[c]));
-        for r in 0..2 {
-            rows[r] = of_drift[r].mul_add(x, rows[r]);
-            of_rates[r] = of_rate[r].mul_add(v, of_rates[r]);
+        let (x, v) = (x.broadcast(c), v.broadcast(c));
+        for r in 0..4 {
+            rows[r] = V::load(&of_drift[c][r][0]).mul_add(x, rows[r]);
+            of_rates[r] = V::load(&of_rate[c][r][0]).mul_add(v, of_rates[r]);
         }
     }
-    let ([dx, dv], [a, jerk]) = (rows[0].add(of_rates[0]).halves(), rows[1].add(of_rates[1]).halves());
-    [dx, dv, a, jerk]
+    for r in 0..4 {
+        rows[r] = rows[r].add(of_rates[r]);
+    }
+    rows
 }
 
 /// Forms the effects of the floor loads on the step of the present regime, if they have changed.
@@ -208,20 +177,6 @@ fn prepare_effects<V: Vector, const K: usize, const VERTICAL: bool>(state: &mut 
 /// rows = columns * weights.
 #[inline(always)]
 fn put_product<V: Vector, const K: usize>(columns: &[Column<K>], weights: &[V; K], rows: &mut PaddedRows<4>) {
-    if K == 1 {
-        // In pairs, as the step reads them.
-        let mut product = [V::Pair::splat(0.0); 2];
-        for (column, &weight) in columns.iter().zip(numbers(weights).as_flattened()) {
-            let column = pairs_of::<V, K>(column);
-            for r in 0..2 {
-                product[r] = column[r].mul_add(V::Pair::splat(weight), product[r]);
-            }
-        }
-        for (out, rows) in rows.vectors_mut::<K>().as_flattened_mut().as_chunks_mut().0.iter_mut().zip(product) {
-            rows.store(out);
-        }
-        return;
-    }
     let mut product = [[V::splat(0.0); K]; 4];
     multiply(&mut product, columns, weights);
     for (out, row) in rows.vectors_mut::<K>().iter_mut().zip(&product) {
@@ -464,18 +419,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 }
             }
             multiply(&mut rows, course.of_drift, &sample.x);
-            if K == 2 && V::Pair::IS_ONE {
-                // Two sums: half the latency of one.
-                let mut of_rates = [[V::splat(0.0); K]; 4];
-                multiply(&mut of_rates, course.of_rate, &sample.v);
-                for r in 0..4 {
-                    for k in 0..K {
-                        rows[r][k] = rows[r][k].add(of_rates[r][k]);
-                    }
-                }
-            } else {
-                multiply(&mut rows, course.of_rate, &sample.v);
-            }
+            multiply(&mut rows, course.of_rate, &sample.v);
         }
         let [dx, dv, a, jerk] = rows;
         let mut taken = Sample { x: sample.x, v: sample.v, a, jerk, q: differences(&a, V::splat(after)) };

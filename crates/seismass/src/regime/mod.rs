@@ -10,7 +10,7 @@ pub(crate) mod operator_long;
 use std::cell::OnceCell;
 
 use crate::lanes::padded::PaddedRows;
-use crate::lanes::{Pair, Vector, WIDTH, columns_of, load, numbers, prefix_sums};
+use crate::lanes::{Vector, WIDTH, columns_of, load, numbers, prefix_sums};
 use crate::machines::model::{Model, ModelLanes};
 use crate::scene::StoreyDamping;
 use crate::step::dense::Steps;
@@ -249,34 +249,17 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
 #[inline(always)]
 fn add_product<V: Vector, const K: usize>(columns: &[[[f64; WIDTH]; K]], weights: &[V; K], sums: &mut [V; K]) {
     let weights = numbers(weights);
-    if V::Pair::IS_ONE {
-        // Two vectors at a time: half of the room is left. Four sums: a quarter of the latency of one.
-        let mut pairs = [[V::Pair::splat(0.0); K]; 4];
-        for (columns, weights) in columns.as_chunks::<4>().0.iter().zip(&weights) {
-            for c in 0..4 {
-                let weight = V::Pair::splat(weights[c]);
-                for (k, column) in columns[c].as_chunks().0.iter().enumerate() {
-                    pairs[c][k] = V::Pair::load(column).mul_add(weight, pairs[c][k]);
-                }
-            }
-        }
-        for k in 0..K / 2 {
-            let [low, high] = pairs[0][k].add(pairs[1][k]).add(pairs[2][k].add(pairs[3][k])).halves();
-            (sums[2 * k], sums[2 * k + 1]) = (sums[2 * k].add(low), sums[2 * k + 1].add(high));
-        }
-    } else {
-        // Two sums: there is no room for more.
-        let mut others = [V::splat(0.0); K];
-        for (pair, weights) in columns.as_chunks::<2>().0.iter().zip(weights.as_flattened().as_chunks::<2>().0) {
-            let (even, odd) = (V::splat(weights[0]), V::splat(weights[1]));
-            for k in 0..K {
-                sums[k] = V::load(&pair[0][k]).mul_add(even, sums[k]);
-                others[k] = V::load(&pair[1][k]).mul_add(odd, others[k]);
-            }
-        }
+    // Two sums: there is no room for more.
+    let mut others = [V::splat(0.0); K];
+    for (pair, weights) in columns.as_chunks::<2>().0.iter().zip(weights.as_flattened().as_chunks::<2>().0) {
+        let (even, odd) = (V::splat(weights[0]), V::splat(weights[1]));
         for k in 0..K {
-            sums[k] = sums[k].add(others[k]);
+            sums[k] = V::load(&pair[0][k]).mul_add(even, sums[k]);
+            others[k] = V::load(&pair[1][k]).mul_add(odd, others[k]);
         }
+    }
+    for k in 0..K {
+        sums[k] = sums[k].add(others[k]);
     }
 }
 

@@ -7,7 +7,7 @@
 //! diagonal. In (q, J) this holds for Rayleigh damping too: its mass-proportional part acts on each floor's own velocity.
 //! (q', J') obey the same system: their second integral is what the step adds to drift rates beyond h q.
 
-use crate::lanes::{Aligned, Pair, Vector, WIDTH, for_each_path};
+use crate::lanes::{Aligned, Vector, WIDTH, for_each_path};
 use crate::machines::model::Model;
 use crate::regime::{Regime, Row};
 use crate::scene::StoreyDamping;
@@ -358,20 +358,25 @@ impl BandedStep {
             let (q, q_rates) = (&start.q[0][within.clone()], &start.q[1][within.clone()]);
             let (jerk, jerk_rates) = (&start.jerk[0][within.clone()], &start.jerk[1][within]);
             // Of q and its rate, of J and its rate.
-            let mut of_q = [V::Pair::splat(0.0); 2];
+            let mut of_q = [[V::splat(0.0); 2]; 2];
             let mut of_jerk = of_q;
             let weights = q.iter().zip(jerk).zip(q_rates.iter().zip(jerk_rates));
             for (entries, ((&q, &jerk), (&q_rate, &jerk_rate))) in columns.iter().zip(weights) {
-                let (by_q, by_jerk) = (V::Pair::load(&entries[0]), V::Pair::load(&entries[1]));
-                of_q[0] = by_q.mul_add(V::Pair::splat(q), of_q[0]);
-                of_jerk[0] = by_jerk.mul_add(V::Pair::splat(jerk), of_jerk[0]);
-                of_q[1] = by_q.mul_add(V::Pair::splat(q_rate), of_q[1]);
-                of_jerk[1] = by_jerk.mul_add(V::Pair::splat(jerk_rate), of_jerk[1]);
+                let (q, jerk) = ([V::splat(q), V::splat(q_rate)], [V::splat(jerk), V::splat(jerk_rate)]);
+                for k in 0..2 {
+                    let (by_q, by_jerk) = (V::load(&entries[0][k]), V::load(&entries[1][k]));
+                    for r in 0..2 {
+                        of_q[r][k] = by_q.mul_add(q[r], of_q[r][k]);
+                        of_jerk[r][k] = by_jerk.mul_add(jerk[r], of_jerk[r][k]);
+                    }
+                }
             }
-            of_q[0].add(of_jerk[0]).store(dx);
-            let here = &q[self.half_width..].as_chunks::<WIDTH>().0.as_chunks::<2>().0[0];
-            let more = of_q[1].add(of_jerk[1]);
-            V::Pair::splat(self.h).mul_add(V::Pair::load(here), more).store(dv);
+            let here = &q[self.half_width..].as_chunks::<WIDTH>().0;
+            for k in 0..2 {
+                of_q[0][k].add(of_jerk[0][k]).store(&mut dx[k]);
+                let more = of_q[1][k].add(of_jerk[1][k]);
+                V::splat(self.h).mul_add(V::load(&here[k]), more).store(&mut dv[k]);
+            }
         }
     }
 }

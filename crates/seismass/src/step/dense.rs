@@ -14,8 +14,8 @@ use std::sync::Arc;
 use rustc_hash::FxBuildHasher;
 
 use crate::lanes::{
-    Aligned, MAX_LANES, Pair, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers,
-    store, unit,
+    Aligned, MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, store,
+    unit,
 };
 use crate::machines::model::Model;
 use crate::regime::{Operator, Regime, Row};
@@ -53,9 +53,6 @@ pub(crate) enum Whole {
 
 /// Taylor terms of the floor accelerations from the second order on, over a step `h`, of unit drift accelerations and
 /// of unit rates of these: by order, by column, by floor padded to whole vectors.
-///
-/// Of one vector, where two are read at once, columns of two orders alternate, the first of them even; zeros stand for an
-/// order beyond the last.
 pub(crate) struct Table {
     pub(crate) h: f64,
     /// Order of the last terms.
@@ -64,28 +61,9 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// Whether the columns of two orders alternate, of a scene of `K` vectors.
-    #[inline(always)]
-    pub(crate) const fn is_in_pairs<V: Vector, const K: usize>() -> bool {
-        K == 1 && V::Pair::IS_ONE
-    }
-
-    /// The place of the first column of an order among all, of which an order has so many.
-    #[inline(always)]
-    pub(crate) fn first_column<V: Vector, const K: usize>(columns: usize, order: usize) -> usize {
-        if Self::is_in_pairs::<V, K>() { 2 * columns * (order / 2 - 1) + order % 2 } else { columns * (order - 2) }
-    }
-
-    /// How far the columns of an order are apart.
-    #[inline(always)]
-    pub(crate) const fn columns_apart<V: Vector, const K: usize>() -> usize {
-        if Self::is_in_pairs::<V, K>() { 2 } else { 1 }
-    }
-
-    /// Columns that there are, with those beyond the last order, whether or not two orders alternate.
+    /// Columns that there are.
     fn columns(storeys: usize, order: usize) -> usize {
-        let orders = order - 1;
-        2 * storeys * if storeys <= WIDTH { orders.next_multiple_of(2) } else { orders }
+        2 * storeys * (order - 1)
     }
 }
 
@@ -198,8 +176,7 @@ fn remainders<V: Vector, const K: usize>(
                     floors[column][l] = once.mul(a[l]);
                 }
                 if keeps_terms && k + 2 <= order {
-                    let first = Table::first_column::<V, K>(2 * n, k + 2);
-                    store(&term, &mut terms[(first + Table::columns_apart::<V, K>() * places[column]) * width..]);
+                    store(&term, &mut terms[(2 * n * k + places[column]) * width..]);
                 }
             }
         }

@@ -4,7 +4,6 @@
 use crate::lanes::{Vector, WIDTH, columns_of, differences, load, numbers, unit};
 use crate::machines::model::Model;
 use crate::regime::{Regime, Row};
-use crate::step::dense::Table;
 use crate::step::series::{INVERSE, WEIGHTS};
 
 /// Forces on `S` floors.
@@ -157,16 +156,12 @@ pub(crate) fn remainders<V: Vector, const S: usize>(
     }
     let (first, mut twice) = (term, [[V::splat(0.0); S]; 2]);
     let columns = terms.as_chunks_mut::<WIDTH>().0;
-    let apart = Table::columns_apart::<V, 1>();
-    if Table::is_in_pairs::<V, 1>() && order.is_multiple_of(2) {
-        columns[Table::first_column::<V, 1>(2 * S, order)..].fill([0.0; WIDTH]);
-    }
     for k in 0..order - 1 {
-        let out = &mut columns[Table::first_column::<V, 1>(2 * S, k + 2)..][..apart * (2 * S - 1) + 1];
+        let out = &mut columns[2 * S * k..][..2 * S];
         let weight = V::load(&WEIGHTS[k + 2][2]);
         for set in 0..2 {
             for c in 0..S {
-                term[set][c].store(&mut out[apart * (set * S + c)]);
+                term[set][c].store(&mut out[set * S + c]);
                 twice[set][c] = weight.mul_add(term[set][c], twice[set][c]);
             }
         }

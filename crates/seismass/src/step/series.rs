@@ -4,7 +4,7 @@
 
 use crate::lanes::padded::{OfStorey, Padded, PaddedRows};
 use crate::lanes::{
-    MAX_LANES, OnLine, Pair, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, lanes, load, store,
+    MAX_LANES, OnLine, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, lanes, load, store,
 };
 use crate::machines::model::Model;
 use crate::polynomial::bernstein::{MAX_DEGREE, Polynomial, by_length};
@@ -187,36 +187,28 @@ impl Series {
         // Powers of the step over that of the table.
         let ratio = h / table.h;
         let terms = columns_of::<K>(&table.terms);
-        if Table::is_in_pairs::<V, K>() {
-            let pairs = terms.as_flattened().as_chunks().0.as_chunks().0;
-            let out = of_floors.as_flattened_mut().as_chunks_mut().0;
-            let [value, rate, once, twice] = two_at_a_time::<V, S, COLUMNS>(pairs, [first[0], rate[0]], ratio, out);
-            (sums.value[0], sums.rate[0]) = (sums.value[0].add(value), sums.rate[0].add(rate));
-            (sums.integrals[0][0], sums.integrals[1][0]) = (once, twice);
-        } else {
-            let ratio = V::splat(ratio);
-            let mut power = ratio;
-            let (mut firsts, mut rates) = ([zero; S], [zero; S]);
-            for c in 0..S {
-                firsts[c] = first[c / WIDTH].broadcast(c % WIDTH);
-                rates[c] = rate[c / WIDTH].broadcast(c % WIDTH);
-            }
-            let terms = terms[..(order - 1) * COLUMNS].as_chunks::<COLUMNS>().0;
-            for ((columns, out), weights) in terms.iter().zip(of_floors).zip(&WEIGHTS[2..]) {
-                power = power.mul(ratio);
-                let mut term = [zero; K];
-                for k in 0..K {
-                    let mut of_first = V::load(&columns[0][k]).mul(firsts[0]);
-                    let mut of_rate = V::load(&columns[S][k]).mul(rates[0]);
-                    for c in 1..S {
-                        of_first = V::load(&columns[c][k]).mul_add(firsts[c], of_first);
-                        of_rate = V::load(&columns[S + c][k]).mul_add(rates[c], of_rate);
-                    }
-                    term[k] = of_first.add(of_rate).mul(power);
+        let ratio = V::splat(ratio);
+        let mut power = ratio;
+        let (mut firsts, mut rates) = ([zero; S], [zero; S]);
+        for c in 0..S {
+            firsts[c] = first[c / WIDTH].broadcast(c % WIDTH);
+            rates[c] = rate[c / WIDTH].broadcast(c % WIDTH);
+        }
+        let terms = terms[..(order - 1) * COLUMNS].as_chunks::<COLUMNS>().0;
+        for ((columns, out), weights) in terms.iter().zip(of_floors).zip(&WEIGHTS[2..]) {
+            power = power.mul(ratio);
+            let mut term = [zero; K];
+            for k in 0..K {
+                let mut of_first = V::load(&columns[0][k]).mul(firsts[0]);
+                let mut of_rate = V::load(&columns[S][k]).mul(rates[0]);
+                for c in 1..S {
+                    of_first = V::load(&columns[c][k]).mul_add(firsts[c], of_first);
+                    of_rate = V::load(&columns[S + c][k]).mul_add(rates[c], of_rate);
                 }
-                put(&term, out);
-                sums.add(&term, weights);
+                term[k] = of_first.add(of_rate).mul(power);
             }
+            put(&term, out);
+            sums.add(&term, weights);
         }
         self.put_sums(&sums, &v, &a, &linear, &inside);
     }
@@ -346,25 +338,24 @@ impl Series {
         let pairs = self.a.vectors::<K>().as_chunks::<2>().0;
         let Some([[a, linear], pairs @ ..]) = pairs.get(..=self.order / 2) else { return };
         // Even and odd terms apart: half the latency of one chain.
-        let squared = V::Pair::splat(s * s);
-        let mut sums = [[V::Pair::splat(0.0); K]; 2];
-        for (pair, weights) in pairs.iter().zip(&WEIGHTS_OF_PAIRS[1..]).rev() {
-            for k in 0..K {
-                let terms = match pair.as_flattened().first_chunk() {
-                    Some(both) if K == 1 => V::Pair::load(both),
-                    _ => V::Pair::of([V::load(&pair[0][k]), V::load(&pair[1][k])]),
-                };
+        let squared = V::splat(s * s);
+        // Of even and odd orders: half the latency of one chain.
+        let mut sums = [[[V::splat(0.0); K]; 2]; 2];
+        for (pair, weights) in pairs.iter().zip(&WEIGHTS.as_chunks::<2>().0[1..]).rev() {
+            for parity in 0..2 {
                 for which in 0..2 {
-                    let weighted = terms.mul(V::Pair::load(&weights[1 + which]));
-                    sums[which][k] = sums[which][k].mul_add(squared, weighted);
+                    let weight = V::load(&weights[parity][1 + which]);
+                    for k in 0..K {
+                        let sum = &mut sums[which][parity][k];
+                        *sum = sum.mul_add(squared, V::load(&pair[parity][k]).mul(weight));
+                    }
                 }
             }
         }
         let [mut once, mut twice] = [[V::splat(0.0); K]; 2];
         for k in 0..K {
-            let ([even_once, odd_once], [even_twice, odd_twice]) = (sums[0][k].halves(), sums[1][k].halves());
-            once[k] = odd_once.mul_add(place, even_once);
-            twice[k] = odd_twice.mul_add(place, even_twice);
+            once[k] = sums[0][1][k].mul_add(place, sums[0][0][k]);
+            twice[k] = sums[1][1][k].mul_add(place, sums[1][0][k]);
         }
         store(&once, &mut self.integrals[0]);
         store(&twice, &mut self.integrals[1]);
@@ -636,49 +627,6 @@ impl<const K: usize> TermByOrder for Difference<'_, K> {
     }
 }
 
-/// Terms of one vector from the second order on, from pairs of columns of a [`Table`], drift accelerations and their rates,
-/// and the ratio of the step to that of the table; returns their [`Sums`]: value, rate, first and second integrals.
-/// `S` and `COLUMNS` are those of [`Series::by_table`].
-#[inline(always)]
-fn two_at_a_time<V: Vector, const S: usize, const COLUMNS: usize>(
-    columns: &[[[[f64; WIDTH]; 2]; COLUMNS]],
-    [first, rate]: [V; 2],
-    ratio: f64,
-    out: &mut [[[f64; WIDTH]; 2]],
-) -> [V; 4] {
-    let zero = V::Pair::splat(0.0);
-    let (mut firsts, mut rates) = ([zero; S], [zero; S]);
-    for c in 0..S {
-        firsts[c] = V::Pair::lane(first, c);
-        rates[c] = V::Pair::lane(rate, c);
-    }
-    let squared = ratio * ratio;
-    let mut power = V::Pair::of([V::splat(squared), V::splat(squared * ratio)]);
-    let squared = V::Pair::splat(squared);
-    let mut sums = [zero; 4];
-    for ((columns, out), weights) in columns.iter().zip(out).zip(&WEIGHTS_OF_PAIRS[1..]) {
-        let mut of_first = V::Pair::load(&columns[0]).mul(firsts[0]);
-        let mut of_rate = V::Pair::load(&columns[S]).mul(rates[0]);
-        for c in 1..S {
-            of_first = V::Pair::load(&columns[c]).mul_add(firsts[c], of_first);
-            of_rate = V::Pair::load(&columns[S + c]).mul_add(rates[c], of_rate);
-        }
-        let terms = of_first.add(of_rate).mul(power);
-        power = power.mul(squared);
-        terms.store(out);
-        sums[0] = sums[0].add(terms);
-        for (sum, weights) in sums[1..].iter_mut().zip(weights) {
-            *sum = V::Pair::load(weights).mul_add(terms, *sum);
-        }
-    }
-    let mut of_all = [V::splat(0.0); 4];
-    for which in 0..4 {
-        let [even, odd] = sums[which].halves();
-        of_all[which] = even.add(odd);
-    }
-    of_all
-}
-
 /// Sums of terms: value and rate at the end of a step of unit length, first and second integrals from the second order on.
 struct Sums<V, const K: usize> {
     value: [V; K],
@@ -705,21 +653,6 @@ pub(crate) static WEIGHTS: OnLine<[[[f64; WIDTH]; 3]; MAX_DEGREE + 1]> = {
     while k <= MAX_DEGREE {
         let once = if k > 1 { 1.0 / (k + 1) as f64 } else { 0.0 };
         table[k] = [[k as f64; WIDTH], [once; WIDTH], [once / (k + 2) as f64; WIDTH]];
-        k += 1;
-    }
-    OnLine(table)
-};
-
-/// The same by pairs of orders 2 k and 2 k + 1.
-static WEIGHTS_OF_PAIRS: OnLine<[[[[f64; WIDTH]; 2]; 3]; MAX_DEGREE.div_ceil(2)]> = {
-    let mut table = [[[[0.0; WIDTH]; 2]; 3]; MAX_DEGREE.div_ceil(2)];
-    let mut k = 0;
-    while k <= MAX_DEGREE {
-        let mut which = 0;
-        while which < 3 {
-            table[k / 2][which][k % 2] = WEIGHTS.0[k][which];
-            which += 1;
-        }
         k += 1;
     }
     OnLine(table)
