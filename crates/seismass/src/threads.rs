@@ -1,9 +1,10 @@
 //! The threads of a batch, and how they are stopped and watched.
 
-use crate::error::{Domain, Error, Result};
 use std::num::NonZero;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize};
+
+use crate::error::{Domain, Error, Result};
 
 /// Shared with the caller while a batch runs.
 #[derive(Debug, Default)]

@@ -11,7 +11,7 @@ use crate::machines::model::Model;
 use crate::response::Response;
 use crate::run::run;
 use crate::scene::{Motion, Options, Scene};
-use crate::step::dense::RegimeCache;
+use crate::step::cache::RegimeCache;
 use crate::threads::{Control, in_pool};
 use rayon::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};

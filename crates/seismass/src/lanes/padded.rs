@@ -2,7 +2,10 @@
 
 use std::ops::{Deref, DerefMut};
 
-use crate::lanes::{Aligned, Vector, WIDTH, at, columns_of, lanes, lanes_mut, padded};
+use crate::lanes::aligned::Aligned;
+use crate::lanes::arrays::{at, columns_of, lanes, lanes_mut};
+use crate::lanes::padded;
+use crate::lanes::vector::{Vector, WIDTH};
 
 /// What vectors are read from and written to.
 pub(crate) trait Lanes {

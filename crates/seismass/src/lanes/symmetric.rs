@@ -1,7 +1,8 @@
 //! Symmetric matrices for products with vectors: half of each is stored, in tiles that are read once per product, both
 //! for their own rows and, transposed, for those of the other half.
 
-use crate::lanes::{Aligned, Vector, WIDTH};
+use crate::lanes::aligned::Aligned;
+use crate::lanes::vector::{Vector, WIDTH};
 
 /// `M` symmetric matrices of one size, read together.
 #[derive(Debug)]

@@ -4,13 +4,10 @@ use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 
-use crate::lanes::padded::Padded;
-use crate::lanes::symmetric::Symmetric;
-use crate::lanes::{WIDTH, filled, padded};
+use crate::lanes::{Padded, Symmetric, WIDTH, filled, padded};
 use crate::machines::block::BlockLaw;
 use crate::machines::storey::StoreyLaw;
-use crate::scene::StoreyDamping;
-use crate::scene::{Building, Damping, Scene};
+use crate::scene::{Building, Damping, Scene, StoreyDamping};
 
 /// The constant data of a run.
 pub(crate) struct Model {

@@ -1,5 +1,6 @@
 //! Runs of whole sample intervals without events.
 
+pub(crate) mod beaten;
 pub(crate) mod closer;
 pub(crate) mod run;
 pub(crate) mod sliding;

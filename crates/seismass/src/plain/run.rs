@@ -15,24 +15,28 @@ use std::sync::Arc;
 
 use crate::STANDARD_GRAVITY;
 use crate::events::NO_CONTACT;
-use crate::lanes::padded::PaddedRows;
+use crate::lanes::first_members;
 use crate::lanes::{
-    FAR, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, prefix_sums, store,
+    FAR, PaddedRows, Set, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers,
+    prefix_sums, store,
 };
 use crate::machines::block::BlockMotion;
 use crate::machines::model::Model;
 use crate::machines::sign::Sign;
-use crate::plain::closer::{Beaten, BoundsInLanes, Closer, Sample};
+use crate::plain::beaten::Beaten;
+use crate::plain::closer::Closer;
 use crate::plain::sliding::{GroundBlock, Layer, LayerInLanes, Linear, OnGround, Push};
 use crate::plain::tall;
+use crate::polynomial::enclosure::{THIRD, off_cubic};
+use crate::polynomial::orders::MAX_PHASE;
 use crate::record::histories::{Pen, RowInLanes};
 use crate::record::observer::Observer;
 use crate::regime::{Regime, Row};
 use crate::scene::Motion;
-use crate::state::limits::{self, Set};
-use crate::state::{State, THIRD, off_cubic};
-use crate::step::dense::Whole;
-use crate::step::series::MAX_PHASE;
+use crate::state::State;
+use crate::state::limits::BoundsInLanes;
+use crate::state::sample::Sample;
+use crate::step::steps::Whole;
 
 /// What bounds the fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
 pub(crate) const MARGINS: [Row; 4] =
@@ -42,7 +46,7 @@ pub(crate) const MARGINS: [Row; 4] =
 type Column<const K: usize> = [[[f64; WIDTH]; K]; 4];
 
 /// What a run of plain steps reads.
-struct Course<'a, const K: usize> {
+pub(crate) struct Course<'a, const K: usize> {
     regime: &'a Regime,
     h: f64,
     /// Columns of the step: of each drift, of each drift rate, of the ground acceleration and of its change.
@@ -368,7 +372,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         }
     };
     let last = end.min(samples.len() - 1);
-    let within = limits::first(state.storeys());
+    let within = first_members(state.storeys());
     // Of scenes of one vector, without vertical motion: formed where it changes. Others have no registers left for it.
     let mut few_accelerations = bounds.of_accelerations(0, V::splat(STANDARD_GRAVITY));
     let mut reached = first;
@@ -570,7 +574,7 @@ fn clear_steps_of_scene(
 }
 
 /// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
-fn run(
+pub(crate) fn run(
     state: &mut State,
     walk: &mut Walk,
     observer: &mut Observer,

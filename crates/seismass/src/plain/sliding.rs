@@ -2,12 +2,11 @@
 
 use std::mem::swap;
 
-use crate::lanes::padded::Padded;
-use crate::lanes::{FAR, Vector, load};
+use crate::lanes::{FAR, Padded, Vector, load};
 use crate::machines::block::BlockMotion;
 use crate::machines::model::Model;
-use crate::state::limits::against;
-use crate::state::{THIRD, range, ranges};
+use crate::polynomial::enclosure::ranges;
+use crate::polynomial::enclosure::{THIRD, against, range};
 
 /// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits: at 1e-6, slips
 /// of blocks that hardly move were known to 1e-9.
@@ -326,4 +325,20 @@ impl OnGround {
             self.ahead += 1;
         }
     }
+}
+
+/// A block that slides on a floor.
+pub(crate) struct FloorBlock {
+    pub(crate) block: usize,
+    pub(crate) floor: usize,
+    /// Sign times mu_k.
+    pub(crate) friction: f64,
+    pub(crate) sign: f64,
+    pub(crate) velocity: f64,
+    pub(crate) slip: f64,
+    /// What sign times slip does not reach before the friction coefficient changes.
+    pub(crate) limit: f64,
+    /// Velocity and slip at the end of the step.
+    pub(crate) velocity_after: f64,
+    pub(crate) slip_after: f64,
 }

@@ -6,8 +6,8 @@ use crate::lanes::{OnLine, Plain, Vector, WIDTH, load};
 /// Highest degree: Taylor series of a step never need more terms.
 pub(crate) const MAX_DEGREE: usize = 23;
 /// Vectors of coefficients that short polynomials have, and the longest.
-pub(crate) const FEW: usize = 4;
-pub(crate) const MOST: usize = (MAX_DEGREE + 1) / WIDTH;
+const FEW: usize = 4;
+const MOST: usize = (MAX_DEGREE + 1) / WIDTH;
 
 /// An expression in which `$count` is the number of vectors of a polynomial's coefficients, as a constant.
 macro_rules! by_length {
@@ -308,7 +308,7 @@ fn middle(left: f64, right: f64) -> f64 {
 }
 
 /// What the coefficients of a polynomial p say of it on [0, 1].
-struct Shape {
+pub(crate) struct Shape {
     /// p(1).
     end: f64,
     /// No power from the first on is above s: p(s) >= p(0) + slope s.

@@ -1,8 +1,9 @@
 //! Histories while a run writes them, row by row.
 
+use std::mem::take;
+
 use crate::error::{Domain, Error, Result};
-use crate::lanes::padded::Padded;
-use crate::lanes::{MAX_LANES, Vector, WIDTH, by_width, for_each_path, load, store};
+use crate::lanes::{MAX_LANES, Padded, Vector, WIDTH, by_width, for_each_path, load, store};
 use crate::machines::block::BlockMotion;
 use crate::machines::model::Model;
 use crate::memory::is_there_memory;
@@ -10,11 +11,10 @@ use crate::regime::Row;
 use crate::response::Histories;
 use crate::scene::Options;
 use crate::state::State;
-use std::mem::take;
 
 /// Rows of a quantity one after the other. A row is written in whole vectors: what is beyond it belongs to the next, which
 /// overwrites it.
-struct Table {
+pub(crate) struct Table {
     values: Vec<f64>,
     width: usize,
 }

@@ -3,84 +3,18 @@
 use std::num::NonZeroUsize;
 
 use crate::error::Result;
-use crate::lanes::padded::{Padded, vector_of};
-use crate::lanes::{FAR, LANES, Plain, Vector, WIDTH, at, by_width, for_each_path, load};
+use crate::lanes::{Plain, Set, Vector, WIDTH, at, by_width, for_each_path, load, members};
 use crate::machines::block::BlockState;
 use crate::machines::model::Model;
 use crate::polynomial::bernstein::Polynomial;
+use crate::polynomial::enclosure::signs;
+use crate::record::energy::{EnergyBalance, GAUSS, elastic_energy, kinetic_energy};
 use crate::record::histories::Recorder;
+use crate::record::peaks::PeakLanes;
 use crate::regime::{Row, viscous_power};
 use crate::response::{Energy, Peak, Peaks};
 use crate::scene::Options;
 use crate::state::State;
-use crate::state::limits::{Set, members, signs};
-
-/// Abscissae in [0, 1] and weights of the 12-point Gauss-Legendre rule: exact to degree 23.
-const GAUSS: [(f64, f64); 12] = [
-    (0.009219682876640375, 0.023587668193255914),
-    (0.04794137181476257, 0.05346966299765921),
-    (0.11504866290284765, 0.08003916427167311),
-    (0.2063410228566913, 0.10158371336153296),
-    (0.3160842505009099, 0.1167462682691774),
-    (0.43738329574426554, 0.12457352290670139),
-    (0.5626167042557345, 0.12457352290670139),
-    (0.6839157494990901, 0.1167462682691774),
-    (0.7936589771433087, 0.10158371336153296),
-    (0.8849513370971523, 0.08003916427167311),
-    (0.9520586281852375, 0.05346966299765921),
-    (0.9907803171233597, 0.023587668193255914),
-];
-
-/// Peaks of storeys or floors, padded: beyond the last they are far, and nothing beats them.
-pub(crate) struct PeakLanes {
-    size: Padded,
-    time: Padded,
-}
-
-impl PeakLanes {
-    fn new(storeys: usize) -> Self {
-        let zeros = || std::iter::repeat_n(0.0, storeys);
-        Self { size: Padded::filled(zeros(), storeys, FAR), time: Padded::filled(zeros(), storeys, 0.0) }
-    }
-
-    /// Sizes, padded.
-    pub(crate) fn sizes(&self) -> &[f64] {
-        &self.size
-    }
-
-    /// Takes one value if it beats its peak; tells whether it did.
-    #[inline]
-    fn take(&mut self, i: usize, value: f64, time: f64) -> bool {
-        let beats = value.abs() > self.size[i];
-        if beats {
-            (self.size[i], self.time[i]) = (value.abs(), time);
-        }
-        beats
-    }
-
-    /// [`PeakLanes::take`] within the code of a path, of which vectors are read soon.
-    #[inline(always)]
-    fn take_lane<V: Vector, const K: usize>(&mut self, i: usize, value: f64, time: f64) -> bool {
-        let values = V::splat(0.0).with_lane(i % WIDTH, value);
-        self.take_vector::<V, K>(vector_of::<K>(i), values, time) != 0
-    }
-
-    /// Takes the values of vector `k` that beat their peaks; tells, as bits, which did.
-    #[inline(always)]
-    fn take_vector<V: Vector, const K: usize>(&mut self, k: usize, values: V, time: f64) -> u32 {
-        let kept = self.size.vector::<V, K>(k);
-        let beaten = !kept.not_below(values.abs()) & LANES;
-        // What is no number beats nothing.
-        self.size.set_vector::<V, K>(k, values.abs().max(kept));
-        let times = self.time.vector::<V, K>(k);
-        self.time.set_vector::<V, K>(k, times.with(beaten, V::splat(time)));
-        beaten
-    }
-
-    fn peaks(&self, storeys: usize) -> Vec<Peak> {
-        self.size.iter().zip(&self.time).take(storeys).map(|(&value, &time)| Peak { value, time }).collect()
-    }
-}
 
 /// Keeps peaks, histories and energies.
 pub(crate) struct Observer {
@@ -92,13 +26,6 @@ pub(crate) struct Observer {
     energy: Option<EnergyBalance>,
     /// Whether peaks of drift, shear or acceleration were beaten since last asked.
     beaten: bool,
-}
-
-/// Running energy integrals.
-#[derive(Debug, Default)]
-struct EnergyBalance {
-    energy: Energy,
-    largest_input: f64,
 }
 
 for_each_path! {
@@ -422,18 +349,4 @@ impl Observer {
 #[inline(always)]
 fn drift_and_shear(state: &State, i: usize, x: f64) -> [f64; 2] {
     [state.springs[i].drift(x), state.base_force[i] + state.regime.row(Row::SpringTangent)[i] * x]
-}
-
-fn kinetic_energy(state: &State) -> f64 {
-    let floors: Vec<f64> = state.floor_velocities().collect();
-    let building: f64 = state.model.mass.iter().zip(&floors).map(|(m, v)| 0.5 * m * v * v).sum();
-    let blocks = state.motions.iter().zip(&state.model.blocks).map(|(motion, law)| {
-        let velocity = motion.velocity + if law.floor > 0 { floors[law.floor - 1] } else { 0.0 };
-        0.5 * law.mass * velocity * velocity
-    });
-    building + blocks.sum::<f64>()
-}
-
-fn elastic_energy(state: &State) -> f64 {
-    state.springs.iter().zip(&state.model.laws).zip(&state.x).map(|((spring, law), &x)| spring.stored(law, x)).sum()
 }

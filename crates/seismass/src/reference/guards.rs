@@ -1,8 +1,9 @@
 //! The guards of all state machines as numbers, and how a stepping method carries out their events.
 
 use super::Events;
-use crate::events::{Guard, Outcome};
 use crate::lanes::by_width;
+use crate::machines::guard::Guard;
+use crate::machines::guard::Outcome;
 use crate::machines::sign::Sign;
 use crate::response::Event;
 use crate::state::State;

@@ -11,14 +11,15 @@ use super::history::{History, check_finite};
 use super::roots::first_fall;
 use super::scheme::{Columns, Scheme, StepMap, System};
 use super::{Error, Events};
-use crate::events::{Guard, Outcome};
 use crate::machines::block::{BlockMotion, BlockState};
+use crate::machines::guard::Guard;
+use crate::machines::guard::Outcome;
 use crate::machines::model::Model;
 use crate::regime::Row;
 use crate::response::{Event, Status};
 use crate::scene::{Motion, Scene};
 use crate::state::State;
-use crate::step::dense::RegimeCache;
+use crate::step::cache::RegimeCache;
 
 /// Events one step may have for each storey and block.
 const EVENTS_PER_MACHINE: usize = 64;

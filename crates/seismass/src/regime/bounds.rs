@@ -102,7 +102,7 @@ fn fill<V: Vector>(model: &Model, mut rows: Rows) -> [f64; 2] {
 }
 
 /// All rows of a regime.
-struct Rows<'a> {
+pub(crate) struct Rows<'a> {
     numbers: &'a mut [f64],
     width: usize,
 }

@@ -9,11 +9,10 @@ pub(crate) mod operator_long;
 
 use std::cell::OnceCell;
 
-use crate::lanes::padded::PaddedRows;
-use crate::lanes::{Vector, WIDTH, columns_of, load, numbers, prefix_sums};
+use crate::lanes::{PaddedRows, Vector, WIDTH, columns_of, load, numbers, prefix_sums};
 use crate::machines::model::{Model, ModelLanes};
 use crate::scene::StoreyDamping;
-use crate::step::dense::Steps;
+use crate::step::steps::Steps;
 
 /// The linear operators of one regime.
 #[derive(Default)]

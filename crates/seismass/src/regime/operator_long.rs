@@ -1,43 +1,8 @@
 //! The system of a tall regime, and the state that it acts on.
 
-use crate::lanes::symmetric::Symmetric;
-use crate::lanes::{Vector, WIDTH, filled_to, lanes, lanes_mut};
+use crate::lanes::{Symmetric, Vector, WIDTH, filled_to, lanes, lanes_mut};
 use crate::regime::Row;
 use crate::state::State;
-
-/// The state at a sample.
-pub(crate) struct Sample {
-    pub(crate) x: Vec<f64>,
-    pub(crate) v: Vec<f64>,
-    /// Floor accelerations, that of the ground before them.
-    pub(crate) a: Vec<f64>,
-    /// Their rates, after a place for that of the ground.
-    pub(crate) jerk: Vec<f64>,
-    /// Drift accelerations, with room for the band before and after them.
-    pub(crate) q: Vec<f64>,
-}
-
-impl Sample {
-    pub(crate) fn new(state: &State, length: usize, margin: usize) -> Self {
-        let n = state.storeys();
-        let lanes = |values: &[f64]| filled_to(length, values[..n].iter().copied(), 0.0);
-        let mut q = vec![0.0; length + 2 * margin];
-        q[margin..margin + n].copy_from_slice(&state.drift_acceleration[..n]);
-        let floors =
-            |values: &[f64]| filled_to(length + 1, std::iter::once(0.0).chain(values[..n].iter().copied()), 0.0);
-        Self { x: lanes(&state.x), v: lanes(&state.v), a: floors(&state.a), jerk: floors(&state.jerk), q }
-    }
-
-    /// Puts the sample into the state.
-    pub(crate) fn put(&self, state: &mut State, margin: usize) {
-        let n = state.storeys();
-        state.x[..n].copy_from_slice(&self.x[..n]);
-        state.v[..n].copy_from_slice(&self.v[..n]);
-        state.a[..n].copy_from_slice(&self.a[1..=n]);
-        state.jerk[..n].copy_from_slice(&self.jerk[1..=n]);
-        state.drift_acceleration[..n].copy_from_slice(&self.q[margin..margin + n]);
-    }
-}
 
 /// The regime's system.
 pub(crate) struct Operator<'a> {

@@ -4,20 +4,20 @@ use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::{Error, Result};
-use crate::events::{First, Guard, Outcome};
-use crate::lanes::padded::Padded;
-use crate::lanes::{Vector, by_width, for_each_path};
+use crate::events::First;
+use crate::lanes::{Padded, Vector, by_width, for_each_path};
 use crate::machines::block::{BlockMotion, BlockState};
+use crate::machines::guard::{Guard, Outcome};
 use crate::machines::model::Model;
 use crate::plain::run::Walk;
+use crate::polynomial::orders::MAX_PHASE;
 use crate::record::histories::Recorder;
 use crate::record::observer::Observer;
 use crate::regime::Row;
 use crate::response::{Event, Response, Statistics, Status};
 use crate::scene::{Motion, Options, Scene};
 use crate::state::State;
-use crate::step::dense::RegimeCache;
-use crate::step::series::MAX_PHASE;
+use crate::step::cache::RegimeCache;
 
 /// Events one sample interval may have, beside [`EVENTS_PER_MACHINE`].
 const EVENTS_PER_INTERVAL: usize = 256;

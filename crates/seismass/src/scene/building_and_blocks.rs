@@ -131,7 +131,7 @@ impl Scene {
 }
 
 /// P/h of each storey (N/m): the gravity load above it over its height.
-pub(crate) fn geometric_stiffness(building: &Building, blocks: &[Block]) -> Result<Vec<f64>> {
+fn geometric_stiffness(building: &Building, blocks: &[Block]) -> Result<Vec<f64>> {
     let n = building.len();
     let values = match building.gravity() {
         GravityEffect::None => vec![0.0; n],

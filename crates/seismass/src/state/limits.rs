@@ -1,32 +1,11 @@
 //! Bounds between which no guard of a storey or floor falls and no peak is beaten.
 
-use std::mem::take;
-
-use crate::lanes::padded::Padded;
-use crate::lanes::{FAR, MAX_LANES, Vector, load, store};
+use crate::lanes::{FAR, Padded, Vector, load, store};
 use crate::machines::sign::Sign;
-use crate::record::observer::Observer;
-use crate::regime::Row;
+use crate::polynomial::enclosure::apart;
+use crate::polynomial::enclosure::{against, farthest};
 use crate::state::State;
-
-/// Storeys or floors as bits.
-pub(crate) type Set = u64;
-
-/// The set of the first so many storeys, or of all that a set holds.
-#[inline]
-pub(crate) fn first(storeys: usize) -> Set {
-    if storeys < Set::BITS as usize { (1 << storeys) - 1 } else { Set::MAX }
-}
-
-/// The members of a set, in order.
-#[inline(always)]
-pub(crate) fn members(mut set: Set) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lowest = (set != 0).then(|| set.trailing_zeros() as usize);
-        set &= set.wrapping_sub(1);
-        lowest
-    })
-}
+use crate::state::sample::Sample;
 
 /// Bounds of all storeys and floors, padded; in lanes beyond the last storey they are far. They hold once they are
 /// brought up to date ([`State::update_bounds`]), until a spring changes or a peak is beaten; where a run of plain steps
@@ -47,7 +26,7 @@ pub(crate) struct Bounds {
     /// Signs of plastic storeys, 0 of others.
     pub(crate) plastic: Padded,
     /// Whether springs have changed since the last update, or bounds themselves.
-    is_stale: bool,
+    pub(crate) is_stale: bool,
 }
 
 impl Bounds {
@@ -94,73 +73,67 @@ impl Bounds {
     }
 }
 
-/// How far values are from their middles after h / 3 at their rates, to either side: of drifts, of the negative of plastic
-/// storeys' rates, of accelerations; from (x, v, q) of drifts and (a, jerk) of floors.
-#[inline(always)]
-pub(crate) fn apart<V: Vector>([x, v, q]: [V; 3], [a, jerk]: [V; 2], middle: V, sign: V, third: V) -> [V; 3] {
-    [
-        third.mul_add(v.abs(), x.sub(middle).abs()),
-        third.mul(q.abs()).sub(sign.mul(v)),
-        third.mul_add(jerk.abs(), a.abs()),
-    ]
+/// The bounds of [`crate::state::limits::Bounds`] in vectors.
+pub(crate) struct BoundsInLanes<V, const K: usize> {
+    pub(crate) middle: [V; K],
+    pub(crate) reach: [V; K],
+    pub(crate) sign: [V; K],
+    pub(crate) turn: [V; K],
+    pub(crate) stuck_mu: [V; K],
+    pub(crate) a_peak: [V; K],
 }
 
-/// How far ranges go from their middles, to either side.
-#[inline(always)]
-pub(crate) fn farthest<V: Vector>((low, high): (V, V), middle: V) -> V {
-    high.sub(middle).max(middle.sub(low))
-}
-
-/// How far ranges go against a sign.
-#[inline(always)]
-pub(crate) fn against<V: Vector>((low, high): (V, V), sign: V) -> V {
-    let zero = V::splat(0.0);
-    zero.sub(sign.mul(low)).max(zero.sub(sign.mul(high)))
-}
-
-/// Lanes, as bits, of ranges above zero, and of those below it.
-#[inline(always)]
-pub(crate) fn signs<V: Vector>((low, high): (V, V)) -> (u32, u32) {
-    let zero = V::splat(0.0);
-    (!zero.not_below(low), !high.not_below(zero))
-}
-
-impl State<'_> {
-    /// Brings the bounds up to date with springs and peaks. More storeys than vectors hold have no such bounds.
+impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
     #[inline(always)]
-    pub(crate) fn update_bounds<V: Vector, const K: usize>(&mut self, observer: &mut Observer) {
-        if !(observer.take_beaten() | take(&mut self.bounds.is_stale)) || self.storeys() > MAX_LANES {
-            return;
+    pub(crate) fn of(state: &State) -> Self {
+        let bounds = &state.bounds;
+        Self {
+            middle: load(&bounds.middle),
+            reach: load(&bounds.reach),
+            sign: load(&bounds.sign),
+            turn: load(&bounds.turn),
+            stuck_mu: load(&bounds.stuck_mu),
+            a_peak: load(&bounds.a_peak),
         }
-        let (zero, half, far) = (V::splat(0.0), V::splat(0.5), V::splat(FAR));
-        let flexibility: [V; K] = self.regime.lanes(Row::SpringFlexibility);
-        let (base, force): ([V; K], [V; K]) = (load(&self.base_drift), load(&self.base_force));
-        let [drift, shear, acceleration] = observer.peak_sizes::<V, K>();
-        let bounds = &mut self.bounds;
-        let (lowest, highest): ([V; K], [V; K]) = (load(&bounds.guarded[0]), load(&bounds.guarded[1]));
-        let plastic: [V; K] = load(&bounds.plastic);
-        let [mut middle, mut reach, mut turn] = [base; 3];
-        for k in 0..K {
-            let rigid = zero.not_below(flexibility[k]);
-            let least = zero.sub(shear[k]).sub(force[k]).mul(flexibility[k]).with(rigid, zero.sub(far));
-            let most = shear[k].sub(force[k]).mul(flexibility[k]).with(rigid, far);
-            let low = zero.sub(drift[k]).sub(base[k]).max(least).max(lowest[k]).max(zero.sub(far));
-            let high = drift[k].sub(base[k]).min(most).min(highest[k]).min(far);
-            middle[k] = half.mul(low.add(high));
-            reach[k] = half.mul(high.sub(low));
-            turn[k] = far.sub(far.mul(plastic[k].abs()));
-        }
-        store(&middle, &mut bounds.middle);
-        store(&reach, &mut bounds.reach);
-        store(&plastic, &mut bounds.sign);
-        store(&turn, &mut bounds.turn);
-        store(&acceleration, &mut bounds.a_peak);
     }
 
-    /// Drift coordinates of a storey between which it does not yield or collapse.
-    #[inline]
-    pub(crate) fn guarded_drift(&self, i: usize) -> (f64, f64) {
-        let (yields, collapses) = (self.segment_ends[i], self.collapse_bounds[i]);
-        (yields.0.max(collapses.0), yields.1.min(collapses.1))
+    #[inline(always)]
+    pub(crate) fn put_into(&self, bounds: &mut Bounds) {
+        store(&self.middle, &mut bounds.middle);
+        store(&self.reach, &mut bounds.reach);
+        store(&self.sign, &mut bounds.sign);
+        store(&self.turn, &mut bounds.turn);
+        store(&self.a_peak, &mut bounds.a_peak);
+    }
+
+    /// Lanes, as bits, of vector `k` whose ranges come to their bounds: of drifts (0), drift rates (1) or floor
+    /// accelerations (2), with this least contact force.
+    #[inline(always)]
+    pub(crate) fn reached(&self, which: usize, k: usize, range: (V, V), least_contact: V) -> u32 {
+        match which {
+            0 => farthest(range, self.middle[k]).not_below(self.reach[k]),
+            1 => against(range, self.sign[k]).not_below(self.turn[k]),
+            _ => {
+                let size = range.1.max(V::splat(0.0).sub(range.0));
+                size.not_below(self.of_accelerations(k, least_contact))
+            }
+        }
+    }
+
+    /// What floor accelerations of vector `k` may not reach, with this least contact force.
+    #[inline(always)]
+    pub(crate) fn of_accelerations(&self, k: usize, least_contact: V) -> V {
+        self.stuck_mu[k].mul(least_contact).min(self.a_peak[k])
+    }
+
+    /// [`apart`] of all vectors.
+    #[inline(always)]
+    pub(crate) fn apart(&self, sample: &Sample<V, K>, third: V) -> [[V; K]; 3] {
+        let mut out = [sample.x, sample.v, sample.a];
+        for k in 0..K {
+            let (drift, floor) = ([sample.x[k], sample.v[k], sample.q[k]], [sample.a[k], sample.jerk[k]]);
+            [out[0][k], out[1][k], out[2][k]] = apart(drift, floor, self.middle[k], self.sign[k], third);
+        }
+        out
     }
 }

@@ -1,27 +1,34 @@
 //! The state of a run: drifts, drift rates, spring and block machines, and what one sample interval does to them.
 
+pub(crate) mod effort;
+pub(crate) mod interval;
 pub(crate) mod limits;
+pub(crate) mod ranges;
+pub(crate) mod sample;
 
 use std::mem::take;
 use std::rc::Rc;
 
-use crate::STANDARD_GRAVITY;
-use crate::lanes::padded::{Padded, PaddedRows};
 use crate::lanes::{
-    FAR, LANES, MAX_LANES, Vector, WIDEST, WIDTH, at, by_width, differences, for_each_path, lanes, lanes_mut, load,
-    numbers, padded, store,
+    FAR, MAX_LANES, Padded, PaddedRows, Vector, WIDEST, WIDTH, at, by_width, differences, for_each_path, lanes,
+    lanes_mut, load, numbers, store,
 };
-use crate::machines::block::{BlockMotion, BlockState, Demand, Transition};
+use crate::machines::block::{BlockMotion, BlockState};
 use crate::machines::model::Model;
+use crate::machines::settle::{Demand, Transition};
 use crate::machines::storey::StoreySpring;
-use crate::plain::closer::{BoundsInLanes, Sample};
-use crate::plain::tall::series::Effort;
+use crate::polynomial::enclosure::{THIRD, range};
 use crate::regime::{Operator, Regime, Row};
-use crate::scene::StoreyDamping;
-use crate::scene::{Block, Motion, Scene};
-use crate::state::limits::{Bounds, Set, first};
-use crate::step::dense::RegimeCache;
-use crate::step::series::{Drive, Series, Start};
+use crate::scene::{Block, Motion, Scene, StoreyDamping};
+use crate::state::effort::Effort;
+use crate::state::interval::Interval;
+use crate::state::limits::{Bounds, BoundsInLanes};
+use crate::state::ranges::Ranges;
+use crate::state::sample::Sample;
+use crate::step::cache::RegimeCache;
+use crate::step::drive::Drive;
+use crate::step::drive::Start;
+use crate::step::series::Series;
 
 /// Bits of a word.
 const WORD: usize = u64::BITS as usize;
@@ -31,43 +38,6 @@ const WORD: usize = u64::BITS as usize;
 fn set_bits(words: &mut [u64], first: usize, mask: u64, bits: u64) {
     let (word, shift) = (&mut words[first / WORD], first % WORD);
     *word = *word & !(mask << shift) | bits << shift;
-}
-
-/// Ground motion between two samples, linear in time.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Interval {
-    /// The first sample.
-    pub(crate) sample: usize,
-    /// Its time (s).
-    pub(crate) start: f64,
-    /// Length (s).
-    pub(crate) h: f64,
-    /// Ground acceleration at the start (m/s2).
-    pub(crate) ground: f64,
-    /// Its change over the interval (m/s2).
-    pub(crate) ground_change: f64,
-    /// Its slope (m/s3).
-    pub(crate) ground_slope: f64,
-    /// Contact force per unit mass g + a_v at the start (m/s2).
-    pub(crate) contact: f64,
-    /// Its change over the interval (m/s2).
-    pub(crate) contact_change: f64,
-    /// Its slope (m/s3).
-    pub(crate) contact_slope: f64,
-}
-
-impl Interval {
-    /// Ground acceleration at `tau` from the start (m/s2).
-    #[inline]
-    pub(crate) fn ground_at(&self, tau: f64) -> f64 {
-        if self.h > 0.0 { self.ground + self.ground_change * (tau / self.h) } else { self.ground }
-    }
-
-    /// Contact force per unit mass at `tau` from the start (m/s2).
-    #[inline]
-    pub(crate) fn contact_at(&self, tau: f64) -> f64 {
-        if self.h > 0.0 { self.contact + self.contact_change * (tau / self.h) } else { self.contact }
-    }
 }
 
 /// Effect of the floor loads of the present state on the step of the regime's propagator.
@@ -80,191 +50,6 @@ pub(crate) struct LoadEffects {
     pub(crate) friction: PaddedRows<4>,
     /// With vertical motion: of friction with the contact force growing from zero to one.
     pub(crate) friction_ramp: PaddedRows<4>,
-}
-
-/// Ranges of the storeys and floors over a step, proved: each quantity stays between its two bounds. Padded.
-#[derive(Debug, Default)]
-pub(crate) struct Ranges {
-    /// Lower and upper bounds: of drift coordinates, drift rates, floor accelerations.
-    bounds: [[Padded; 2]; 3],
-    /// Storeys and floors whose drifts, drift rates and accelerations come to their bounds (see [`Bounds`]).
-    pub(crate) suspects: [Set; 3],
-    /// Number of storeys.
-    storeys: usize,
-    /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
-    pub(crate) remainder: f64,
-    /// h^2 / 8 times the liveliness, for bounds of second derivatives.
-    pub(crate) chord: f64,
-    /// Whether they are those of the next series: found by the plain step that was not cleared.
-    pub(crate) are_known: bool,
-}
-
-impl Ranges {
-    fn new(storeys: usize) -> Self {
-        let zero = || Padded::new(padded(storeys), 0.0);
-        let pair = || [zero(), zero()];
-        let bounds = [pair(), pair(), pair()];
-        Self { bounds, suspects: [Set::MAX; 3], storeys, remainder: 0.0, chord: 0.0, are_known: false }
-    }
-
-    /// Keeps what the bounds of higher derivatives are multiplied with over `h`, where they are as lively as that.
-    #[inline]
-    pub(crate) fn set_margins(&mut self, liveliness: f64, h: f64) {
-        (self.remainder, self.chord) = (liveliness * off_cubic(h), liveliness * (0.125 * h * h));
-    }
-
-    /// Whether what is kept by [`Ranges::set_margins`] is a number: if not, no bound holds, nor in lanes beyond the last
-    /// storey.
-    #[inline(always)]
-    pub(crate) fn are_finite(&self) -> bool {
-        self.remainder < f64::INFINITY
-    }
-
-    /// Forms the ranges over a step of `h` in a regime, of which the margins are kept, from the state at its ends, and
-    /// tells which come to their bounds; `contact` is the least contact force.
-    #[inline(always)]
-    pub(crate) fn form<V: Vector, const K: usize>(
-        &mut self,
-        [start, end]: [&Sample<V, K>; 2],
-        (regime, h): (&Regime, f64),
-        (bounds, contact): (&BoundsInLanes<V, K>, V),
-    ) {
-        let (third, remainder) = (V::splat(h * THIRD), V::splat(self.remainder));
-        let of_drifts = (Row::FourthOfDrift, [start.x, start.v], [end.x, end.v]);
-        let of_rates = (Row::FourthOfRate, [start.v, start.q], [end.v, end.q]);
-        let of_accelerations = (Row::FourthOfAcceleration, [start.a, start.jerk], [end.a, end.jerk]);
-        for (which, (row, start, end)) in [of_drifts, of_rates, of_accelerations].into_iter().enumerate() {
-            let margins: [V; K] = regime.lanes(row);
-            let (mut lows, mut highs, mut suspects) = (start[0], start[0], 0);
-            for k in 0..K {
-                let (start, end) = ([start[0][k], start[1][k]], [end[0][k], end[1][k]]);
-                (lows[k], highs[k]) = ranges(start, end, third, remainder.mul(margins[k]));
-                suspects |= Set::from(bounds.reached(which, k, (lows[k], highs[k]), contact)) << (WIDTH * k);
-            }
-            let [low, high] = &mut self.bounds[which];
-            store(&lows, low);
-            store(&highs, high);
-            self.suspects[which] = suspects & first(self.storeys);
-        }
-    }
-
-    /// Keeps ranges, and which of them come to their bounds.
-    #[inline(always)]
-    pub(crate) fn keep<V: Vector, const K: usize>(&mut self, ranges: &[[[V; K]; 2]; 3], suspects: [Set; 3]) {
-        for (bounds, ranges) in self.bounds.iter_mut().zip(ranges) {
-            store(&ranges[0], &mut bounds[0]);
-            store(&ranges[1], &mut bounds[1]);
-        }
-        self.suspects = suspects;
-    }
-
-    #[inline(always)]
-    fn of<const K: usize>(&self, which: usize, i: usize) -> (f64, f64) {
-        let [low, high] = &self.bounds[which];
-        (low.numbers::<K>()[i], high.numbers::<K>()[i])
-    }
-
-    #[inline(always)]
-    fn vector<V: Vector, const K: usize>(&self, which: usize, k: usize) -> (V, V) {
-        let [low, high] = &self.bounds[which];
-        (low.vector::<V, K>(k), high.vector::<V, K>(k))
-    }
-
-    /// The suspects of vector `k`, as bits: drifts (0), drift rates (1) or accelerations (2). All are suspect where there
-    /// are more than vectors hold.
-    #[inline(always)]
-    pub(crate) fn suspects_in<const K: usize>(&self, which: usize, k: usize) -> Set {
-        if K < WIDEST || self.storeys <= MAX_LANES {
-            self.suspects[which] >> (WIDTH * k) & Set::from(LANES)
-        } else {
-            first(self.storeys.saturating_sub(WIDTH * k).min(WIDTH))
-        }
-    }
-
-    /// Ranges of the drift coordinates of storeys in vector `k`.
-    #[inline(always)]
-    pub(crate) fn drifts<V: Vector, const K: usize>(&self, k: usize) -> (V, V) {
-        self.vector::<V, K>(0, k)
-    }
-
-    /// Ranges of the drift rates of storeys in vector `k`.
-    #[inline(always)]
-    pub(crate) fn rates<V: Vector, const K: usize>(&self, k: usize) -> (V, V) {
-        self.vector::<V, K>(1, k)
-    }
-
-    /// Ranges of the absolute accelerations of floors in vector `k`.
-    #[inline(always)]
-    pub(crate) fn accelerations<V: Vector, const K: usize>(&self, k: usize) -> (V, V) {
-        self.vector::<V, K>(2, k)
-    }
-
-    /// Range of the drift coordinate of storey `i`.
-    #[inline(always)]
-    pub(crate) fn drift<const K: usize>(&self, i: usize) -> (f64, f64) {
-        self.of::<K>(0, i)
-    }
-
-    /// Range of the drift rate of storey `i`.
-    #[inline(always)]
-    pub(crate) fn rate<const K: usize>(&self, i: usize) -> (f64, f64) {
-        self.of::<K>(1, i)
-    }
-
-    /// Range of the absolute acceleration of floor `i`.
-    #[inline(always)]
-    pub(crate) fn acceleration<const K: usize>(&self, i: usize) -> (f64, f64) {
-        self.of::<K>(2, i)
-    }
-}
-
-/// The Bezier points of a cubic are so much of a step's length apart. Divisions would be waited for.
-pub(crate) const THIRD: f64 = 1.0 / 3.0;
-
-/// What a quantity differs at most from the cubic through values and rates at both ends of a step of length `h`, per unit
-/// of its fourth derivative.
-#[inline(always)]
-pub(crate) fn off_cubic(h: f64) -> f64 {
-    let square = h * h;
-    square * square * (1.0 / 384.0)
-}
-
-/// The cubic through values and rates at both ends of a step stays between the least and the largest of its Bezier
-/// points; what deviates from it by at most `margin` stays within these widened by it.
-#[inline(always)]
-pub(crate) fn range(start: f64, start_rate: f64, end: f64, end_rate: f64, third: f64, margin: f64) -> (f64, f64) {
-    let (first, second) = (start + third * start_rate, end - third * end_rate);
-    let smaller = |a: f64, b: f64| if a < b { a } else { b };
-    let larger = |a: f64, b: f64| if a > b { a } else { b };
-    let low = smaller(smaller(start, end), smaller(first, second));
-    let high = larger(larger(start, end), larger(first, second));
-    (low - margin, high + margin)
-}
-
-/// Whether what does not start below zero stays above it from there on, a rate of -`least` at the start being as good as
-/// none. It differs by at most 16 `margin` s^2 (1 - s)^2 from the cubic through values and rates at both ends, which is
-/// less than 16 / 3 `margin` times the Bernstein polynomial of the second inner Bezier point: the others need no margin,
-/// the start among them, where what has just fired is zero and often at rest.
-#[inline(always)]
-pub(crate) fn stays_above_zero(
-    [start, start_rate]: [f64; 2],
-    [end, end_rate]: [f64; 2],
-    third: f64,
-    margin: f64,
-    least: f64,
-) -> bool {
-    start >= 0.0
-        && start + third * (start_rate + least) >= 0.0
-        && end - third * end_rate > (16.0 / 3.0) * margin
-        && end > 0.0
-}
-
-/// [`range`] of several, from values and rates.
-#[inline(always)]
-pub(crate) fn ranges<V: Vector>(start: [V; 2], end: [V; 2], third: V, margin: V) -> (V, V) {
-    let (first, second) = (third.mul_add(start[1], start[0]), end[0].sub(third.mul(end[1])));
-    let (low, high) = (start[0].min(end[0]).min(first.min(second)), start[0].max(end[0]).max(first.max(second)));
-    (low.sub(margin), high.add(margin))
 }
 
 /// The state of a run and its working space. Vectors of storeys and floors are padded to whole lanes with zeros, from
@@ -736,7 +521,7 @@ impl<'a> State<'a> {
     #[inline(always)]
     pub(crate) fn set_interval(&mut self, motion: &Motion, i: usize) {
         let vertical = motion.vertical().filter(|_| self.vertical);
-        self.interval = interval(motion, vertical, i);
+        self.interval = interval::interval(motion, vertical, i);
     }
 
     /// Moves on to the interval between samples `i` and `i + 1` of a motion, at whose start the state is: with vertical
@@ -748,26 +533,6 @@ impl<'a> State<'a> {
             turn(self, self.interval.contact_slope - self.jerk_slope);
             self.jerk_slope = self.interval.contact_slope;
         }
-    }
-}
-
-#[inline(always)]
-fn interval(motion: &Motion, vertical: Option<&[f64]>, i: usize) -> Interval {
-    let last = motion.acceleration().len() - 1;
-    let pair = |samples: &[f64]| (samples[i], samples[(i + 1).min(last)] - samples[i]);
-    let (ground, ground_change) = pair(motion.acceleration());
-    let (vertical, contact_change) = vertical.map_or((0.0, 0.0), pair);
-    let (h, per_second) = if i < last { (motion.dt(), 1.0 / motion.dt()) } else { (0.0, 0.0) };
-    Interval {
-        sample: i,
-        start: i as f64 * motion.dt(),
-        h,
-        ground,
-        ground_change,
-        ground_slope: ground_change * per_second,
-        contact: STANDARD_GRAVITY + vertical,
-        contact_change,
-        contact_slope: contact_change * per_second,
     }
 }
 
@@ -904,35 +669,4 @@ fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State) {
     let contact = V::splat(state.drive.least_contact(h));
     let bounds = BoundsInLanes::of(state);
     state.ranges.form([&start, &end], (&state.regime, h), (&bounds, contact));
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// What is said to stay above zero does so: cubics that deviate by their margin times 16 s^2 (1 - s)^2 either way.
-    #[test]
-    fn what_stays_above_zero_does_so() {
-        let points = || (0..=8).map(|k| -1.0 + 0.25 * f64::from(k));
-        let (mut proved, mut others) = (0, 0);
-        for (start, b1, b2, end) in [0.0, 0.25, 1.0]
-            .into_iter()
-            .flat_map(|start| points().map(move |b1| (start, b1)))
-            .flat_map(|(start, b1)| points().map(move |b2| (start, b1, b2)))
-            .flat_map(|(start, b1, b2)| points().map(move |end| (start, b1, b2, end)))
-        {
-            for margin in [0.0, 0.01, 0.1] {
-                let rates = [3.0 * (b1 - start), 3.0 * (end - b2)];
-                let stays = stays_above_zero([start, rates[0]], [end, rates[1]], 1.0 / 3.0, margin, 0.0);
-                let lowest = (1..=1000).map(|k| f64::from(k) / 1000.0).fold(f64::INFINITY, |lowest, s| {
-                    let t = 1.0 - s;
-                    let cubic = start * t * t * t + 3.0 * s * t * (b1 * t + b2 * s) + end * s * s * s;
-                    lowest.min(cubic - 16.0 * margin * s * s * t * t)
-                });
-                assert!(!stays || lowest > 0.0, "{start} {b1} {b2} {end} {margin}: {lowest}");
-                if stays { proved += 1 } else { others += usize::from(lowest > 0.0) }
-            }
-        }
-        assert!(proved > 500 && others < 3 * proved, "proved {proved}, true without proof {others}");
-    }
 }

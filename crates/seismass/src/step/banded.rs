@@ -13,7 +13,7 @@ use crate::regime::{Regime, Row};
 use crate::scene::StoreyDamping;
 
 /// Rows of a block of the matrices: two vectors.
-pub(crate) const BLOCK: usize = 2 * WIDTH;
+const BLOCK: usize = 2 * WIDTH;
 /// Longest step of one series, as frequency times time: the largest of its terms is 2.
 pub(crate) const SERIES_PHASE: f64 = 2.0;
 /// Terms of a series that are at most so large are below rounding: 2^-60.
@@ -144,7 +144,7 @@ fn sum_of_products(first: &Band, left: &Band, second: &Band, right: &Band) -> Ba
 }
 
 /// What a regime's system is made of, without padding.
-struct System<'a> {
+pub(crate) struct System<'a> {
     tangent: &'a [f64],
     inverse_mass: &'a [f64],
     storey_damping: Vec<f64>,

@@ -7,80 +7,28 @@
 //! of a series independent products in place of a chain. An interval too long for one series is halved until it is
 //! short enough, and the step composed with itself.
 
-use std::collections::HashMap;
-use std::rc::Rc;
-use std::sync::Arc;
-
-use rustc_hash::FxBuildHasher;
-
 use crate::lanes::{
-    Aligned, MAX_LANES, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, store,
-    unit,
+    Aligned, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, store, unit,
 };
 use crate::machines::model::Model;
-use crate::regime::{Operator, Regime, Row};
+use crate::polynomial::orders::INVERSE;
+use crate::regime::{Operator, Regime};
 use crate::step::few;
-use crate::step::series::{INVERSE, MAX_PHASE, terms};
-use crate::step::tall::TallStep;
-
-/// Memory one cache may take before it starts afresh (bytes).
-const CACHE_BYTES: usize = 64 << 20;
-/// Most storeys of which tables of the series are kept.
-const MAX_TABLE: usize = 2 * WIDTH;
-/// Most storeys for which steps and tables are formed at once: those of one vector. With more, most regimes of a strong
-/// motion are left before they have paid for themselves.
-const MAX_AT_ONCE: usize = WIDTH;
-
-/// Most storeys for which one matrix without zeros is taken though a tall step would do.
-const MAX_DENSE: usize = 16;
-/// Largest ratio of a floor's mass, with blocks, to the smallest mass of a floor at which intervals are solved in substeps.
-/// Each plain step repeats the rounding of its matrix, some 1e-15 of the drift rates: with many substeps it sums up to what
-/// can be seen in the energy of a floor so heavy.
-const MAX_MASS_RATIO: f64 = 1e4;
-
-/// The steps of a regime.
-pub(crate) struct Steps {
-    /// Series of the regime over a step of its own; none above [`MAX_TABLE`] storeys.
-    pub(crate) table: Option<Table>,
-    pub(crate) whole: Whole,
-}
-
-/// The step of a regime over one whole sample interval.
-pub(crate) enum Whole {
-    Dense(Propagator),
-    Tall(Arc<TallStep>),
-}
-
-/// Taylor terms of the floor accelerations from the second order on, over a step `h`, of unit drift accelerations and
-/// of unit rates of these: by order, by column, by floor padded to whole vectors.
-pub(crate) struct Table {
-    pub(crate) h: f64,
-    /// Order of the last terms.
-    pub(crate) order: usize,
-    pub(crate) terms: Aligned,
-}
-
-impl Table {
-    /// Columns that there are.
-    fn columns(storeys: usize, order: usize) -> usize {
-        2 * storeys * (order - 1)
-    }
-}
 
 /// The step of a regime over one sample interval, acting on rows (dx, dv, a, j): changes of drifts and drift rates,
 /// floor accelerations and their rates at the end, each padded to whole vectors.
 pub(crate) struct Propagator {
-    storeys: usize,
-    rows: usize,
+    pub(crate) storeys: usize,
+    pub(crate) rows: usize,
     /// Columns, one after the other: of the state (x, v); of a constant ground acceleration and of one that grows from
     /// zero by one per interval; of constant floor loads; where vertical motion needs them, of floor loads that grow from
     /// zero by one per interval.
-    columns: Aligned,
+    pub(crate) columns: Aligned,
 }
 
 /// What a column of the step is the effect of, all else being zero.
 #[derive(Clone, Copy)]
-enum Cause {
+pub(crate) enum Cause {
     Drift(usize),
     DriftRate(usize),
     Load(usize),
@@ -94,7 +42,7 @@ enum Cause {
 impl Cause {
     /// Of a column of a step of `n` storeys.
     #[inline(always)]
-    fn of(column: usize, n: usize) -> Self {
+    pub(crate) fn of(column: usize, n: usize) -> Self {
         match column.checked_sub(2 * n) {
             None if column < n => Self::Drift(column),
             None => Self::DriftRate(column - n),
@@ -107,14 +55,14 @@ impl Cause {
 }
 
 /// Columns of a step of `n` storeys, with the ramps of floor loads or without.
-fn column_count(n: usize, with_ramps: bool) -> usize {
+pub(crate) fn column_count(n: usize, with_ramps: bool) -> usize {
     if with_ramps { 4 * n + 2 } else { 3 * n + 2 }
 }
 
 for_each_path! {
     /// What a step of length `h` adds to (dx, dv, a, j) beyond the first order, of unit drift accelerations and of unit
     /// rates of these: `sums` gets columns of four padded rows. `terms` gets those of a [`Table`], if it has room.
-    fn form_remainders(model: &Model, regime: &Regime, h: f64, order: usize, sums: &mut [f64], terms: &mut [f64])
+    pub(crate) fn form_remainders(model: &Model, regime: &Regime, h: f64, order: usize, sums: &mut [f64], terms: &mut [f64])
         = remainders_by_width
 }
 
@@ -191,7 +139,7 @@ fn remainders<V: Vector, const K: usize>(
 
 for_each_path! {
     /// Forms the columns over a step of length `h`, whose remainders are `sums`: rows (dx, dv, a, j).
-    fn form_columns(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64])
+    pub(crate) fn form_columns(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64])
         = columns_by_width
 }
 
@@ -256,7 +204,7 @@ fn columns<V: Vector, const K: usize>(model: &Model, regime: &Regime, h: f64, su
 for_each_path! {
     /// The step taken twice: its columns, of changes of drifts and drift rates over `h`, each padded to whole vectors. Ramps
     /// are per second.
-    fn doubled(changes: &[f64], storeys: usize, width: usize, h: f64) -> Vec<f64> = doubled_by_width
+    pub(crate) fn doubled(changes: &[f64], storeys: usize, width: usize, h: f64) -> Vec<f64> = doubled_by_width
 }
 
 #[inline(always)]
@@ -297,71 +245,6 @@ fn doubled_columns<V: Vector, const K: usize>(changes: &[f64], n: usize, h: f64)
     out
 }
 
-impl Steps {
-    /// The steps of a regime over `dt`, by one series where it converges fast enough, else by halving. `sums` is working
-    /// space.
-    fn new(model: &Model, regime: &Regime, dt: f64, with_ramps: bool, sums: &mut Vec<f64>) -> Self {
-        let n = model.storeys();
-        if Self::are_tall(model, regime, dt) {
-            return Self { table: None, whole: Whole::Tall(Arc::new(TallStep::new(model, regime, dt))) };
-        }
-        let width = model.width;
-        let phase = regime.frequency * dt;
-        let halvings = if phase > MAX_PHASE { libm::log2(phase / MAX_PHASE).ceil() } else { 0.0 };
-        let h = dt * libm::exp2(-halvings);
-        // Parts of a halved interval may be longer than its table's step.
-        let order = terms::<Plain>(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
-        sums.resize(2 * n * 4 * width, 0.0);
-        let mut table = Aligned::unset(if n <= MAX_TABLE { Table::columns(n, order) * width } else { 0 });
-        form_remainders(model, regime, h, order, sums, &mut table);
-        let formed = |with_ramps: bool| {
-            let mut columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
-            form_columns(model, regime, h, sums, &mut columns);
-            columns
-        };
-        let mut columns;
-        if halvings > 0.0 {
-            let mut changes: Vec<f64> =
-                formed(true).chunks_exact(4 * width).flat_map(|rows| &rows[..2 * width]).copied().collect();
-            let mut length = h;
-            for _ in 0..halvings as usize {
-                changes = doubled(&changes, n, width, length);
-                length *= 2.0;
-            }
-            columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
-            let changes = changes.chunks_exact(2 * width);
-            for (i, (column, change)) in columns.chunks_exact_mut(4 * width).zip(changes).enumerate() {
-                column_of_change(model, regime, Cause::of(i, n), change, dt, column);
-            }
-        } else {
-            columns = formed(with_ramps);
-        }
-        // Ramps per interval instead of per second.
-        let (others, ramps) = columns.split_at_mut(column_count(n, false) * 4 * width);
-        let ground_ramp = &mut others[(2 * n + 1) * 4 * width..][..4 * width];
-        ground_ramp.iter_mut().chain(ramps).for_each(|entry| *entry /= dt);
-        let table = (n <= MAX_TABLE).then_some(Table { h, order, terms: table });
-        Self { table, whole: Whole::Dense(Propagator { storeys: n, rows: 4 * width, columns }) }
-    }
-
-    /// Whether the step is that of a tall regime.
-    fn are_tall(model: &Model, regime: &Regime, dt: f64) -> bool {
-        model.storeys() > MAX_DENSE && TallStep::exists(regime, dt)
-    }
-
-    /// Memory taken (bytes), with the columns of ramps or without, whether or not they are there: what a run counts must
-    /// not depend on which runs came before it.
-    fn bytes(&self, with_ramps: bool) -> usize {
-        match &self.whole {
-            Whole::Dense(propagator) => {
-                let columns = column_count(propagator.storeys, with_ramps) * propagator.rows;
-                8 * (columns + self.table.as_ref().map_or(0, |table| table.terms.len()))
-            }
-            Whole::Tall(step) => step.bytes(),
-        }
-    }
-}
-
 impl Propagator {
     /// Columns of constant floor loads, one after the other.
     #[inline(always)]
@@ -385,7 +268,7 @@ impl Propagator {
 }
 
 /// Forms the rows (dx, dv, a, j) of a column from its change of the state over `h`: dx and dv, each padded.
-fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64], h: f64, out: &mut [f64]) {
+pub(crate) fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64], h: f64, out: &mut [f64]) {
     let n = model.storeys();
     let [dx, dv] = [0, model.width].map(|first| &change[first..first + n]);
     let (mut x, mut v) = (dx.to_vec(), dv.to_vec());
@@ -409,193 +292,13 @@ fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64]
     }
 }
 
-/// An entry of the cache: a regime, and how often the present run took a whole interval in it.
-struct Entry {
-    /// Shared with the run that is in it.
-    regime: Rc<Regime>,
-    run: u64,
-    visits: u32,
-}
-
-/// Places of entries by key. Most keys are one word.
-#[derive(Default)]
-struct Index {
-    of_words: HashMap<u64, usize, FxBuildHasher>,
-    of_longer: HashMap<Vec<u64>, usize, FxBuildHasher>,
-}
-
-impl Index {
-    #[inline]
-    fn get(&self, key: &[u64]) -> Option<usize> {
-        match key {
-            [word] => self.of_words.get(word),
-            _ => self.of_longer.get(key),
-        }
-        .copied()
-    }
-
-    fn insert(&mut self, key: &[u64], index: usize) {
-        match key {
-            &[word] => self.of_words.insert(word, index),
-            _ => self.of_longer.insert(key.to_vec(), index),
-        };
-    }
-}
-
-/// The regimes met so far by scenes of equal structure at one time step.
-///
-/// What a run computes never depends on what is cached: where the steps of a regime pay only after some time, a run takes
-/// its first [`RegimeCache::series_visits`] intervals by series whether or not another run has already paid for them.
-pub(crate) struct RegimeCache {
-    dt: f64,
-    /// See [`RegimeCache::frequency`]; none before it is asked for.
-    frequency: Option<f64>,
-    entries: Vec<Entry>,
-    index: Index,
-    run: u64,
-    /// Memory taken by all entries.
-    bytes: usize,
-    /// Memory taken by what the present run has met.
-    run_bytes: usize,
-    /// Working space of forming steps.
-    sums: Vec<f64>,
-}
-
-impl RegimeCache {
-    /// Whole intervals of a regime that a run solves by series before its steps are formed. To form them costs like
-    /// n^3, a series saved like n^2 with full damping matrices and like n with others: about as many series as there are
-    /// storeys pay for them. Up to [`MAX_AT_ONCE`] storeys they are formed at once.
-    fn series_visits(storeys: usize) -> u32 {
-        if storeys <= MAX_AT_ONCE { 0 } else { storeys as u32 }
-    }
-
-    /// A cache of steps of `dt`.
-    pub(crate) fn new(dt: f64) -> Self {
-        let (entries, sums) = (Vec::new(), Vec::new());
-        Self { dt, frequency: None, entries, index: Index::default(), run: 0, bytes: 0, run_bytes: 0, sums }
-    }
-
-    /// Makes it one of steps of `dt`: what it holds of others is forgotten.
-    pub(crate) fn set_time_step(&mut self, dt: f64) {
-        if self.dt.to_bits() != dt.to_bits() {
-            self.dt = dt;
-            self.clear();
-        }
-    }
-
-    /// The frequency that a step of a run must suit (rad/s): a bound on those of the elastic building, all blocks stuck.
-    /// 0, so that any step does, where floors and their blocks differ too much in mass ([`MAX_MASS_RATIO`]).
-    pub(crate) fn frequency(&mut self, model: &Model) -> f64 {
-        *self.frequency.get_or_insert_with(|| {
-            let mut stuck_mass = vec![0.0; model.storeys()];
-            for block in model.blocks.iter().filter(|block| block.floor > 0) {
-                stuck_mass[block.floor - 1] += block.mass;
-            }
-            let heaviest = model.mass.iter().zip(&stuck_mass).map(|(floor, stuck)| floor + stuck).fold(0.0, f64::max);
-            let lightest = model.mass.iter().copied().fold(f64::INFINITY, f64::min);
-            if heaviest > MAX_MASS_RATIO * lightest {
-                0.0
-            } else {
-                Regime::new(model, |i| model.laws[i].spring.law().largest_tangent(), &stuck_mass).frequency
-            }
-        })
-    }
-
-    /// Begins a run: counts of visits start afresh.
-    pub(crate) fn begin_run(&mut self) {
-        self.run += 1;
-        self.run_bytes = 0;
-        if self.bytes > CACHE_BYTES {
-            self.clear();
-        }
-    }
-
-    fn clear(&mut self) {
-        *self = Self { run: self.run, frequency: self.frequency, ..Self::new(self.dt) };
-    }
-
-    /// The regime of a key, formed by `form` when it is new. Returns it, its index, and whether this run knew it.
-    pub(crate) fn enter(&mut self, key: &[u64], form: impl FnOnce() -> Regime) -> (Rc<Regime>, usize, bool) {
-        if self.run_bytes > CACHE_BYTES {
-            self.clear();
-        }
-        let index = match self.index.get(key) {
-            Some(index) => index,
-            None => {
-                let regime = Rc::new(form());
-                self.bytes += Self::entry_bytes(&regime, key);
-                self.entries.push(Entry { regime, run: 0, visits: 0 });
-                self.index.insert(key, self.entries.len() - 1);
-                self.entries.len() - 1
-            }
-        };
-        let entry = &mut self.entries[index];
-        let known = entry.run == self.run;
-        if !known {
-            entry.run = self.run;
-            entry.visits = 0;
-            self.run_bytes += Self::entry_bytes(&entry.regime, key);
-        }
-        (Rc::clone(&entry.regime), index, known)
-    }
-
-    fn entry_bytes(regime: &Regime, key: &[u64]) -> usize {
-        8 * regime.row(Row::Mass).len() * 16 + 16 * key.len() + 256
-    }
-
-    /// Whether series of a regime go by its table, which then exists: once the present run has taken as many intervals in
-    /// it as are solved without.
-    #[inline]
-    pub(crate) fn prepare_table(&mut self, index: usize, model: &Model, vertical: bool) -> bool {
-        let n = model.storeys();
-        let entry = &self.entries[index];
-        if n == 0 || n > MAX_TABLE || n > MAX_AT_ONCE && entry.visits <= Self::series_visits(n) {
-            return false;
-        }
-        if entry.regime.steps(vertical).is_none() {
-            self.form_steps(index, model, vertical);
-        }
-        true
-    }
-
-    #[cold]
-    fn form_steps(&mut self, index: usize, model: &Model, vertical: bool) {
-        let regime = &self.entries[index].regime;
-        let steps = Steps::new(model, regime, self.dt, vertical, &mut self.sums);
-        self.bytes += steps.bytes(vertical);
-        regime.keep_steps(steps, vertical);
-    }
-
-    /// Counts a whole interval in a regime; true once its propagator is to be used, which then exists.
-    pub(crate) fn visit(&mut self, index: usize, model: &Model, vertical: bool) -> bool {
-        let entry = &mut self.entries[index];
-        let n = model.storeys();
-        let is_tall = Steps::are_tall(model, &entry.regime, self.dt);
-        if n == 0 || n > MAX_LANES && !is_tall {
-            return false;
-        }
-        let series_visits = if is_tall { TallStep::series_visits(model) } else { Self::series_visits(n) };
-        entry.visits = entry.visits.saturating_add(1);
-        if entry.visits <= series_visits {
-            return false;
-        }
-        if entry.regime.steps(vertical).is_none() {
-            self.form_steps(index, model, vertical);
-        }
-        let entry = &self.entries[index];
-        if entry.visits == series_visits + 1 {
-            self.run_bytes += entry.regime.steps(vertical).map_or(0, |steps| steps.bytes(vertical));
-        }
-        true
-    }
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
     use crate::scene::{Block, Building, Damping, GravityEffect, Scene, Storey};
+    use crate::step::table::Table;
 
     /// A building of uneven floors and storeys, with P-Delta, and a block on each floor.
     fn uneven(n: usize, damping: Damping) -> Scene {

@@ -3,11 +3,11 @@
 
 use crate::lanes::{Vector, WIDTH, columns_of, differences, load, numbers, unit};
 use crate::machines::model::Model;
+use crate::polynomial::orders::{INVERSE, WEIGHTS};
 use crate::regime::{Regime, Row};
-use crate::step::series::{INVERSE, WEIGHTS};
 
 /// Forces on `S` floors.
-struct Operator<'a, const S: usize> {
+pub(crate) struct Operator<'a, const S: usize> {
     /// Of each storey or floor: tangent stiffness, 1 / mass, stiffness- and mass-proportional damping.
     coefficients: [[f64; 4]; S],
     full_damping: Option<&'a [[[f64; WIDTH]; 1]; S]>,

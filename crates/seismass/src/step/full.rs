@@ -22,8 +22,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::lanes::symmetric::Symmetric;
-use crate::lanes::{Vector, WIDTH, filled_to, for_each_path};
+use crate::lanes::{Symmetric, Vector, WIDTH, filled_to, for_each_path};
 use crate::machines::model::Model;
 use crate::regime::{Regime, Row};
 use crate::step::banded::{BELOW_ROUNDING, SERIES_PHASE, whole_blocks};
@@ -143,7 +142,7 @@ impl Square {
 }
 
 /// What a regime's system is made of.
-struct System<'a> {
+pub(crate) struct System<'a> {
     tangent: &'a [f64],
     /// W: its diagonal, and the entries beside it.
     diagonal: Vec<f64>,

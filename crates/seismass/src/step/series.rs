@@ -2,51 +2,17 @@
 //!
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
-use crate::lanes::padded::{OfStorey, Padded, PaddedRows};
 use crate::lanes::{
-    MAX_LANES, OnLine, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path, lanes, load, store,
+    MAX_LANES, OfStorey, Padded, PaddedRows, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path,
+    lanes, load, store,
 };
 use crate::machines::model::Model;
 use crate::polynomial::bernstein::{MAX_DEGREE, Polynomial, by_length};
+use crate::polynomial::orders::{INVERSE, INVERSE_PAIRS, WEIGHTS, Weights, terms};
 use crate::regime::{Operator, Regime};
-use crate::step::dense::Table;
-
-/// Longest step of one series, as frequency times time: longer intervals are split.
-pub(crate) const MAX_PHASE: f64 = 1.0;
-
-/// What drives the system in a step, linear in time: ground acceleration, contact force and floor loads.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Drive {
-    /// Ground acceleration at the start (m/s2).
-    pub(crate) ground: f64,
-    /// Its slope (m/s3).
-    pub(crate) ground_slope: f64,
-    /// Contact force per unit mass at the start as the blocks feel it (m/s2): zero while airborne.
-    pub(crate) contact: f64,
-    /// Its slope (m/s3).
-    pub(crate) contact_slope: f64,
-    /// Force on each floor at the start, beside x, v and their products (N).
-    pub(crate) load: Padded,
-    /// Its slope (N/s).
-    pub(crate) load_slope: Padded,
-}
-
-impl Drive {
-    /// The least contact force per unit mass within `h` (m/s2).
-    #[inline]
-    pub(crate) fn least_contact(&self, h: f64) -> f64 {
-        self.contact.min(self.contact + self.contact_slope * h).max(0.0)
-    }
-}
-
-/// The state at the start of a step: drifts, drift rates, floor accelerations and their rates, padded.
-#[derive(Clone, Copy)]
-pub(crate) struct Start<'a> {
-    pub(crate) x: &'a Padded,
-    pub(crate) v: &'a Padded,
-    pub(crate) a: &'a Padded,
-    pub(crate) jerk: &'a Padded,
-}
+use crate::step::drive::Drive;
+use crate::step::drive::Start;
+use crate::step::table::Table;
 
 /// Series of the absolute floor accelerations, stored order by order, padded to whole vectors. What drifts and drift
 /// rates do follows by integration of their differences.
@@ -74,28 +40,6 @@ pub(crate) struct Series {
     /// the third and fourth power of the place.
     integrals: [Padded; 2],
     load: [Padded; 2],
-}
-
-/// Largest phase at which the term of order 3, 4, ... is below 2^-60: phase^k / k! rounded down.
-static PHASE_LIMITS: OnLine<[[f64; WIDTH]; 5]> = OnLine([
-    [0.0000, 0.0000, 0.0006, 0.0029],
-    [0.0088, 0.0207, 0.0408, 0.0707],
-    [0.1119, 0.1652, 0.2312, 0.3099],
-    [0.4014, 0.5054, 0.6215, 0.7493],
-    [0.8883, 1.0380, f64::INFINITY, f64::INFINITY],
-]);
-
-/// What longer phases have too.
-const MOST_TERMS: usize = 21;
-
-/// Order of the first term that is below rounding.
-#[inline(always)]
-pub(crate) fn terms<V: Vector>(phase: f64) -> usize {
-    let mut reached = 0;
-    for limits in PHASE_LIMITS.iter() {
-        reached = reached << WIDTH | V::splat(phase).not_below(V::load(limits));
-    }
-    (3 + reached.count_ones() as usize).min(MOST_TERMS)
 }
 
 impl Series {
@@ -586,9 +530,6 @@ impl Series {
     }
 }
 
-/// Numbers by order.
-type Weights = [f64; MAX_DEGREE + 1];
-
 /// Terms of a series by order.
 trait TermByOrder {
     fn term(&self, k: usize) -> f64;
@@ -646,35 +587,12 @@ impl<V: Vector, const K: usize> Sums<V, K> {
     }
 }
 
-/// Orders k, and from the second on the first and second integrals of s^k over [0, 1], each in all lanes.
-pub(crate) static WEIGHTS: OnLine<[[[f64; WIDTH]; 3]; MAX_DEGREE + 1]> = {
-    let mut table = [[[0.0; WIDTH]; 3]; MAX_DEGREE + 1];
-    let mut k = 1;
-    while k <= MAX_DEGREE {
-        let once = if k > 1 { 1.0 / (k + 1) as f64 } else { 0.0 };
-        table[k] = [[k as f64; WIDTH], [once; WIDTH], [once / (k + 2) as f64; WIDTH]];
-        k += 1;
-    }
-    OnLine(table)
-};
-
 #[inline(always)]
 fn put<V: Vector, const K: usize>(vectors: &[V; K], term: &mut [[f64; WIDTH]; K]) {
     for k in 0..K {
         vectors[k].store(&mut term[k]);
     }
 }
-
-/// 1 / k.
-pub(crate) static INVERSE: OnLine<Weights> = {
-    let mut table = [0.0; MAX_DEGREE + 1];
-    let mut k = 1;
-    while k <= MAX_DEGREE {
-        table[k] = 1.0 / k as f64;
-        k += 1;
-    }
-    OnLine(table)
-};
 
 for_each_path! {
     fn form_any(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) = any_by_path
@@ -684,31 +602,4 @@ for_each_path! {
 #[inline(always)]
 fn any_by_path<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) {
     series.form_any(model, regime, start, drive);
-}
-
-/// 1 / (k (k - 1)).
-static INVERSE_PAIRS: OnLine<Weights> = {
-    let mut table = [0.0; MAX_DEGREE + 1];
-    let mut k = 2;
-    while k <= MAX_DEGREE {
-        table[k] = 1.0 / (k * (k - 1)) as f64;
-        k += 1;
-    }
-    OnLine(table)
-};
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The neglected term is below 2^-60, and the next guard polynomials still fit.
-    #[test]
-    fn series_are_long_enough() {
-        for phase in [1e-9, 1e-3, 0.1, 0.3, 0.7, MAX_PHASE] {
-            let order = terms::<Plain>(phase);
-            let term = (1..=order).fold(1.0, |term, k| term * phase / k as f64);
-            assert!(term <= (-60f64).exp2(), "phase {phase}: {term:e}");
-        }
-        assert!(2 + terms::<Plain>(f64::INFINITY) <= MAX_DEGREE);
-    }
 }

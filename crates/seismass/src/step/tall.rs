@@ -8,7 +8,7 @@ use crate::step::full::FullStep;
 
 /// Longest step as frequency times time. What steps act on are differences of large forces there: their rounding would
 /// be seen.
-pub(crate) const LONGEST_PHASE: f64 = 8.0;
+const LONGEST_PHASE: f64 = 8.0;
 /// Whole intervals of a regime that a run solves by series before its band is formed: about as many as forming it
 /// costs, however many storeys, since both costs grow like their number.
 const BANDED_VISITS: u32 = 8;

@@ -1,13 +1,14 @@
 //! Bounds of tall buildings between which no guard falls and no peak is beaten, and the peaks that runs of theirs beat:
 //! those of [`crate::state::limits`] and [`crate::record::observer`], of any number of storeys, four at a time.
 
-use crate::lanes::{FAR, LANES, Vector, WIDTH, at, filled_to, lanes};
+use crate::lanes::{FAR, LANES, Set, Vector, WIDTH, at, filled_to, lanes, members};
 use crate::machines::sign::Sign;
-use crate::record::observer::{Observer, PeakLanes};
+use crate::plain::tall::sample::Sample;
+use crate::polynomial::enclosure::apart;
+use crate::record::observer::Observer;
+use crate::record::peaks::PeakLanes;
 use crate::regime::Row;
-use crate::regime::operator_long::Sample;
 use crate::state::State;
-use crate::state::limits::{self, Set, members};
 
 /// The bounds of [`crate::state::limits::Bounds`] in a vector of storeys and their floors.
 pub(crate) struct VectorBounds {
@@ -52,7 +53,7 @@ impl VectorPeaks {
 }
 
 /// What the peaks of a vector of storeys and their floors follow from.
-struct Course {
+pub(crate) struct Course {
     /// Drift and spring force where the drift coordinate is zero.
     base: [f64; WIDTH],
     force: [f64; WIDTH],
@@ -160,7 +161,7 @@ impl Bounds {
         let of_vector = &self.vectors[k];
         let drift = [at(&sample.x, k), at(&sample.v, k), at(&sample.q[margin..], k)];
         let floor = [at(&sample.a[1..], k), at(&sample.jerk[1..], k)];
-        limits::apart(drift, floor, V::load(&of_vector.middle), V::load(&of_vector.sign), third)
+        apart(drift, floor, V::load(&of_vector.middle), V::load(&of_vector.sign), third)
     }
 
     /// Takes drifts and shears of vector `k` at drift coordinates into their peaks.

@@ -1,28 +1,13 @@
 //! The closer look at a step of a tall regime that the loop does not clear, by quintics.
 
 use crate::lanes::{Vector, WIDTH, at};
-use crate::plain::sliding::SMALL_DIFFERENCE;
+use crate::plain::sliding::{FloorBlock, SMALL_DIFFERENCE};
 use crate::plain::tall::bounds::Bounds;
 use crate::plain::tall::norms::{Norms, Rows};
-use crate::regime::operator_long::{Operator, Sample};
-use crate::state::limits::signs;
-use crate::state::{THIRD, off_cubic, ranges};
-
-/// A block that slides on a floor.
-pub(crate) struct FloorBlock {
-    pub(crate) block: usize,
-    pub(crate) floor: usize,
-    /// Sign times mu_k.
-    pub(crate) friction: f64,
-    pub(crate) sign: f64,
-    pub(crate) velocity: f64,
-    pub(crate) slip: f64,
-    /// What sign times slip does not reach before the friction coefficient changes.
-    pub(crate) limit: f64,
-    /// Velocity and slip at the end of the step.
-    pub(crate) velocity_after: f64,
-    pub(crate) slip_after: f64,
-}
+use crate::plain::tall::sample::Sample;
+use crate::polynomial::enclosure::ranges;
+use crate::polynomial::enclosure::{THIRD, off_cubic, quintic_range, quintic_ranges, signs};
+use crate::regime::operator_long::Operator;
 
 /// Storeys and floors of a vector whose peaks a step beats, as bits of the lanes: at all; inside, where drifts and
 /// accelerations turn.
@@ -38,45 +23,6 @@ impl Beaten {
     pub(crate) fn turns(&self) -> bool {
         self.drifts_inside | self.accelerations_inside != 0
     }
-}
-
-/// The quintic through values and two derivatives at both ends of a step stays between the least and the largest of its
-/// Bezier points; what deviates from it by at most `margin` stays within these widened by it.
-#[inline(always)]
-fn quintic_range(start: [f64; 3], end: [f64; 3], h: f64, margin: f64) -> (f64, f64) {
-    let (fifth, twentieth) = (h / 5.0, h * h / 20.0);
-    let points = [
-        start[0],
-        start[0] + fifth * start[1],
-        start[0] + 2.0 * fifth * start[1] + twentieth * start[2],
-        end[0] - 2.0 * fifth * end[1] + twentieth * end[2],
-        end[0] - fifth * end[1],
-        end[0],
-    ];
-    let smaller = |a: f64, b: f64| if a < b { a } else { b };
-    let larger = |a: f64, b: f64| if a > b { a } else { b };
-    (
-        points.into_iter().fold(f64::INFINITY, smaller) - margin,
-        points.into_iter().fold(f64::NEG_INFINITY, larger) + margin,
-    )
-}
-
-/// [`quintic_range`] of several.
-#[inline(always)]
-fn quintic_ranges<V: Vector>(start: [V; 3], end: [V; 3], h: f64, margin: V) -> (V, V) {
-    let (fifth, two_fifths, twentieth) = (V::splat(h / 5.0), V::splat(2.0 * h / 5.0), V::splat(h * h / 20.0));
-    let points = [
-        fifth.mul_add(start[1], start[0]),
-        twentieth.mul_add(start[2], two_fifths.mul_add(start[1], start[0])),
-        twentieth.mul_add(end[2], end[0].sub(two_fifths.mul(end[1]))),
-        end[0].sub(fifth.mul(end[1])),
-        end[0],
-    ];
-    let (mut low, mut high) = (start[0], start[0]);
-    for point in points {
-        (low, high) = (low.min(point), high.max(point));
-    }
-    (low.sub(margin), high.add(margin))
 }
 
 /// Second derivatives of floor accelerations and first ones of drift accelerations at both ends of a step, and the norm of

@@ -4,4 +4,5 @@ pub(crate) mod bounds;
 pub(crate) mod look;
 pub(crate) mod norms;
 pub(crate) mod run;
+pub(crate) mod sample;
 pub(crate) mod series;

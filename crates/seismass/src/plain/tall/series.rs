@@ -1,17 +1,18 @@
 //! The series of a step of a tall regime with peaks inside, which gives the extremes.
 
-use crate::lanes::{Plain, Vector, WIDTH, at, lanes, lanes_mut};
+use crate::lanes::{Plain, Set, Vector, WIDTH, at, lanes, lanes_mut, members};
 use crate::plain::tall::bounds::Bounds;
 use crate::plain::tall::look::{Beaten, Closer};
 use crate::plain::tall::norms::{Norms, Rows};
+use crate::plain::tall::sample::Sample;
 use crate::polynomial::bernstein::{MAX_DEGREE, Polynomial};
-use crate::regime::operator_long::{Operator, Sample};
-use crate::state::limits::{Set, members};
+use crate::regime::operator_long::Operator;
+use crate::state::effort::Effort;
 
 /// Highest order of a series of floor accelerations; that of the drifts is two orders higher.
 const HIGHEST_ORDER: usize = MAX_DEGREE - 2;
 /// Order from which on its terms are looked at.
-const LOWEST_ORDER: usize = 8;
+pub(crate) const LOWEST_ORDER: usize = 8;
 /// What a series may leave out of a value, as a part of it.
 const ROUNDING: f64 = 0.25 * f64::EPSILON;
 /// The same as a part of the largest value in the building.
@@ -52,7 +53,7 @@ impl Wanted<'_> {
 }
 
 /// The Taylor series of a step, or of half of it, from one of its ends on, to the order that the motion needs.
-struct Series {
+pub(crate) struct Series {
     /// Signed length (s): negative from the end on.
     h: f64,
     order: usize,
@@ -168,20 +169,6 @@ impl Series {
         for s in first.into_iter().chain(others).chain([1.0]) {
             bounds.take_acceleration(i, acceleration.at::<Plain>(s), from + s * self.h);
         }
-    }
-}
-
-/// What the last step with peaks inside has taken: into how many parts it was divided, and the order of their series.
-/// The run keeps it, so that what the next one takes does not depend on where plain steps begin anew.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Effort {
-    parts: usize,
-    order: usize,
-}
-
-impl Default for Effort {
-    fn default() -> Self {
-        Self { parts: 1, order: LOWEST_ORDER }
     }
 }
 

@@ -1,0 +1,17 @@
+//! What steps of a tall building with peaks inside take.
+
+use crate::plain::tall::series::LOWEST_ORDER;
+
+/// What the last step with peaks inside has taken: into how many parts it was divided, and the order of their series.
+/// The run keeps it, so that what the next one takes does not depend on where plain steps begin anew.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Effort {
+    pub(crate) parts: usize,
+    pub(crate) order: usize,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { parts: 1, order: LOWEST_ORDER }
+    }
+}
