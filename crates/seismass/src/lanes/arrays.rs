@@ -1,8 +1,27 @@
 //! Arrays of vectors.
 
-use crate::lanes::padded::Lanes;
 use crate::lanes::vector::{Vector, WIDTH};
 use crate::lanes::width::MAX_LANES;
+
+/// What vectors are read from and written to.
+pub(crate) trait Lanes {
+    /// The first `K` vectors; none where there are fewer.
+    fn vectors<const K: usize>(&self) -> Option<&[[f64; WIDTH]; K]>;
+    /// The same to be changed.
+    fn vectors_mut<const K: usize>(&mut self) -> Option<&mut [[f64; WIDTH]; K]>;
+}
+
+impl Lanes for [f64] {
+    #[inline(always)]
+    fn vectors<const K: usize>(&self) -> Option<&[[f64; WIDTH]; K]> {
+        lanes(self).first_chunk()
+    }
+
+    #[inline(always)]
+    fn vectors_mut<const K: usize>(&mut self) -> Option<&mut [[f64; WIDTH]; K]> {
+        lanes_mut(self).first_chunk_mut()
+    }
+}
 
 /// Vectors of padded values.
 #[inline(always)]

@@ -2,30 +2,11 @@
 
 use std::ops::{Deref, DerefMut};
 
+use crate::lanes::arrays::Lanes;
 use crate::lanes::aligned::Aligned;
 use crate::lanes::arrays::{at, columns_of, lanes, lanes_mut};
 use crate::lanes::padded;
 use crate::lanes::vector::{Vector, WIDTH};
-
-/// What vectors are read from and written to.
-pub(crate) trait Lanes {
-    /// The first `K` vectors; none where there are fewer.
-    fn vectors<const K: usize>(&self) -> Option<&[[f64; WIDTH]; K]>;
-    /// The same to be changed.
-    fn vectors_mut<const K: usize>(&mut self) -> Option<&mut [[f64; WIDTH]; K]>;
-}
-
-impl Lanes for [f64] {
-    #[inline(always)]
-    fn vectors<const K: usize>(&self) -> Option<&[[f64; WIDTH]; K]> {
-        lanes(self).first_chunk()
-    }
-
-    #[inline(always)]
-    fn vectors_mut<const K: usize>(&mut self) -> Option<&mut [[f64; WIDTH]; K]> {
-        lanes_mut(self).first_chunk_mut()
-    }
-}
 
 /// The vector that the number of storey `i` lies in, of a scene of `K` vectors.
 #[inline(always)]

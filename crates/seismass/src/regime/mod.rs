@@ -7,12 +7,10 @@
 pub(crate) mod bounds;
 pub(crate) mod operator_long;
 
-use std::cell::OnceCell;
 
 use crate::lanes::{PaddedRows, Vector, WIDTH, columns_of, load, numbers, prefix_sums};
 use crate::machines::model::{Model, ModelLanes};
 use crate::scene::StoreyDamping;
-use crate::step::steps::Steps;
 
 /// The linear operators of one regime.
 #[derive(Default)]
@@ -23,8 +21,6 @@ pub(crate) struct Regime {
     pub(crate) frequency: f64,
     /// Exponent (1/s) with which the energy of the derivatives may grow: positive with a negative tangent.
     growth: f64,
-    /// The steps of the cache's time step, once they pay: without vertical motion, and with it.
-    steps: [OnceCell<Steps>; 2],
 }
 
 /// What is known of each storey, or floor, in a regime. Bounds are per unit of [`Regime::liveliness_of`].
@@ -74,18 +70,7 @@ impl Regime {
             numbers[Row::Mass as usize * width + i] = model.mass[i] + stuck_mass[i];
         }
         let (frequency, growth) = self::bounds::form(model, numbers);
-        Self { rows, frequency, growth, steps: Default::default() }
-    }
-
-    /// The steps of the cache's time step, if they are formed, without vertical motion or with it.
-    #[inline(always)]
-    pub(crate) fn steps(&self, vertical: bool) -> Option<&Steps> {
-        self.steps[usize::from(vertical)].get()
-    }
-
-    /// Keeps the steps that [`Regime::steps`] gives, if there are none yet.
-    pub(crate) fn keep_steps(&self, steps: Steps, vertical: bool) {
-        self.steps[usize::from(vertical)].get_or_init(|| steps);
+        Self { rows, frequency, growth }
     }
 
     /// A row, padded.

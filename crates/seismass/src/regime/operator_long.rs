@@ -1,8 +1,8 @@
 //! The system of a tall regime, and the state that it acts on.
 
 use crate::lanes::{Symmetric, Vector, WIDTH, filled_to, lanes, lanes_mut};
-use crate::regime::Row;
-use crate::state::State;
+use crate::machines::model::Model;
+use crate::regime::{Regime, Row};
 
 /// The regime's system.
 pub(crate) struct Operator<'a> {
@@ -17,16 +17,16 @@ pub(crate) struct Operator<'a> {
 }
 
 impl<'a> Operator<'a> {
-    pub(crate) fn new(state: &State<'a>, length: usize) -> Self {
-        let (n, regime, model) = (state.storeys(), &state.regime, &state.model.lanes);
+    pub(crate) fn new(model: &'a Model, regime: &Regime, length: usize) -> Self {
+        let n = model.storeys();
         let of_regime = |row: Row| filled_to(length, regime.row(row)[..n].iter().copied(), 0.0);
         let of_model = |values: &[f64]| filled_to(length, values.iter().copied().take(n), 0.0);
         Self {
             tangent: of_regime(Row::Tangent),
             inverse_mass: of_regime(Row::InverseMass),
-            storey_damping: of_model(&model.storey_damping),
-            floor_damping: of_model(&model.floor_damping),
-            full_damping: state.model.symmetric_damping(),
+            storey_damping: of_model(&model.lanes.storey_damping),
+            floor_damping: of_model(&model.lanes.floor_damping),
+            full_damping: model.symmetric_damping(),
             nothing: vec![0.0; length],
         }
     }

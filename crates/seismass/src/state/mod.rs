@@ -9,6 +9,7 @@ pub(crate) mod sample;
 use std::mem::take;
 use std::rc::Rc;
 
+use crate::step::cache::KnownRegime;
 use crate::lanes::{
     FAR, MAX_LANES, Padded, PaddedRows, Vector, WIDEST, WIDTH, at, by_width, differences, for_each_path, lanes,
     lanes_mut, load, numbers, store,
@@ -81,7 +82,7 @@ pub(crate) struct State<'a> {
     /// Whether a block slides.
     pub(crate) is_sliding: bool,
     /// The regime, and its index in the cache.
-    pub(crate) regime: Rc<Regime>,
+    pub(crate) regime: Rc<KnownRegime>,
     pub(crate) entry: usize,
     /// Force of the springs at their bases on each floor (N).
     pub(crate) spring_load: Padded,

@@ -1,7 +1,9 @@
 //! The regimes that a run or a batch has met, with their steps.
 
 use rustc_hash::FxBuildHasher;
+use std::cell::OnceCell;
 use std::collections::HashMap;
+use std::ops::Deref;
 use std::rc::Rc;
 
 use crate::lanes::{MAX_LANES, WIDTH};
@@ -23,10 +25,35 @@ const MAX_AT_ONCE: usize = WIDTH;
 /// can be seen in the energy of a floor so heavy.
 const MAX_MASS_RATIO: f64 = 1e4;
 
+/// A regime with its steps of one time step, formed once they pay.
+#[derive(Default)]
+pub(crate) struct KnownRegime {
+    regime: Regime,
+    /// Without vertical motion, and with it.
+    steps: [OnceCell<Steps>; 2],
+}
+
+impl KnownRegime {
+    /// The steps of the cache's time step, if they are formed, without vertical motion or with it.
+    #[inline(always)]
+    pub(crate) fn steps(&self, vertical: bool) -> Option<&Steps> {
+        self.steps[usize::from(vertical)].get()
+    }
+}
+
+impl Deref for KnownRegime {
+    type Target = Regime;
+
+    #[inline(always)]
+    fn deref(&self) -> &Regime {
+        &self.regime
+    }
+}
+
 /// An entry of the cache: a regime, and how often the present run took a whole interval in it.
 struct Entry {
     /// Shared with the run that is in it.
-    regime: Rc<Regime>,
+    regime: Rc<KnownRegime>,
     run: u64,
     visits: u32,
 }
@@ -129,14 +156,14 @@ impl RegimeCache {
     }
 
     /// The regime of a key, formed by `form` when it is new. Returns it, its index, and whether this run knew it.
-    pub(crate) fn enter(&mut self, key: &[u64], form: impl FnOnce() -> Regime) -> (Rc<Regime>, usize, bool) {
+    pub(crate) fn enter(&mut self, key: &[u64], form: impl FnOnce() -> Regime) -> (Rc<KnownRegime>, usize, bool) {
         if self.run_bytes > CACHE_BYTES {
             self.clear();
         }
         let index = match self.index.get(key) {
             Some(index) => index,
             None => {
-                let regime = Rc::new(form());
+                let regime = Rc::new(KnownRegime { regime: form(), steps: Default::default() });
                 self.bytes += Self::entry_bytes(&regime, key);
                 self.entries.push(Entry { regime, run: 0, visits: 0 });
                 self.index.insert(key, self.entries.len() - 1);
@@ -177,7 +204,7 @@ impl RegimeCache {
         let regime = &self.entries[index].regime;
         let steps = Steps::new(model, regime, self.dt, vertical, &mut self.sums);
         self.bytes += steps.bytes(vertical);
-        regime.keep_steps(steps, vertical);
+        regime.steps[usize::from(vertical)].get_or_init(|| steps);
     }
 
     /// Counts a whole interval in a regime; true once its propagator is to be used, which then exists.

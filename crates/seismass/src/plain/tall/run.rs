@@ -88,7 +88,7 @@ fn run_lanes<V: Vector>(
     let vertical = motion.vertical().filter(|_| state.vertical);
     let contact_at = |i: usize| STANDARD_GRAVITY + vertical.map_or(0.0, |vertical| vertical[i]);
     let rows = Rows::new(state, h, length);
-    let operator = Operator::new(state, length);
+    let operator = Operator::new(state.model, &state.regime, length);
     let has_floor_damping = operator.floor_damping.iter().any(|&damping| damping != 0.0);
     let mut bounds = Bounds::new(state, observer, length);
     let mut before = Sample::new(state, length, margin);

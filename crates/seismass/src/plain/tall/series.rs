@@ -1,5 +1,6 @@
 //! The series of a step of a tall regime with peaks inside, which gives the extremes.
 
+use crate::state::effort::LOWEST_ORDER;
 use crate::lanes::{Plain, Set, Vector, WIDTH, at, lanes, lanes_mut, members};
 use crate::plain::tall::bounds::Bounds;
 use crate::plain::tall::look::{Beaten, Closer};
@@ -11,8 +12,6 @@ use crate::state::effort::Effort;
 
 /// Highest order of a series of floor accelerations; that of the drifts is two orders higher.
 const HIGHEST_ORDER: usize = MAX_DEGREE - 2;
-/// Order from which on its terms are looked at.
-pub(crate) const LOWEST_ORDER: usize = 8;
 /// What a series may leave out of a value, as a part of it.
 const ROUNDING: f64 = 0.25 * f64::EPSILON;
 /// The same as a part of the largest value in the building.
