@@ -2,9 +2,9 @@
 
 use std::ops::{Deref, DerefMut};
 
-use crate::lanes::arrays::Lanes;
 use crate::lanes::aligned::Aligned;
-use crate::lanes::arrays::{at, columns_of, lanes, lanes_mut};
+use crate::lanes::arrays::Lanes;
+use crate::lanes::arrays::{at, columns_of, lanes_mut};
 use crate::lanes::padded;
 use crate::lanes::vector::{Vector, WIDTH};
 

@@ -68,3 +68,24 @@ pub(crate) enum Outcome {
     /// A storey (from 0) has collapsed.
     Collapse(usize),
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn guards_are_packed_without_loss() {
+        let mut guards = vec![Guard::Contact];
+        for number in [0, 1, 65_536, 1 << 40] {
+            guards.extend([Guard::Collapse { storey: number }, Guard::Turn { storey: number }]);
+            guards.extend([Guard::Arrival { block: number }, Guard::Wear { block: number }]);
+            for sign in [Sign::Positive, Sign::Negative] {
+                guards.extend([Guard::SegmentEnd { storey: number, sign }, Guard::Breakaway { floor: number, sign }]);
+            }
+        }
+        for guard in guards {
+            assert_eq!(Guard::unpacked(guard.packed()), Some(guard));
+        }
+        assert_eq!(Guard::unpacked(0), None);
+    }
+}

@@ -133,7 +133,7 @@ impl Beaten {
     pub(crate) fn take_followed(&mut self, state: &mut State, observer: &mut Observer, time: f64) {
         for i in members(take(&mut self.followed)) {
             state.bounds.spoil();
-            observer.take_drift(state, i, state.x[i], time);
+            observer.take_drift(state, i, state.kinematics.x[i], time);
         }
     }
 

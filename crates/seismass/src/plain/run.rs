@@ -14,7 +14,7 @@ use std::mem::take;
 use std::sync::Arc;
 
 use crate::STANDARD_GRAVITY;
-use crate::events::NO_CONTACT;
+use crate::events::guards::NO_CONTACT;
 use crate::lanes::first_members;
 use crate::lanes::{
     FAR, PaddedRows, Set, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers,
@@ -31,6 +31,7 @@ use crate::polynomial::enclosure::{THIRD, off_cubic};
 use crate::polynomial::orders::MAX_PHASE;
 use crate::record::histories::{Pen, RowInLanes};
 use crate::record::observer::Observer;
+use crate::record::update::update_bounds;
 use crate::regime::{Regime, Row};
 use crate::scene::Motion;
 use crate::state::State;
@@ -69,7 +70,7 @@ impl<'a, const K: usize> Course<'a, K> {
         let (of_drift, others) = four_rows(propagator.state_and_motion_columns()).split_at_checked(state.storeys())?;
         let (of_rate, others) = others.split_at_checked(state.storeys())?;
         let [of_ground, of_change, ..] = others else { return None };
-        let effects = &state.effects;
+        let effects = &state.step.effects;
         Some(Self {
             regime,
             h,
@@ -157,14 +158,14 @@ fn small_step<V: Vector, const K: usize, const S: usize>(
 /// Forms the effects of the floor loads on the step of the present regime, if they have changed.
 #[inline(always)]
 fn prepare_effects<V: Vector, const K: usize, const VERTICAL: bool>(state: &mut State) {
-    if state.effects.valid {
+    if state.step.effects.valid {
         return;
     }
     let steps = state.regime.steps(state.vertical);
     let Some(Whole::Dense(propagator)) = steps.map(|steps| &steps.whole) else { return };
     let of_loads = four_rows(propagator.load_columns());
-    let (mut loads, friction): ([V; K], [V; K]) = (load(&state.spring_load), load(&state.friction));
-    let effects = &mut state.effects;
+    let (mut loads, friction): ([V; K], [V; K]) = (load(&state.springs.load), load(&state.blocks.friction));
+    let effects = &mut state.step.effects;
     if VERTICAL {
         let of_ramps = four_rows(propagator.ramp_columns());
         put_product::<V, K>(of_loads, &friction, &mut effects.friction);
@@ -257,15 +258,15 @@ impl Walk {
         self.wear_limits.clear();
         self.renews_bounds = true;
         self.beaten.forget_turned();
-        self.on_ground.begin(sample, state.stuck_mu[0]);
-        if state.is_sliding {
+        self.on_ground.begin(sample, state.blocks.stuck_mu[0]);
+        if state.blocks.is_sliding {
             self.take_blocks::<K>(state);
         }
     }
 
     #[inline(always)]
     fn take_blocks<const K: usize>(&mut self, state: &State) {
-        for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
+        for (block, (motion, law)) in state.blocks.motions.iter().zip(&state.model.blocks).enumerate() {
             let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
             let friction = sign * motion.mu_k;
             let Some(lane) = law.floor.checked_sub(1) else {
@@ -324,7 +325,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     end: usize,
 ) -> usize {
     if take(&mut walk.renews_bounds) {
-        state.update_bounds::<V, K>(observer);
+        update_bounds::<V, K>(state, observer);
     }
     let mut pen = observer.histories.as_mut().map(Pen::new);
     prepare_effects::<V, K, VERTICAL>(state);
@@ -348,16 +349,16 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             margins[which][k] = margins[which][k].mul(widening);
         }
     }
-    let mut sample = Sample::<V, K>::of(state);
-    let mut bounds = BoundsInLanes::<V, K>::of(state);
+    let mut sample = Sample::<V, K>::of(&state.kinematics);
+    let mut bounds = BoundsInLanes::<V, K>::of(&state.bounds);
     let samples = motion.acceleration();
     let vertical = motion.vertical().unwrap_or(&[]);
     // Rate of the floor accelerations per slope of the contact force: it turns at every sample.
-    let mut jerk_per_slope: [V; K] = load(&state.friction);
+    let mut jerk_per_slope: [V; K] = load(&state.blocks.friction);
     for (jerk, inverse_mass) in jerk_per_slope.iter_mut().zip(regime.lanes::<V, K>(Row::InverseMass)) {
         *jerk = jerk.mul(inverse_mass);
     }
-    let mut slope_before = state.jerk_slope;
+    let mut slope_before = state.kinematics.jerk_slope;
     let mut apart_before = bounds.apart(&sample, third);
     let (mut lowest, others) = match walk.layers[..walk.used].split_first_mut() {
         Some((lowest, others)) if SLIDING => (Some(lowest), others),
@@ -523,20 +524,20 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         store(&layer.velocity, &mut lowest.velocity);
         store(&layer.slip, &mut lowest.slip);
     }
-    state.jerk_slope = slope_before;
+    state.kinematics.jerk_slope = slope_before;
     if walk.beaten.any() {
         bounds.put_into(&mut state.bounds);
     }
     if let Some((closer, norm)) = open {
         let [norm, ..] = numbers(&[norm])[0];
-        let ranges = &mut state.ranges;
+        let ranges = &mut state.step.ranges;
         ranges.set_margins(norm * growth, h);
         ranges.keep(&closer.ranges, closer.suspects);
         ranges.suspects[0] |= walk.beaten.followed();
         ranges.suspects[1] |= walk.beaten.followed();
         ranges.are_known = true;
     }
-    sample.put_into(state);
+    sample.put_into(&mut state.kinematics);
     reached
 }
 
@@ -638,36 +639,34 @@ pub(crate) fn run(
         walk.isolated += (turns[0].count_ones() + turns[1].count_ones()) as usize;
     }
     walk.on_ground.go_back(reached, h, drive);
-    by_width!(state.model.width, K => walk.put_blocks::<K>(&mut state.motions));
+    by_width!(state.model.width, K => walk.put_blocks::<K>(&mut state.blocks.motions));
     walk.beaten.take_followed(state, observer, reached as f64 * h);
     reached
 }
 
-impl State<'_> {
-    /// Takes plain steps from interval `first` until `end`, or until one is not plain, and records their histories;
-    /// returns the interval reached, whose start the state is then at.
-    pub(crate) fn plain_run(
-        &mut self,
-        walk: &mut Walk,
-        observer: &mut Observer,
-        motion: &Motion,
-        first: usize,
-        end: usize,
-    ) -> usize {
-        if self.airborne || !self.cache.visit(self.entry, self.model, self.vertical) {
-            return first;
-        }
-        let reached = match self.regime.steps(self.vertical).map(|steps| &steps.whole) {
-            Some(Whole::Tall(step)) => {
-                let step = Arc::clone(step);
-                tall::run::run(self, observer, motion, &step, first, end)
-            }
-            _ => run(self, walk, observer, motion, first, end),
-        };
-        self.is_formed |= reached > first;
-        if self.is_sliding {
-            observer.observe_slips(self, reached as f64 * motion.dt());
-        }
-        reached
+/// Takes plain steps from interval `first` until `end`, or until one is not plain, and records their histories;
+/// returns the interval reached, whose start the state is then at.
+pub(crate) fn plain_run(
+    state: &mut State,
+    walk: &mut Walk,
+    observer: &mut Observer,
+    motion: &Motion,
+    first: usize,
+    end: usize,
+) -> usize {
+    if state.blocks.airborne || !state.cache.visit(state.key.entry, state.model, state.vertical) {
+        return first;
     }
+    let reached = match state.regime.steps(state.vertical).map(|steps| &steps.whole) {
+        Some(Whole::Tall(step)) => {
+            let step = Arc::clone(step);
+            tall::run::run(state, observer, motion, &step, first, end)
+        }
+        _ => run(state, walk, observer, motion, first, end),
+    };
+    state.kinematics.is_formed |= reached > first;
+    if state.blocks.is_sliding {
+        observer.observe_slips(state, reached as f64 * motion.dt());
+    }
+    reached
 }

@@ -215,17 +215,17 @@ impl Recorder {
     /// The same within the code of a path; returns the blocks where one stands on each floor.
     #[inline(always)]
     fn take_up_in_lanes<V: Vector, const K: usize>(&mut self, state: &State) -> Option<BlocksInLanes<V, K>> {
-        store::<V, K>(&load(&state.base_drift), &mut self.base_drift);
-        store::<V, K>(&load(&state.base_force), &mut self.base_force);
+        store::<V, K>(&load(&state.springs.base_drift), &mut self.base_drift);
+        store::<V, K>(&load(&state.springs.base_force), &mut self.base_force);
         store::<V, K>(&state.regime.lanes(Row::SpringTangent), &mut self.tangent);
         if self.one_on_each {
-            let blocks = BlocksInLanes::of(&state.motions);
+            let blocks = BlocksInLanes::of(&state.blocks.motions);
             store(&blocks.velocity, &mut self.velocities);
             store(&blocks.slip, &mut self.slips);
             return Some(blocks);
         }
         let (velocities, slips) = (&mut self.velocities[..], &mut self.slips[..]);
-        for ((velocity, slip), motion) in velocities.iter_mut().zip(slips).zip(&state.motions) {
+        for ((velocity, slip), motion) in velocities.iter_mut().zip(slips).zip(&state.blocks.motions) {
             (*velocity, *slip) = (motion.velocity, motion.slip);
         }
         None
@@ -333,12 +333,13 @@ impl Recorder {
         if state.storeys() <= MAX_LANES {
             let at = self.next_row();
             let blocks = self.take_up_in_lanes::<V, K>(state);
-            let (x, v, a): ([V; K], [V; K], [V; K]) = (load(&state.x), load(&state.v), load(&state.a));
+            let (x, v, a): ([V; K], [V; K], [V; K]) =
+                (load(&state.kinematics.x), load(&state.kinematics.v), load(&state.kinematics.a));
             self.put(at, state.model, &RowInLanes { x: &x, v: &v, a: &a }, blocks);
             self.is_taken_up = true;
         } else {
-            let blocks = state.motions.iter().map(|m| (m.velocity, m.slip));
-            self.append_row(state, &state.x, &state.v, &state.a, blocks);
+            let blocks = state.blocks.motions.iter().map(|m| (m.velocity, m.slip));
+            self.append_row(state, &state.kinematics.x, &state.kinematics.v, &state.kinematics.a, blocks);
         }
     }
 
@@ -356,14 +357,14 @@ impl Recorder {
         for (block, (velocity, slip)) in blocks.enumerate() {
             self.move_block(block, velocity, slip);
         }
-        self.drift.put_row(at.storeys, state.springs.iter().zip(x).map(|(spring, &x)| spring.drift(x)));
+        self.drift.put_row(at.storeys, state.springs.machines.iter().zip(x).map(|(spring, &x)| spring.drift(x)));
         self.slip.put_row(at.blocks, self.slips.iter().copied());
         if self.displacements_only {
             return;
         }
         let n = state.storeys();
         let tangent = state.regime.row(Row::SpringTangent);
-        let forces = state.base_force.iter().zip(tangent).zip(x).map(|((base, tangent), x)| tangent * x + base);
+        let forces = state.springs.base_force.iter().zip(tangent).zip(x).map(|((base, tangent), x)| tangent * x + base);
         self.storey_force.put_row(at.storeys, forces);
         let mut velocity = 0.0;
         for (out, rate) in self.floor_velocities[1..].iter_mut().zip(&v[..n]) {

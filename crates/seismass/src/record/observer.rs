@@ -15,6 +15,7 @@ use crate::regime::{Row, viscous_power};
 use crate::response::{Energy, Peak, Peaks};
 use crate::scene::Options;
 use crate::state::State;
+use crate::state::relative::{slip_change, velocity_of_block};
 
 /// Keeps peaks, histories and energies.
 pub(crate) struct Observer {
@@ -123,7 +124,7 @@ impl Observer {
     /// Takes the present slips into their peaks.
     #[inline]
     pub(crate) fn observe_slips(&mut self, state: &State, time: f64) {
-        for (peak, motion) in self.slip.iter_mut().zip(&state.motions) {
+        for (peak, motion) in self.slip.iter_mut().zip(&state.blocks.motions) {
             peak.take(motion.slip, time);
         }
     }
@@ -133,7 +134,7 @@ impl Observer {
     pub(crate) fn take_accelerations_in_lanes<V: Vector, const K: usize>(&mut self, state: &State, time: f64) {
         let mut beaten = 0;
         for k in 0..state.vectors::<K>() {
-            beaten |= self.acceleration.take_vector::<V, K>(k, state.a.vector::<V, K>(k), time);
+            beaten |= self.acceleration.take_vector::<V, K>(k, state.kinematics.a.vector::<V, K>(k), time);
         }
         self.beaten |= beaten != 0;
     }
@@ -144,9 +145,9 @@ impl Observer {
         let tangents = state.regime.row(Row::SpringTangent);
         let mut beaten = 0;
         for k in 0..state.vectors::<K>() {
-            let (x, tangent): (V, V) = (state.x.vector::<V, K>(k), at(tangents, k));
-            beaten |= self.drift.take_vector::<V, K>(k, state.base_drift.vector::<V, K>(k).add(x), time);
-            let shear = state.base_force.vector::<V, K>(k).add(tangent.mul(x));
+            let (x, tangent): (V, V) = (state.kinematics.x.vector::<V, K>(k), at(tangents, k));
+            beaten |= self.drift.take_vector::<V, K>(k, state.springs.base_drift.vector::<V, K>(k).add(x), time);
+            let shear = state.springs.base_force.vector::<V, K>(k).add(tangent.mul(x));
             beaten |= self.shear.take_vector::<V, K>(k, shear, time);
         }
         self.beaten |= beaten != 0;
@@ -164,30 +165,30 @@ impl Observer {
         isolated: &mut usize,
     ) {
         let start = state.interval.start + tau;
-        let [drifts, _, accelerations] = state.ranges.suspects;
+        let [drifts, _, accelerations] = state.step.ranges.suspects;
         if drifts | accelerations == 0 {
             return;
         }
         for k in 0..state.vectors::<K>() {
-            let suspects = state.ranges.suspects_in::<K>(0, k);
+            let suspects = state.step.ranges.suspects_in::<K>(0, k);
             if suspects != 0 {
                 // A plastic storey's rate is a guard: it does not turn before an event.
-                let (forward, backward) = signs(state.ranges.rates::<V, K>(k));
+                let (forward, backward) = signs(state.step.ranges.rates::<V, K>(k));
                 let steady = forward | backward | state.bounds.plastic_in::<V, K>(k);
                 for lane in members(suspects & !Set::from(steady)) {
                     let i = WIDTH * k + lane;
-                    let (low, high) = state.ranges.drift::<K>(i);
+                    let (low, high) = state.step.ranges.drift::<K>(i);
                     if self.drift_may_peak(state, i, low, high) {
                         *isolated += 1;
                         self.take_turns_of_drift::<V, K>(state, i, start, end);
                     }
                 }
             }
-            let suspects = state.ranges.suspects_in::<K>(2, k);
+            let suspects = state.step.ranges.suspects_in::<K>(2, k);
             if suspects != 0 {
                 for lane in members(suspects & !Set::from(state.steady::<V, K>(k))) {
                     let i = WIDTH * k + lane;
-                    let (low, high) = state.ranges.acceleration::<K>(i);
+                    let (low, high) = state.step.ranges.acceleration::<K>(i);
                     if self.acceleration_may_peak(i, low, high) {
                         *isolated += 1;
                         self.take_turns_of_acceleration::<V, K>(state, i, start, end);
@@ -201,14 +202,14 @@ impl Observer {
     /// `end` into its peaks.
     #[inline(always)]
     fn take_turns_of_drift<V: Vector, const K: usize>(&mut self, state: &State, i: usize, start: f64, end: f64) {
-        let mut rate = state.series.zeros();
-        state.series.drift_rate::<V, K>(i, 1.0, &mut rate);
+        let mut rate = state.step.series.zeros();
+        state.step.series.drift_rate::<V, K>(i, 1.0, &mut rate);
         let (first, others) = rate.sign_changes::<V>();
         for s in first.into_iter().chain(others).filter(|&s| s < end) {
-            let mut drift = state.series.zeros();
-            state.series.drift::<V, K>(i, 1.0, 0.0, &mut drift);
+            let mut drift = state.step.series.zeros();
+            state.step.series.drift::<V, K>(i, 1.0, 0.0, &mut drift);
             let [drift, shear] = drift_and_shear(state, i, drift.at::<V>(s));
-            let time = start + s * state.series.h();
+            let time = start + s * state.step.series.h();
             self.beaten |= self.drift.take_lane::<V, K>(i, drift, time) | self.shear.take_lane::<V, K>(i, shear, time);
         }
     }
@@ -216,11 +217,11 @@ impl Observer {
     /// The same of a floor's acceleration.
     #[inline(always)]
     fn take_turns_of_acceleration<V: Vector, const K: usize>(&mut self, state: &State, i: usize, start: f64, end: f64) {
-        let mut acceleration = state.series.zeros();
-        state.series.acceleration::<V, K>(i + 1, 1.0, [0.0; 2], &mut acceleration);
+        let mut acceleration = state.step.series.zeros();
+        state.step.series.acceleration::<V, K>(i + 1, 1.0, [0.0; 2], &mut acceleration);
         let (first, others) = acceleration.derivative().sign_changes::<V>();
         for s in first.into_iter().chain(others).filter(|&s| s < end) {
-            let time = start + s * state.series.h();
+            let time = start + s * state.step.series.h();
             self.beaten |= self.acceleration.take_lane::<V, K>(i, acceleration.at::<V>(s), time);
         }
     }
@@ -240,12 +241,12 @@ impl Observer {
     /// Takes the turns of airborne blocks inside the present series, from `tau` to its place `end`, before the state is
     /// advanced.
     pub(crate) fn observe_flights(&mut self, state: &mut State, tau: f64, end: f64) {
-        let (start, h) = (state.interval.start + tau, state.series.h());
-        for j in 0..state.motions.len() {
-            let velocity = state.velocity_of_block(j);
-            let slip = state.slip_change(j);
-            let at_start = state.motions[j].slip;
-            let (peak, motion) = (&mut self.slip[j], &mut state.motions[j]);
+        let (start, h) = (state.interval.start + tau, state.step.series.h());
+        for j in 0..state.blocks.motions.len() {
+            let velocity = velocity_of_block(state, j);
+            let slip = slip_change(state, j);
+            let at_start = state.blocks.motions[j].slip;
+            let (peak, motion) = (&mut self.slip[j], &mut state.blocks.motions[j]);
             // A turn at the very end of one series is none inside the next.
             motion.end_stretch();
             let (first, others) = velocity.sign_changes::<Plain>();
@@ -297,15 +298,15 @@ impl Observer {
     pub(crate) fn add_energy(&mut self, state: &State, tau: f64, end: f64) {
         let Some(balance) = &mut self.energy else { return };
         let n = state.storeys();
-        let length = state.series.h() * end;
+        let length = state.step.series.h() * end;
         let (mut rates, mut scratch) = (vec![0.0; n], vec![0.0; n]);
-        let velocities: Vec<Option<Polynomial>> = (0..state.motions.len())
-            .map(|j| (!state.motions[j].is_stuck()).then(|| state.velocity_of_block(j)))
+        let velocities: Vec<Option<Polynomial>> = (0..state.blocks.motions.len())
+            .map(|j| (!state.blocks.motions[j].is_stuck()).then(|| velocity_of_block(state, j)))
             .collect();
         for (node, weight) in GAUSS {
             let s = node * end;
-            let at = tau + s * state.series.h();
-            state.series.rates_at(s, &mut rates);
+            let at = tau + s * state.step.series.h();
+            state.step.series.rates_at(s, &mut rates);
             let energy = &mut balance.energy;
             energy.viscous += weight * length * viscous_power(state.model, &rates, &mut scratch);
             let mut velocity = 0.0;
@@ -318,14 +319,16 @@ impl Observer {
                 let relative = velocities[j].as_ref().map_or(0.0, |p| p.at::<Plain>(s));
                 let floor = if law.floor > 0 { scratch[law.floor - 1] } else { 0.0 };
                 momentum += law.mass * (floor + relative);
-                if let BlockState::Sliding(sign) = state.motions[j].state {
-                    let force = sign.factor() * state.motions[j].mu_k * law.mass * state.contact_at(at);
+                if let BlockState::Sliding(sign) = state.blocks.motions[j].state {
+                    let force = sign.factor() * state.blocks.motions[j].mu_k * law.mass * state.contact_at(at);
                     energy.friction += weight * length * force * relative;
                 }
             }
             energy.input -= weight * length * momentum * state.interval.ground_at(at);
         }
-        for ((spring, change), x) in state.springs.iter().zip(state.series.changes()[0]).zip(&state.x) {
+        for ((spring, change), x) in
+            state.springs.machines.iter().zip(state.step.series.changes()[0]).zip(&state.kinematics.x)
+        {
             balance.energy.hysteretic += spring.dissipated(*x, *change);
         }
         balance.largest_input = balance.largest_input.max(balance.energy.input);
@@ -348,5 +351,5 @@ impl Observer {
 /// Drift and shear of storey `i` at a drift coordinate.
 #[inline(always)]
 fn drift_and_shear(state: &State, i: usize, x: f64) -> [f64; 2] {
-    [state.springs[i].drift(x), state.base_force[i] + state.regime.row(Row::SpringTangent)[i] * x]
+    [state.springs.machines[i].drift(x), state.springs.base_force[i] + state.regime.row(Row::SpringTangent)[i] * x]
 }

@@ -11,6 +11,7 @@ use super::history::{History, check_finite};
 use super::roots::first_fall;
 use super::scheme::{Columns, Scheme, StepMap, System};
 use super::{Error, Events};
+use crate::events::carry_out::settle_all;
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::machines::guard::Guard;
 use crate::machines::guard::Outcome;
@@ -97,12 +98,12 @@ impl<S: Scheme> Run<'_, S> {
         state.set_interval(motion, 0);
         let (contact, change) = (state.interval.contact, state.interval.contact_change);
         if state.vertical && (contact < 0.0 || contact == 0.0 && change <= 0.0) {
-            state.airborne = true;
-            state.motions.iter_mut().for_each(|m| m.state = BlockState::Airborne);
+            state.blocks.airborne = true;
+            state.blocks.motions.iter_mut().for_each(|m| m.state = BlockState::Airborne);
         }
         state.enter_regime();
-        if !state.airborne {
-            state.settle_all(0.0, &mut self.log);
+        if !state.blocks.airborne {
+            settle_all(state, 0.0, &mut self.log);
             state.enter_regime();
             self.history.events += self.log.len();
             self.log.clear();
@@ -110,12 +111,12 @@ impl<S: Scheme> Run<'_, S> {
         self.refresh(0.0);
         self.observe();
         let state = &self.state;
-        self.history.record(0, drifts(state), state.motions.iter().map(|m| m.slip));
+        self.history.record(0, drifts(state), state.blocks.motions.iter().map(|m| m.slip));
     }
 
     fn record(&mut self, row: usize) -> Result<(), Error> {
         let state = &self.state;
-        let slips = || state.motions.iter().map(|m| m.slip);
+        let slips = || state.blocks.motions.iter().map(|m| m.slip);
         check_finite(state.interval.start + state.interval.h, drifts(state), slips())?;
         self.history.record(row, drifts(state), slips());
         Ok(())
@@ -123,7 +124,7 @@ impl<S: Scheme> Run<'_, S> {
 
     fn observe(&mut self) {
         let state = &self.state;
-        self.history.observe(drifts(state), state.motions.iter().map(|m| m.slip));
+        self.history.observe(drifts(state), state.blocks.motions.iter().map(|m| m.slip));
     }
 
     /// Forms accelerations, and q for the step that starts at `tau`.
@@ -134,7 +135,7 @@ impl<S: Scheme> Run<'_, S> {
 
     /// One step from `tau` to `end`, events included; returns the storey that collapsed, and when.
     fn solve(&mut self, mut tau: f64, end: f64) -> Result<Option<(usize, f64)>, Error> {
-        let machines = self.state.storeys() + self.state.motions.len();
+        let machines = self.state.storeys() + self.state.blocks.motions.len();
         let limit = EVENTS_PER_MACHINE * (1 + machines);
         let mut whole = true;
         let mut count = 0;
@@ -188,9 +189,9 @@ impl<S: Scheme> Run<'_, S> {
 
     fn save(&mut self) {
         let n = self.start.x.len();
-        self.start.x.copy_from_slice(&self.state.x[..n]);
-        self.start.v.copy_from_slice(&self.state.v[..n]);
-        self.start.motions.clone_from(&self.state.motions);
+        self.start.x.copy_from_slice(&self.state.kinematics.x[..n]);
+        self.start.v.copy_from_slice(&self.state.kinematics.v[..n]);
+        self.start.motions.clone_from(&self.state.blocks.motions);
     }
 
     /// Takes the state from the start at `tau` over a step of length `h`.
@@ -204,12 +205,18 @@ impl<S: Scheme> Run<'_, S> {
         }
         let (dx, dv) = self.change.split_at(n);
         for i in 0..n {
-            self.state.x[i] = self.start.x[i] + dx[i];
-            self.state.v[i] = self.start.v[i] + dv[i];
+            self.state.kinematics.x[i] = self.start.x[i] + dx[i];
+            self.state.kinematics.v[i] = self.start.v[i] + dv[i];
         }
         self.advance_blocks(tau, h);
         let state = &mut self.state;
-        state.regime.accelerations(state.model, &state.x, &state.v, &state.drive.load, &mut state.a[..n]);
+        state.regime.accelerations(
+            state.model,
+            &state.kinematics.x,
+            &state.kinematics.v,
+            &state.step.drive.load,
+            &mut state.kinematics.a[..n],
+        );
         Ok(())
     }
 
@@ -219,7 +226,7 @@ impl<S: Scheme> Run<'_, S> {
         let singular = || Error::SingularStep { time };
         let start = &self.start;
         if whole {
-            let index = self.state.entry;
+            let index = self.state.key.entry;
             if self.maps.len() <= index {
                 self.maps.resize_with(index + 1, || None);
             }
@@ -256,7 +263,7 @@ impl<S: Scheme> Run<'_, S> {
             let [b0, b1] = [0, 1].map(|e| -friction * contact[e] - ground[e]);
             let sum = |values: &[f64]| values[..law.floor].iter().sum::<f64>();
             let velocity = before.velocity + sum(&self.start.v);
-            let motion = &mut state.motions[j];
+            let motion = &mut state.blocks.motions[j];
             motion.velocity = before.velocity + 0.5 * h * (b0 + b1) - sum(dv);
             motion.slip = before.slip + h * velocity + h * h * (first * b0 + second * b1) - sum(dx);
         }
@@ -276,16 +283,16 @@ impl<S: Scheme> Run<'_, S> {
 }
 
 fn drifts<'s>(state: &'s State) -> impl ExactSizeIterator<Item = f64> + 's {
-    state.springs.iter().zip(&state.x).map(|(spring, &x)| spring.drift(x))
+    state.springs.machines.iter().zip(&state.kinematics.x).map(|(spring, &x)| spring.drift(x))
 }
 
 /// q at `tau`: drift accelerations by the loads and the ground alone.
 fn load(state: &mut State, tau: f64, q: &mut [f64]) {
     state.set_drive(tau);
-    let mut below = state.drive.ground;
+    let mut below = state.step.drive.ground;
     let regime = &state.regime;
     for i in 0..q.len() {
-        let a = state.drive.load[i] * regime.row(Row::InverseMass)[i];
+        let a = state.step.drive.load[i] * regime.row(Row::InverseMass)[i];
         q[i] = a - below;
         below = a;
     }

@@ -7,7 +7,6 @@
 pub(crate) mod bounds;
 pub(crate) mod operator_long;
 
-
 use crate::lanes::{PaddedRows, Vector, WIDTH, columns_of, load, numbers, prefix_sums};
 use crate::machines::model::{Model, ModelLanes};
 use crate::scene::StoreyDamping;

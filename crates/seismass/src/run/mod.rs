@@ -4,19 +4,24 @@ use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::{Error, Result};
-use crate::events::First;
+use crate::events::carry_out::{carry_out_in_lanes, settle_all};
+use crate::events::first::First;
+use crate::events::guards::first_event;
 use crate::lanes::{Padded, Vector, by_width, for_each_path};
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::machines::guard::{Guard, Outcome};
 use crate::machines::model::Model;
 use crate::plain::run::Walk;
+use crate::plain::run::plain_run;
 use crate::polynomial::orders::MAX_PHASE;
 use crate::record::histories::Recorder;
 use crate::record::observer::Observer;
+use crate::record::update::update_bounds;
 use crate::regime::Row;
 use crate::response::{Event, Response, Statistics, Status};
 use crate::scene::{Motion, Options, Scene};
 use crate::state::State;
+use crate::state::relative::block_change;
 use crate::step::cache::RegimeCache;
 
 /// Events one sample interval may have, beside [`EVENTS_PER_MACHINE`].
@@ -165,7 +170,7 @@ fn interval_by_path<V: Vector, const K: usize>(run: &mut Run, stop: &AtomicBool)
             }
         }
         let time = run.state.interval.start + tau;
-        if run.state.is_sliding || run.state.airborne {
+        if run.state.blocks.is_sliding || run.state.blocks.airborne {
             run.observer.observe_slips(&run.state, time);
         }
     }
@@ -182,7 +187,7 @@ for_each_path! {
 fn add_energy_by_path<V: Vector, const K: usize>(state: &mut State, observer: &mut Observer, tau: f64, h: f64) {
     state.form_series::<V, K>(tau, h);
     observer.add_energy(state, tau, 1.0);
-    state.advance::<V, K>(tau, true);
+    advance::<V, K>(state, tau, true);
 }
 
 struct Run<'a> {
@@ -201,13 +206,13 @@ impl Run<'_> {
         state.set_interval(motion, 0);
         let contact = (state.interval.contact, state.interval.contact_change);
         if state.vertical && (contact.0 < 0.0 || contact.0 == 0.0 && contact.1 <= 0.0) {
-            state.airborne = true;
-            state.motions.iter_mut().for_each(|m| m.state = BlockState::Airborne);
+            state.blocks.airborne = true;
+            state.blocks.motions.iter_mut().for_each(|m| m.state = BlockState::Airborne);
         }
         state.enter_regime();
         state.refresh_accelerations(0.0);
-        if !state.airborne {
-            state.settle_all(0.0, &mut self.log);
+        if !state.blocks.airborne {
+            settle_all(state, 0.0, &mut self.log);
             state.enter_regime();
             state.refresh_accelerations(0.0);
         }
@@ -240,16 +245,18 @@ impl Run<'_> {
         let state = &self.state;
         let regime = &state.regime;
         let tangent = &regime.row(Row::Tangent)[..state.storeys()];
-        let settled = state.motions.iter().all(BlockMotion::is_stuck)
-            && state.springs.iter().all(|s| s.rate_sign().is_none())
+        let settled = state.blocks.motions.iter().all(BlockMotion::is_stuck)
+            && state.springs.machines.iter().all(|s| s.rate_sign().is_none())
             && tangent.iter().all(|&k| k > 0.0);
         if !settled || state.vertical || !regime.is_passive() {
             return false;
         }
-        let rest: Vec<f64> =
-            (0..state.storeys()).map(|i| -state.springs[i].base_load(&state.model.laws[i]) / tangent[i]).collect();
-        let kinetic: f64 = regime.row(Row::Mass).iter().zip(state.floor_velocities()).map(|(m, v)| m * v * v).sum();
-        let elastic: f64 = (0..rest.len()).map(|i| tangent[i] * (state.x[i] - rest[i]).powi(2)).sum();
+        let rest: Vec<f64> = (0..state.storeys())
+            .map(|i| -state.springs.machines[i].base_load(&state.model.laws[i]) / tangent[i])
+            .collect();
+        let kinetic: f64 =
+            regime.row(Row::Mass).iter().zip(state.kinematics.floor_velocities()).map(|(m, v)| m * v * v).sum();
+        let elastic: f64 = (0..rest.len()).map(|i| tangent[i] * (state.kinematics.x[i] - rest[i]).powi(2)).sum();
         // Wider than rounding: without damping the same peak comes back in each cycle.
         let liveliness = (kinetic + elastic).sqrt() * (1.0 + SAME_PEAK);
         let contact = state.interval.contact;
@@ -258,11 +265,11 @@ impl Run<'_> {
             let (low, high) = (rest[i] - reach, rest[i] + reach);
             let inside = |(lower, upper): (f64, f64)| high < upper && low > lower;
             let a = liveliness * regime.row(Row::SecondOfAcceleration)[i];
-            inside(state.segment_ends[i])
-                && inside(state.collapse_bounds[i])
+            inside(state.springs.segment_ends[i])
+                && inside(state.springs.collapse_bounds[i])
                 && !self.observer.drift_may_peak(state, i, low, high)
                 && !self.observer.acceleration_may_peak(i, -a, a)
-                && a < state.stuck_mu[i + 1] * contact
+                && a < state.blocks.stuck_mu[i + 1] * contact
         })
     }
 
@@ -277,15 +284,15 @@ impl Run<'_> {
         let before = self.observer.keeps_energy().then(|| {
             end = i + 1;
             state.begin_interval(motion, i);
-            state.moment()
+            moment(state)
         });
-        let reached = state.plain_run(&mut self.walk, &mut self.observer, motion, i, end);
+        let reached = plain_run(state, &mut self.walk, &mut self.observer, motion, i, end);
         self.statistics.intervals += reached - i;
         self.statistics.plain_steps += reached - i;
         self.statistics.series_steps += take(&mut self.walk.series);
         self.statistics.guards_isolated += take(&mut self.walk.isolated);
         if let Some(before) = before.filter(|_| reached > i) {
-            state.add_energy_of_interval(before, &mut self.observer);
+            add_energy_of_interval(state, before, &mut self.observer);
         }
         (reached, reached < end)
     }
@@ -300,7 +307,7 @@ impl Run<'_> {
     #[cold]
     #[inline(never)]
     fn event_limit(&self, phase: f64) -> usize {
-        let machines = self.state.storeys() + self.state.motions.len();
+        let machines = self.state.storeys() + self.state.blocks.motions.len();
         EVENTS_PER_INTERVAL + EVENTS_PER_MACHINE * machines * (1 + phase as usize)
     }
 
@@ -313,29 +320,29 @@ impl Run<'_> {
         let (state, observer) = (&mut self.state, &mut self.observer);
         let isolated = &mut self.statistics.guards_isolated;
         state.form_series::<V, K>(tau, h);
-        state.update_bounds::<V, K>(observer);
+        update_bounds::<V, K>(state, observer);
         state.form_ranges::<V, K>();
         // Squares of the response overflow before it does: nothing bounds it then, and no guard can be looked at.
-        if !state.ranges.are_finite() {
-            return Err(state.not_finite(tau));
+        if !state.step.ranges.are_finite() {
+            return Err(not_finite(state, tau));
         }
-        let event = state.first_event::<V, K>(tau, isolated);
+        let event = first_event::<V, K>(state, tau, isolated);
         let end = event.place();
         observer.observe_series::<V, K>(state, tau, end, isolated);
-        if state.airborne {
+        if state.blocks.airborne {
             observer.observe_flights(state, tau, end);
         }
         if !event.is_none() {
-            state.series.stop_at::<V, K>(state.model, end);
+            state.step.series.stop_at::<V, K>(state.model, end);
         }
         if observer.keeps_energy() {
             observer.add_energy(state, tau, end);
         }
-        if !state.advance::<V, K>(tau, event.is_none()) {
-            return Err(state.not_finite(tau + end * h));
+        if !advance::<V, K>(state, tau, event.is_none()) {
+            return Err(not_finite(state, tau + end * h));
         }
-        if event.is_none() && state.ranges.suspects != [0; 3] {
-            observer.take_building_in_lanes::<V, K>(state, state.interval.start + tau + state.series.h());
+        if event.is_none() && state.step.ranges.suspects != [0; 3] {
+            observer.take_building_in_lanes::<V, K>(state, state.interval.start + tau + state.step.series.h());
         }
         Ok(event)
     }
@@ -350,12 +357,12 @@ impl Run<'_> {
             observer.take_accelerations_in_lanes::<V, K>(state, time);
         }
         let logged = self.log.len();
-        let outcome = state.carry_out::<V, K>(guard, tau, &mut self.log);
+        let outcome = carry_out_in_lanes::<V, K>(state, guard, tau, &mut self.log);
         if outcome == Outcome::Continue {
             state.refresh::<V, K>(tau);
         }
         observer.take_building_in_lanes::<V, K>(state, time);
-        if !guard.is_smooth() || state.is_sliding || state.airborne {
+        if !guard.is_smooth() || state.blocks.is_sliding || state.blocks.airborne {
             observer.observe_slips(state, time);
         }
         if time == state.interval.start {
@@ -383,8 +390,8 @@ impl Run<'_> {
 
     #[cold]
     fn too_many_events(&self, guard: Guard, tau: f64, limit: usize) -> Error {
-        let storey = |i: usize| (format!("storey {}", i + 1), self.state.springs[i].state_name());
-        let block = |j: usize| (format!("block {}", j + 1), self.state.motions[j].state_name());
+        let storey = |i: usize| (format!("storey {}", i + 1), self.state.springs.machines[i].state_name());
+        let block = |j: usize| (format!("block {}", j + 1), self.state.blocks.motions[j].state_name());
         let on = |floor: usize| self.state.model.on_floor[floor].first().copied().unwrap_or(0);
         let (event, (element, state)) = match guard {
             Guard::SegmentEnd { storey: i, .. } => ("end of a spring's segment", storey(i)),
@@ -402,7 +409,7 @@ impl Run<'_> {
         let n = self.state.storeys();
         let state = &self.state;
         let statistics = &mut self.statistics;
-        (statistics.regimes, statistics.regime_hits) = state.regimes;
+        (statistics.regimes, statistics.regime_hits) = state.key.entered;
         statistics.intervals = statistics.intervals.div_ceil(statistics.substeps);
         statistics.skipped.head_samples /= statistics.substeps;
         statistics.skipped.tail_samples /= statistics.substeps;
@@ -410,9 +417,9 @@ impl Run<'_> {
         Response {
             status,
             end_time,
-            residual_drift: (0..n).map(|i| at_end(state.springs[i].drift(state.x[i]))).collect(),
-            residual_slip: state.motions.iter().map(|m| at_end(m.slip)).collect(),
-            slip_path: state.motions.iter().map(BlockMotion::path).collect(),
+            residual_drift: (0..n).map(|i| at_end(state.springs.machines[i].drift(state.kinematics.x[i]))).collect(),
+            residual_slip: state.blocks.motions.iter().map(|m| at_end(m.slip)).collect(),
+            slip_path: state.blocks.motions.iter().map(BlockMotion::path).collect(),
             energy: self.observer.finish_energy(state),
             events: self.keep_log.then_some(self.log),
             peaks: self.observer.peaks(n),
@@ -431,64 +438,75 @@ struct Moment {
     motions: Vec<BlockMotion>,
 }
 
-impl State<'_> {
-    /// Moves drifts, drift rates and blocks to the place of the present series, which begins at `tau`; at its end,
-    /// accelerations too. Returns whether all is finite.
-    #[inline(always)]
-    fn advance<V: Vector, const K: usize>(&mut self, tau: f64, to_end: bool) -> bool {
-        let mut blocks = 0.0;
-        if self.is_sliding || self.airborne {
-            for j in 0..self.motions.len() {
-                if !self.motions[j].is_stuck() {
-                    let change = self.block_change::<K>(j);
-                    self.motions[j].move_by(change);
-                    // No number times zero is zero but a finite one.
-                    blocks += 0.0 * (change.0 + change.1);
-                }
+/// Moves drifts, drift rates and blocks to the place of the present series, which begins at `tau`; at its end,
+/// accelerations too. Returns whether all is finite.
+#[inline(always)]
+fn advance<V: Vector, const K: usize>(state: &mut State, tau: f64, to_end: bool) -> bool {
+    let mut blocks = 0.0;
+    if state.blocks.is_sliding || state.blocks.airborne {
+        for j in 0..state.blocks.motions.len() {
+            if !state.blocks.motions[j].is_stuck() {
+                let change = block_change::<K>(state, j);
+                state.blocks.motions[j].move_by(change);
+                // No number times zero is zero but a finite one.
+                blocks += 0.0 * (change.0 + change.1);
             }
         }
-        let end = to_end.then(|| tau + self.series.h());
-        self.take_changes::<V, K>(end) && blocks == 0.0
     }
+    let end = to_end.then(|| tau + state.step.series.h());
+    state.take_changes::<V, K>(end) && blocks == 0.0
+}
 
-    /// What moves, at this moment.
-    fn moment(&self) -> Moment {
-        let lanes = [&self.x, &self.v, &self.a, &self.jerk, &self.drift_acceleration].map(Clone::clone);
-        let (jerk_slope, is_formed) = (self.jerk_slope, self.is_formed);
-        Moment { lanes, jerk_slope, is_formed, motions: self.motions.clone() }
-    }
+/// What moves, at this moment.
+fn moment(state: &State) -> Moment {
+    let lanes = [
+        &state.kinematics.x,
+        &state.kinematics.v,
+        &state.kinematics.a,
+        &state.kinematics.jerk,
+        &state.kinematics.drift_acceleration,
+    ]
+    .map(Clone::clone);
+    let (jerk_slope, is_formed) = (state.kinematics.jerk_slope, state.kinematics.is_formed);
+    Moment { lanes, jerk_slope, is_formed, motions: state.blocks.motions.clone() }
+}
 
-    fn set_moment(&mut self, moment: Moment) {
-        [self.x, self.v, self.a, self.jerk, self.drift_acceleration] = moment.lanes;
-        (self.jerk_slope, self.is_formed) = (moment.jerk_slope, moment.is_formed);
-        self.motions = moment.motions;
-    }
+fn set_moment(state: &mut State, moment: Moment) {
+    [
+        state.kinematics.x,
+        state.kinematics.v,
+        state.kinematics.a,
+        state.kinematics.jerk,
+        state.kinematics.drift_acceleration,
+    ] = moment.lanes;
+    (state.kinematics.jerk_slope, state.kinematics.is_formed) = (moment.jerk_slope, moment.is_formed);
+    state.blocks.motions = moment.motions;
+}
 
-    /// Integrates the energies of an interval without events from its start, and leaves the state at its end as it is.
-    fn add_energy_of_interval(&mut self, start: Moment, observer: &mut Observer) {
-        let end = self.moment();
-        self.set_moment(start);
-        let pieces = (self.regime.frequency * self.interval.h / MAX_PHASE).ceil().max(1.0);
-        let h = self.interval.h / pieces;
-        for piece in 0..pieces as usize {
-            let tau = piece as f64 * h;
-            by_width!(self.model.width, K => add_energy::<K>(self, observer, tau, h));
-        }
-        self.set_moment(end);
+/// Integrates the energies of an interval without events from its start, and leaves the state at its end as it is.
+fn add_energy_of_interval(state: &mut State, start: Moment, observer: &mut Observer) {
+    let end = moment(state);
+    set_moment(state, start);
+    let pieces = (state.regime.frequency * state.interval.h / MAX_PHASE).ceil().max(1.0);
+    let h = state.interval.h / pieces;
+    for piece in 0..pieces as usize {
+        let tau = piece as f64 * h;
+        by_width!(state.model.width, K => add_energy::<K>(state, observer, tau, h));
     }
+    set_moment(state, end);
+}
 
-    #[cold]
-    fn not_finite(&self, tau: f64) -> Error {
-        let storey = self.x.iter().zip(&self.v).position(|(x, v)| !(x + v).is_finite());
-        let block = self.motions.iter().position(|m| !(m.slip + m.velocity).is_finite());
-        let element = match (storey, block) {
-            (Some(i), _) => format!("storey {}", i + 1),
-            (None, Some(j)) => format!("block {}", j + 1),
-            // Only what is formed of them, as their squares.
-            (None, None) => "the building".into(),
-        };
-        Error::NotFinite { time: self.interval.start + tau, element }
-    }
+#[cold]
+fn not_finite(state: &State, tau: f64) -> Error {
+    let storey = state.kinematics.x.iter().zip(&state.kinematics.v).position(|(x, v)| !(x + v).is_finite());
+    let block = state.blocks.motions.iter().position(|m| !(m.slip + m.velocity).is_finite());
+    let element = match (storey, block) {
+        (Some(i), _) => format!("storey {}", i + 1),
+        (None, Some(j)) => format!("block {}", j + 1),
+        // Only what is formed of them, as their squares.
+        (None, None) => "the building".into(),
+    };
+    Error::NotFinite { time: state.interval.start + tau, element }
 }
 
 #[cfg(test)]

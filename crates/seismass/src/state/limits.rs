@@ -4,7 +4,6 @@ use crate::lanes::{FAR, Padded, Vector, load, store};
 use crate::machines::sign::Sign;
 use crate::polynomial::enclosure::apart;
 use crate::polynomial::enclosure::{against, farthest};
-use crate::state::State;
 use crate::state::sample::Sample;
 
 /// Bounds of all storeys and floors, padded; in lanes beyond the last storey they are far. They hold once they are
@@ -85,8 +84,7 @@ pub(crate) struct BoundsInLanes<V, const K: usize> {
 
 impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
     #[inline(always)]
-    pub(crate) fn of(state: &State) -> Self {
-        let bounds = &state.bounds;
+    pub(crate) fn of(bounds: &Bounds) -> Self {
         Self {
             middle: load(&bounds.middle),
             reach: load(&bounds.reach),

@@ -1,119 +1,61 @@
 //! The state of a run: drifts, drift rates, spring and block machines, and what one sample interval does to them.
 
+pub(crate) mod blocks;
 pub(crate) mod effort;
 pub(crate) mod interval;
+pub(crate) mod key;
+pub(crate) mod kinematics;
 pub(crate) mod limits;
 pub(crate) mod ranges;
+pub(crate) mod relative;
 pub(crate) mod sample;
+pub(crate) mod springs;
+pub(crate) mod step;
 
 use std::mem::take;
 use std::rc::Rc;
 
-use crate::step::cache::KnownRegime;
 use crate::lanes::{
-    FAR, MAX_LANES, Padded, PaddedRows, Vector, WIDEST, WIDTH, at, by_width, differences, for_each_path, lanes,
-    lanes_mut, load, numbers, store,
+    FAR, MAX_LANES, Padded, Vector, WIDEST, WIDTH, at, by_width, differences, for_each_path, lanes, lanes_mut, load,
+    numbers, store,
 };
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::machines::model::Model;
-use crate::machines::settle::{Demand, Transition};
-use crate::machines::storey::StoreySpring;
+use crate::machines::settle::Demand;
 use crate::polynomial::enclosure::{THIRD, range};
 use crate::regime::{Operator, Regime, Row};
 use crate::scene::{Block, Motion, Scene, StoreyDamping};
+use crate::state::blocks::Blocks;
 use crate::state::effort::Effort;
 use crate::state::interval::Interval;
+use crate::state::key::RegimeKey;
+use crate::state::key::WORD;
+use crate::state::kinematics::Kinematics;
 use crate::state::limits::{Bounds, BoundsInLanes};
-use crate::state::ranges::Ranges;
 use crate::state::sample::Sample;
+use crate::state::springs::Springs;
+use crate::state::step::Step;
+use crate::step::cache::KnownRegime;
 use crate::step::cache::RegimeCache;
 use crate::step::drive::Drive;
 use crate::step::drive::Start;
-use crate::step::series::Series;
 
-/// Bits of a word.
-const WORD: usize = u64::BITS as usize;
-
-/// Sets the bits of a mask, from bit `first` on, which do not lie across two words.
-#[inline]
-fn set_bits(words: &mut [u64], first: usize, mask: u64, bits: u64) {
-    let (word, shift) = (&mut words[first / WORD], first % WORD);
-    *word = *word & !(mask << shift) | bits << shift;
-}
-
-/// Effect of the floor loads of the present state on the step of the regime's propagator.
-#[derive(Debug, Default)]
-pub(crate) struct LoadEffects {
-    pub(crate) valid: bool,
-    /// Of the springs' base forces (and of friction, without vertical motion).
-    pub(crate) constant: PaddedRows<4>,
-    /// With vertical motion: of friction at unit contact force.
-    pub(crate) friction: PaddedRows<4>,
-    /// With vertical motion: of friction with the contact force growing from zero to one.
-    pub(crate) friction_ramp: PaddedRows<4>,
-}
-
-/// The state of a run and its working space. Vectors of storeys and floors are padded to whole lanes with zeros, from
-/// `x` to `drift_acceleration`, and those of `drive`, `spring_load`, `friction` and the springs' bases.
+/// The state of a run and its working space. Vectors of storeys and floors are padded to whole lanes with zeros: those of
+/// the kinematics, of the drive, and of loads and bases.
 pub(crate) struct State<'a> {
     pub(crate) model: &'a Model,
     pub(crate) cache: &'a mut RegimeCache,
     pub(crate) vertical: bool,
     pub(crate) interval: Interval,
-    /// Drift of each storey since its spring's base.
-    pub(crate) x: Padded,
-    /// Drift rate of each storey.
-    pub(crate) v: Padded,
-    /// Absolute acceleration of each floor.
-    pub(crate) a: Padded,
-    /// Its rate.
-    pub(crate) jerk: Padded,
-    /// Second derivative of each drift.
-    pub(crate) drift_acceleration: Padded,
-    /// With vertical motion: slope of the contact force that the rates of accelerations follow (m/s3).
-    pub(crate) jerk_slope: f64,
-    /// Whether accelerations and their rates were formed from drifts and drift rates, not taken from a series: that may
-    /// be done once, for their errors would add up.
-    pub(crate) is_formed: bool,
-    pub(crate) springs: Vec<StoreySpring>,
-    pub(crate) motions: Vec<BlockMotion>,
-    /// Whether the blocks have lost contact.
-    pub(crate) airborne: bool,
-    /// Whether a block slides.
-    pub(crate) is_sliding: bool,
-    /// The regime, and its index in the cache.
+    pub(crate) kinematics: Kinematics,
+    pub(crate) springs: Springs,
+    pub(crate) blocks: Blocks,
     pub(crate) regime: Rc<KnownRegime>,
-    pub(crate) entry: usize,
-    /// Force of the springs at their bases on each floor (N).
-    pub(crate) spring_load: Padded,
-    /// Friction on each floor per unit contact force: sum of sign mu_k m over its sliding blocks (kg).
-    pub(crate) friction: Padded,
-    /// Smallest mu_s of the blocks stuck to the ground (0) and to each floor; infinite where none is.
-    pub(crate) stuck_mu: Vec<f64>,
-    /// Drift coordinates at which the segment of each storey's spring ends.
-    pub(crate) segment_ends: Vec<(f64, f64)>,
-    /// Drift coordinates at which each storey collapses.
-    pub(crate) collapse_bounds: Vec<(f64, f64)>,
-    /// Drift of each storey at its spring's base.
-    pub(crate) base_drift: Padded,
-    /// Spring force of each storey at its base (N).
-    pub(crate) base_force: Padded,
-    /// The same less P-Delta (N).
-    pub(crate) base_load: Padded,
-    pub(crate) effects: LoadEffects,
-    pub(crate) drive: Drive,
-    pub(crate) series: Series,
+    pub(crate) key: RegimeKey,
     pub(crate) bounds: Bounds,
-    pub(crate) ranges: Ranges,
+    pub(crate) step: Step,
     /// What a step of a tall building with peaks inside takes.
     pub(crate) effort: Effort,
-    /// Working space: what becomes of the blocks of a floor.
-    pub(crate) transitions: Vec<Transition>,
-    stuck_mass: Vec<f64>,
-    /// Class of each storey's segment, in [`Model::class_bits`] each, and which blocks are stuck: the key of the regime.
-    key: Vec<u64>,
-    /// Different regimes entered by this run, and changes into a regime already known to it.
-    pub(crate) regimes: (usize, usize),
 }
 
 impl<'a> State<'a> {
@@ -123,53 +65,27 @@ impl<'a> State<'a> {
         let velocity = scene.initial_velocity();
         let below = |i: usize| if i > 0 { velocity[i - 1] } else { 0.0 };
         let floor_velocity = |floor: usize| if floor > 0 { velocity[floor - 1] } else { 0.0 };
-        let blocks = scene.blocks().len();
         let relative = |b: &Block| b.velocity.map_or(0.0, |w| w - floor_velocity(b.floor));
         let laws_of_blocks = model.blocks.iter().zip(scene.blocks());
         let motions = laws_of_blocks.map(|(law, block)| BlockMotion::new(law, relative(block))).collect();
         cache.begin_run();
-        let zero = || Padded::new(model.width, 0.0);
         Self {
             model,
             cache,
             vertical,
             interval: Interval::default(),
-            x: Padded::filled(scene.initial_drift().iter().copied(), n, 0.0),
-            v: Padded::filled((0..n).map(|i| velocity[i] - below(i)), n, 0.0),
-            a: zero(),
-            jerk: zero(),
-            drift_acceleration: zero(),
-            jerk_slope: 0.0,
-            is_formed: false,
-            springs: model.laws.iter().map(StoreySpring::new).collect(),
-            motions,
-            airborne: false,
-            is_sliding: false,
+            kinematics: Kinematics::new(
+                model.width,
+                Padded::filled(scene.initial_drift().iter().copied(), n, 0.0),
+                Padded::filled((0..n).map(|i| velocity[i] - below(i)), n, 0.0),
+            ),
+            springs: Springs::new(model),
+            blocks: Blocks::new(model, motions),
             regime: Rc::default(),
-            entry: 0,
-            spring_load: zero(),
-            friction: zero(),
-            stuck_mu: vec![f64::INFINITY; n + 1],
-            segment_ends: vec![(f64::NEG_INFINITY, f64::INFINITY); n],
-            collapse_bounds: vec![(f64::NEG_INFINITY, f64::INFINITY); n],
-            base_drift: zero(),
-            base_force: zero(),
-            base_load: zero(),
-            effects: LoadEffects {
-                valid: false,
-                constant: PaddedRows::zeros(model.width),
-                friction: PaddedRows::zeros(model.width),
-                friction_ramp: PaddedRows::zeros(model.width),
-            },
-            drive: Drive { load: zero(), load_slope: zero(), ..Drive::default() },
-            series: Series::default(),
+            key: RegimeKey::new(model),
             bounds: Bounds::new(n),
-            ranges: Ranges::new(n),
+            step: Step::new(model),
             effort: Effort::default(),
-            transitions: Vec::new(),
-            stuck_mass: vec![0.0; n],
-            key: vec![0; (model.class_bits * n + blocks).div_ceil(WORD)],
-            regimes: (0, 0),
         }
     }
 
@@ -181,7 +97,8 @@ impl<'a> State<'a> {
 
     /// Whether nothing moves and no spring is deformed.
     pub(crate) fn is_at_rest(&self) -> bool {
-        self.x.iter().chain(&self.v).all(|&value| value == 0.0) && self.motions.iter().all(BlockMotion::is_stuck)
+        self.kinematics.x.iter().chain(&self.kinematics.v).all(|&value| value == 0.0)
+            && self.blocks.motions.iter().all(BlockMotion::is_stuck)
     }
 
     /// Follows all state machines: bounds, loads, and the regime.
@@ -194,7 +111,7 @@ impl<'a> State<'a> {
     #[inline(always)]
     pub(crate) fn enter_regime_of_spring<V: Vector, const K: usize>(&mut self, i: usize) {
         self.follow_spring::<V, K>(i);
-        self.follow_springs::<V, K>();
+        self.springs.form_loads::<V, K>(self.vectors::<K>());
         self.find_regime();
     }
 
@@ -207,57 +124,41 @@ impl<'a> State<'a> {
 
     #[inline(always)]
     fn follow_spring<V: Vector, const K: usize>(&mut self, i: usize) {
-        let (spring, law) = (&self.springs[i], &self.model.laws[i]);
-        let segment = *spring.segment();
-        self.segment_ends[i] = segment.ends;
-        let (limit, base) = (law.collapse_drift, segment.base_drift);
-        self.collapse_bounds[i] = (-limit - base, limit - base);
-        self.base_drift.set_lane::<V, K>(i, base);
-        self.base_force.set_lane::<V, K>(i, segment.base_force);
-        self.base_load.set_lane::<V, K>(i, spring.base_load(law));
-        self.bounds.follow_spring::<V, K>(i, self.guarded_drift(i), segment.rate_sign);
+        self.springs.follow::<V, K>(self.model, i);
+        let segment = self.springs.machines[i].segment();
+        self.bounds.follow_spring::<V, K>(i, self.springs.guarded_drift(i), segment.rate_sign);
         let bits = self.model.class_bits;
         let class = if bits == WORD { segment.tangent.to_bits() } else { u64::from(segment.class) };
-        set_bits(&mut self.key, bits * i, u64::MAX >> (WORD - bits), class);
-    }
-
-    #[inline(always)]
-    fn follow_springs<V: Vector, const K: usize>(&mut self) {
-        let mut above = V::splat(0.0);
-        for k in (0..self.vectors::<K>()).rev() {
-            let base = self.base_load.vector::<V, K>(k);
-            self.spring_load.set_vector::<V, K>(k, base.shifted_down(above).sub(base));
-            above = base;
-        }
+        self.key.set_class(bits, i, class);
     }
 
     #[inline(always)]
     fn follow_blocks<V: Vector, const K: usize>(&mut self) {
         for k in 0..self.vectors::<K>() {
-            self.friction.set_vector::<V, K>(k, V::splat(0.0));
+            self.blocks.friction.set_vector::<V, K>(k, V::splat(0.0));
             self.bounds.stuck_mu.set_vector::<V, K>(k, V::splat(FAR));
         }
-        self.stuck_mass.fill(0.0);
-        self.stuck_mu.fill(f64::INFINITY);
-        self.is_sliding = false;
-        let of_springs = self.model.class_bits * self.springs.len();
-        for (j, (motion, law)) in self.motions.iter().zip(&self.model.blocks).enumerate() {
+        self.blocks.stuck_mass.fill(0.0);
+        self.blocks.stuck_mu.fill(f64::INFINITY);
+        self.blocks.is_sliding = false;
+        let of_springs = self.model.class_bits * self.springs.machines.len();
+        for (j, (motion, law)) in self.blocks.motions.iter().zip(&self.model.blocks).enumerate() {
             let floor = law.floor;
-            set_bits(&mut self.key, of_springs + j, 1, u64::from(motion.is_stuck()));
+            self.key.set_stuck(of_springs, j, motion.is_stuck());
             match motion.state {
                 BlockState::Stuck => {
-                    let least = self.stuck_mu[floor].min(motion.mu_s);
-                    self.stuck_mu[floor] = least;
+                    let least = self.blocks.stuck_mu[floor].min(motion.mu_s);
+                    self.blocks.stuck_mu[floor] = least;
                     if let Some(i) = floor.checked_sub(1) {
-                        self.stuck_mass[i] += law.mass;
+                        self.blocks.stuck_mass[i] += law.mass;
                         self.bounds.stuck_mu.set_lane::<V, K>(i, least.min(FAR));
                     }
                 }
                 BlockState::Sliding(sign) => {
-                    self.is_sliding = true;
+                    self.blocks.is_sliding = true;
                     if let Some(i) = floor.checked_sub(1) {
-                        let others = self.friction.numbers::<K>()[i];
-                        self.friction.set_lane::<V, K>(i, others + sign.factor() * motion.mu_k * law.mass);
+                        let others = self.blocks.friction.numbers::<K>()[i];
+                        self.blocks.friction.set_lane::<V, K>(i, others + sign.factor() * motion.mu_k * law.mass);
                     }
                 }
                 BlockState::Airborne => {}
@@ -266,30 +167,30 @@ impl<'a> State<'a> {
     }
 
     fn find_regime(&mut self) {
-        let (model, springs, stuck_mass) = (self.model, &self.springs, &self.stuck_mass);
+        let (model, springs, stuck_mass) = (self.model, &self.springs.machines, &self.blocks.stuck_mass);
         let form = || Regime::new(model, |i| springs[i].segment().tangent, stuck_mass);
         let known;
-        (self.regime, self.entry, known) = self.cache.enter(&self.key, form);
+        (self.regime, self.key.entry, known) = self.cache.enter(&self.key.words, form);
         if known {
-            self.regimes.1 += 1;
+            self.key.entered.1 += 1;
         } else {
-            self.regimes.0 += 1;
+            self.key.entered.0 += 1;
         }
-        self.effects.valid = false;
+        self.step.effects.valid = false;
     }
 
     /// Contact force per unit mass as the blocks feel it: zero while airborne.
     #[inline]
     pub(crate) fn contact_at(&self, tau: f64) -> f64 {
-        if self.airborne { 0.0 } else { self.interval.contact_at(tau).max(0.0) }
+        if self.blocks.airborne { 0.0 } else { self.interval.contact_at(tau).max(0.0) }
     }
 
     /// Sets the drive of a series that starts at `tau`.
     pub(crate) fn set_drive(&mut self, tau: f64) {
         self.set_ground_drive(tau);
-        let Drive { contact, contact_slope, load, load_slope, .. } = &mut self.drive;
+        let Drive { contact, contact_slope, load, load_slope, .. } = &mut self.step.drive;
         let loads = load.iter_mut().zip(load_slope.iter_mut());
-        for ((load, slope), (spring, friction)) in loads.zip(self.spring_load.iter().zip(&self.friction)) {
+        for ((load, slope), (spring, friction)) in loads.zip(self.springs.load.iter().zip(&self.blocks.friction)) {
             *load = spring + friction * *contact;
             *slope = friction * *contact_slope;
         }
@@ -298,9 +199,10 @@ impl<'a> State<'a> {
     /// Sets the drive of a series that starts at `tau`, but for the loads, which tables do not need.
     #[inline]
     fn set_ground_drive(&mut self, tau: f64) {
-        (self.drive.ground, self.drive.ground_slope) = (self.interval.ground_at(tau), self.interval.ground_slope);
-        let slope = if self.airborne { 0.0 } else { self.interval.contact_slope };
-        (self.drive.contact, self.drive.contact_slope) = (self.contact_at(tau), slope);
+        (self.step.drive.ground, self.step.drive.ground_slope) =
+            (self.interval.ground_at(tau), self.interval.ground_slope);
+        let slope = if self.blocks.airborne { 0.0 } else { self.interval.contact_slope };
+        (self.step.drive.contact, self.step.drive.contact_slope) = (self.contact_at(tau), slope);
     }
 
     /// Forms accelerations and their rates at `tau` from the state.
@@ -311,7 +213,7 @@ impl<'a> State<'a> {
     /// [`State::refresh_accelerations`] within the code of a path.
     #[inline(always)]
     pub(crate) fn refresh<V: Vector, const K: usize>(&mut self, tau: f64) {
-        self.jerk_slope = self.interval.contact_slope;
+        self.kinematics.jerk_slope = self.interval.contact_slope;
         if self.storeys() <= MAX_LANES { refresh_lanes::<V, K>(self, tau) } else { self.refresh_singly(tau) }
     }
 
@@ -320,10 +222,22 @@ impl<'a> State<'a> {
     fn refresh_singly(&mut self, tau: f64) {
         let n = self.storeys();
         self.set_drive(tau);
-        self.regime.accelerations(self.model, &self.x, &self.v, &self.drive.load, &mut self.a[..n]);
-        self.refresh_drift_accelerations(self.drive.ground);
-        let slope = &self.drive.load_slope;
-        self.regime.accelerations(self.model, &self.v, &self.drift_acceleration, slope, &mut self.jerk[..n]);
+        self.regime.accelerations(
+            self.model,
+            &self.kinematics.x,
+            &self.kinematics.v,
+            &self.step.drive.load,
+            &mut self.kinematics.a[..n],
+        );
+        self.kinematics.form_drift_accelerations(n, self.step.drive.ground);
+        let slope = &self.step.drive.load_slope;
+        self.regime.accelerations(
+            self.model,
+            &self.kinematics.v,
+            &self.kinematics.drift_acceleration,
+            slope,
+            &mut self.kinematics.jerk[..n],
+        );
     }
 
     /// Adds the changes of the present series to drifts and drift rates; if the time of its end, `tau`, is given,
@@ -335,8 +249,8 @@ impl<'a> State<'a> {
         if n <= MAX_LANES {
             return changes_in_lanes::<V, K>(self, tau);
         }
-        let [drifts, rates] = self.series.changes().map(|changes| &changes[..n]);
-        let (x, v) = (&mut self.x[..n], &mut self.v[..n]);
+        let [drifts, rates] = self.step.series.changes().map(|changes| &changes[..n]);
+        let (x, v) = (&mut self.kinematics.x[..n], &mut self.kinematics.v[..n]);
         let mut zeros = 0.0;
         for i in 0..n {
             x[i] += drifts[i];
@@ -349,28 +263,19 @@ impl<'a> State<'a> {
         zeros == 0.0
     }
 
-    /// Forms the drift accelerations from those of the floors and of the ground.
-    pub(crate) fn refresh_drift_accelerations(&mut self, ground: f64) {
-        let mut below = ground;
-        let n = self.storeys();
-        for (drift_acceleration, &a) in self.drift_acceleration[..n].iter_mut().zip(&self.a) {
-            *drift_acceleration = a - below;
-            below = a;
-        }
-    }
-
     /// Forms the series over `h` from `tau`, where accelerations and their rates must be those of the state.
     #[inline(always)]
     pub(crate) fn form_series<V: Vector, const K: usize>(&mut self, tau: f64, h: f64) {
-        let by_table = self.cache.prepare_table(self.entry, self.model, self.vertical);
+        let by_table = self.cache.prepare_table(self.key.entry, self.model, self.vertical);
         if by_table {
             self.set_ground_drive(tau);
         } else {
             self.set_drive(tau);
         }
-        let start = Start { x: &self.x, v: &self.v, a: &self.a, jerk: &self.jerk };
+        let start =
+            Start { x: &self.kinematics.x, v: &self.kinematics.v, a: &self.kinematics.a, jerk: &self.kinematics.jerk };
         let table = self.regime.steps(self.vertical).and_then(|steps| steps.table.as_ref()).filter(|_| by_table);
-        self.series.form::<V, K>(self.model, (&self.regime, table), &start, &self.drive, h);
+        self.step.series.form::<V, K>(self.model, (&self.regime, table), &start, &self.step.drive, h);
     }
 
     /// Vectors of storeys: `K`, or as many as there are where the most do not hold them.
@@ -386,7 +291,7 @@ impl<'a> State<'a> {
         if self.storeys() > MAX_LANES {
             return self.form_ranges_singly();
         }
-        if !take(&mut self.ranges.are_known) {
+        if !take(&mut self.step.ranges.are_known) {
             ranges_in_lanes::<V, K>(self);
         }
     }
@@ -395,17 +300,17 @@ impl<'a> State<'a> {
     /// that [`Regime::liveliness_of`] takes.
     #[inline]
     fn bound_derivatives(&mut self, square: f64) {
-        let h = self.series.h();
+        let h = self.step.series.h();
         let liveliness = self.regime.liveliness_of(square, h);
-        self.ranges.set_margins(liveliness, h);
+        self.step.ranges.set_margins(liveliness, h);
     }
 
     /// [`State::form_ranges`] for more storeys than vectors hold.
     #[inline(never)]
     fn form_ranges_singly(&mut self) {
-        let (n, slope) = (self.storeys(), self.drive.ground_slope);
+        let (n, slope) = (self.storeys(), self.step.drive.ground_slope);
         let (root_mass, root_tangent) = (self.regime.row(Row::RootMass), self.regime.row(Row::RootTangent));
-        let (jerk, q) = (&self.jerk[..n], &self.drift_acceleration[..n]);
+        let (jerk, q) = (&self.kinematics.jerk[..n], &self.kinematics.drift_acceleration[..n]);
         let mut square = 0.0;
         for i in 0..n {
             let (jerk, q) = (root_mass[i] * (jerk[i] - slope), root_tangent[i] * q[i]);
@@ -413,15 +318,15 @@ impl<'a> State<'a> {
         }
         self.bound_derivatives(square);
         let regime = &self.regime;
-        let h = self.series.h();
+        let h = self.step.series.h();
         let margins = [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration].map(|row| regime.row(row));
-        let [dx, dv] = self.series.changes().map(|changes| &changes[..n]);
-        let [a_end, jerk_end] = self.series.accelerations_at_end().map(|values| &values[..n]);
-        let [x, v, a] = [&self.x, &self.v, &self.a].map(|values| &values[..n]);
-        let (jerk, q) = (&self.jerk[..n], &self.drift_acceleration[..n]);
-        let remainder = self.ranges.remainder;
-        let mut bounds = self.ranges.bounds.each_mut().map(|pair| pair.each_mut().map(|bounds| &mut bounds[..n]));
-        let mut below = self.drive.ground + self.drive.ground_slope * h;
+        let [dx, dv] = self.step.series.changes().map(|changes| &changes[..n]);
+        let [a_end, jerk_end] = self.step.series.accelerations_at_end().map(|values| &values[..n]);
+        let [x, v, a] = [&self.kinematics.x, &self.kinematics.v, &self.kinematics.a].map(|values| &values[..n]);
+        let (jerk, q) = (&self.kinematics.jerk[..n], &self.kinematics.drift_acceleration[..n]);
+        let remainder = self.step.ranges.remainder;
+        let mut bounds = self.step.ranges.bounds.each_mut().map(|pair| pair.each_mut().map(|bounds| &mut bounds[..n]));
+        let mut below = self.step.drive.ground + self.step.drive.ground_slope * h;
         for i in 0..n {
             let q_end = a_end[i] - std::mem::replace(&mut below, a_end[i]);
             let ends = [
@@ -441,9 +346,9 @@ impl<'a> State<'a> {
     /// from its chord by at most h^2 / 8 times its largest second derivative.
     #[inline(always)]
     pub(crate) fn steady<V: Vector, const K: usize>(&self, k: usize) -> u32 {
-        let turn = V::splat(self.ranges.chord).mul(at(self.regime.row(Row::ThirdOfAcceleration), k));
+        let turn = V::splat(self.step.ranges.chord).mul(at(self.regime.row(Row::ThirdOfAcceleration), k));
         let (start, end): (V, V) =
-            (self.jerk.vector::<V, K>(k), self.series.accelerations_at_end()[1].vector::<V, K>(k));
+            (self.kinematics.jerk.vector::<V, K>(k), self.step.series.accelerations_at_end()[1].vector::<V, K>(k));
         !V::splat(0.0).not_below(start.mul(end)) & !turn.not_below(start.abs().min(end.abs()))
     }
 
@@ -454,8 +359,8 @@ impl<'a> State<'a> {
             return self.acceleration_size(floor, contact);
         }
         let operator = Operator::<V, K>::new(self.model, &self.regime);
-        let (mut x, mut v): ([V; K], [V; K]) = (load(&self.x), load(&self.v));
-        let (loads, mut forces): ([V; K], [V; K]) = (load(&self.base_load), load(&self.friction));
+        let (mut x, mut v): ([V; K], [V; K]) = (load(&self.kinematics.x), load(&self.kinematics.v));
+        let (loads, mut forces): ([V; K], [V; K]) = (load(&self.springs.base_load), load(&self.blocks.friction));
         for k in 0..K {
             (x[k], v[k]) = (x[k].abs(), v[k].abs());
             forces[k] = forces[k].abs().mul(V::splat(contact));
@@ -465,24 +370,24 @@ impl<'a> State<'a> {
 
     /// Sum of the sizes of the terms of a floor's acceleration: times rounding, its error.
     pub(crate) fn acceleration_size(&self, floor: usize, contact: f64) -> f64 {
-        let Some(i) = floor.checked_sub(1) else { return self.drive.ground.abs() };
+        let Some(i) = floor.checked_sub(1) else { return self.step.drive.ground.abs() };
         let above = if i + 1 < self.storeys() { self.shear_size(i + 1) } else { 0.0 };
-        (self.shear_size(i) + above + self.friction[i].abs() * contact) * self.regime.row(Row::InverseMass)[i]
+        (self.shear_size(i) + above + self.blocks.friction[i].abs() * contact) * self.regime.row(Row::InverseMass)[i]
             + self.mass_damping_size(i)
     }
 
     /// Sum of the sizes of the terms of a storey's force.
     fn shear_size(&self, i: usize) -> f64 {
-        let elastic = (self.regime.row(Row::Tangent)[i] * self.x[i]).abs() + self.base_load[i].abs();
+        let elastic = (self.regime.row(Row::Tangent)[i] * self.kinematics.x[i]).abs() + self.springs.base_load[i].abs();
         let viscous = match self.model.damping() {
             StoreyDamping::None => 0.0,
             StoreyDamping::Rayleigh { stiffness_factor, .. } => {
-                (stiffness_factor * self.model.stiffness[i] * self.v[i]).abs()
+                (stiffness_factor * self.model.stiffness[i] * self.kinematics.v[i]).abs()
             }
             // The matrix is symmetric: a column is a row.
             StoreyDamping::Dense(d) => {
                 let n = self.storeys();
-                d.as_slice()[n * i..n * (i + 1)].iter().zip(&self.v).map(|(c, rate)| (c * rate).abs()).sum()
+                d.as_slice()[n * i..n * (i + 1)].iter().zip(&self.kinematics.v).map(|(c, rate)| (c * rate).abs()).sum()
             }
         };
         elastic + viscous
@@ -491,7 +396,7 @@ impl<'a> State<'a> {
     /// Size of the mass-proportional damping in a floor's acceleration.
     fn mass_damping_size(&self, i: usize) -> f64 {
         let StoreyDamping::Rayleigh { mass_factor, .. } = self.model.damping() else { return 0.0 };
-        let velocity: f64 = self.v[..=i].iter().map(|v| v.abs()).sum();
+        let velocity: f64 = self.kinematics.v[..=i].iter().map(|v| v.abs()).sum();
         velocity * mass_factor * self.model.mass[i] * self.regime.row(Row::InverseMass)[i]
     }
 
@@ -504,18 +409,10 @@ impl<'a> State<'a> {
         let contact = self.contact_at(tau);
         let mass = self.regime.row(Row::Mass)[i];
         Demand::Floor {
-            force: self.a.numbers::<K>()[i] * mass - self.friction.numbers::<K>()[i] * contact,
+            force: self.kinematics.a.numbers::<K>()[i] * mass - self.blocks.friction.numbers::<K>()[i] * contact,
             size: self.acceleration_size(floor, contact) * mass,
             mass: self.model.mass[i],
         }
-    }
-
-    /// Velocity of each floor relative to the ground, from the ground upwards.
-    pub(crate) fn floor_velocities(&self) -> impl Iterator<Item = f64> {
-        self.v.iter().scan(0.0, |velocity, rate| {
-            *velocity += rate;
-            Some(*velocity)
-        })
     }
 
     /// Moves on to the interval between samples `i` and `i + 1` of a motion, or to a point at the last sample.
@@ -531,8 +428,8 @@ impl<'a> State<'a> {
     pub(crate) fn begin_interval(&mut self, motion: &Motion, i: usize) {
         self.set_interval(motion, i);
         if self.vertical {
-            turn(self, self.interval.contact_slope - self.jerk_slope);
-            self.jerk_slope = self.interval.contact_slope;
+            turn(self, self.interval.contact_slope - self.kinematics.jerk_slope);
+            self.kinematics.jerk_slope = self.interval.contact_slope;
         }
     }
 }
@@ -547,7 +444,7 @@ fn machines_by_path<V: Vector, const K: usize>(state: &mut State) {
     for i in 0..state.storeys() {
         state.follow_spring::<V, K>(i);
     }
-    state.follow_springs::<V, K>();
+    state.springs.form_loads::<V, K>(state.vectors::<K>());
     state.follow_blocks::<V, K>();
 }
 
@@ -559,7 +456,7 @@ for_each_path! {
 #[inline(always)]
 fn turn_by_path<V: Vector>(state: &mut State, change: f64) {
     let inverse_mass = lanes(state.regime.row(Row::InverseMass));
-    turned::<V>(&mut state.jerk, lanes(&state.friction), inverse_mass, change);
+    turned::<V>(&mut state.kinematics.jerk, lanes(&state.blocks.friction), inverse_mass, change);
 }
 
 /// Rates of accelerations once the slope of the contact force has changed.
@@ -589,9 +486,9 @@ fn refresh_by_path<V: Vector, const K: usize>(state: &mut State, tau: f64) {
 fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
     let operator = Operator::<V, K>::new(state.model, &state.regime);
     let inside: [V; K] = load(&state.model.lanes.inside);
-    let (x, v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
-    let (mut forces, friction): ([V; K], [V; K]) = (load(&state.spring_load), load(&state.friction));
-    let contact_slope = if state.airborne { 0.0 } else { state.interval.contact_slope };
+    let (x, v): ([V; K], [V; K]) = (load(&state.kinematics.x), load(&state.kinematics.v));
+    let (mut forces, friction): ([V; K], [V; K]) = (load(&state.springs.load), load(&state.blocks.friction));
+    let contact_slope = if state.blocks.airborne { 0.0 } else { state.interval.contact_slope };
     let (contact, contact_slope) = (V::splat(state.contact_at(tau)), V::splat(contact_slope));
     let mut slopes = friction;
     for k in 0..K {
@@ -606,17 +503,17 @@ fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
         floors[k] = a[k].sub(ground);
     }
     let jerk = operator.accelerations(&v, &drift_acceleration, &floors, slopes);
-    store(&a, &mut state.a);
-    store(&drift_acceleration, &mut state.drift_acceleration);
-    store(&jerk, &mut state.jerk);
-    state.is_formed = true;
+    store(&a, &mut state.kinematics.a);
+    store(&drift_acceleration, &mut state.kinematics.drift_acceleration);
+    store(&jerk, &mut state.kinematics.jerk);
+    state.kinematics.is_formed = true;
 }
 
 /// See [`State::take_changes`].
 #[inline(always)]
 fn changes_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: Option<f64>) -> bool {
-    let (mut x, mut v): ([V; K], [V; K]) = (load(&state.x), load(&state.v));
-    let [drifts, rates] = state.series.changes();
+    let (mut x, mut v): ([V; K], [V; K]) = (load(&state.kinematics.x), load(&state.kinematics.v));
+    let [drifts, rates] = state.step.series.changes();
     let (drifts, rates): ([V; K], [V; K]) = (load(drifts), load(rates));
     let mut zeros = V::splat(0.0);
     for k in 0..K {
@@ -624,21 +521,21 @@ fn changes_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: Option<f6
         // No number times zero is zero but a finite one.
         zeros = x[k].add(v[k]).mul_add(V::splat(0.0), zeros);
     }
-    store(&x, &mut state.x);
-    store(&v, &mut state.v);
+    store(&x, &mut state.kinematics.x);
+    store(&v, &mut state.kinematics.v);
     if let Some(tau) = tau {
-        if state.is_formed {
-            let [a, jerk] = state.series.accelerations_at_end();
+        if state.kinematics.is_formed {
+            let [a, jerk] = state.step.series.accelerations_at_end();
             let (a, jerk): ([V; K], [V; K]) = (load(a), load(jerk));
             let inside: [V; K] = load(&state.model.lanes.inside);
             let mut drift_acceleration = differences(&a, V::splat(state.interval.ground_at(tau)));
             for k in 0..K {
                 drift_acceleration[k] = drift_acceleration[k].mul(inside[k]);
             }
-            store(&a, &mut state.a);
-            store(&drift_acceleration, &mut state.drift_acceleration);
-            store(&jerk, &mut state.jerk);
-            state.is_formed = false;
+            store(&a, &mut state.kinematics.a);
+            store(&drift_acceleration, &mut state.kinematics.drift_acceleration);
+            store(&jerk, &mut state.kinematics.jerk);
+            state.kinematics.is_formed = false;
         } else {
             refresh_lanes::<V, K>(state, tau);
         }
@@ -649,25 +546,25 @@ fn changes_in_lanes<V: Vector, const K: usize>(state: &mut State, tau: Option<f6
 /// See [`State::form_ranges`].
 #[inline(always)]
 fn ranges_in_lanes<V: Vector, const K: usize>(state: &mut State) {
-    let start = Sample::<V, K>::of(state);
+    let start = Sample::<V, K>::of(&state.kinematics);
     let (mass, tangent) = (state.regime.lanes::<V, K>(Row::RootMass), state.regime.lanes::<V, K>(Row::RootTangent));
     let mut squares = V::splat(0.0);
     for k in 0..K {
-        let kinetic = mass[k].mul(start.jerk[k].sub(V::splat(state.drive.ground_slope)));
+        let kinetic = mass[k].mul(start.jerk[k].sub(V::splat(state.step.drive.ground_slope)));
         let elastic = tangent[k].mul(start.q[k]);
         squares = elastic.mul_add(elastic, kinetic.mul_add(kinetic, squares));
     }
     state.bound_derivatives(squares.sum());
-    let h = state.series.h();
-    let ([dx, dv], [a, jerk]) = (state.series.changes(), state.series.accelerations_at_end());
+    let h = state.step.series.h();
+    let ([dx, dv], [a, jerk]) = (state.step.series.changes(), state.step.series.accelerations_at_end());
     let (dx, dv, a, jerk): ([V; K], [V; K], [V; K], [V; K]) = (load(dx), load(dv), load(a), load(jerk));
-    let q = differences(&a, V::splat(state.drive.ground + state.drive.ground_slope * h));
+    let q = differences(&a, V::splat(state.step.drive.ground + state.step.drive.ground_slope * h));
     let mut end = Sample { x: start.x, v: start.v, a, jerk, q };
     for k in 0..K {
         end.x[k] = start.x[k].add(dx[k]);
         end.v[k] = start.v[k].add(dv[k]);
     }
-    let contact = V::splat(state.drive.least_contact(h));
-    let bounds = BoundsInLanes::of(state);
-    state.ranges.form([&start, &end], (&state.regime, h), (&bounds, contact));
+    let contact = V::splat(state.step.drive.least_contact(h));
+    let bounds = BoundsInLanes::of(&state.bounds);
+    state.step.ranges.form([&start, &end], (&state.regime, h), (&bounds, contact));
 }

@@ -1,7 +1,7 @@
 //! The state at a sample, in vectors.
 
 use crate::lanes::{Vector, load, store};
-use crate::state::State;
+use crate::state::kinematics::Kinematics;
 
 /// The state at a sample: drifts, drift rates, floor accelerations, their rates, and drift accelerations.
 #[derive(Clone, Copy)]
@@ -15,22 +15,22 @@ pub(crate) struct Sample<V, const K: usize> {
 
 impl<V: Vector, const K: usize> Sample<V, K> {
     #[inline(always)]
-    pub(crate) fn of(state: &State) -> Self {
+    pub(crate) fn of(kinematics: &Kinematics) -> Self {
         Self {
-            x: load(&state.x),
-            v: load(&state.v),
-            a: load(&state.a),
-            jerk: load(&state.jerk),
-            q: load(&state.drift_acceleration),
+            x: load(&kinematics.x),
+            v: load(&kinematics.v),
+            a: load(&kinematics.a),
+            jerk: load(&kinematics.jerk),
+            q: load(&kinematics.drift_acceleration),
         }
     }
 
     #[inline(always)]
-    pub(crate) fn put_into(&self, state: &mut State) {
-        store(&self.x, &mut state.x);
-        store(&self.v, &mut state.v);
-        store(&self.a, &mut state.a);
-        store(&self.jerk, &mut state.jerk);
-        store(&self.q, &mut state.drift_acceleration);
+    pub(crate) fn put_into(&self, kinematics: &mut Kinematics) {
+        store(&self.x, &mut kinematics.x);
+        store(&self.v, &mut kinematics.v);
+        store(&self.a, &mut kinematics.a);
+        store(&self.jerk, &mut kinematics.jerk);
+        store(&self.q, &mut kinematics.drift_acceleration);
     }
 }

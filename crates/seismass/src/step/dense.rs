@@ -296,7 +296,10 @@ pub(crate) fn column_of_change(model: &Model, regime: &Regime, cause: Cause, cha
 mod tests {
     #![allow(clippy::unwrap_used)]
 
+    use std::sync::Arc;
+
     use super::*;
+    use crate::lanes::Plain;
     use crate::scene::{Block, Building, Damping, GravityEffect, Scene, Storey};
     use crate::step::table::Table;
 

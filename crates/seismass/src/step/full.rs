@@ -242,11 +242,11 @@ impl<'a> System<'a> {
         // Of a unit of s, and of r.
         let of_s = self.stopping::<V>(value, once);
         let of_r = self.stopping::<V>(once, twice);
-        let [springs_of_s, springs_of_r] = [value, once].map(|rate| rate.with_rows_times(self.tangent).packed());
+        let [springsof_s, springsof_r] = [value, once].map(|rate| rate.with_rows_times(self.tangent).packed());
         [
-            sum::<V>([(value, 2.0), (value, 0.0)], [(once, &springs_of_s), (value, &of_s)]),
-            sum::<V>([(once, 2.0), (value, h)], [(twice, &springs_of_s), (once, &of_s)]),
-            sum::<V>([(twice, 2.0), (once, 2.0 * h)], [(twice, &springs_of_r), (once, &of_r)]),
+            sum::<V>([(value, 2.0), (value, 0.0)], [(once, &springsof_s), (value, &of_s)]),
+            sum::<V>([(once, 2.0), (value, h)], [(twice, &springsof_s), (once, &of_s)]),
+            sum::<V>([(twice, 2.0), (once, 2.0 * h)], [(twice, &springsof_r), (once, &of_r)]),
         ]
     }
 }

@@ -77,13 +77,13 @@ impl Course {
             [0, 1, 2, 3].map(|lane| if from + lane < n { value(from + lane) } else { padding })
         };
         Self {
-            base: by_storey(0.0, &|i| state.springs[i].drift(0.0)),
-            force: by_storey(0.0, &|i| state.base_force[i]),
+            base: by_storey(0.0, &|i| state.springs.machines[i].drift(0.0)),
+            force: by_storey(0.0, &|i| state.springs.base_force[i]),
             tangent: by_storey(0.0, &|i| tangents[i]),
             flexibility: by_storey(0.0, &|i| flexibilities[i]),
             inflexible: by_storey(FAR, &|i| if flexibilities[i] > 0.0 { 0.0 } else { FAR }),
-            low: by_storey(-FAR, &|i| state.guarded_drift(i).0.max(-FAR)),
-            high: by_storey(FAR, &|i| state.guarded_drift(i).1.min(FAR)),
+            low: by_storey(-FAR, &|i| state.springs.guarded_drift(i).0.max(-FAR)),
+            high: by_storey(FAR, &|i| state.springs.guarded_drift(i).1.min(FAR)),
             drift: VectorPeaks::new(&observer.drift, k),
             shear: VectorPeaks::new(&observer.shear, k),
             acceleration: VectorPeaks::new(&observer.acceleration, k),
@@ -117,9 +117,9 @@ pub(crate) type Apart = [[f64; WIDTH]; 3];
 
 impl Bounds {
     pub(crate) fn new(state: &State, observer: &Observer, length: usize) -> Self {
-        let signs = state.springs.iter().map(|s| s.rate_sign().map_or(0.0, Sign::factor));
+        let signs = state.springs.machines.iter().map(|s| s.rate_sign().map_or(0.0, Sign::factor));
         let signs = filled_to(length, signs, 0.0);
-        let stuck_mu = filled_to(length, state.stuck_mu[1..].iter().map(|mu| mu.min(FAR)), FAR);
+        let stuck_mu = filled_to(length, state.blocks.stuck_mu[1..].iter().map(|mu| mu.min(FAR)), FAR);
         let vectors = lanes(&signs).iter().zip(lanes(&stuck_mu)).map(|(&sign, &stuck_mu)| VectorBounds {
             middle: [0.0; WIDTH],
             reach: [0.0; WIDTH],

@@ -9,7 +9,7 @@
 //! the series of that step gives the extreme, and the run goes on.
 
 use crate::STANDARD_GRAVITY;
-use crate::events::NO_CONTACT;
+use crate::events::guards::NO_CONTACT;
 use crate::lanes::{Vector, WIDTH, at, filled_to, for_each_path, lanes, lanes_mut};
 use crate::machines::sign::Sign;
 use crate::plain::sliding::{FloorBlock, GroundBlock, Linear, SMALL_DIFFERENCE, move_on_ground};
@@ -97,16 +97,16 @@ fn run_lanes<V: Vector>(
     let (mut dx, mut dv, mut floors) = (zero(), zero(), zero());
     let mut rate = vec![0.0; length + 2 * margin];
     let (mut load, mut load_slope) = (zero(), zero());
-    let spring_load = filled_to(length, state.spring_load[..n].iter().copied(), 0.0);
-    let friction = filled_to(length, state.friction[..n].iter().copied(), 0.0);
+    let spring_load = filled_to(length, state.springs.load[..n].iter().copied(), 0.0);
+    let friction = filled_to(length, state.blocks.friction[..n].iter().copied(), 0.0);
     let (mut apart_before, mut apart_after) =
         (vec![Apart::default(); length / WIDTH], vec![Apart::default(); length / WIDTH]);
     let (mut curvature, mut series) = (Curvature::new(length, margin), StepSeries::new(length, state.effort));
     let (mut suspects, mut beaten): (Vec<Suspects>, Vec<Beaten>) = (Vec::new(), Vec::new());
     let (mut on_floors, mut on_ground) = sliding_blocks(state);
-    let watches_ground = !on_ground.is_empty() || state.stuck_mu[0].is_finite();
+    let watches_ground = !on_ground.is_empty() || state.blocks.stuck_mu[0].is_finite();
     let mut blocks: Vec<(f64, f64)> = match observer.histories {
-        Some(_) => state.motions.iter().map(|m| (m.velocity, m.slip)).collect(),
+        Some(_) => state.blocks.motions.iter().map(|m| (m.velocity, m.slip)).collect(),
         None => Vec::new(),
     };
     let samples = motion.acceleration();
@@ -116,7 +116,7 @@ fn run_lanes<V: Vector>(
         }
     };
     set_loads(contact_at(first), 0.0, &mut load, &mut load_slope);
-    let mut slope_before = state.jerk_slope;
+    let mut slope_before = state.kinematics.jerk_slope;
     for k in 0..length / WIDTH {
         bounds.update::<V>(k);
         store_all(bounds.apart::<V>(&before, margin, third, k), &mut apart_before[k]);
@@ -246,7 +246,7 @@ fn run_lanes<V: Vector>(
         }
         if wears
             || vertical.is_some() && !(contact.0 > NO_CONTACT && contact.1 > NO_CONTACT)
-            || watches_ground && !move_on_ground(&mut on_ground, ground, push, h, state.stuck_mu[0])
+            || watches_ground && !move_on_ground(&mut on_ground, ground, push, h, state.blocks.stuck_mu[0])
         {
             break;
         }
@@ -285,13 +285,15 @@ fn run_lanes<V: Vector>(
     state.effort = series.effort;
     if reached > first {
         before.put(state, margin);
-        state.jerk_slope = slope_before;
+        state.kinematics.jerk_slope = slope_before;
         bounds.put_peaks(state, observer);
         for block in &on_floors {
-            (state.motions[block.block].velocity, state.motions[block.block].slip) = (block.velocity, block.slip);
+            (state.blocks.motions[block.block].velocity, state.blocks.motions[block.block].slip) =
+                (block.velocity, block.slip);
         }
         for block in &on_ground {
-            (state.motions[block.block].velocity, state.motions[block.block].slip) = (block.velocity, block.slip);
+            (state.blocks.motions[block.block].velocity, state.blocks.motions[block.block].slip) =
+                (block.velocity, block.slip);
         }
     }
     reached
@@ -300,7 +302,7 @@ fn run_lanes<V: Vector>(
 /// The blocks that slide, on floors and on the ground.
 fn sliding_blocks(state: &State) -> (Vec<FloorBlock>, Vec<GroundBlock>) {
     let (mut on_floors, mut on_ground) = (Vec::new(), Vec::new());
-    for (block, (motion, law)) in state.motions.iter().zip(&state.model.blocks).enumerate() {
+    for (block, (motion, law)) in state.blocks.motions.iter().zip(&state.model.blocks).enumerate() {
         let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
         let (friction, velocity, slip) = (sign * motion.mu_k, motion.velocity, motion.slip);
         let limit = motion.wear_limit(sign);

@@ -20,19 +20,25 @@ impl Sample {
         let n = state.storeys();
         let lanes = |values: &[f64]| filled_to(length, values[..n].iter().copied(), 0.0);
         let mut q = vec![0.0; length + 2 * margin];
-        q[margin..margin + n].copy_from_slice(&state.drift_acceleration[..n]);
+        q[margin..margin + n].copy_from_slice(&state.kinematics.drift_acceleration[..n]);
         let floors =
             |values: &[f64]| filled_to(length + 1, std::iter::once(0.0).chain(values[..n].iter().copied()), 0.0);
-        Self { x: lanes(&state.x), v: lanes(&state.v), a: floors(&state.a), jerk: floors(&state.jerk), q }
+        Self {
+            x: lanes(&state.kinematics.x),
+            v: lanes(&state.kinematics.v),
+            a: floors(&state.kinematics.a),
+            jerk: floors(&state.kinematics.jerk),
+            q,
+        }
     }
 
     /// Puts the sample into the state.
     pub(crate) fn put(&self, state: &mut State, margin: usize) {
         let n = state.storeys();
-        state.x[..n].copy_from_slice(&self.x[..n]);
-        state.v[..n].copy_from_slice(&self.v[..n]);
-        state.a[..n].copy_from_slice(&self.a[1..=n]);
-        state.jerk[..n].copy_from_slice(&self.jerk[1..=n]);
-        state.drift_acceleration[..n].copy_from_slice(&self.q[margin..margin + n]);
+        state.kinematics.x[..n].copy_from_slice(&self.x[..n]);
+        state.kinematics.v[..n].copy_from_slice(&self.v[..n]);
+        state.kinematics.a[..n].copy_from_slice(&self.a[1..=n]);
+        state.kinematics.jerk[..n].copy_from_slice(&self.jerk[1..=n]);
+        state.kinematics.drift_acceleration[..n].copy_from_slice(&self.q[margin..margin + n]);
     }
 }

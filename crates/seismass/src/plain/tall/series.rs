@@ -1,6 +1,5 @@
 //! The series of a step of a tall regime with peaks inside, which gives the extremes.
 
-use crate::state::effort::LOWEST_ORDER;
 use crate::lanes::{Plain, Set, Vector, WIDTH, at, lanes, lanes_mut, members};
 use crate::plain::tall::bounds::Bounds;
 use crate::plain::tall::look::{Beaten, Closer};
@@ -9,6 +8,7 @@ use crate::plain::tall::sample::Sample;
 use crate::polynomial::bernstein::{MAX_DEGREE, Polynomial};
 use crate::regime::operator_long::Operator;
 use crate::state::effort::Effort;
+use crate::state::effort::LOWEST_ORDER;
 
 /// Highest order of a series of floor accelerations; that of the drifts is two orders higher.
 const HIGHEST_ORDER: usize = MAX_DEGREE - 2;
