@@ -6,8 +6,8 @@ use crate::lanes::{OnLine, Plain, Vector, WIDTH, load};
 /// Highest degree: Taylor series of a step never need more terms.
 pub(crate) const MAX_DEGREE: usize = 23;
 /// Vectors of coefficients that short polynomials have, and the longest.
-const FEW: usize = 4;
-const MOST: usize = (MAX_DEGREE + 1) / WIDTH;
+pub(crate) const FEW: usize = 4;
+pub(crate) const MOST: usize = (MAX_DEGREE + 1) / WIDTH;
 
 /// An expression in which `$count` is the number of vectors of a polynomial's coefficients, as a constant.
 macro_rules! by_length {
