@@ -2,7 +2,7 @@
 
 use crate::lanes::{Vector, for_each_path};
 use crate::machines::guard::Guard;
-use crate::polynomial::bernstein::Polynomial;
+use crate::polynomial::power::Polynomial;
 
 for_each_path! {
     /// The place of [`Polynomial::first_fall`]; infinite where there is none.

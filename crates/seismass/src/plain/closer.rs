@@ -4,8 +4,7 @@
 //! taken; where a drift or an acceleration turns beyond its peak inside the step, the step's series gives the extreme.
 
 use crate::lanes::{LANES, Set, Vector, WIDTH, load};
-use crate::polynomial::enclosure::ranges;
-use crate::polynomial::enclosure::{THIRD, against, farthest, off_cubic, signs};
+use crate::polynomial::enclosure::{THIRD, against, farthest, off_cubic, ranges, signs};
 use crate::state::limits::{Bounds, BoundsInLanes};
 use crate::state::sample::Sample;
 

@@ -2,6 +2,8 @@
 
 pub(crate) mod beaten;
 pub(crate) mod closer;
+pub(crate) mod columns;
 pub(crate) mod run;
 pub(crate) mod sliding;
 pub(crate) mod tall;
+pub(crate) mod walk;

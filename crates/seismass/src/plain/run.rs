@@ -15,289 +15,32 @@ use std::sync::Arc;
 
 use crate::STANDARD_GRAVITY;
 use crate::events::guards::NO_CONTACT;
-use crate::lanes::first_members;
 use crate::lanes::{
-    FAR, PaddedRows, Set, Vector, WIDEST, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers,
-    prefix_sums, store,
+    FAR, Set, Vector, WIDEST, WIDTH, by_width, differences, first_members, for_each_path, load, numbers, prefix_sums,
+    store,
 };
-use crate::machines::block::BlockMotion;
-use crate::machines::model::Model;
-use crate::machines::sign::Sign;
-use crate::plain::beaten::Beaten;
 use crate::plain::closer::Closer;
-use crate::plain::sliding::{GroundBlock, Layer, LayerInLanes, Linear, OnGround, Push};
+use crate::plain::columns::Course;
+use crate::plain::columns::{MARGINS, multiply, prepare_effects, small_step};
+use crate::plain::sliding::{LayerInLanes, Linear, Push};
 use crate::plain::tall;
+use crate::plain::walk::{Walk, wears};
 use crate::polynomial::enclosure::{THIRD, off_cubic};
 use crate::polynomial::orders::MAX_PHASE;
 use crate::record::histories::{Pen, RowInLanes};
 use crate::record::observer::Observer;
 use crate::record::update::update_bounds;
-use crate::regime::{Regime, Row};
+use crate::regime::Row;
 use crate::scene::Motion;
 use crate::state::State;
 use crate::state::limits::BoundsInLanes;
 use crate::state::sample::Sample;
 use crate::step::steps::Whole;
 
-/// What bounds the fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
-pub(crate) const MARGINS: [Row; 4] =
-    [Row::FourthOfDrift, Row::FourthOfRate, Row::FourthOfAcceleration, Row::ThirdOfAcceleration];
-
-/// Rows (dx, dv, a, j) of a column of the step.
-type Column<const K: usize> = [[[f64; WIDTH]; K]; 4];
-
-/// What a run of plain steps reads.
-pub(crate) struct Course<'a, const K: usize> {
-    regime: &'a Regime,
-    h: f64,
-    /// Columns of the step: of each drift, of each drift rate, of the ground acceleration and of its change.
-    of_drift: &'a [Column<K>],
-    of_rate: &'a [Column<K>],
-    of_ground: &'a Column<K>,
-    of_change: &'a Column<K>,
-    /// Effect of constant floor loads; with vertical motion, of friction at unit contact force and at a unit ramp.
-    constant: &'a Column<K>,
-    friction: &'a Column<K>,
-    friction_ramp: &'a Column<K>,
-}
-
-impl<'a, const K: usize> Course<'a, K> {
-    /// None where the regime has no propagator of this width.
-    #[inline(always)]
-    fn new(state: &'a State, h: f64) -> Option<Self> {
-        let regime = &state.regime;
-        let Whole::Dense(propagator) = &regime.steps(state.vertical)?.whole else { return None };
-        let (of_drift, others) = four_rows(propagator.state_and_motion_columns()).split_at_checked(state.storeys())?;
-        let (of_rate, others) = others.split_at_checked(state.storeys())?;
-        let [of_ground, of_change, ..] = others else { return None };
-        let effects = &state.step.effects;
-        Some(Self {
-            regime,
-            h,
-            of_drift,
-            of_rate,
-            of_ground,
-            of_change,
-            constant: effects.constant.vectors().first_chunk()?,
-            friction: effects.friction.vectors().first_chunk()?,
-            friction_ramp: effects.friction_ramp.vectors().first_chunk()?,
-        })
-    }
-}
-
-#[inline(always)]
-fn four_rows<const K: usize>(values: &[f64]) -> &[Column<K>] {
-    columns_of::<K>(values).as_chunks::<4>().0
-}
-
-/// rows += column * weight.
-#[inline(always)]
-fn add<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column: &Column<K>, weight: V) {
-    for r in 0..4 {
-        for k in 0..K {
-            rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
-        }
-    }
-}
-
-/// rows += columns * weights.
-#[inline(always)]
-fn multiply<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], columns: &[Column<K>], weights: &[V; K]) {
-    let values = numbers(weights);
-    let each = columns.iter().zip(values.as_flattened());
-    if K <= 2 {
-        for (column, &weight) in each {
-            add(rows, column, V::splat(weight));
-        }
-    } else {
-        // As many rows at a time as stay in the registers.
-        for pair in [[0, 1], [2, 3]] {
-            for (column, &weight) in each.clone() {
-                let weight = V::splat(weight);
-                for r in pair {
-                    for k in 0..K {
-                        rows[r][k] = V::load(&column[r][k]).mul_add(weight, rows[r][k]);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// The step of a scene of one vector with so many storeys, from columns of each drift and of each drift rate, of the ground
-/// acceleration and of its change.
-///
-/// Two sums: half the latency of one, which is what a small step waits for.
-#[inline(always)]
-fn small_step<V: Vector, const K: usize, const S: usize>(
-    course: &Course<K>,
-    [of_drift, of_rate]: [&[Column<K>; S]; 2],
-    [ground, change]: [f64; 2],
-    [x, v]: [V; 2],
-) -> [V; 4] {
-    let (ground, change) = (V::splat(ground), V::splat(change));
-    let mut rows = [V::splat(0.0); 4];
-    let mut of_rates = rows;
-    for r in 0..4 {
-        let of_change = V::load(&course.of_change[r][0]).mul_add(change, V::load(&course.constant[r][0]));
-        rows[r] = V::load(&course.of_ground[r][0]).mul_add(ground, of_change);
-    }
-    for c in 0..S {
-        let (x, v) = (x.broadcast(c), v.broadcast(c));
-        for r in 0..4 {
-            rows[r] = V::load(&of_drift[c][r][0]).mul_add(x, rows[r]);
-            of_rates[r] = V::load(&of_rate[c][r][0]).mul_add(v, of_rates[r]);
-        }
-    }
-    for r in 0..4 {
-        rows[r] = rows[r].add(of_rates[r]);
-    }
-    rows
-}
-
-/// Forms the effects of the floor loads on the step of the present regime, if they have changed.
-#[inline(always)]
-fn prepare_effects<V: Vector, const K: usize, const VERTICAL: bool>(state: &mut State) {
-    if state.step.effects.valid {
-        return;
-    }
-    let steps = state.regime.steps(state.vertical);
-    let Some(Whole::Dense(propagator)) = steps.map(|steps| &steps.whole) else { return };
-    let of_loads = four_rows(propagator.load_columns());
-    let (mut loads, friction): ([V; K], [V; K]) = (load(&state.springs.load), load(&state.blocks.friction));
-    let effects = &mut state.step.effects;
-    if VERTICAL {
-        let of_ramps = four_rows(propagator.ramp_columns());
-        put_product::<V, K>(of_loads, &friction, &mut effects.friction);
-        put_product::<V, K>(of_ramps, &friction, &mut effects.friction_ramp);
-    } else {
-        for k in 0..K {
-            loads[k] = friction[k].mul_add(V::splat(STANDARD_GRAVITY), loads[k]);
-        }
-    }
-    put_product::<V, K>(of_loads, &loads, &mut effects.constant);
-    effects.valid = true;
-}
-
-/// rows = columns * weights.
-#[inline(always)]
-fn put_product<V: Vector, const K: usize>(columns: &[Column<K>], weights: &[V; K], rows: &mut PaddedRows<4>) {
-    let mut product = [[V::splat(0.0); K]; 4];
-    multiply(&mut product, columns, weights);
-    for (out, row) in rows.vectors_mut::<K>().iter_mut().zip(&product) {
-        *out = numbers(row);
-    }
-}
-
 /// Lanes, as bits, in which the larger of two values and a norm times the margin per unit of it are not below a bound.
 #[inline(always)]
 fn not_clear<V: Vector>((before, after): (V, V), norm: V, margin: V, bound: V) -> Set {
     Set::from(norm.mul_add(margin, before.max(after)).not_below(bound))
-}
-
-/// A run of plain steps between two calls of [`clear_steps`]: the blocks that slide, and the peaks that are beaten.
-pub(crate) struct Walk {
-    beaten: Beaten,
-    /// Series formed for turns beyond peaks, and turns looked at.
-    pub(crate) series: usize,
-    pub(crate) isolated: usize,
-    /// Whether the bounds are to follow springs and peaks before the next step: not where a run goes on with those that it
-    /// has made for peaks not taken yet.
-    renews_bounds: bool,
-    layers: Vec<Layer>,
-    /// Layers in which blocks slide: the first so many.
-    used: usize,
-    /// Blocks that slide on floors: block, layer, lane.
-    on_floors: Vec<(usize, usize, usize)>,
-    /// Slips at which friction coefficients of these change.
-    wear_limits: Vec<WearLimit>,
-    on_ground: OnGround,
-}
-
-/// A slip, times a sign, at which the friction coefficients of a block change.
-struct WearLimit {
-    layer: usize,
-    lane: usize,
-    sign: f64,
-    slip: f64,
-}
-
-/// Whether a block comes to a slip at which its friction changes, of layers with these slips.
-#[inline(never)]
-fn wears(limits: &[WearLimit], lowest: &[f64], others: &[Layer]) -> bool {
-    limits.iter().any(|limit| {
-        let slips = match limit.layer.checked_sub(1) {
-            Some(other) => &others[other].after[1][..],
-            None => lowest,
-        };
-        limit.sign * slips[limit.lane] >= limit.slip
-    })
-}
-
-impl Walk {
-    pub(crate) fn new(model: &Model) -> Self {
-        Self {
-            beaten: Beaten::new(model),
-            series: 0,
-            isolated: 0,
-            renews_bounds: true,
-            layers: Vec::new(),
-            used: 0,
-            on_floors: Vec::new(),
-            wear_limits: Vec::new(),
-            on_ground: OnGround::new(),
-        }
-    }
-
-    /// Takes up the sliding blocks at a sample.
-    fn begin<const K: usize>(&mut self, state: &State, sample: usize) {
-        for (_, layer, lane) in self.on_floors.drain(..) {
-            self.layers[layer].leave::<K>(lane);
-        }
-        self.used = 0;
-        self.wear_limits.clear();
-        self.renews_bounds = true;
-        self.beaten.forget_turned();
-        self.on_ground.begin(sample, state.blocks.stuck_mu[0]);
-        if state.blocks.is_sliding {
-            self.take_blocks::<K>(state);
-        }
-    }
-
-    #[inline(always)]
-    fn take_blocks<const K: usize>(&mut self, state: &State) {
-        for (block, (motion, law)) in state.blocks.motions.iter().zip(&state.model.blocks).enumerate() {
-            let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
-            let friction = sign * motion.mu_k;
-            let Some(lane) = law.floor.checked_sub(1) else {
-                let (BlockMotion { velocity, slip, .. }, limit) = (*motion, motion.wear_limit(sign));
-                self.on_ground.push(GroundBlock { block, friction, sign, velocity, slip, limit });
-                continue;
-            };
-            let free = self.layers.iter().position(|layer| layer.is_free::<K>(lane));
-            let which = free.unwrap_or(self.layers.len());
-            if free.is_none() {
-                self.layers.push(Layer::new(state.model));
-            }
-            self.layers[which].take::<K>(lane, sign, friction, motion);
-            if motion.path_to_wear() < f64::INFINITY {
-                self.wear_limits.push(WearLimit { layer: which, lane, sign, slip: motion.wear_limit(sign) });
-            }
-            self.on_floors.push((block, which, lane));
-            self.used = self.used.max(which + 1);
-        }
-    }
-
-    /// Brings the sliding blocks up to date.
-    #[inline(always)]
-    fn put_blocks<const K: usize>(&self, motions: &mut [BlockMotion]) {
-        for &(block, layer, lane) in &self.on_floors {
-            (motions[block].velocity, motions[block].slip) = self.layers[layer].motion::<K>(lane);
-        }
-        for ground in self.on_ground.sliding() {
-            (motions[ground.block].velocity, motions[ground.block].slip) = (ground.velocity, ground.slip);
-        }
-    }
 }
 
 /// Contact force per unit mass at a sample.

@@ -5,8 +5,7 @@ use std::mem::swap;
 use crate::lanes::{FAR, Padded, Vector, load};
 use crate::machines::block::BlockMotion;
 use crate::machines::model::Model;
-use crate::polynomial::enclosure::ranges;
-use crate::polynomial::enclosure::{THIRD, against, range};
+use crate::polynomial::enclosure::{THIRD, against, range, ranges};
 
 /// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits: at 1e-6, slips
 /// of blocks that hardly move were known to 1e-9.

@@ -1,7 +1,7 @@
 //! Orders of series: how many terms they need, and the weights of these.
 
 use crate::lanes::{OnLine, Vector, WIDTH};
-use crate::polynomial::bernstein::MAX_DEGREE;
+use crate::polynomial::power::MAX_DEGREE;
 
 /// Longest step of one series, as frequency times time: longer intervals are split.
 pub(crate) const MAX_PHASE: f64 = 1.0;

@@ -2,8 +2,7 @@
 
 use crate::lanes::{FAR, Padded, Vector, load, store};
 use crate::machines::sign::Sign;
-use crate::polynomial::enclosure::apart;
-use crate::polynomial::enclosure::{against, farthest};
+use crate::polynomial::enclosure::{against, apart, farthest};
 use crate::state::sample::Sample;
 
 /// Bounds of all storeys and floors, padded; in lanes beyond the last storey they are far. They hold once they are

@@ -1,7 +1,6 @@
 //! Ranges of storeys and floors over a step.
 
-use crate::lanes::first_members;
-use crate::lanes::{LANES, MAX_LANES, Padded, Set, Vector, WIDEST, WIDTH, padded, store};
+use crate::lanes::{LANES, MAX_LANES, Padded, Set, Vector, WIDEST, WIDTH, first_members, padded, store};
 use crate::polynomial::enclosure::{THIRD, off_cubic, ranges};
 use crate::regime::{Regime, Row};
 use crate::state::limits::BoundsInLanes;

@@ -1,7 +1,7 @@
 //! What blocks do relative to their floors over the present series.
 
 use crate::lanes::{Plain, Vector, by_width};
-use crate::polynomial::bernstein::Polynomial;
+use crate::polynomial::power::Polynomial;
 use crate::state::State;
 
 /// `p`, of [`Series::zeros`], becomes `factor`, 1 or -1, times the relative velocity of a

@@ -9,8 +9,7 @@ use std::rc::Rc;
 use crate::lanes::{MAX_LANES, WIDTH};
 use crate::machines::model::Model;
 use crate::regime::{Regime, Row};
-use crate::step::steps::MAX_TABLE;
-use crate::step::steps::Steps;
+use crate::step::steps::{MAX_TABLE, Steps};
 use crate::step::tall::TallStep;
 
 /// Memory one cache may take before it starts afresh (bytes).

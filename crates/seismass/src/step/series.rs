@@ -3,42 +3,40 @@
 //! All coefficients belong to the normalised time s = tau / h in [0, 1].
 
 use crate::lanes::{
-    MAX_LANES, OfStorey, Padded, PaddedRows, Plain, Vector, WIDTH, by_width, columns_of, differences, for_each_path,
-    lanes, load, store,
+    MAX_LANES, OfStorey, Padded, PaddedRows, Vector, WIDTH, columns_of, differences, for_each_path, load, store,
 };
 use crate::machines::model::Model;
-use crate::polynomial::bernstein::{MAX_DEGREE, Polynomial, by_length};
-use crate::polynomial::orders::{INVERSE, INVERSE_PAIRS, WEIGHTS, Weights, terms};
+use crate::polynomial::orders::{INVERSE, WEIGHTS, terms};
+use crate::polynomial::power::MAX_DEGREE;
 use crate::regime::{Operator, Regime};
-use crate::step::drive::Drive;
-use crate::step::drive::Start;
+use crate::step::drive::{Drive, Start};
 use crate::step::table::Table;
 
 /// Series of the absolute floor accelerations, stored order by order, padded to whole vectors. What drifts and drift
 /// rates do follows by integration of their differences.
 #[derive(Debug, Default)]
 pub(crate) struct Series {
-    storeys: usize,
-    stride: usize,
-    order: usize,
+    pub(crate) storeys: usize,
+    pub(crate) stride: usize,
+    pub(crate) order: usize,
     /// Order beyond which all terms in store are zero.
     highest: usize,
-    h: f64,
+    pub(crate) h: f64,
     /// Drifts and drift rates at the start.
-    x: Padded,
-    v: Padded,
+    pub(crate) x: Padded,
+    pub(crate) v: Padded,
     /// Terms of the ground acceleration, as of a lowest floor, and zeros beyond.
     ground: [[f64; WIDTH]; MAX_DEGREE + 1],
-    a: PaddedRows<{ MAX_DEGREE + 1 }>,
+    pub(crate) a: PaddedRows<{ MAX_DEGREE + 1 }>,
     /// Floor accelerations and their rates at the end of the step.
     end: [Padded; 2],
     /// Place in [0, 1] that changes and integrals go up to.
-    place: f64,
+    pub(crate) place: f64,
     /// Changes of drifts and drift rates.
-    changes: [Padded; 2],
+    pub(crate) changes: [Padded; 2],
     /// First and second integrals over [0, place] of the floor accelerations' terms from the second order on, divided by
     /// the third and fourth power of the place.
-    integrals: [Padded; 2],
+    pub(crate) integrals: [Padded; 2],
     load: [Padded; 2],
 }
 
@@ -263,101 +261,6 @@ impl Series {
         self.integrate_differences();
     }
 
-    /// Takes changes and integrals up to place `s` only.
-    #[inline(always)]
-    pub(crate) fn stop_at<V: Vector, const K: usize>(&mut self, model: &Model, s: f64) {
-        self.place = s;
-        if self.storeys <= MAX_LANES {
-            self.stop_in_lanes::<V, K>(model, s);
-        } else {
-            self.integrate_up_to::<V>(s);
-            self.integrate_differences();
-        }
-    }
-
-    #[inline(always)]
-    fn stop_in_lanes<V: Vector, const K: usize>(&mut self, model: &Model, s: f64) {
-        let inside: [V; K] = load(&model.lanes.inside);
-        let (place, length) = (V::splat(s), V::splat(s * self.h));
-        let pairs = self.a.vectors::<K>().as_chunks::<2>().0;
-        let Some([[a, linear], pairs @ ..]) = pairs.get(..=self.order / 2) else { return };
-        // Even and odd terms apart: half the latency of one chain.
-        let squared = V::splat(s * s);
-        // Of even and odd orders: half the latency of one chain.
-        let mut sums = [[[V::splat(0.0); K]; 2]; 2];
-        for (pair, weights) in pairs.iter().zip(&WEIGHTS.as_chunks::<2>().0[1..]).rev() {
-            for parity in 0..2 {
-                for which in 0..2 {
-                    let weight = V::load(&weights[parity][1 + which]);
-                    for k in 0..K {
-                        let sum = &mut sums[which][parity][k];
-                        *sum = sum.mul_add(squared, V::load(&pair[parity][k]).mul(weight));
-                    }
-                }
-            }
-        }
-        let [mut once, mut twice] = [[V::splat(0.0); K]; 2];
-        for k in 0..K {
-            once[k] = sums[0][1][k].mul_add(place, sums[0][0][k]);
-            twice[k] = sums[1][1][k].mul_add(place, sums[1][0][k]);
-        }
-        store(&once, &mut self.integrals[0]);
-        store(&twice, &mut self.integrals[1]);
-        for k in 0..K {
-            let (a, linear) = (V::load(&a[k]), V::load(&linear[k]));
-            once[k] = once[k].mul_add(place, V::splat(0.5).mul(linear)).mul_add(place, a);
-            twice[k] = twice[k].mul_add(place, V::splat(1.0 / 6.0).mul(linear)).mul_add(place, V::splat(0.5).mul(a));
-        }
-        let [ground, change] = self.ground_terms();
-        let of_rate = differences(&once, V::splat(ground + 0.5 * s * change));
-        let of_drift = differences(&twice, V::splat(0.5 * ground + (1.0 / 6.0) * s * change));
-        let v: [V; K] = load(&self.v);
-        for k in 0..K {
-            once[k] = length.mul(of_rate[k]).mul(inside[k]);
-            twice[k] = length.mul_add(of_drift[k], v[k]).mul(length).mul(inside[k]);
-        }
-        store(&twice, &mut self.changes[0]);
-        store(&once, &mut self.changes[1]);
-    }
-
-    /// The integrals of [`Series::stop_at`] for more storeys than vectors hold.
-    #[inline(always)]
-    fn integrate_up_to<V: Vector>(&mut self, s: f64) {
-        let place = V::splat(s);
-        let stride = self.stride / WIDTH;
-        let terms = &lanes(self.a.numbers())[..(self.order + 1) * stride];
-        let [once, twice] = &mut self.integrals;
-        let integrals = once.as_chunks_mut::<WIDTH>().0.iter_mut().zip(twice.as_chunks_mut::<WIDTH>().0);
-        for (lane, (once, twice)) in integrals.enumerate() {
-            let mut sums = [V::splat(0.0); 2];
-            for (column, weights) in terms.chunks_exact(stride).zip(WEIGHTS.iter()).skip(2).rev() {
-                let term = V::load(&column[lane]);
-                sums[0] = sums[0].mul_add(place, term.mul(V::load(&weights[1])));
-                sums[1] = sums[1].mul_add(place, term.mul(V::load(&weights[2])));
-            }
-            sums[0].store(once);
-            sums[1].store(twice);
-        }
-    }
-
-    /// Forms the changes of drifts and drift rates up to the place from the integrals of floor accelerations.
-    fn integrate_differences(&mut self) {
-        let (s, h) = (self.place, self.place * self.h);
-        let [ground, change] = self.ground_terms();
-        let mut below = (ground + 0.5 * s * change, 0.5 * ground + (1.0 / 6.0) * s * change);
-        let n = self.storeys;
-        let (a, linear, v) = (&self.a.row(0)[..n], &self.a.row(1)[..n], &self.v[..n]);
-        let [once_of, twice_of] = self.integrals.each_ref().map(|sums| &sums[..n]);
-        let [dx, dv] = self.changes.each_mut().map(|changes| &mut changes[..n]);
-        for i in 0..n {
-            let once = (once_of[i] * s + 0.5 * linear[i]) * s + a[i];
-            let twice = (twice_of[i] * s + (1.0 / 6.0) * linear[i]) * s + 0.5 * a[i];
-            dx[i] = h * (v[i] + h * (twice - below.1));
-            dv[i] = h * (once - below.0);
-            below = (once, twice);
-        }
-    }
-
     /// Length of the step (s).
     #[inline]
     pub(crate) fn h(&self) -> f64 {
@@ -372,132 +275,17 @@ impl Series {
 
     /// The first two terms of the ground acceleration: it has no more.
     #[inline(always)]
-    fn ground_terms(&self) -> [f64; 2] {
+    pub(crate) fn ground_terms(&self) -> [f64; 2] {
         [self.ground[0][0], self.ground[1][0]]
     }
 
     /// Terms of the absolute acceleration of a floor, or of the ground (0).
     #[inline(always)]
-    fn terms_of<const K: usize>(&self, floor: usize) -> OfStorey<'_, K> {
+    pub(crate) fn terms_of<const K: usize>(&self, floor: usize) -> OfStorey<'_, K> {
         match floor.checked_sub(1) {
             Some(i) => self.a.storey(i),
             None => OfStorey::of_few(&self.ground, 0),
         }
-    }
-
-    /// Accelerations of storey `i`'s floor less those of what it stands on.
-    #[inline(always)]
-    fn difference<const K: usize>(&self, i: usize) -> Difference<'_, K> {
-        Difference { above: self.terms_of(i + 1), below: self.terms_of(i) }
-    }
-
-    /// Zeros as long as the polynomials of the series, which are formed in place: to return one would copy it before it is
-    /// out of the processor's stores, and wait for that.
-    #[inline(always)]
-    pub(crate) fn zeros(&self) -> Polynomial {
-        Polynomial::zeros(self.order + 1)
-    }
-
-    /// Sets the first four coefficients, to the sums of two vectors, and the others to terms so many orders lower, times
-    /// their weights and a factor. Returns the sum of the sizes of all but the second: a bound on [0, 1].
-    ///
-    /// To add it here is not to wait for what has just been stored.
-    #[inline(always)]
-    fn integrate<V: Vector, const F: usize>(
-        [first, more]: [V; 2],
-        terms: &impl TermByOrder,
-        orders: usize,
-        weights: &Weights,
-        factor: f64,
-        p: &mut Polynomial,
-    ) -> f64 {
-        let Some(fours) = p.fours_mut::<F>() else { return 0.0 };
-        let mut sizes = first.abs();
-        first.add(more).store(&mut fours[0]);
-        for f in 1..F {
-            let weights = V::load(&weights.as_chunks().0[f]);
-            let coefficients = terms.four::<V>(WIDTH * f - orders).mul(V::splat(factor)).mul(weights);
-            coefficients.store(&mut fours[f]);
-            sizes = sizes.add(coefficients.abs());
-        }
-        sizes.sum()
-    }
-
-    /// `p` becomes the terms times a factor, and `more` is added to the first four; returns the sum of the terms' sizes.
-    #[inline(always)]
-    fn multiply<V: Vector, const F: usize>(terms: &impl TermByOrder, factor: f64, more: V, p: &mut Polynomial) -> f64 {
-        let Some(fours) = p.fours_mut::<F>() else { return 0.0 };
-        let first = terms.four::<V>(0).mul(V::splat(factor));
-        let mut sizes = first.abs();
-        first.add(more).store(&mut fours[0]);
-        for f in 1..F {
-            let coefficients = terms.four::<V>(WIDTH * f).mul(V::splat(factor));
-            coefficients.store(&mut fours[f]);
-            sizes = sizes.add(coefficients.abs());
-        }
-        sizes.sum()
-    }
-
-    /// `p`, of [`Series::zeros`], becomes `limit` and `factor` times the drift coordinate of storey `i`; returns a bound of
-    /// the size of the latter.
-    #[inline(always)]
-    pub(crate) fn drift<V: Vector, const K: usize>(
-        &self,
-        i: usize,
-        factor: f64,
-        limit: f64,
-        p: &mut Polynomial,
-    ) -> f64 {
-        let difference = self.difference::<K>(i);
-        let once = factor * self.h;
-        let twice = once * self.h;
-        let terms = [0, 1].map(|k| twice * INVERSE_PAIRS[k + 2] * difference.term(k));
-        let first = V::of([factor * self.x.numbers::<K>()[i], once * self.v.numbers::<K>()[i], terms[0], terms[1]]);
-        let first = [first, V::of([limit, 0.0, 0.0, 0.0])];
-        by_length!(p, F => Self::integrate::<V, F>(first, &difference, 2, &INVERSE_PAIRS, twice, p))
-    }
-
-    /// `p`, of [`Series::zeros`], becomes `factor` times the drift rate of storey `i`; returns a bound of its size.
-    #[inline(always)]
-    pub(crate) fn drift_rate<V: Vector, const K: usize>(&self, i: usize, factor: f64, p: &mut Polynomial) -> f64 {
-        let difference = self.difference::<K>(i);
-        let once = factor * self.h;
-        let terms = [0, 1, 2].map(|k| once * INVERSE[k + 1] * difference.term(k));
-        let first = V::of([factor * self.v.numbers::<K>()[i], terms[0], terms[1], terms[2]]);
-        by_length!(p, F => Self::integrate::<V, F>([first, V::splat(0.0)], &difference, 1, &INVERSE, once, p))
-    }
-
-    /// `p`, of [`Series::zeros`], becomes the velocity that starts from `velocity`, whose rate is -`factor` times the absolute
-    /// acceleration of a floor, or of the ground (0), and two more terms; returns a bound of its size.
-    #[inline(always)]
-    pub(crate) fn velocity_against<V: Vector, const K: usize>(
-        &self,
-        floor: usize,
-        velocity: f64,
-        factor: f64,
-        more: [f64; 2],
-        p: &mut Polynomial,
-    ) -> f64 {
-        let acceleration = self.terms_of::<K>(floor);
-        let once = -factor * self.h;
-        // Added before they are multiplied, so that small sums keep their digits.
-        let [first, second] = [0, 1].map(|k| once * INVERSE[k + 1] * (acceleration.term(k) + more[k]));
-        let first = V::of([velocity, first, second, once * INVERSE[3] * acceleration.term(2)]);
-        by_length!(p, F => Self::integrate::<V, F>([first, V::splat(0.0)], &acceleration, 1, &INVERSE, once, p))
-    }
-
-    /// `p`, of [`Series::zeros`], becomes a limit that changes linearly (its start and its change over the step) and `factor`
-    /// times the absolute acceleration of a floor, or of the ground (0); returns a bound of the size of the latter.
-    #[inline(always)]
-    pub(crate) fn acceleration<V: Vector, const K: usize>(
-        &self,
-        floor: usize,
-        factor: f64,
-        [limit, change]: [f64; 2],
-        p: &mut Polynomial,
-    ) -> f64 {
-        let terms = self.terms_of::<K>(floor);
-        by_length!(p, F => Self::multiply::<V, F>(&terms, factor, V::of([limit, change, 0.0, 0.0]), p))
     }
 
     /// The first two terms of the absolute acceleration of floor `i`, and the first and second integrals of the others up
@@ -518,53 +306,6 @@ impl Series {
     #[inline]
     pub(crate) fn accelerations_at_end(&self) -> [&Padded; 2] {
         [&self.end[0], &self.end[1]]
-    }
-
-    /// Drift rates at `s`.
-    pub(crate) fn rates_at(&self, s: f64, out: &mut [f64]) {
-        for (i, out) in out.iter_mut().enumerate() {
-            let mut rate = self.zeros();
-            by_width!(self.stride, K => self.drift_rate::<Plain, K>(i, 1.0, &mut rate));
-            *out = rate.at::<Plain>(s);
-        }
-    }
-}
-
-/// Terms of a series by order.
-trait TermByOrder {
-    fn term(&self, k: usize) -> f64;
-
-    /// Four terms from order `k` on.
-    fn four<V: Vector>(&self, k: usize) -> V;
-}
-
-impl<const K: usize> TermByOrder for OfStorey<'_, K> {
-    #[inline(always)]
-    fn term(&self, k: usize) -> f64 {
-        self.at(k)
-    }
-
-    #[inline(always)]
-    fn four<V: Vector>(&self, k: usize) -> V {
-        V::of([self.at(k), self.at(k + 1), self.at(k + 2), self.at(k + 3)])
-    }
-}
-
-/// Terms of one floor less those of another.
-struct Difference<'a, const K: usize> {
-    above: OfStorey<'a, K>,
-    below: OfStorey<'a, K>,
-}
-
-impl<const K: usize> TermByOrder for Difference<'_, K> {
-    #[inline(always)]
-    fn term(&self, k: usize) -> f64 {
-        self.above.term(k) - self.below.term(k)
-    }
-
-    #[inline(always)]
-    fn four<V: Vector>(&self, k: usize) -> V {
-        self.above.four::<V>(k).sub(self.below.four(k))
     }
 }
 

@@ -4,12 +4,9 @@ use std::sync::Arc;
 
 use crate::lanes::{Aligned, Plain, WIDTH};
 use crate::machines::model::Model;
-use crate::polynomial::orders::MAX_PHASE;
-use crate::polynomial::orders::terms;
+use crate::polynomial::orders::{MAX_PHASE, terms};
 use crate::regime::Regime;
-use crate::step::dense::Cause;
-use crate::step::dense::doubled;
-use crate::step::dense::{Propagator, column_count, column_of_change, form_columns, form_remainders};
+use crate::step::dense::{Cause, Propagator, column_count, column_of_change, doubled, form_columns, form_remainders};
 use crate::step::table::Table;
 use crate::step::tall::TallStep;
 

@@ -5,8 +5,7 @@ use crate::plain::sliding::{FloorBlock, SMALL_DIFFERENCE};
 use crate::plain::tall::bounds::Bounds;
 use crate::plain::tall::norms::{Norms, Rows};
 use crate::plain::tall::sample::Sample;
-use crate::polynomial::enclosure::ranges;
-use crate::polynomial::enclosure::{THIRD, off_cubic, quintic_range, quintic_ranges, signs};
+use crate::polynomial::enclosure::{THIRD, off_cubic, quintic_range, quintic_ranges, ranges, signs};
 use crate::regime::operator_long::Operator;
 
 /// Storeys and floors of a vector whose peaks a step beats, as bits of the lanes: at all; inside, where drifts and

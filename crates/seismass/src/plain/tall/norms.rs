@@ -5,7 +5,7 @@
 //! same bounds hold there, and tell much more of a storey that moves less than others.
 
 use crate::lanes::{Vector, WIDTH, filled_to, lanes};
-use crate::plain::run::MARGINS;
+use crate::plain::columns::MARGINS;
 use crate::regime::Row;
 use crate::scene::StoreyDamping;
 use crate::state::State;

@@ -5,10 +5,9 @@ use crate::plain::tall::bounds::Bounds;
 use crate::plain::tall::look::{Beaten, Closer};
 use crate::plain::tall::norms::{Norms, Rows};
 use crate::plain::tall::sample::Sample;
-use crate::polynomial::bernstein::{MAX_DEGREE, Polynomial};
+use crate::polynomial::power::{MAX_DEGREE, Polynomial};
 use crate::regime::operator_long::Operator;
-use crate::state::effort::Effort;
-use crate::state::effort::LOWEST_ORDER;
+use crate::state::effort::{Effort, LOWEST_ORDER};
 
 /// Highest order of a series of floor accelerations; that of the drifts is two orders higher.
 const HIGHEST_ORDER: usize = MAX_DEGREE - 2;
@@ -54,11 +53,11 @@ impl Wanted<'_> {
 /// The Taylor series of a step, or of half of it, from one of its ends on, to the order that the motion needs.
 pub(crate) struct Series {
     /// Signed length (s): negative from the end on.
-    h: f64,
-    order: usize,
+    pub(crate) h: f64,
+    pub(crate) order: usize,
     /// Terms of the floor accelerations from order 2 on, after a zero for the ground, and of the drift rates.
-    a: Vec<Vec<f64>>,
-    v: Vec<Vec<f64>>,
+    pub(crate) a: Vec<Vec<f64>>,
+    pub(crate) v: Vec<Vec<f64>>,
     length: usize,
     norms: Norms,
 }
