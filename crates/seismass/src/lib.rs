@@ -68,6 +68,8 @@ pub mod spectrum;
 mod state;
 mod step;
 mod threads;
+mod tolerances;
+mod units;
 
 pub use batch::{Run, simulate_each, simulate_many};
 pub use error::{Domain, Error, Result};
@@ -82,6 +84,4 @@ pub use scene::{
     SceneColumns, SpringLaw, Storey, Wear,
 };
 pub use threads::Control;
-
-/// Standard gravity (m/s2), the g of every number in this crate.
-pub const STANDARD_GRAVITY: f64 = 9.806_65;
+pub use units::STANDARD_GRAVITY;

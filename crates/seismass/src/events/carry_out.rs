@@ -1,17 +1,15 @@
 //! What an event does to the state.
 
-use crate::STANDARD_GRAVITY;
 use crate::lanes::{Vector, by_width, for_each_path};
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::machines::guard::{Guard, Outcome};
 use crate::machines::segment::Crossing;
-use crate::machines::settle::{Cause, settle};
+use crate::machines::settle::{SettleCause, settle};
 use crate::machines::sign::Sign;
 use crate::response::{Event, EventKind};
 use crate::state::State;
-
-/// Relative velocities below this fraction of their terms, which nothing but rounding drives on, have arrived.
-const ARRIVED: f64 = 64.0 * f64::EPSILON;
+use crate::tolerances::ARRIVED;
+use crate::units::STANDARD_GRAVITY;
 
 /// The entry of the log for an event of a storey, counted from 0.
 fn of_storey(crossing: Crossing, storey: usize, time: f64) -> Event {
@@ -51,14 +49,14 @@ pub(crate) fn carry_out_in_lanes<V: Vector, const K: usize>(
         Guard::Breakaway { floor, sign } => break_away::<K>(state, floor, sign, tau, log),
         Guard::Arrival { block } => {
             arrive_with::<K>(state, block, tau);
-            settle_floor::<K>(state, state.model.blocks[block].floor, tau, Cause::Other, log);
+            settle_floor::<K>(state, state.model.blocks[block].floor, tau, SettleCause::Other, log);
         }
         Guard::Wear { block } => {
             let law = &state.model.blocks[block];
             let motion = &mut state.blocks.motions[block];
             let (sign, element) = (motion.velocity_sign(), motion.wear(law));
             log.push(Event { time, kind: EventKind::Wear, number: block + 1, sign, element });
-            settle_floor::<K>(state, law.floor, tau, Cause::Other, log);
+            settle_floor::<K>(state, law.floor, tau, SettleCause::Other, log);
         }
         Guard::Contact => change_contact(state, tau, log),
     }
@@ -77,7 +75,7 @@ fn break_away<const K: usize>(state: &mut State, floor: usize, sign: Sign, tau: 
         .filter(|&j| state.blocks.motions[j].is_stuck())
         .min_by(|&i, &j| state.blocks.motions[i].mu_s.total_cmp(&state.blocks.motions[j].mu_s));
     if let Some(weakest) = weakest {
-        settle_floor::<K>(state, floor, tau, Cause::Breakaway(weakest, sign), log);
+        settle_floor::<K>(state, floor, tau, SettleCause::Breakaway(weakest, sign), log);
     }
 }
 
@@ -102,7 +100,7 @@ fn arrive_with<const K: usize>(state: &mut State, block: usize, tau: f64) {
     }
 }
 
-fn settle_floor<const K: usize>(state: &mut State, floor: usize, tau: f64, cause: Cause, log: &mut Vec<Event>) {
+fn settle_floor<const K: usize>(state: &mut State, floor: usize, tau: f64, cause: SettleCause, log: &mut Vec<Event>) {
     let (demand, contact, model) = (state.demand::<K>(floor, tau), state.contact_at(tau), state.model);
     let transitions = &mut state.blocks.transitions;
     transitions.clear();
@@ -136,7 +134,7 @@ fn change_contact(state: &mut State, tau: f64, log: &mut Vec<Event>) {
 pub(crate) fn settle_all(state: &mut State, tau: f64, log: &mut Vec<Event>) {
     for floor in 0..state.model.on_floor.len() {
         if state.model.on_floor[floor].iter().any(|&j| state.blocks.motions[j].is_stuck()) {
-            by_width!(state.model.width, K => settle_floor::<K>(state, floor, tau, Cause::Other, log));
+            by_width!(state.model.width, K => settle_floor::<K>(state, floor, tau, SettleCause::Other, log));
         }
     }
 }

@@ -1,9 +1,7 @@
 //! Guards of all state machines as polynomials, the first that falls, and what it does (`numerics`, section 5).
 
-use crate::STANDARD_GRAVITY;
 use crate::events::first::First;
 use crate::lanes::{FAR, Set, Vector, WIDTH, members, spread};
-use crate::machines::block;
 use crate::machines::guard::Guard;
 use crate::machines::sign::Sign;
 use crate::polynomial::enclosure::{THIRD, stays_above_zero};
@@ -11,11 +9,8 @@ use crate::polynomial::power::Polynomial;
 use crate::regime::Row;
 use crate::state::State;
 use crate::state::relative::{block_change, relative_velocity, slip_change};
-
-/// A guard falls when it is below zero by more than this fraction of its terms.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Contact forces per unit mass up to this are none (m/s2).
-pub(crate) const NO_CONTACT: f64 = ROUNDING * STANDARD_GRAVITY;
+use crate::tolerances::{DECISION_ROUNDING, FALL_ROUNDING, NO_CONTACT};
+use crate::units::STANDARD_GRAVITY;
 
 /// The first guard that falls within the present series, which starts at `tau` and whose ranges are formed.
 ///
@@ -29,7 +24,8 @@ pub(crate) fn first_event<V: Vector, const K: usize>(state: &State, tau: f64, is
         if state.vertical || state.blocks.airborne {
             first.consider(Guard::Contact, &contact_guard(state, tau), NO_CONTACT);
         }
-        if !state.blocks.airborne && (state.step.ranges.suspects[2] != 0 || state.blocks.stuck_mu[0] < f64::INFINITY) {
+        if !state.blocks.airborne && (state.step.ranges.near_bound[2] != 0 || state.blocks.stuck_mu[0] < f64::INFINITY)
+        {
             breakaway_guards::<V, K>(state, &mut first, isolated);
         }
         if state.blocks.is_sliding {
@@ -64,17 +60,17 @@ fn contact_guard(state: &State, tau: f64) -> Polynomial {
 
 #[inline(always)]
 fn storey_guards<V: Vector, const K: usize>(state: &State, first: &mut First, isolated: &mut usize) {
-    let [drifts, rates, _] = state.step.ranges.suspects;
+    let [drifts, rates, _] = state.step.ranges.near_bound;
     if drifts | rates == 0 {
         return;
     }
     for k in 0..state.vectors::<K>() {
-        if state.step.ranges.suspects_in::<K>(0, k) != 0 {
+        if state.step.ranges.near_bound_in::<K>(0, k) != 0 {
             for side in members(drifts_at_guards::<V, K>(state, k)) {
                 drift_guards::<V, K>(state, WIDTH * k + side / 2, side % 2 == 0, first, isolated);
             }
         }
-        for lane in members(state.step.ranges.suspects_in::<K>(1, k)) {
+        for lane in members(state.step.ranges.near_bound_in::<K>(1, k)) {
             rate_guard::<V, K>(state, WIDTH * k + lane, first, isolated);
         }
     }
@@ -113,7 +109,7 @@ fn rate_guard<V: Vector, const K: usize>(state: &State, i: usize, first: &mut Fi
     let size = state.step.series.drift_rate::<V, K>(i, sign.factor(), &mut p);
     let contact = state.step.drive.contact;
     let sizes = state.size_in_lanes::<V, K>(i + 1, contact) + state.size_in_lanes::<V, K>(i, contact);
-    let tolerance = ROUNDING * (size + state.step.series.h() * sizes);
+    let tolerance = FALL_ROUNDING * (size + state.step.series.h() * sizes);
     first.consider(Guard::Turn { storey: i }, &p, tolerance);
 }
 
@@ -156,7 +152,7 @@ fn drift_guard<V: Vector, const K: usize>(
     let mut p = state.step.series.zeros();
     let size = state.step.series.drift::<V, K>(i, -sign.factor(), limit, &mut p);
     let range = state.springs.machines[i].segment().range;
-    first.consider(guard, &p, ROUNDING * (limit.abs() + size + range));
+    first.consider(guard, &p, FALL_ROUNDING * (limit.abs() + size + range));
 }
 
 #[inline(always)]
@@ -198,7 +194,7 @@ fn breakaway_guard<V: Vector, const K: usize>(
         let mut p = state.step.series.zeros();
         let size = state.step.series.acceleration::<V, K>(floor, -sign.factor(), [limit, mu * contact_change], &mut p);
         // Not below what a decision takes as equal: what has just stuck must not break away for that.
-        let tolerance = block::ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size + sizes);
+        let tolerance = DECISION_ROUNDING * (limit.max(mu * STANDARD_GRAVITY) + size + sizes);
         first.consider(Guard::Breakaway { floor, sign }, &p, tolerance);
     }
 }
@@ -225,7 +221,7 @@ fn arrival_guards<V: Vector, const K: usize>(state: &State, first: &mut First, i
         let size = relative_velocity::<V, K>(state, j, sign.factor(), &mut p);
         let law = &state.model.blocks[j];
         let rates = state.size_in_lanes::<V, K>(law.floor, state.step.drive.contact) + motion.mu_k * STANDARD_GRAVITY;
-        first.consider(Guard::Arrival { block: j }, &p, ROUNDING * (size + state.step.series.h() * rates));
+        first.consider(Guard::Arrival { block: j }, &p, FALL_ROUNDING * (size + state.step.series.h() * rates));
     }
 }
 
@@ -240,7 +236,7 @@ fn wear_guards<const K: usize>(state: &State, first: &mut First, isolated: &mut 
         }
         let change = sign * block_change::<K>(state, j).1;
         let size = motion.wear_limit(1.0).abs() + motion.path() + rest.abs() + change.abs();
-        let tolerance = ROUNDING * size;
+        let tolerance = FALL_ROUNDING * size;
         if rest - change > tolerance && keeps_sliding::<K>(state, j, sign) {
             continue;
         }
@@ -287,6 +283,6 @@ fn keeps_sliding<const K: usize>(state: &State, block: usize, sign: f64) -> bool
     let rates = (-friction * contact.0 - a.0, -friction * contact.1 - a.1);
     let (start, end) = ([motion.velocity, rates.0], [motion.velocity + velocity, rates.1]);
     // A block that breaks away where both coefficients are the same starts without relative acceleration.
-    let least = ROUNDING * motion.mu_k * STANDARD_GRAVITY;
+    let least = FALL_ROUNDING * motion.mu_k * STANDARD_GRAVITY;
     stays_above_zero(start.map(|value| sign * value), end.map(|value| sign * value), h * THIRD, margin, least)
 }

@@ -4,7 +4,7 @@
 pub(crate) const WIDTH: usize = 4;
 
 /// All lanes of a vector, as bits.
-pub(crate) const LANES: u32 = (1 << WIDTH) - 1;
+pub(crate) const ALL_LANES: u32 = (1 << WIDTH) - 1;
 
 /// Four lanes.
 pub(crate) trait Vector: Copy {

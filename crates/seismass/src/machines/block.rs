@@ -6,9 +6,6 @@
 use crate::machines::sign::Sign;
 use crate::scene::{Block, Wear};
 
-/// Forces and accelerations that agree to this fraction of their terms are equal.
-pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
 /// The constant data of a block.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BlockLaw {

@@ -6,9 +6,7 @@
 
 use crate::machines::sign::Sign;
 use crate::response::EventKind;
-
-/// Forces of a backbone that agree to this fraction of the largest are equal.
-const SAME_FORCE: f64 = 1e-12;
+use crate::tolerances::SAME_FORCE;
 
 /// A straight piece of a spring's force over drift. Its drift coordinate counts from its base, the drift of the last
 /// event: however far the storey has yielded, a force never comes from the difference of two large drifts.

@@ -1,10 +1,10 @@
 //! Who moves: what a floor asks of the blocks on it at an instant, and what becomes of them.
 
-use crate::STANDARD_GRAVITY;
-use crate::machines::block::ROUNDING;
 use crate::machines::block::{BlockLaw, BlockMotion, BlockState};
 use crate::machines::sign::Sign;
 use crate::response::EventKind;
+use crate::tolerances::DECISION_ROUNDING;
+use crate::units::STANDARD_GRAVITY;
 
 /// What a floor asks of the blocks on it.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +37,7 @@ pub(crate) struct Transition {
 
 /// Why a floor decides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Cause {
+pub(crate) enum SettleCause {
     /// This stuck block has reached its limit, with this sign of the floor acceleration.
     Breakaway(usize, Sign),
     /// Something else: a block has arrived or landed, or the run starts.
@@ -59,11 +59,11 @@ pub(crate) fn settle(
     motions: &mut [BlockMotion],
     blocks: &[usize],
     contact: f64,
-    cause: Cause,
+    cause: SettleCause,
     log: &mut Vec<Transition>,
 ) {
     let first_logged = log.len();
-    let follows = matches!(cause, Cause::Breakaway(..));
+    let follows = matches!(cause, SettleCause::Breakaway(..));
     for &j in blocks {
         if motions[j].velocity == 0.0 && (motions[j].is_stuck() || !follows) {
             // The sign field holds the state before until the decision is made.
@@ -93,7 +93,7 @@ pub(crate) fn settle(
         let (acceleration, size) = demand.acceleration(stuck_mass, friction, friction_size);
         let direction = match cause {
             // Without friction a block breaks away where the acceleration is zero still.
-            Cause::Breakaway(_, sign) if acceleration.abs() <= ROUNDING * size => sign.opposite(),
+            SettleCause::Breakaway(_, sign) if acceleration.abs() <= DECISION_ROUNDING * size => sign.opposite(),
             _ => Sign::of(acceleration).opposite(),
         };
         let mut released = false;
@@ -103,11 +103,11 @@ pub(crate) fn settle(
             }
             let limit = motions[j].mu_s * contact;
             // Near N = 0 the limit carries the rounding of mu g.
-            let rounding = ROUNDING * (size + limit.max(motions[j].mu_s * STANDARD_GRAVITY));
+            let rounding = DECISION_ROUNDING * (size + limit.max(motions[j].mu_s * STANDARD_GRAVITY));
             let exceeds = match breakaway {
                 // Equal blocks break away together; near N = 0 every limit is within rounding of every other.
-                Cause::Breakaway(fired, _) => motions[j].mu_s == motions[fired].mu_s,
-                Cause::Other => acceleration.abs() > limit + rounding,
+                SettleCause::Breakaway(fired, _) => motions[j].mu_s == motions[fired].mu_s,
+                SettleCause::Other => acceleration.abs() > limit + rounding,
             };
             if exceeds {
                 motions[j].state = BlockState::Sliding(direction);
@@ -117,7 +117,7 @@ pub(crate) fn settle(
         if !released {
             break;
         }
-        breakaway = Cause::Other;
+        breakaway = SettleCause::Other;
     }
     let mut kept = first_logged;
     for entry in first_logged..log.len() {
@@ -151,7 +151,7 @@ mod tests {
         let mut motions: Vec<_> = laws.iter().zip(velocity).map(|(law, &v)| BlockMotion::new(law, v)).collect();
         let blocks: Vec<usize> = (0..laws.len()).collect();
         let demand = Demand::Floor { force, size: force.abs(), mass };
-        settle(demand, laws, &mut motions, &blocks, G, Cause::Other, &mut Vec::new());
+        settle(demand, laws, &mut motions, &blocks, G, SettleCause::Other, &mut Vec::new());
         motions
     }
 
@@ -202,7 +202,7 @@ mod tests {
         let force = 0.3 * G * 6.0;
         let demand = Demand::Floor { force, size: force, mass: 3.0 };
         let mut log = Vec::new();
-        settle(demand, &laws, &mut motions, &[0, 1], G, Cause::Breakaway(1, Sign::Positive), &mut log);
+        settle(demand, &laws, &mut motions, &[0, 1], G, SettleCause::Breakaway(1, Sign::Positive), &mut log);
         assert!(motions.iter().all(|m| m.sliding() == Some(Sign::Negative)));
         assert_eq!(log.len(), 2);
     }

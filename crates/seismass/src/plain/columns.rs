@@ -1,10 +1,10 @@
 //! The columns of a plain step, and their products.
 
-use crate::STANDARD_GRAVITY;
 use crate::lanes::{PaddedRows, Vector, WIDTH, columns_of, load, numbers};
 use crate::regime::{Regime, Row};
 use crate::state::State;
 use crate::step::steps::Whole;
+use crate::units::STANDARD_GRAVITY;
 
 /// What bounds the fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
 pub(crate) const MARGINS: [Row; 4] =
@@ -14,7 +14,7 @@ pub(crate) const MARGINS: [Row; 4] =
 type Column<const K: usize> = [[[f64; WIDTH]; K]; 4];
 
 /// What a run of plain steps reads.
-pub(crate) struct Course<'a, const K: usize> {
+pub(crate) struct StepColumns<'a, const K: usize> {
     pub(crate) regime: &'a Regime,
     pub(crate) h: f64,
     /// Columns of the step: of each drift, of each drift rate, of the ground acceleration and of its change.
@@ -28,7 +28,7 @@ pub(crate) struct Course<'a, const K: usize> {
     pub(crate) friction_ramp: &'a Column<K>,
 }
 
-impl<'a, const K: usize> Course<'a, K> {
+impl<'a, const K: usize> StepColumns<'a, K> {
     /// None where the regime has no propagator of this width.
     #[inline(always)]
     pub(crate) fn new(state: &'a State, h: f64) -> Option<Self> {
@@ -97,7 +97,7 @@ pub(crate) fn multiply<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column
 /// Two sums: half the latency of one, which is what a small step waits for.
 #[inline(always)]
 pub(crate) fn small_step<V: Vector, const K: usize, const S: usize>(
-    course: &Course<K>,
+    step_columns: &StepColumns<K>,
     [of_drift, of_rate]: [&[Column<K>; S]; 2],
     [ground, change]: [f64; 2],
     [x, v]: [V; 2],
@@ -106,8 +106,8 @@ pub(crate) fn small_step<V: Vector, const K: usize, const S: usize>(
     let mut rows = [V::splat(0.0); 4];
     let mut of_rates = rows;
     for r in 0..4 {
-        let of_change = V::load(&course.of_change[r][0]).mul_add(change, V::load(&course.constant[r][0]));
-        rows[r] = V::load(&course.of_ground[r][0]).mul_add(ground, of_change);
+        let of_change = V::load(&step_columns.of_change[r][0]).mul_add(change, V::load(&step_columns.constant[r][0]));
+        rows[r] = V::load(&step_columns.of_ground[r][0]).mul_add(ground, of_change);
     }
     for c in 0..S {
         let (x, v) = (x.broadcast(c), v.broadcast(c));

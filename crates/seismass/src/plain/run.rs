@@ -4,30 +4,27 @@
 //! Value and rate at both ends give the Bezier points of a cubic; the quantity differs from that cubic by at most
 //! h^4 / 384 times its largest fourth derivative, which the regime bounds. The loop itself looks at each end once: a
 //! value must keep the distance of h / 3 times its rate from its bound, and the margin of the fourth derivative, to
-//! either side. Steps that this does not clear are looked at closer ([`crate::plain::closer`]), by the Bezier points
+//! either side. Steps that this does not clear are checked once more ([`crate::plain::guard_check`]), by the Bezier points
 //! themselves.
 //!
 //! The loop ([`clear_steps`]) is a function of its own whose steps call no other, so that what it needs stays in
-//! registers; what is between two calls of it is kept in a [`Walk`].
+//! registers; what is between two calls of it is kept in a [`PlainLoop`].
 
 use std::mem::take;
 use std::sync::Arc;
 
-use crate::STANDARD_GRAVITY;
-use crate::events::guards::NO_CONTACT;
 use crate::lanes::{
     FAR, Set, Vector, WIDEST, WIDTH, by_width, differences, first_members, for_each_path, load, numbers, prefix_sums,
     store,
 };
-use crate::plain::closer::Closer;
-use crate::plain::columns::Course;
+use crate::plain::columns::StepColumns;
 use crate::plain::columns::{MARGINS, multiply, prepare_effects, small_step};
-use crate::plain::sliding::{LayerInLanes, Linear, Push};
+use crate::plain::guard_check::GuardCheck;
+use crate::plain::plain_loop::{PlainLoop, wears};
+use crate::plain::sliding::{BlockDrive, LayerInLanes, LinearInTime};
 use crate::plain::tall;
-use crate::plain::walk::{Walk, wears};
 use crate::polynomial::enclosure::{THIRD, off_cubic};
-use crate::polynomial::orders::MAX_PHASE;
-use crate::record::histories::{Pen, RowInLanes};
+use crate::record::histories::{HistoryWriter, RowInLanes};
 use crate::record::observer::Observer;
 use crate::record::update::update_bounds;
 use crate::regime::Row;
@@ -36,6 +33,9 @@ use crate::state::State;
 use crate::state::limits::BoundsInLanes;
 use crate::state::sample::Sample;
 use crate::step::steps::Whole;
+use crate::tolerances::NO_CONTACT;
+use crate::tolerances::SERIES_PHASE;
+use crate::units::STANDARD_GRAVITY;
 
 /// Lanes, as bits, in which the larger of two values and a norm times the margin per unit of it are not below a bound.
 #[inline(always)]
@@ -51,36 +51,37 @@ fn contact_at(vertical: &[f64], sample: usize) -> f64 {
 
 for_each_path! {
     /// Takes plain steps from interval `first` until `end`, as long as one look at each end clears them; returns the
-    /// interval reached. The step that was not cleared is left in `walk`. `S` is the number of storeys where it is known,
+    /// interval reached. The step that was not cleared is left in `plain_loop`. `S` is the number of storeys where it is known,
     /// else 0; `SLIDING`: blocks may slide on floors.
     fn clear_steps[K: usize, S: usize, SLIDING: bool, VERTICAL: bool](
-        state: &mut State, walk: &mut Walk, observer: &mut Observer, motion: &Motion, first: usize, end: usize,
+        state: &mut State, plain_loop: &mut PlainLoop, observer: &mut Observer, motion: &Motion, first: usize, end: usize,
     ) -> usize = clear_steps_in_lanes
 }
 
 #[inline(always)]
 fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING: bool, const VERTICAL: bool>(
     state: &mut State,
-    walk: &mut Walk,
+    plain_loop: &mut PlainLoop,
     observer: &mut Observer,
     motion: &Motion,
     first: usize,
     end: usize,
 ) -> usize {
-    if take(&mut walk.renews_bounds) {
+    if take(&mut plain_loop.renews_bounds) {
         update_bounds::<V, K>(state, observer);
     }
-    let mut pen = observer.histories.as_mut().map(Pen::new);
+    let mut writer = observer.histories.as_mut().map(HistoryWriter::new);
     prepare_effects::<V, K, VERTICAL>(state);
-    let Some(course) = Course::<K>::new(state, motion.dt()) else { return first };
-    let (Some(of_drifts), Some(of_rates)) = (course.of_drift.first_chunk::<S>(), course.of_rate.first_chunk::<S>())
+    let Some(step_columns) = StepColumns::<K>::new(state, motion.dt()) else { return first };
+    let (Some(of_drifts), Some(of_rates)) =
+        (step_columns.of_drift.first_chunk::<S>(), step_columns.of_rate.first_chunk::<S>())
     else {
         return first;
     };
     let few_columns = [of_drifts, of_rates];
-    let h = course.h;
+    let h = step_columns.h;
     let (length, third, per_second) = (V::splat(h), V::splat(h * THIRD), 1.0 / h);
-    let regime = course.regime;
+    let regime = step_columns.regime;
     let (mass, tangent): ([V; K], [V; K]) = (regime.lanes(Row::RootMass), regime.lanes(Row::RootTangent));
     let growth = regime.growth_over(h);
     // Per unit of the norm at the start of a step.
@@ -102,8 +103,8 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         *jerk = jerk.mul(inverse_mass);
     }
     let mut slope_before = state.kinematics.jerk_slope;
-    let mut apart_before = bounds.apart(&sample, third);
-    let (mut lowest, others) = match walk.layers[..walk.used].split_first_mut() {
+    let mut separations_before = bounds.separations(&sample, third);
+    let (mut lowest, others) = match plain_loop.layers[..plain_loop.used].split_first_mut() {
         Some((lowest, others)) if SLIDING => (Some(lowest), others),
         _ => (None, &mut [][..]),
     };
@@ -132,7 +133,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             let slope = (vertical[reached + 1] - vertical[reached]) * per_second;
             for k in 0..K {
                 sample.jerk[k] = jerk_per_slope[k].mul_add(V::splat(slope - slope_before), sample.jerk[k]);
-                apart_before[2][k] = third.mul_add(sample.jerk[k].abs(), sample.a[k].abs());
+                separations_before[2][k] = third.mul_add(sample.jerk[k].abs(), sample.a[k].abs());
             }
             slope_before = slope;
         }
@@ -148,7 +149,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         let mut rows = [[V::splat(0.0); K]; 4];
         if S > 0 {
             let drive = [before, change];
-            let few = small_step::<V, K, S>(&course, few_columns, drive, [sample.x[0], sample.v[0]]);
+            let few = small_step::<V, K, S>(&step_columns, few_columns, drive, [sample.x[0], sample.v[0]]);
             for r in 0..4 {
                 rows[r] = [few[r]; K];
             }
@@ -156,18 +157,18 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             let (ground, ramp) = (V::splat(before), V::splat(change));
             for r in 0..4 {
                 for k in 0..K {
-                    let constant = V::load(&course.constant[r][k]);
-                    let row = V::load(&course.of_change[r][k]).mul_add(ramp, constant);
-                    rows[r][k] = V::load(&course.of_ground[r][k]).mul_add(ground, row);
+                    let constant = V::load(&step_columns.constant[r][k]);
+                    let row = V::load(&step_columns.of_change[r][k]).mul_add(ramp, constant);
+                    rows[r][k] = V::load(&step_columns.of_ground[r][k]).mul_add(ground, row);
                     if VERTICAL {
-                        let friction = V::load(&course.friction[r][k]).mul_add(V::splat(contact.0), rows[r][k]);
-                        rows[r][k] =
-                            V::load(&course.friction_ramp[r][k]).mul_add(V::splat(contact.1 - contact.0), friction);
+                        let friction = V::load(&step_columns.friction[r][k]).mul_add(V::splat(contact.0), rows[r][k]);
+                        rows[r][k] = V::load(&step_columns.friction_ramp[r][k])
+                            .mul_add(V::splat(contact.1 - contact.0), friction);
                     }
                 }
             }
-            multiply(&mut rows, course.of_drift, &sample.x);
-            multiply(&mut rows, course.of_rate, &sample.v);
+            multiply(&mut rows, step_columns.of_drift, &sample.x);
+            multiply(&mut rows, step_columns.of_rate, &sample.v);
         }
         let [dx, dv, a, jerk] = rows;
         let mut taken = Sample { x: sample.x, v: sample.v, a, jerk, q: differences(&a, V::splat(after)) };
@@ -176,18 +177,18 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             taken.v[k] = sample.v[k].add(dv[k]);
         }
         // The proof.
-        let mut apart_after = bounds.apart(&taken, third);
+        let mut separations_after = bounds.separations(&taken, third);
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
-        let mut suspects: [Set; 3] = [0; 3];
+        let mut near_bound: [Set; 3] = [0; 3];
         for k in 0..K {
-            let most = |which: usize| (apart_before[which][k], apart_after[which][k]);
+            let most = |which: usize| (separations_before[which][k], separations_after[which][k]);
             let limit = match K == 1 && !VERTICAL {
                 true => few_accelerations,
                 false => bounds.of_accelerations(k, least_contact),
             };
-            suspects[0] |= not_clear(most(0), norm, margins[0][k], bounds.reach[k]) << (WIDTH * k);
-            suspects[1] |= not_clear(most(1), norm, margins[1][k], bounds.turn[k]) << (WIDTH * k);
-            suspects[2] |= not_clear(most(2), norm, margins[2][k], limit) << (WIDTH * k);
+            near_bound[0] |= not_clear(most(0), norm, margins[0][k], bounds.reach[k]) << (WIDTH * k);
+            near_bound[1] |= not_clear(most(1), norm, margins[1][k], bounds.turn[k]) << (WIDTH * k);
+            near_bound[2] |= not_clear(most(2), norm, margins[2][k], limit) << (WIDTH * k);
         }
         let (mut layer_after, mut is_turning) = (layer, false);
         if SLIDING {
@@ -197,10 +198,10 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 beyond[k] = dx[k].sub(length.mul(sample.v[k]));
                 of_velocity[k] = norm.mul(margins[3][k]);
             }
-            let push = Push {
+            let push = BlockDrive {
                 h,
-                ground: Linear { start: before, end: after },
-                contact: Linear { start: contact.0, end: contact.1 },
+                ground: LinearInTime { start: before, end: after },
+                contact: LinearInTime { start: contact.0, end: contact.1 },
                 velocity: prefix_sums(&dv),
                 displacement: prefix_sums(&beyond),
                 a: [sample.a, taken.a],
@@ -216,68 +217,69 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 store(&after.slip, slip);
                 is_turning |= turning && before.turns(&after.velocity, &push);
             }
-            if !walk.wear_limits.is_empty() {
-                is_turning |= wears(&walk.wear_limits, numbers(&layer_after.slip).as_flattened(), others);
+            if !plain_loop.wear_limits.is_empty() {
+                is_turning |= wears(&plain_loop.wear_limits, numbers(&layer_after.slip).as_flattened(), others);
             }
         }
         let has_contact = !VERTICAL || contact.0 > NO_CONTACT && contact.1 > NO_CONTACT;
-        if suspects[0] | suspects[1] | suspects[2] != 0 || is_turning || !has_contact {
-            for suspects in &mut suspects {
-                *suspects &= within;
+        if near_bound[0] | near_bound[1] | near_bound[2] != 0 || is_turning || !has_contact {
+            for near_bound in &mut near_bound {
+                *near_bound &= within;
             }
             let samples = [&sample, &taken];
-            let closer = Closer::look(suspects, &bounds, &state.bounds, samples, (norm, &margins), h, least_contact);
-            let (fails, time) = (closer.fails || is_turning || !has_contact, (reached + 1) as f64 * h);
+            let guard_check =
+                GuardCheck::look(near_bound, &bounds, &state.bounds, samples, (norm, &margins), h, least_contact);
+            let (fails, time) = (guard_check.fails || is_turning || !has_contact, (reached + 1) as f64 * h);
             let in_state = (&state.bounds, &mut bounds);
-            if !walk.beaten.note(&closer, fails, reached == first, samples, time, in_state) {
-                open = (fails && has_contact).then_some((closer, norm));
+            if !plain_loop.beaten.note(&guard_check, fails, reached == first, samples, time, in_state) {
+                open = (fails && has_contact).then_some((guard_check, norm));
                 break;
             }
-            apart_after = bounds.apart(&taken, third);
+            separations_after = bounds.separations(&taken, third);
             few_accelerations = bounds.of_accelerations(0, least_contact);
         }
-        (sample, apart_before, layer) = (taken, apart_after, layer_after);
+        (sample, separations_before, layer) = (taken, separations_after, layer_after);
         for other in others.iter_mut() {
             other.accept();
         }
         reached += 1;
-        if let Some(pen) = &mut pen
-            && pen.sample() == reached
+        if let Some(writer) = &mut writer
+            && writer.sample() == reached
         {
             let mut blocks = None;
-            if SLIDING && pen.recorder().has_one_on_each() {
-                blocks = Some(pen.recorder().blocks(&layer.taken(), &layer.velocity, &layer.slip));
+            if SLIDING && writer.recorder().has_one_on_each() {
+                blocks = Some(writer.recorder().blocks(&layer.taken(), &layer.velocity, &layer.slip));
             } else if SLIDING {
                 let (velocity, slip) = (numbers(&layer.velocity), numbers(&layer.slip));
-                for &(block, of_layer, lane) in &walk.on_floors {
+                for &(block, of_layer, lane) in &plain_loop.on_floors {
                     let (velocity, slip) = match of_layer.checked_sub(1).and_then(|other| others.get(other)) {
                         Some(other) => (&other.velocity[..], &other.slip[..]),
                         None => (velocity.as_flattened(), slip.as_flattened()),
                     };
-                    pen.recorder().move_block(block, velocity[lane], slip[lane]);
+                    writer.recorder().move_block(block, velocity[lane], slip[lane]);
                 }
             }
-            pen.append(state.model, &RowInLanes { x: &sample.x, v: &sample.v, a: &sample.a }, blocks);
+            writer.append(state.model, &RowInLanes { x: &sample.x, v: &sample.v, a: &sample.a }, blocks);
         }
     }
-    if let Some(pen) = pen {
-        pen.lay_down();
+    if let Some(writer) = writer {
+        writer.lay_down();
     }
     if let Some(lowest) = &mut lowest {
         store(&layer.velocity, &mut lowest.velocity);
         store(&layer.slip, &mut lowest.slip);
     }
     state.kinematics.jerk_slope = slope_before;
-    if walk.beaten.any() {
+    if plain_loop.beaten.any() {
         bounds.put_into(&mut state.bounds);
     }
-    if let Some((closer, norm)) = open {
+    if let Some((guard_check, norm)) = open {
         let [norm, ..] = numbers(&[norm])[0];
         let ranges = &mut state.step.ranges;
         ranges.set_margins(norm * growth, h);
-        ranges.keep(&closer.ranges, closer.suspects);
-        ranges.suspects[0] |= walk.beaten.followed();
-        ranges.suspects[1] |= walk.beaten.followed();
+        ranges.keep(&guard_check.ranges, guard_check.near_bound);
+        ranges.near_bound[0] |= plain_loop.beaten.followed();
+        ranges.near_bound[1] |= plain_loop.beaten.followed();
         ranges.are_known = true;
     }
     sample.put_into(&mut state.kinematics);
@@ -287,13 +289,13 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
 /// [`clear_steps`] of the present scene.
 fn clear_steps_of_scene(
     state: &mut State,
-    walk: &mut Walk,
+    plain_loop: &mut PlainLoop,
     observer: &mut Observer,
     motion: &Motion,
     first: usize,
     end: usize,
 ) -> usize {
-    let steps = match (state.storeys(), walk.used > 0, state.vertical) {
+    let steps = match (state.storeys(), plain_loop.used > 0, state.vertical) {
         (1, false, false) => clear_steps::<1, 1, false, false>,
         (2, false, false) => clear_steps::<1, 2, false, false>,
         (3, false, false) => clear_steps::<1, 3, false, false>,
@@ -314,13 +316,13 @@ fn clear_steps_of_scene(
         (17..=32, _, true) => clear_steps::<8, 0, true, true>,
         (_, _, true) => clear_steps::<WIDEST, 0, true, true>,
     };
-    steps(state, walk, observer, motion, first, end)
+    steps(state, plain_loop, observer, motion, first, end)
 }
 
 /// Takes plain steps from interval `first` until `end`, or until one is not plain; returns the interval reached.
 pub(crate) fn run(
     state: &mut State,
-    walk: &mut Walk,
+    plain_loop: &mut PlainLoop,
     observer: &mut Observer,
     motion: &Motion,
     first: usize,
@@ -331,59 +333,62 @@ pub(crate) fn run(
     let vertical = motion.vertical().filter(|_| state.vertical).unwrap_or(&[]);
     let contact = |sample: usize| contact_at(vertical, sample);
     let drive = |i: usize| {
-        (Linear { start: samples[i], end: samples[i + 1] }, Linear { start: contact(i), end: contact(i + 1) })
+        (
+            LinearInTime { start: samples[i], end: samples[i + 1] },
+            LinearInTime { start: contact(i), end: contact(i + 1) },
+        )
     };
-    by_width!(state.model.width, K => walk.begin::<K>(state, first));
+    by_width!(state.model.width, K => plain_loop.begin::<K>(state, first));
     if let Some(recorder) = &mut observer.histories {
         recorder.take_up(state);
     }
     let mut reached = first;
     while reached < end {
         let mut last = end;
-        if walk.on_ground.is_watched() {
-            let sliding = !walk.on_ground.sliding().is_empty();
-            last = walk.on_ground.go_ahead(reached, end, sliding && observer.histories.is_some(), h, drive);
+        if plain_loop.on_ground.is_watched() {
+            let sliding = !plain_loop.on_ground.sliding().is_empty();
+            last = plain_loop.on_ground.go_ahead(reached, end, sliding && observer.histories.is_some(), h, drive);
             if last == reached {
                 break;
             }
-            for block in walk.on_ground.sliding() {
+            for block in plain_loop.on_ground.sliding() {
                 if let Some(recorder) = &mut observer.histories {
                     recorder.move_block(block.block, block.velocity, block.slip);
                 }
             }
         }
         let first = reached;
-        reached = clear_steps_of_scene(state, walk, observer, motion, reached, last);
-        walk.beaten.take_steps(state, observer, (first + 1) as f64 * h);
+        reached = clear_steps_of_scene(state, plain_loop, observer, motion, reached, last);
+        plain_loop.beaten.take_steps(state, observer, (first + 1) as f64 * h);
         if reached > first {
-            walk.beaten.forget_turned();
+            plain_loop.beaten.forget_turned();
         }
         if reached == last {
             continue;
         }
-        let (turns, waits) = walk.beaten.take_turns();
+        let (turns, waits) = plain_loop.beaten.take_turns();
         if turns == [0; 2] {
             break;
         }
-        walk.beaten.take_followed(state, observer, reached as f64 * h);
+        plain_loop.beaten.take_followed(state, observer, reached as f64 * h);
         if waits {
             // Whether a step is plain must not depend on where its run began.
-            walk.renews_bounds = true;
+            plain_loop.renews_bounds = true;
             continue;
         }
-        if state.regime.frequency * h > MAX_PHASE {
+        if state.regime.frequency * h > SERIES_PHASE {
             break;
         }
         // The series of the step gives the extremes; then the run goes on.
         state.begin_interval(motion, reached);
-        walk.beaten.turn(state, observer, h, turns);
-        walk.renews_bounds = true;
-        walk.series += 1;
-        walk.isolated += (turns[0].count_ones() + turns[1].count_ones()) as usize;
+        plain_loop.beaten.turn(state, observer, h, turns);
+        plain_loop.renews_bounds = true;
+        plain_loop.series += 1;
+        plain_loop.isolated += (turns[0].count_ones() + turns[1].count_ones()) as usize;
     }
-    walk.on_ground.go_back(reached, h, drive);
-    by_width!(state.model.width, K => walk.put_blocks::<K>(&mut state.blocks.motions));
-    walk.beaten.take_followed(state, observer, reached as f64 * h);
+    plain_loop.on_ground.go_back(reached, h, drive);
+    by_width!(state.model.width, K => plain_loop.put_blocks::<K>(&mut state.blocks.motions));
+    plain_loop.beaten.take_followed(state, observer, reached as f64 * h);
     reached
 }
 
@@ -391,7 +396,7 @@ pub(crate) fn run(
 /// returns the interval reached, whose start the state is then at.
 pub(crate) fn plain_run(
     state: &mut State,
-    walk: &mut Walk,
+    plain_loop: &mut PlainLoop,
     observer: &mut Observer,
     motion: &Motion,
     first: usize,
@@ -405,7 +410,7 @@ pub(crate) fn plain_run(
             let step = Arc::clone(step);
             tall::run::run(state, observer, motion, &step, first, end)
         }
-        _ => run(state, walk, observer, motion, first, end),
+        _ => run(state, plain_loop, observer, motion, first, end),
     };
     state.kinematics.is_formed |= reached > first;
     if state.blocks.is_sliding {

@@ -5,11 +5,8 @@ use std::mem::swap;
 use crate::lanes::{FAR, Padded, Vector, load};
 use crate::machines::block::BlockMotion;
 use crate::machines::model::Model;
-use crate::polynomial::enclosure::{THIRD, against, range, ranges};
-
-/// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits: at 1e-6, slips
-/// of blocks that hardly move were known to 1e-9.
-pub(crate) const SMALL_DIFFERENCE: f64 = 1e-4;
+use crate::polynomial::enclosure::{THIRD, distance_against, range, ranges};
+use crate::tolerances::SMALL_DIFFERENCE;
 
 /// Blocks that slide, at most one on each floor. Padded; lanes in which no block slides never turn.
 pub(crate) struct Layer {
@@ -88,10 +85,10 @@ pub(crate) struct LayerInLanes<V, const K: usize> {
 
 /// What moves the blocks in a step: the motion of the ground and of the floors on it, the latter beyond that at the
 /// velocities of the start, and contact forces.
-pub(crate) struct Push<V, const K: usize> {
+pub(crate) struct BlockDrive<V, const K: usize> {
     pub(crate) h: f64,
-    pub(crate) ground: Linear,
-    pub(crate) contact: Linear,
+    pub(crate) ground: LinearInTime,
+    pub(crate) contact: LinearInTime,
     pub(crate) velocity: [V; K],
     pub(crate) displacement: [V; K],
     pub(crate) a: [[V; K]; 2],
@@ -130,7 +127,7 @@ impl<V: Vector, const K: usize> LayerInLanes<V, K> {
 
     /// The layer at the end of a step, and whether a block may have turned in it.
     #[inline(always)]
-    pub(crate) fn pushed(&self, push: &Push<V, K>) -> (Self, bool) {
+    pub(crate) fn pushed(&self, push: &BlockDrive<V, K>) -> (Self, bool) {
         let (length, third) = (V::splat(push.h), V::splat(push.h * THIRD));
         let (once, ground_once) = (V::splat(push.contact.once(push.h)), V::splat(push.ground.once(push.h)));
         let (twice, ground_twice) = (V::splat(push.contact.twice(push.h)), V::splat(push.ground.twice(push.h)));
@@ -152,9 +149,9 @@ impl<V: Vector, const K: usize> LayerInLanes<V, K> {
         (after, turning != 0)
     }
 
-    /// A closer look at whether a block may turn in the step to `velocity`, by the Bezier points of relative velocities.
+    /// Checks whether a block may turn in the step to `velocity`, by the Bezier points of relative velocities.
     #[inline(always)]
-    pub(crate) fn turns(&self, velocity: &[V; K], push: &Push<V, K>) -> bool {
+    pub(crate) fn turns(&self, velocity: &[V; K], push: &BlockDrive<V, K>) -> bool {
         let (zero, third, digits) = (V::splat(0.0), V::splat(push.h * THIRD), V::splat(-SMALL_DIFFERENCE));
         let mut turning = 0;
         for k in 0..K {
@@ -163,7 +160,7 @@ impl<V: Vector, const K: usize> LayerInLanes<V, K> {
             let ends = ([self.velocity[k], rate], [velocity[k], rate_after]);
             let range = ranges(ends.0, ends.1, third, push.margin[k]);
             let bound = digits.mul_add(push.velocity[k].abs(), self.turn[k]);
-            turning |= against(range, self.sign[k]).not_below(bound);
+            turning |= distance_against(range, self.sign[k]).not_below(bound);
         }
         turning != 0
     }
@@ -184,19 +181,19 @@ pub(crate) struct GroundBlock {
 impl GroundBlock {
     /// Slip after a step of `h`.
     #[inline(always)]
-    fn slip_after(&self, ground: Linear, contact: Linear, h: f64) -> f64 {
+    fn slip_after(&self, ground: LinearInTime, contact: LinearInTime, h: f64) -> f64 {
         self.slip + (self.velocity * h - self.friction * contact.twice(h) - ground.twice(h))
     }
 }
 
 /// Values at both ends of an interval of what is linear between them.
 #[derive(Clone, Copy)]
-pub(crate) struct Linear {
+pub(crate) struct LinearInTime {
     pub(crate) start: f64,
     pub(crate) end: f64,
 }
 
-impl Linear {
+impl LinearInTime {
     /// Integral over the length `h`.
     #[inline(always)]
     pub(crate) fn once(self, h: f64) -> f64 {
@@ -211,7 +208,7 @@ impl Linear {
 }
 
 /// Whether the ground holds blocks that are stuck to it with `stuck_mu`, by accelerations and contact forces over a step.
-fn holds_on_ground(ground: Linear, contact: Linear, stuck_mu: f64) -> bool {
+fn holds_on_ground(ground: LinearInTime, contact: LinearInTime, stuck_mu: f64) -> bool {
     ground.start.abs() < stuck_mu * contact.start && ground.end.abs() < stuck_mu * contact.end
 }
 
@@ -220,8 +217,8 @@ fn holds_on_ground(ground: Linear, contact: Linear, stuck_mu: f64) -> bool {
 #[inline(never)]
 pub(crate) fn move_on_ground(
     blocks: &mut [GroundBlock],
-    ground: Linear,
-    contact: Linear,
+    ground: LinearInTime,
+    contact: LinearInTime,
     h: f64,
     stuck_mu: f64,
 ) -> bool {
@@ -295,7 +292,7 @@ impl OnGround {
         end: usize,
         stay_together: bool,
         h: f64,
-        drive: impl Fn(usize) -> (Linear, Linear),
+        drive: impl Fn(usize) -> (LinearInTime, LinearInTime),
     ) -> usize {
         if reached == self.ahead {
             self.before.clone_from(&self.sliding);
@@ -307,7 +304,7 @@ impl OnGround {
     }
 
     /// Takes them back to the sample that the building has come to.
-    pub(crate) fn go_back(&mut self, reached: usize, h: f64, drive: impl Fn(usize) -> (Linear, Linear)) {
+    pub(crate) fn go_back(&mut self, reached: usize, h: f64, drive: impl Fn(usize) -> (LinearInTime, LinearInTime)) {
         if reached < self.ahead {
             self.sliding.clone_from(&self.before);
             self.ahead = self.from;
@@ -315,7 +312,7 @@ impl OnGround {
         }
     }
 
-    fn move_to(&mut self, end: usize, h: f64, drive: impl Fn(usize) -> (Linear, Linear)) {
+    fn move_to(&mut self, end: usize, h: f64, drive: impl Fn(usize) -> (LinearInTime, LinearInTime)) {
         while self.ahead < end {
             let (ground, contact) = drive(self.ahead);
             if !move_on_ground(&mut self.sliding, ground, contact, h, self.stuck_mu) {

@@ -51,41 +51,10 @@ pub(crate) fn ranges<V: Vector>(start: [V; 2], end: [V; 2], third: V, margin: V)
     (low.sub(margin), high.add(margin))
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// What is said to stay above zero does so: cubics that deviate by their margin times 16 s^2 (1 - s)^2 either way.
-    #[test]
-    fn what_stays_above_zero_does_so() {
-        let points = || (0..=8).map(|k| -1.0 + 0.25 * f64::from(k));
-        let (mut proved, mut others) = (0, 0);
-        for (start, b1, b2, end) in [0.0, 0.25, 1.0]
-            .into_iter()
-            .flat_map(|start| points().map(move |b1| (start, b1)))
-            .flat_map(|(start, b1)| points().map(move |b2| (start, b1, b2)))
-            .flat_map(|(start, b1, b2)| points().map(move |end| (start, b1, b2, end)))
-        {
-            for margin in [0.0, 0.01, 0.1] {
-                let rates = [3.0 * (b1 - start), 3.0 * (end - b2)];
-                let stays = stays_above_zero([start, rates[0]], [end, rates[1]], 1.0 / 3.0, margin, 0.0);
-                let lowest = (1..=1000).map(|k| f64::from(k) / 1000.0).fold(f64::INFINITY, |lowest, s| {
-                    let t = 1.0 - s;
-                    let cubic = start * t * t * t + 3.0 * s * t * (b1 * t + b2 * s) + end * s * s * s;
-                    lowest.min(cubic - 16.0 * margin * s * s * t * t)
-                });
-                assert!(!stays || lowest > 0.0, "{start} {b1} {b2} {end} {margin}: {lowest}");
-                if stays { proved += 1 } else { others += usize::from(lowest > 0.0) }
-            }
-        }
-        assert!(proved > 500 && others < 3 * proved, "proved {proved}, true without proof {others}");
-    }
-}
-
 /// How far values are from their middles after h / 3 at their rates, to either side: of drifts, of the negative of plastic
 /// storeys' rates, of accelerations; from (x, v, q) of drifts and (a, jerk) of floors.
 #[inline(always)]
-pub(crate) fn apart<V: Vector>([x, v, q]: [V; 3], [a, jerk]: [V; 2], middle: V, sign: V, third: V) -> [V; 3] {
+pub(crate) fn separations<V: Vector>([x, v, q]: [V; 3], [a, jerk]: [V; 2], middle: V, sign: V, third: V) -> [V; 3] {
     [
         third.mul_add(v.abs(), x.sub(middle).abs()),
         third.mul(q.abs()).sub(sign.mul(v)),
@@ -95,13 +64,13 @@ pub(crate) fn apart<V: Vector>([x, v, q]: [V; 3], [a, jerk]: [V; 2], middle: V, 
 
 /// How far ranges go from their middles, to either side.
 #[inline(always)]
-pub(crate) fn farthest<V: Vector>((low, high): (V, V), middle: V) -> V {
+pub(crate) fn largest_distance<V: Vector>((low, high): (V, V), middle: V) -> V {
     high.sub(middle).max(middle.sub(low))
 }
 
 /// How far ranges go against a sign.
 #[inline(always)]
-pub(crate) fn against<V: Vector>((low, high): (V, V), sign: V) -> V {
+pub(crate) fn distance_against<V: Vector>((low, high): (V, V), sign: V) -> V {
     let zero = V::splat(0.0);
     zero.sub(sign.mul(low)).max(zero.sub(sign.mul(high)))
 }
@@ -150,4 +119,35 @@ pub(crate) fn quintic_ranges<V: Vector>(start: [V; 3], end: [V; 3], h: f64, marg
         (low, high) = (low.min(point), high.max(point));
     }
     (low.sub(margin), high.add(margin))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said to stay above zero does so: cubics that deviate by their margin times 16 s^2 (1 - s)^2 either way.
+    #[test]
+    fn what_stays_above_zero_does_so() {
+        let points = || (0..=8).map(|k| -1.0 + 0.25 * f64::from(k));
+        let (mut proved, mut others) = (0, 0);
+        for (start, b1, b2, end) in [0.0, 0.25, 1.0]
+            .into_iter()
+            .flat_map(|start| points().map(move |b1| (start, b1)))
+            .flat_map(|(start, b1)| points().map(move |b2| (start, b1, b2)))
+            .flat_map(|(start, b1, b2)| points().map(move |end| (start, b1, b2, end)))
+        {
+            for margin in [0.0, 0.01, 0.1] {
+                let rates = [3.0 * (b1 - start), 3.0 * (end - b2)];
+                let stays = stays_above_zero([start, rates[0]], [end, rates[1]], 1.0 / 3.0, margin, 0.0);
+                let lowest = (1..=1000).map(|k| f64::from(k) / 1000.0).fold(f64::INFINITY, |lowest, s| {
+                    let t = 1.0 - s;
+                    let cubic = start * t * t * t + 3.0 * s * t * (b1 * t + b2 * s) + end * s * s * s;
+                    lowest.min(cubic - 16.0 * margin * s * s * t * t)
+                });
+                assert!(!stays || lowest > 0.0, "{start} {b1} {b2} {end} {margin}: {lowest}");
+                if stays { proved += 1 } else { others += usize::from(lowest > 0.0) }
+            }
+        }
+        assert!(proved > 500 && others < 3 * proved, "proved {proved}, true without proof {others}");
+    }
 }

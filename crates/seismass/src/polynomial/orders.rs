@@ -3,9 +3,6 @@
 use crate::lanes::{OnLine, Vector, WIDTH};
 use crate::polynomial::power::MAX_DEGREE;
 
-/// Longest step of one series, as frequency times time: longer intervals are split.
-pub(crate) const MAX_PHASE: f64 = 1.0;
-
 /// Largest phase at which the term of order 3, 4, ... is below 2^-60: phase^k / k! rounded down.
 static PHASE_LIMITS: OnLine<[[f64; WIDTH]; 5]> = OnLine([
     [0.0000, 0.0000, 0.0006, 0.0029],
@@ -69,11 +66,12 @@ pub(crate) static INVERSE_PAIRS: OnLine<Weights> = {
 mod tests {
     use super::*;
     use crate::lanes::Plain;
+    use crate::tolerances::SERIES_PHASE;
 
     /// The neglected term is below 2^-60, and the next guard polynomials still fit.
     #[test]
     fn series_are_long_enough() {
-        for phase in [1e-9, 1e-3, 0.1, 0.3, 0.7, MAX_PHASE] {
+        for phase in [1e-9, 1e-3, 0.1, 0.3, 0.7, SERIES_PHASE] {
             let order = terms::<Plain>(phase);
             let term = (1..=order).fold(1.0, |term, k| term * phase / k as f64);
             assert!(term <= (-60f64).exp2(), "phase {phase}: {term:e}");

@@ -7,12 +7,12 @@ use crate::polynomial::power::{MAX_DEGREE, Polynomial, by_length};
 impl Polynomial {
     /// What the coefficients say of values and derivatives on [0, 1].
     #[inline(always)]
-    fn shape<V: Vector>(&self) -> Shape {
+    fn shape<V: Vector>(&self) -> PolynomialShape {
         by_length!(self, F => self.shape_of_first::<V, F>())
     }
 
     #[inline(always)]
-    fn shape_of_first<V: Vector, const F: usize>(&self) -> Shape {
+    fn shape_of_first<V: Vector, const F: usize>(&self) -> PolynomialShape {
         let zero = V::splat(0.0);
         let [mut sum, mut fall, mut slow, mut fast, mut low, mut high] = [zero; 6];
         let fours = self.fours::<V, F>();
@@ -28,7 +28,7 @@ impl Polynomial {
             high = bend.mul_add(positive, high);
         }
         let [start, rate, bend, ..] = self.coefficients;
-        Shape {
+        PolynomialShape {
             end: start + (rate + sum.sum()),
             slope: rate + fall.sum(),
             rates: [rate + slow.sum(), rate + fast.sum()],
@@ -43,7 +43,7 @@ impl Polynomial {
     #[inline(always)]
     pub(crate) fn first_fall<V: Vector>(&self, tolerance: f64) -> Option<f64> {
         let [start, rate, ..] = self.coefficients;
-        let Shape { end, slope, rates, bends: [lowest, highest] } = self.shape::<V>();
+        let PolynomialShape { end, slope, rates, bends: [lowest, highest] } = self.shape::<V>();
         if start + if slope < 0.0 { slope } else { 0.0 } >= -tolerance {
             return None;
         }
@@ -157,7 +157,7 @@ impl Polynomial {
     #[inline(always)]
     pub(crate) fn sign_changes<V: Vector>(&self) -> (Option<f64>, Vec<f64>) {
         let start = self.coefficients[0];
-        let Shape { end, rates, .. } = self.shape::<V>();
+        let PolynomialShape { end, rates, .. } = self.shape::<V>();
         if rates[0] > 0.0 || rates[1] < 0.0 {
             return (if start * end < 0.0 { Some(self.only_root::<V>(end)) } else { None }, Vec::new());
         }
@@ -180,7 +180,7 @@ impl Polynomial {
 }
 
 /// What the coefficients of a polynomial p say of it on [0, 1].
-pub(crate) struct Shape {
+pub(crate) struct PolynomialShape {
     /// p(1).
     end: f64,
     /// No power from the first on is above s: p(s) >= p(0) + slope s.

@@ -14,12 +14,12 @@ use crate::state::State;
 
 /// Rows of a quantity one after the other. A row is written in whole vectors: what is beyond it belongs to the next, which
 /// overwrites it.
-pub(crate) struct Table {
+pub(crate) struct HistoryTable {
     values: Vec<f64>,
     width: usize,
 }
 
-impl Table {
+impl HistoryTable {
     /// Room for so many rows, of `width` numbers, written in `written` numbers.
     fn new(rows: usize, width: usize, written: usize) -> Self {
         let length = if width > 0 { rows * width + written - width } else { 0 };
@@ -115,12 +115,12 @@ pub(crate) struct Recorder {
     written: usize,
     /// Whether block after block stands on floor after floor, one on each: then what blocks do is in the lanes of floors.
     one_on_each: bool,
-    drift: Table,
-    slip: Table,
-    floor_velocity: Table,
-    block_velocity: Table,
-    floor_acceleration: Table,
-    storey_force: Table,
+    drift: HistoryTable,
+    slip: HistoryTable,
+    floor_velocity: HistoryTable,
+    block_velocity: HistoryTable,
+    floor_acceleration: HistoryTable,
+    storey_force: HistoryTable,
     /// In the present regime, by storey, padded: drift and force at the springs' bases, and spring tangents.
     base_drift: Padded,
     base_force: Padded,
@@ -147,8 +147,8 @@ impl Recorder {
         let storeys = model.width;
         let blocks_written = if one_on_each { storeys } else { blocks.next_multiple_of(WIDTH) };
         let all = !options.displacements_only;
-        let of_storeys = |is_kept: bool| Table::new(rows, if is_kept { n } else { 0 }, storeys);
-        let of_blocks = |is_kept: bool| Table::new(rows, if is_kept { blocks } else { 0 }, blocks_written);
+        let of_storeys = |is_kept: bool| HistoryTable::new(rows, if is_kept { n } else { 0 }, storeys);
+        let of_blocks = |is_kept: bool| HistoryTable::new(rows, if is_kept { blocks } else { 0 }, blocks_written);
         let of_row = if all { 4 * storeys + 2 * blocks_written } else { storeys + blocks_written };
         if !is_there_memory(rows.saturating_mul(of_row)) {
             let (requirement, value) =
@@ -413,7 +413,7 @@ fn append_by_path<V: Vector, const K: usize>(recorder: &mut Recorder, state: &St
 }
 
 /// Appends rows within a run of plain steps, with the springs and blocks taken up.
-pub(crate) struct Pen<'a> {
+pub(crate) struct HistoryWriter<'a> {
     recorder: &'a mut Recorder,
     /// Of the next row: its number, its place, and its sample.
     row: usize,
@@ -421,7 +421,7 @@ pub(crate) struct Pen<'a> {
     sample: usize,
 }
 
-impl<'a> Pen<'a> {
+impl<'a> HistoryWriter<'a> {
     #[inline(always)]
     pub(crate) fn new(recorder: &'a mut Recorder) -> Self {
         let (row, at, sample) = (recorder.written, recorder.place(), recorder.next_sample());

@@ -165,17 +165,17 @@ impl Observer {
         isolated: &mut usize,
     ) {
         let start = state.interval.start + tau;
-        let [drifts, _, accelerations] = state.step.ranges.suspects;
+        let [drifts, _, accelerations] = state.step.ranges.near_bound;
         if drifts | accelerations == 0 {
             return;
         }
         for k in 0..state.vectors::<K>() {
-            let suspects = state.step.ranges.suspects_in::<K>(0, k);
-            if suspects != 0 {
+            let near_bound = state.step.ranges.near_bound_in::<K>(0, k);
+            if near_bound != 0 {
                 // A plastic storey's rate is a guard: it does not turn before an event.
                 let (forward, backward) = signs(state.step.ranges.rates::<V, K>(k));
                 let steady = forward | backward | state.bounds.plastic_in::<V, K>(k);
-                for lane in members(suspects & !Set::from(steady)) {
+                for lane in members(near_bound & !Set::from(steady)) {
                     let i = WIDTH * k + lane;
                     let (low, high) = state.step.ranges.drift::<K>(i);
                     if self.drift_may_peak(state, i, low, high) {
@@ -184,9 +184,9 @@ impl Observer {
                     }
                 }
             }
-            let suspects = state.step.ranges.suspects_in::<K>(2, k);
-            if suspects != 0 {
-                for lane in members(suspects & !Set::from(state.steady::<V, K>(k))) {
+            let near_bound = state.step.ranges.near_bound_in::<K>(2, k);
+            if near_bound != 0 {
+                for lane in members(near_bound & !Set::from(state.steady::<V, K>(k))) {
                     let i = WIDTH * k + lane;
                     let (low, high) = state.step.ranges.acceleration::<K>(i);
                     if self.acceleration_may_peak(i, low, high) {

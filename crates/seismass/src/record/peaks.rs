@@ -1,6 +1,6 @@
 //! Peaks of storeys or floors.
 
-use crate::lanes::{FAR, LANES, Padded, Vector, WIDTH, vector_of};
+use crate::lanes::{ALL_LANES, FAR, Padded, Vector, WIDTH, vector_of};
 use crate::response::Peak;
 
 /// Peaks of storeys or floors, padded: beyond the last they are far, and nothing beats them.
@@ -41,7 +41,7 @@ impl PeakLanes {
     #[inline(always)]
     pub(crate) fn take_vector<V: Vector, const K: usize>(&mut self, k: usize, values: V, time: f64) -> u32 {
         let kept = self.size.vector::<V, K>(k);
-        let beaten = !kept.not_below(values.abs()) & LANES;
+        let beaten = !kept.not_below(values.abs()) & ALL_LANES;
         // What is no number beats nothing.
         self.size.set_vector::<V, K>(k, values.abs().max(kept));
         let times = self.time.vector::<V, K>(k);

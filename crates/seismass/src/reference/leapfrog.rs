@@ -14,12 +14,12 @@ use nalgebra::DMatrix;
 use super::Error;
 use super::clipping::{Breakpoint, Contact, clip_several};
 use super::history::{History, check_finite};
-use crate::STANDARD_GRAVITY;
 use crate::lanes::{Vector, for_each_path};
 use crate::machines::model::Model;
 use crate::response::Status;
 use crate::scene::{Motion, Scene};
 use crate::scene::{StoreyDamping, natural_frequencies};
+use crate::units::STANDARD_GRAVITY;
 
 for_each_path! {
     /// Integrates a scene. Paths give the same bits: they have the same operations, on wider vectors.

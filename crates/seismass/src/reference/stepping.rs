@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use super::guards::{carry_out, fallen, value};
 use super::history::{History, check_finite};
 use super::roots::first_fall;
-use super::scheme::{Columns, Scheme, StepMap, System};
+use super::scheme::{Columns, Scheme, StepMap, SteppedSystem};
 use super::{Error, Events};
 use crate::events::carry_out::settle_all;
 use crate::machines::block::{BlockMotion, BlockState};
@@ -39,9 +39,9 @@ pub(super) fn integrate(
     let state = State::new(scene, &model, &mut cache, vertical);
     let samples = motion.acceleration().len();
     let (n, blocks) = (state.storeys(), scene.blocks().len());
-    let mut run = Run {
+    let mut run = SteppedRun {
         scheme,
-        start: Start { x: vec![0.0; n], v: vec![0.0; n], q: vec![0.0; n], motions: Vec::with_capacity(blocks) },
+        start: StageStart { x: vec![0.0; n], v: vec![0.0; n], q: vec![0.0; n], motions: Vec::with_capacity(blocks) },
         end_load: vec![0.0; n],
         change: vec![0.0; 2 * n],
         maps: Vec::new(),
@@ -69,17 +69,17 @@ pub(super) fn integrate(
 }
 
 /// The state at the start of a step.
-struct Start {
+struct StageStart {
     x: Vec<f64>,
     v: Vec<f64>,
     q: Vec<f64>,
     motions: Vec<BlockMotion>,
 }
 
-struct Run<'a, S> {
+struct SteppedRun<'a, S> {
     scheme: &'a S,
     state: State<'a>,
-    start: Start,
+    start: StageStart,
     end_load: Vec<f64>,
     change: Vec<f64>,
     /// Maps of a whole step, by the regime's index.
@@ -91,7 +91,7 @@ struct Run<'a, S> {
     step: f64,
 }
 
-impl<S: Scheme> Run<'_, S> {
+impl<S: Scheme> SteppedRun<'_, S> {
     /// Lets every floor decide at t = 0.
     fn begin(&mut self, motion: &Motion) {
         let state = &mut self.state;
@@ -232,7 +232,7 @@ impl<S: Scheme> Run<'_, S> {
             }
             let regime = &self.state.regime;
             if !self.maps[index].as_ref().is_some_and(|map| map.belongs_to(regime)) {
-                let system = System::new(&self.state);
+                let system = SteppedSystem::new(&self.state);
                 self.maps[index] = Some(StepMap::new(self.scheme, &system, regime, self.step).ok_or_else(singular)?);
             }
             if let Some(map) = &self.maps[index] {
@@ -242,7 +242,7 @@ impl<S: Scheme> Run<'_, S> {
             let column = |values: &[f64]| DMatrix::from_column_slice(values.len(), 1, values);
             let state = DMatrix::from_iterator(2 * start.x.len(), 1, start.x.iter().chain(&start.v).copied());
             let columns = Columns { state, start: column(&start.q), end: column(&self.end_load) };
-            let change = self.scheme.change(&System::new(&self.state), h, &columns).ok_or_else(singular)?;
+            let change = self.scheme.change(&SteppedSystem::new(&self.state), h, &columns).ok_or_else(singular)?;
             self.change.copy_from_slice(change.as_slice());
         }
         Ok(())

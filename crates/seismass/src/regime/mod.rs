@@ -22,7 +22,7 @@ pub(crate) struct Regime {
     growth: f64,
 }
 
-/// What is known of each storey, or floor, in a regime. Bounds are per unit of [`Regime::liveliness_of`].
+/// What is known of each storey, or floor, in a regime. Bounds are per unit of [`Regime::derivative_norm_of`].
 #[derive(Clone, Copy)]
 pub(crate) enum Row {
     /// Storey tangent, P-Delta subtracted (N/m).
@@ -109,7 +109,7 @@ impl Regime {
     /// A norm of (v', v'') at the start of a step of length `h` that bounds its later values, from its square there:
     /// the sum of mass times relative jerk squared and of tangent (absolute) times drift acceleration squared.
     #[inline]
-    pub(crate) fn liveliness_of(&self, square: f64, h: f64) -> f64 {
+    pub(crate) fn derivative_norm_of(&self, square: f64, h: f64) -> f64 {
         square.sqrt() * self.growth_over(h)
     }
 
@@ -126,13 +126,13 @@ impl Regime {
 }
 
 /// [`Regime::accelerations`] with storeys in `K` vectors, of which the lanes beyond the last storey are zero.
-pub(crate) struct Operator<'a, V, const K: usize> {
+pub(crate) struct RegimeOperator<'a, V, const K: usize> {
     tangent: [V; K],
     inverse_mass: [V; K],
     model: &'a ModelLanes,
 }
 
-impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
+impl<'a, V: Vector, const K: usize> RegimeOperator<'a, V, K> {
     #[inline(always)]
     pub(crate) fn new(model: &'a Model, regime: &Regime) -> Self {
         let (tangent, inverse_mass) = (regime.lanes(Row::Tangent), regime.lanes(Row::InverseMass));
@@ -195,7 +195,7 @@ impl<'a, V: Vector, const K: usize> Operator<'a, V, K> {
         force
     }
 
-    /// Floor accelerations from drifts, drift rates, floor velocities ([`Operator::floor_velocities`]) and floor loads.
+    /// Floor accelerations from drifts, drift rates, floor velocities ([`RegimeOperator::floor_velocities`]) and floor loads.
     #[inline(always)]
     pub(crate) fn accelerations(&self, x: &[V; K], v: &[V; K], floors: &[V; K], mut force: [V; K]) -> [V; K] {
         let zero = V::splat(0.0);

@@ -5,7 +5,7 @@ use crate::machines::model::Model;
 use crate::regime::{Regime, Row};
 
 /// The regime's system.
-pub(crate) struct Operator<'a> {
+pub(crate) struct LongOperator<'a> {
     tangent: Vec<f64>,
     pub(crate) inverse_mass: Vec<f64>,
     /// Rayleigh damping of each storey and floor, zeros without it.
@@ -16,7 +16,7 @@ pub(crate) struct Operator<'a> {
     pub(crate) nothing: Vec<f64>,
 }
 
-impl<'a> Operator<'a> {
+impl<'a> LongOperator<'a> {
     pub(crate) fn new(model: &'a Model, regime: &Regime, length: usize) -> Self {
         let n = model.storeys();
         let of_regime = |row: Row| filled_to(length, regime.row(row)[..n].iter().copied(), 0.0);
@@ -33,9 +33,9 @@ impl<'a> Operator<'a> {
 
     /// Vectors of everything, as many as there are.
     #[inline(always)]
-    fn lanes(&self) -> OperatorLanes<'_> {
+    fn lanes(&self) -> LongOperatorLanes<'_> {
         let count = self.tangent.len() / WIDTH;
-        OperatorLanes {
+        LongOperatorLanes {
             count,
             tangent: &lanes(&self.tangent)[..count],
             inverse_mass: &lanes(&self.inverse_mass)[..count],
@@ -141,8 +141,8 @@ impl<'a> Operator<'a> {
     }
 }
 
-/// An [`Operator`] in vectors.
-struct OperatorLanes<'a> {
+/// An [`LongOperator`] in vectors.
+struct LongOperatorLanes<'a> {
     count: usize,
     tangent: &'a [[f64; WIDTH]],
     inverse_mass: &'a [[f64; WIDTH]],
@@ -150,7 +150,7 @@ struct OperatorLanes<'a> {
     floor_damping: &'a [[f64; WIDTH]],
 }
 
-impl OperatorLanes<'_> {
+impl LongOperatorLanes<'_> {
     /// Storey forces of vector `k` from its drifts and drift rates.
     #[inline(always)]
     fn force<V: Vector>(&self, k: usize, x: V, v: V) -> V {

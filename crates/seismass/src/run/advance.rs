@@ -3,10 +3,10 @@
 use crate::error::Error;
 use crate::lanes::{Padded, Vector, by_width, for_each_path};
 use crate::machines::block::BlockMotion;
-use crate::polynomial::orders::MAX_PHASE;
 use crate::record::observer::Observer;
 use crate::state::State;
 use crate::state::relative::block_change;
+use crate::tolerances::SERIES_PHASE;
 
 for_each_path! {
     /// Integrates energies over `h` from `tau`, up to which nothing happens, and advances by it.
@@ -23,7 +23,7 @@ fn add_energy_by_path<V: Vector, const K: usize>(state: &mut State, observer: &m
 /// What moves: drifts, drift rates, floor accelerations, their rates, drift accelerations, and blocks.
 pub(crate) struct Moment {
     lanes: [Padded; 5],
-    /// See [`State::jerk_slope`] and [`State::is_formed`].
+    /// See [`Kinematics`](crate::state::kinematics::Kinematics).
     jerk_slope: f64,
     is_formed: bool,
     motions: Vec<BlockMotion>,
@@ -78,7 +78,7 @@ fn set_moment(state: &mut State, moment: Moment) {
 pub(crate) fn add_energy_of_interval(state: &mut State, start: Moment, observer: &mut Observer) {
     let end = moment(state);
     set_moment(state, start);
-    let pieces = (state.regime.frequency * state.interval.h / MAX_PHASE).ceil().max(1.0);
+    let pieces = (state.regime.frequency * state.interval.h / SERIES_PHASE).ceil().max(1.0);
     let h = state.interval.h / pieces;
     for piece in 0..pieces as usize {
         let tau = piece as f64 * h;

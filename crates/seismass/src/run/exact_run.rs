@@ -5,8 +5,8 @@ use std::mem::take;
 use crate::events::carry_out::settle_all;
 
 use crate::machines::block::{BlockMotion, BlockState};
+use crate::plain::plain_loop::PlainLoop;
 use crate::plain::run::plain_run;
-use crate::plain::walk::Walk;
 use crate::record::histories::Recorder;
 use crate::record::observer::Observer;
 use crate::response::{Event, Response, Statistics, Status};
@@ -14,16 +14,16 @@ use crate::run::advance::{add_energy_of_interval, moment};
 use crate::scene::Motion;
 use crate::state::State;
 
-/// Steps of a quiet tail between two looks at whether a peak can be beaten there: taken so whether or not it is asked,
+/// Steps of a tail at rest between two checks whether a peak can be beaten there: taken so whether or not it is asked,
 /// since rounding may tell where a peak lies among equal values.
-const STEPS_OF_QUIET: usize = 32;
+const STEPS_AT_REST: usize = 32;
 
 /// Steps between two looks at the caller's wish to stop.
 const STEPS_PER_POLL: usize = 1024;
 
 pub(crate) struct ExactRun<'a> {
     pub(crate) state: State<'a>,
-    pub(crate) walk: Walk,
+    pub(crate) plain_loop: PlainLoop,
     pub(crate) observer: Observer,
     pub(crate) statistics: Statistics,
     pub(crate) log: Vec<Event>,
@@ -59,9 +59,9 @@ impl ExactRun<'_> {
     /// Takes plain steps from interval `i` as far as nothing has to be looked at between; returns the interval reached,
     /// and whether that one is not plain.
     #[inline(always)]
-    pub(crate) fn plain_run(&mut self, motion: &Motion, i: usize, quiet_from: usize) -> (usize, bool) {
+    pub(crate) fn plain_run(&mut self, motion: &Motion, i: usize, rest_from: usize) -> (usize, bool) {
         let last = motion.acceleration().len() - 1;
-        let cut = if i < quiet_from { quiet_from.min(i + STEPS_PER_POLL) } else { i + STEPS_OF_QUIET };
+        let cut = if i < rest_from { rest_from.min(i + STEPS_PER_POLL) } else { i + STEPS_AT_REST };
         let mut end = last.min(cut);
         let state = &mut self.state;
         let before = self.observer.keeps_energy().then(|| {
@@ -69,11 +69,11 @@ impl ExactRun<'_> {
             state.begin_interval(motion, i);
             moment(state)
         });
-        let reached = plain_run(state, &mut self.walk, &mut self.observer, motion, i, end);
+        let reached = plain_run(state, &mut self.plain_loop, &mut self.observer, motion, i, end);
         self.statistics.intervals += reached - i;
         self.statistics.plain_steps += reached - i;
-        self.statistics.series_steps += take(&mut self.walk.series);
-        self.statistics.guards_isolated += take(&mut self.walk.isolated);
+        self.statistics.series_steps += take(&mut self.plain_loop.series);
+        self.statistics.guards_isolated += take(&mut self.plain_loop.isolated);
         if let Some(before) = before.filter(|_| reached > i) {
             add_energy_of_interval(state, before, &mut self.observer);
         }

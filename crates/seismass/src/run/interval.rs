@@ -8,11 +8,12 @@ use crate::events::first::First;
 use crate::events::guards::first_event;
 use crate::lanes::{Vector, for_each_path};
 use crate::machines::guard::{Guard, Outcome};
-use crate::polynomial::orders::MAX_PHASE;
 use crate::record::update::update_bounds;
 use crate::run::advance::{advance, not_finite};
 use crate::run::exact_run::ExactRun;
-use crate::run::limits::{EVENTS_PER_INTERVAL, EVENTS_PER_MACHINE, MOST_PHASE};
+use crate::run::limits::{EVENTS_PER_INTERVAL, EVENTS_PER_MACHINE};
+use crate::tolerances::REFUSED_PHASE;
+use crate::tolerances::SERIES_PHASE;
 
 for_each_path! {
     /// Solves the present interval by series and records its end; returns the storey that collapsed, and when.
@@ -29,7 +30,7 @@ fn interval_by_path<V: Vector, const K: usize>(run: &mut ExactRun, stop: &Atomic
     while tau < h {
         let remaining = h - tau;
         let phase = run.phase_of(remaining)?;
-        let pieces = if phase > MAX_PHASE { (phase / MAX_PHASE).ceil() } else { 1.0 };
+        let pieces = if phase > SERIES_PHASE { (phase / SERIES_PHASE).ceil() } else { 1.0 };
         let event = run.series_step::<V, K>(tau, remaining / pieces)?;
         match event.guard() {
             None if pieces == 1.0 => tau = h,
@@ -63,7 +64,7 @@ impl ExactRun<'_> {
     /// Radians of the stiffest vibration of the present regime in a time.
     pub(crate) fn phase_of(&self, time: f64) -> Result<f64> {
         let phase = self.state.regime.frequency * time;
-        if phase <= MOST_PHASE { Ok(phase) } else { Err(self.too_stiff(phase)) }
+        if phase <= REFUSED_PHASE { Ok(phase) } else { Err(self.too_stiff(phase)) }
     }
 
     /// Events that an interval may have, of so many radians of the stiffest mode.
@@ -104,7 +105,7 @@ impl ExactRun<'_> {
         if !advance::<V, K>(state, tau, event.is_none()) {
             return Err(not_finite(state, tau + end * h));
         }
-        if event.is_none() && state.step.ranges.suspects != [0; 3] {
+        if event.is_none() && state.step.ranges.near_bound != [0; 3] {
             observer.take_building_in_lanes::<V, K>(state, state.interval.start + tau + state.step.series.h());
         }
         Ok(event)
@@ -138,7 +139,7 @@ impl ExactRun<'_> {
     #[cold]
     fn too_stiff(&self, phase: f64) -> Error {
         let substeps = self.statistics.substeps as f64;
-        Error::TooStiff { time: self.state.interval.start, phase: phase * substeps, limit: MOST_PHASE * substeps }
+        Error::TooStiff { time: self.state.interval.start, phase: phase * substeps, limit: REFUSED_PHASE * substeps }
     }
 
     #[cold]

@@ -1,30 +1,23 @@
 //! Limits of a run: events and phases of an interval, substeps.
 
+use crate::tolerances::SUBSTEP_PHASE;
 /// Events one sample interval may have, beside [`EVENTS_PER_MACHINE`].
 pub(crate) const EVENTS_PER_INTERVAL: usize = 256;
 
 /// Events each storey and block may have within one vibration of the stiffest mode.
 pub(crate) const EVENTS_PER_MACHINE: usize = 64;
 
-/// Longest step of a run, as the frequency of the elastic building times time; a motion with longer sample intervals is
-/// solved in substeps. What clears a step is a bound that grows with its fourth power, and a step that it does not clear
-/// is solved by a series for each radian: shorter steps cost less.
-const LONGEST_PHASE: f64 = 4.0;
-
 /// Most substeps of a sample interval, and of a motion: they are held in memory.
 const MOST_SUBSTEPS: usize = 1 << 10;
 
 const MOST_SUBSTEPS_OF_MOTION: usize = 1 << 21;
-
-/// Most radians of the stiffest vibration in a step: each takes a series of its own where something happens.
-pub(crate) const MOST_PHASE: f64 = 65536.0;
 
 /// Substeps of each sample interval, a power of two: a time step divided by it, and times that multiples of that are, are
 /// exact. `phase` is the frequency that a step must suit times the interval.
 pub(crate) fn substeps(phase: f64, samples: usize) -> usize {
     let most = (MOST_SUBSTEPS_OF_MOTION / samples).min(MOST_SUBSTEPS);
     let mut substeps = 1;
-    while phase > LONGEST_PHASE * substeps as f64 && 2 * substeps <= most {
+    while phase > SUBSTEP_PHASE * substeps as f64 && 2 * substeps <= most {
         substeps *= 2;
     }
     substeps

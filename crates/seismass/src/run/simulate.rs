@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::error::{Error, Result};
 use crate::lanes::by_width;
 use crate::machines::model::Model;
-use crate::plain::walk::Walk;
+use crate::plain::plain_loop::PlainLoop;
 use crate::record::observer::Observer;
 use crate::response::{Response, Statistics, Status};
 use crate::run::exact_run::ExactRun;
@@ -50,15 +50,15 @@ pub(crate) fn run(
     let peaks_only = options.peaks_only && options.histories.is_none() && !options.energy;
     let mut run = ExactRun {
         state: State::new(scene, model, cache, vertical),
-        walk: Walk::new(model),
+        plain_loop: PlainLoop::new(model),
         observer: Observer::new(model, options, samples, substeps)?,
         statistics: Statistics { substeps, ..Statistics::default() },
         log: Vec::new(),
         keep_log: options.events,
     };
     run.begin(motion);
-    let first = run.skip_quiet_head(motion);
-    let quiet_from = motion.acceleration().iter().rposition(|&a| a != 0.0).map_or(0, |i| i + 1);
+    let first = run.skip_head_at_rest(motion);
+    let rest_from = motion.acceleration().iter().rposition(|&a| a != 0.0).map_or(0, |i| i + 1);
     let mut status = Status::Completed;
     let last = samples - 1;
     let mut i = first;
@@ -66,12 +66,12 @@ pub(crate) fn run(
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        if peaks_only && i >= quiet_from && run.no_peak_can_be_beaten() {
+        if peaks_only && i >= rest_from && run.no_peak_can_be_beaten() {
             break;
         }
         run.phase_of(motion.dt())?;
         let is_open;
-        (i, is_open) = run.plain_run(motion, i, quiet_from);
+        (i, is_open) = run.plain_run(motion, i, rest_from);
         if !is_open {
             continue;
         }

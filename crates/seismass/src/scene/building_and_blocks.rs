@@ -1,10 +1,10 @@
 //! Building and blocks, with their initial state.
 
-use crate::STANDARD_GRAVITY;
 use crate::error::{Domain, Error, Result};
 use crate::scene::block::Block;
 use crate::scene::building::{Building, GravityEffect};
 use crate::scene::check::{Nth, check, check_length};
+use crate::units::STANDARD_GRAVITY;
 use std::sync::Arc;
 
 /// Building and blocks, with their initial state.

@@ -8,9 +8,8 @@
 use nalgebra::DMatrix;
 
 use crate::error::{Domain, Error, Result};
+use crate::tolerances::ORTHOGONAL;
 
-/// Columns whose cosine is below this are orthogonal to rounding.
-const ORTHOGONAL: f64 = 1e-16;
 /// Jacobi converges quadratically; more sweeps than this never help.
 const MAX_SWEEPS: usize = 60;
 

@@ -18,5 +18,3 @@ pub use damping::{Damping, StoreyDamping, natural_frequencies};
 pub use motion::{MAX_SAMPLES, Motion};
 pub use options::Options;
 pub use storey::{MAX_BACKBONE_POINTS, PeakOriented, SpringLaw, Storey};
-
-pub(crate) use storey::SAME_SLOPE;

@@ -2,14 +2,12 @@
 
 use crate::error::Result;
 use crate::scene::check::check;
+use crate::tolerances::SAME_SLOPE;
 use std::fmt::Display;
 use std::sync::Arc;
 
 /// Most points of a multilinear backbone.
 pub const MAX_BACKBONE_POINTS: usize = 100;
-
-/// Slopes of a backbone that differ by less than this, relatively, are those of points on a line, but for rounding.
-pub(crate) const SAME_SLOPE: f64 = 1e-9;
 
 /// The law of a storey's lateral spring (`numerics`, section 3): piecewise linear, so that the response between events is
 /// solved in closed form.
@@ -107,7 +105,7 @@ impl Storey {
 
     /// A storey whose backbone goes from the origin through points of drift (m) and force (N), with Masing unloading.
     ///
-    /// A list that is no backbone is refused by [`Building::new`].
+    /// A list that is no backbone is refused by [`Building::new`](crate::Building::new).
     pub fn multilinear(backbone: impl Into<Arc<[[f64; 2]]>>) -> Self {
         let backbone = backbone.into();
         let [drift, force] = backbone.first().copied().unwrap_or([f64::NAN; 2]);

@@ -31,7 +31,7 @@ pub use peaks::{OscillatorPeak, oscillator_peaks};
 const LANES: usize = 16;
 /// A number of each of them.
 type Values = [f64; LANES];
-/// Steps that share one bound of |u|.
+/// OscillatorSteps that share one bound of |u|.
 const BLOCK: usize = 32;
 /// Blocks between two searches for peaks inside steps; what is kept of them fits the second-level cache.
 const BLOCKS_PER_SEARCH: usize = 256;
@@ -188,7 +188,7 @@ fn gather<const N: usize>(oscillators: &[Oscillator; LANES], of: impl Fn(&Oscill
 }
 
 /// Several oscillators side by side, advanced by steps of one size: the displacement u and another number of each.
-trait Steps {
+trait OscillatorSteps {
     fn new(oscillators: &[Oscillator; LANES]) -> Self;
 
     /// u and the other number of an oscillator at rest at the start of a block.
@@ -201,14 +201,14 @@ trait Steps {
     fn advance<const FUSED: bool>(&self, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2];
 }
 
-/// Steps small enough that |u| is bounded by its samples ([`oscillator::is_small_step`]). The other number is the increment
+/// OscillatorSteps small enough that |u| is bounded by its samples ([`oscillator::is_small_step`]). The other number is the increment
 /// of u over the next step: seven operations, where u and u' take ten.
 struct SmallSteps {
     step_w: [Values; 5],
     screen: [Values; 2],
 }
 
-impl Steps for SmallSteps {
+impl OscillatorSteps for SmallSteps {
     fn new(oscillators: &[Oscillator; LANES]) -> Self {
         Self { step_w: gather(oscillators, |o| o.step_w), screen: gather(oscillators, Oscillator::screen) }
     }
@@ -242,7 +242,7 @@ impl Steps for SmallSteps {
     }
 }
 
-/// Steps of any size. The other number is u', and |u| is bounded by the particular solution, which is linear within a
+/// OscillatorSteps of any size. The other number is u', and |u| is bounded by the particular solution, which is linear within a
 /// step, and the amplitude of the free vibration about it.
 struct LargeSteps {
     step_u: [Values; 4],
@@ -253,7 +253,7 @@ struct LargeSteps {
     quarter: Values,
 }
 
-impl Steps for LargeSteps {
+impl OscillatorSteps for LargeSteps {
     fn new(oscillators: &[Oscillator; LANES]) -> Self {
         let [decay, quarter] = gather(oscillators, |o| [o.zeta * o.s, 1.0 / (o.q * o.s)]);
         Self {
@@ -327,18 +327,23 @@ struct Block {
     bound: Values,
 }
 
-/// [`Steps::advance`] by the widest vectors of the machine. A function of its own, so that what it needs stays in
+/// [`OscillatorSteps::advance`] by the widest vectors of the machine. A function of its own, so that what it needs stays in
 /// registers.
 #[allow(unsafe_code)]
-fn advance<S: Steps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
+fn advance<S: OscillatorSteps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
-    fn avx512<S: Steps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
+    fn avx512<S: OscillatorSteps>(
+        steps: &S,
+        state: &mut [Values; 2],
+        samples: &[f64],
+        load: &LoadBounds,
+    ) -> [Values; 2] {
         steps.advance::<true>(state, samples, load)
     }
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
-    fn avx2<S: Steps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
+    fn avx2<S: OscillatorSteps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: &LoadBounds) -> [Values; 2] {
         steps.advance::<true>(state, samples, load)
     }
     match InstructionSet::in_use() {
@@ -356,7 +361,7 @@ fn advance<S: Steps>(steps: &S, state: &mut [Values; 2], samples: &[f64], load: 
 type PeaksOf = fn(&Load, &[Oscillator; LANES], &Control) -> Result<Values>;
 
 /// Peak displacement of each oscillator.
-fn peaks_of<S: Steps>(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<Values> {
+fn peaks_of<S: OscillatorSteps>(load: &Load, oscillators: &[Oscillator; LANES], control: &Control) -> Result<Values> {
     let steps = S::new(oscillators);
     let mut state = gather(oscillators, |o| S::at_rest(o, load.block(0)));
     let mut peak = [0.0; LANES];

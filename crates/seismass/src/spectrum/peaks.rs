@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::scene::Motion;
 use crate::threads::{Control, in_pool};
 
-/// Steps between two looks whether the caller wants to stop.
+/// OscillatorSteps between two looks whether the caller wants to stop.
 const STEPS_PER_LOOK: usize = 4096;
 
 /// Largest values of one oscillator in continuous time.

@@ -1,10 +1,10 @@
 //! Accelerations of the present state, its series, and what they do to it.
 
 use crate::lanes::{MAX_LANES, Vector, WIDTH, by_width, differences, for_each_path, lanes, lanes_mut, load, store};
-use crate::regime::{Operator, Row};
+use crate::regime::{RegimeOperator, Row};
 use crate::scene::Motion;
 use crate::state::State;
-use crate::step::drive::{Drive, Start};
+use crate::step::drive::{Drive, StepStart};
 
 impl State<'_> {
     /// Sets the drive of a series that starts at `tau`.
@@ -94,8 +94,12 @@ impl State<'_> {
         } else {
             self.set_drive(tau);
         }
-        let start =
-            Start { x: &self.kinematics.x, v: &self.kinematics.v, a: &self.kinematics.a, jerk: &self.kinematics.jerk };
+        let start = StepStart {
+            x: &self.kinematics.x,
+            v: &self.kinematics.v,
+            a: &self.kinematics.a,
+            jerk: &self.kinematics.jerk,
+        };
         let table = self.regime.steps(self.vertical).and_then(|steps| steps.table.as_ref()).filter(|_| by_table);
         self.step.series.form::<V, K>(self.model, (&self.regime, table), &start, &self.step.drive, h);
     }
@@ -148,7 +152,7 @@ fn refresh_by_path<V: Vector, const K: usize>(state: &mut State, tau: f64) {
 
 #[inline(always)]
 fn refresh_lanes<V: Vector, const K: usize>(state: &mut State, tau: f64) {
-    let operator = Operator::<V, K>::new(state.model, &state.regime);
+    let operator = RegimeOperator::<V, K>::new(state.model, &state.regime);
     let inside: [V; K] = load(&state.model.lanes.inside);
     let (x, v): ([V; K], [V; K]) = (load(&state.kinematics.x), load(&state.kinematics.v));
     let (mut forces, friction): ([V; K], [V; K]) = (load(&state.springs.load), load(&state.blocks.friction));

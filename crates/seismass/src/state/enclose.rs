@@ -23,12 +23,12 @@ impl State<'_> {
     }
 
     /// Keeps what the bounds of the present series' higher derivatives are multiplied with, from the square of the norm
-    /// that [`Regime::liveliness_of`] takes.
+    /// that [`Regime::derivative_norm_of`](crate::regime::Regime::derivative_norm_of) takes.
     #[inline]
     fn bound_derivatives(&mut self, square: f64) {
         let h = self.step.series.h();
-        let liveliness = self.regime.liveliness_of(square, h);
-        self.step.ranges.set_margins(liveliness, h);
+        let derivative_norm = self.regime.derivative_norm_of(square, h);
+        self.step.ranges.set_margins(derivative_norm, h);
     }
 
     /// [`State::form_ranges`] for more storeys than vectors hold.

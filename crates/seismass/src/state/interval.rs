@@ -1,7 +1,7 @@
 //! Ground motion between two samples.
 
-use crate::STANDARD_GRAVITY;
 use crate::scene::Motion;
+use crate::units::STANDARD_GRAVITY;
 
 /// Ground motion between two samples, linear in time.
 #[derive(Debug, Clone, Copy, Default)]

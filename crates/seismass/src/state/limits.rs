@@ -2,11 +2,11 @@
 
 use crate::lanes::{FAR, Padded, Vector, load, store};
 use crate::machines::sign::Sign;
-use crate::polynomial::enclosure::{against, apart, farthest};
+use crate::polynomial::enclosure::{distance_against, largest_distance, separations};
 use crate::state::sample::Sample;
 
 /// Bounds of all storeys and floors, padded; in lanes beyond the last storey they are far. They hold once they are
-/// brought up to date ([`State::update_bounds`]), until a spring changes or a peak is beaten; where a run of plain steps
+/// brought up to date (`record::update`), until a spring changes or a peak is beaten; where a run of plain steps
 /// follows a peak that a drift beats, they are the guard ahead and the sign that its rate must keep, up to the run's end.
 #[derive(Debug)]
 pub(crate) struct Bounds {
@@ -108,8 +108,8 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
     #[inline(always)]
     pub(crate) fn reached(&self, which: usize, k: usize, range: (V, V), least_contact: V) -> u32 {
         match which {
-            0 => farthest(range, self.middle[k]).not_below(self.reach[k]),
-            1 => against(range, self.sign[k]).not_below(self.turn[k]),
+            0 => largest_distance(range, self.middle[k]).not_below(self.reach[k]),
+            1 => distance_against(range, self.sign[k]).not_below(self.turn[k]),
             _ => {
                 let size = range.1.max(V::splat(0.0).sub(range.0));
                 size.not_below(self.of_accelerations(k, least_contact))
@@ -123,13 +123,13 @@ impl<V: Vector, const K: usize> BoundsInLanes<V, K> {
         self.stuck_mu[k].mul(least_contact).min(self.a_peak[k])
     }
 
-    /// [`apart`] of all vectors.
+    /// [`separations`] of all vectors.
     #[inline(always)]
-    pub(crate) fn apart(&self, sample: &Sample<V, K>, third: V) -> [[V; K]; 3] {
+    pub(crate) fn separations(&self, sample: &Sample<V, K>, third: V) -> [[V; K]; 3] {
         let mut out = [sample.x, sample.v, sample.a];
         for k in 0..K {
             let (drift, floor) = ([sample.x[k], sample.v[k], sample.q[k]], [sample.a[k], sample.jerk[k]]);
-            [out[0][k], out[1][k], out[2][k]] = apart(drift, floor, self.middle[k], self.sign[k], third);
+            [out[0][k], out[1][k], out[2][k]] = separations(drift, floor, self.middle[k], self.sign[k], third);
         }
         out
     }

@@ -18,7 +18,7 @@ pub(crate) mod step;
 
 use std::rc::Rc;
 
-use crate::lanes::{Padded, Vector, WIDEST, WIDTH};
+use crate::lanes::{Padded, WIDEST, WIDTH};
 use crate::machines::block::BlockMotion;
 use crate::machines::model::Model;
 use crate::scene::{Block, Motion, Scene};
@@ -29,7 +29,7 @@ use crate::state::key::RegimeKey;
 use crate::state::kinematics::Kinematics;
 use crate::state::limits::Bounds;
 use crate::state::springs::Springs;
-use crate::state::step::Step;
+use crate::state::step::StepSpace;
 use crate::step::cache::{KnownRegime, RegimeCache};
 
 /// The state of a run and its working space. Vectors of storeys and floors are padded to whole lanes with zeros: those of
@@ -45,7 +45,7 @@ pub(crate) struct State<'a> {
     pub(crate) regime: Rc<KnownRegime>,
     pub(crate) key: RegimeKey,
     pub(crate) bounds: Bounds,
-    pub(crate) step: Step,
+    pub(crate) step: StepSpace,
     /// What a step of a tall building with peaks inside takes.
     pub(crate) effort: Effort,
 }
@@ -76,7 +76,7 @@ impl<'a> State<'a> {
             regime: Rc::default(),
             key: RegimeKey::new(model),
             bounds: Bounds::new(n),
-            step: Step::new(model),
+            step: StepSpace::new(model),
             effort: Effort::default(),
         }
     }

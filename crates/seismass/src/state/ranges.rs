@@ -1,6 +1,6 @@
 //! Ranges of storeys and floors over a step.
 
-use crate::lanes::{LANES, MAX_LANES, Padded, Set, Vector, WIDEST, WIDTH, first_members, padded, store};
+use crate::lanes::{ALL_LANES, MAX_LANES, Padded, Set, Vector, WIDEST, WIDTH, first_members, padded, store};
 use crate::polynomial::enclosure::{THIRD, off_cubic, ranges};
 use crate::regime::{Regime, Row};
 use crate::state::limits::BoundsInLanes;
@@ -11,13 +11,13 @@ use crate::state::sample::Sample;
 pub(crate) struct Ranges {
     /// Lower and upper bounds: of drift coordinates, drift rates, floor accelerations.
     pub(crate) bounds: [[Padded; 2]; 3],
-    /// Storeys and floors whose drifts, drift rates and accelerations come to their bounds (see [`Bounds`]).
-    pub(crate) suspects: [Set; 3],
+    /// Storeys and floors whose drifts, drift rates and accelerations come to their bounds (see [`Bounds`](crate::state::limits::Bounds)).
+    pub(crate) near_bound: [Set; 3],
     /// Number of storeys.
     storeys: usize,
-    /// h^4 / 384 times the liveliness: what bounds of fourth derivatives are multiplied with.
+    /// h^4 / 384 times the norm of the derivatives: what bounds of fourth derivatives are multiplied with.
     pub(crate) remainder: f64,
-    /// h^2 / 8 times the liveliness, for bounds of second derivatives.
+    /// h^2 / 8 times the norm of the derivatives, for bounds of second derivatives.
     pub(crate) chord: f64,
     /// Whether they are those of the next series: found by the plain step that was not cleared.
     pub(crate) are_known: bool,
@@ -28,13 +28,13 @@ impl Ranges {
         let zero = || Padded::new(padded(storeys), 0.0);
         let pair = || [zero(), zero()];
         let bounds = [pair(), pair(), pair()];
-        Self { bounds, suspects: [Set::MAX; 3], storeys, remainder: 0.0, chord: 0.0, are_known: false }
+        Self { bounds, near_bound: [Set::MAX; 3], storeys, remainder: 0.0, chord: 0.0, are_known: false }
     }
 
     /// Keeps what the bounds of higher derivatives are multiplied with over `h`, where they are as lively as that.
     #[inline]
-    pub(crate) fn set_margins(&mut self, liveliness: f64, h: f64) {
-        (self.remainder, self.chord) = (liveliness * off_cubic(h), liveliness * (0.125 * h * h));
+    pub(crate) fn set_margins(&mut self, derivative_norm: f64, h: f64) {
+        (self.remainder, self.chord) = (derivative_norm * off_cubic(h), derivative_norm * (0.125 * h * h));
     }
 
     /// Whether what is kept by [`Ranges::set_margins`] is a number: if not, no bound holds, nor in lanes beyond the last
@@ -59,27 +59,27 @@ impl Ranges {
         let of_accelerations = (Row::FourthOfAcceleration, [start.a, start.jerk], [end.a, end.jerk]);
         for (which, (row, start, end)) in [of_drifts, of_rates, of_accelerations].into_iter().enumerate() {
             let margins: [V; K] = regime.lanes(row);
-            let (mut lows, mut highs, mut suspects) = (start[0], start[0], 0);
+            let (mut lows, mut highs, mut near_bound) = (start[0], start[0], 0);
             for k in 0..K {
                 let (start, end) = ([start[0][k], start[1][k]], [end[0][k], end[1][k]]);
                 (lows[k], highs[k]) = ranges(start, end, third, remainder.mul(margins[k]));
-                suspects |= Set::from(bounds.reached(which, k, (lows[k], highs[k]), contact)) << (WIDTH * k);
+                near_bound |= Set::from(bounds.reached(which, k, (lows[k], highs[k]), contact)) << (WIDTH * k);
             }
             let [low, high] = &mut self.bounds[which];
             store(&lows, low);
             store(&highs, high);
-            self.suspects[which] = suspects & first_members(self.storeys);
+            self.near_bound[which] = near_bound & first_members(self.storeys);
         }
     }
 
     /// Keeps ranges, and which of them come to their bounds.
     #[inline(always)]
-    pub(crate) fn keep<V: Vector, const K: usize>(&mut self, ranges: &[[[V; K]; 2]; 3], suspects: [Set; 3]) {
+    pub(crate) fn keep<V: Vector, const K: usize>(&mut self, ranges: &[[[V; K]; 2]; 3], near_bound: [Set; 3]) {
         for (bounds, ranges) in self.bounds.iter_mut().zip(ranges) {
             store(&ranges[0], &mut bounds[0]);
             store(&ranges[1], &mut bounds[1]);
         }
-        self.suspects = suspects;
+        self.near_bound = near_bound;
     }
 
     #[inline(always)]
@@ -94,12 +94,12 @@ impl Ranges {
         (low.vector::<V, K>(k), high.vector::<V, K>(k))
     }
 
-    /// The suspects of vector `k`, as bits: drifts (0), drift rates (1) or accelerations (2). All are suspect where there
+    /// Storeys of vector `k` near their bounds, as bits: drifts (0), drift rates (1) or accelerations (2). All are where there
     /// are more than vectors hold.
     #[inline(always)]
-    pub(crate) fn suspects_in<const K: usize>(&self, which: usize, k: usize) -> Set {
+    pub(crate) fn near_bound_in<const K: usize>(&self, which: usize, k: usize) -> Set {
         if K < WIDEST || self.storeys <= MAX_LANES {
-            self.suspects[which] >> (WIDTH * k) & Set::from(LANES)
+            self.near_bound[which] >> (WIDTH * k) & Set::from(ALL_LANES)
         } else {
             first_members(self.storeys.saturating_sub(WIDTH * k).min(WIDTH))
         }

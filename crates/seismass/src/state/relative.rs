@@ -4,7 +4,7 @@ use crate::lanes::{Plain, Vector, by_width};
 use crate::polynomial::power::Polynomial;
 use crate::state::State;
 
-/// `p`, of [`Series::zeros`], becomes `factor`, 1 or -1, times the relative velocity of a
+/// `p`, of [`Series::zeros`](crate::step::series::Series::zeros), becomes `factor`, 1 or -1, times the relative velocity of a
 /// block over the present series; returns a bound of its size.
 #[inline(always)]
 pub(crate) fn relative_velocity<V: Vector, const K: usize>(

@@ -2,7 +2,7 @@
 
 use crate::lanes::{Vector, WIDEST, load, numbers};
 use crate::machines::settle::Demand;
-use crate::regime::{Operator, Row};
+use crate::regime::{RegimeOperator, Row};
 use crate::scene::StoreyDamping;
 use crate::state::State;
 
@@ -13,7 +13,7 @@ impl State<'_> {
         if K == WIDEST || floor == 0 {
             return self.acceleration_size(floor, contact);
         }
-        let operator = Operator::<V, K>::new(self.model, &self.regime);
+        let operator = RegimeOperator::<V, K>::new(self.model, &self.regime);
         let (mut x, mut v): ([V; K], [V; K]) = (load(&self.kinematics.x), load(&self.kinematics.v));
         let (loads, mut forces): ([V; K], [V; K]) = (load(&self.springs.base_load), load(&self.blocks.friction));
         for k in 0..K {

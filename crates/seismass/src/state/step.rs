@@ -20,14 +20,14 @@ pub(crate) struct LoadEffects {
 
 /// What the present step is solved with: its drive, its series and the ranges over it.
 #[derive(Debug)]
-pub(crate) struct Step {
+pub(crate) struct StepSpace {
     pub(crate) effects: LoadEffects,
     pub(crate) drive: Drive,
     pub(crate) series: Series,
     pub(crate) ranges: Ranges,
 }
 
-impl Step {
+impl StepSpace {
     pub(crate) fn new(model: &Model) -> Self {
         let (rows, zero) = (|| PaddedRows::zeros(model.width), || Padded::new(model.width, 0.0));
         Self {

@@ -11,16 +11,10 @@ use crate::lanes::{Aligned, Vector, WIDTH, for_each_path};
 use crate::machines::model::Model;
 use crate::regime::{Regime, Row};
 use crate::scene::StoreyDamping;
+use crate::tolerances::{BANDED_PHASE, BELOW_ROUNDING, NEGLIGIBLE};
 
 /// Rows of a block of the matrices: two vectors.
 const BLOCK: usize = 2 * WIDTH;
-/// Longest step of one series, as frequency times time: the largest of its terms is 2.
-pub(crate) const SERIES_PHASE: f64 = 2.0;
-/// Terms of a series that are at most so large are below rounding: 2^-60.
-pub(crate) const BELOW_ROUNDING: f64 = 1.0 / (1u64 << 60) as f64;
-/// Entries below this part of the largest in their row are left out: 2^27 below rounding, so that neighbours may differ
-/// by as much before it is seen.
-const NEGLIGIBLE: f64 = 1.0 / (1u128 << 80) as f64;
 
 /// Storeys padded to whole blocks of rows.
 pub(crate) fn whole_blocks(storeys: usize) -> usize {
@@ -38,7 +32,7 @@ pub(crate) struct BandedStep {
 
 /// What a step acts on, each with [`BandedStep::half_width`] more values before the first storey and after the last block.
 #[derive(Clone, Copy)]
-pub(crate) struct Start<'a> {
+pub(crate) struct BandedStart<'a> {
     /// Drift accelerations and their rates.
     pub(crate) q: [&'a [f64]; 2],
     /// Rates of the floor accelerations against the ground, and their rates.
@@ -144,14 +138,14 @@ fn sum_of_products(first: &Band, left: &Band, second: &Band, right: &Band) -> Ba
 }
 
 /// What a regime's system is made of, without padding.
-pub(crate) struct System<'a> {
+pub(crate) struct BandedSystem<'a> {
     tangent: &'a [f64],
     inverse_mass: &'a [f64],
     storey_damping: Vec<f64>,
     floor_damping: Vec<f64>,
 }
 
-impl<'a> System<'a> {
+impl<'a> BandedSystem<'a> {
     fn new(model: &Model, regime: &'a Regime) -> Self {
         let n = model.storeys();
         let (mass_factor, stiffness_factor) = match model.damping() {
@@ -176,7 +170,7 @@ struct Term {
 impl Term {
     /// Time derivatives times a factor.
     #[inline(always)]
-    fn next(&self, system: &System, factor: f64) -> Self {
+    fn next(&self, system: &BandedSystem, factor: f64) -> Self {
         let (n, reach) = (self.drift.storeys, self.drift.reach as isize);
         let far = (reach + 1).min(n as isize - 1);
         let (mut drift, mut velocity) = (Band::zeros(n, far as usize), Band::zeros(n, far as usize));
@@ -230,7 +224,7 @@ impl Effect {
     /// By series over `h`, to the first term below rounding at frequency times time `phase`; unless it is to be prolonged,
     /// nothing but second integrals.
     #[inline(always)]
-    fn by_series(system: &System, start: Term, h: f64, phase: f64, is_prolonged: bool) -> Self {
+    fn by_series(system: &BandedSystem, start: Term, h: f64, phase: f64, is_prolonged: bool) -> Self {
         let n = start.drift.storeys;
         let mut order = 0;
         let mut size = 1.0;
@@ -302,8 +296,8 @@ for_each_path! {
 /// The compiler makes vectors of the path's width.
 #[inline(always)]
 fn effects_by_path<V: Vector>(model: &Model, regime: &Regime, dt: f64) -> [Effect; 2] {
-    let (n, system) = (model.storeys(), System::new(model, regime));
-    let halvings = libm::log2(regime.frequency * dt / SERIES_PHASE).ceil().max(0.0);
+    let (n, system) = (model.storeys(), BandedSystem::new(model, regime));
+    let halvings = libm::log2(regime.frequency * dt / BANDED_PHASE).ceil().max(0.0);
     let mut h = dt * libm::exp2(-halvings);
     let phase = regime.frequency * h;
     let (unit, zero) = (|| Band::unit(n, 0), || Band::zeros(n, 0));
@@ -348,7 +342,7 @@ impl BandedStep {
 
     /// Forms (dx - h v, dv), of whole blocks of rows.
     #[inline(always)]
-    pub(crate) fn advance<V: Vector>(&self, start: Start, dx: &mut [f64], dv: &mut [f64]) {
+    pub(crate) fn advance<V: Vector>(&self, start: BandedStart, dx: &mut [f64], dv: &mut [f64]) {
         let width = Self::columns(self.half_width);
         let blocks = self.entries.as_chunks::<WIDTH>().0.as_chunks::<2>().0.as_chunks::<2>().0.chunks_exact(width);
         let [dx, dv] = [dx, dv].map(|rows| rows.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<2>().0);
@@ -437,7 +431,7 @@ mod tests {
                     out
                 };
                 let [q, q_rate, jerk, jerk_rate] = [&q, &q_rate, &jerk, &jerk_rate].map(|values| with_margin(values));
-                let start = Start { q: [&q, &q_rate], jerk: [&jerk, &jerk_rate] };
+                let start = BandedStart { q: [&q, &q_rate], jerk: [&jerk, &jerk_rate] };
                 let (mut dx, mut dv) = (vec![0.0; length], vec![0.0; length]);
                 step.advance::<Plain>(start, &mut dx, &mut dv);
                 for i in 0..STOREYS {

@@ -12,7 +12,7 @@ use crate::lanes::{
 };
 use crate::machines::model::Model;
 use crate::polynomial::orders::INVERSE;
-use crate::regime::{Operator, Regime};
+use crate::regime::{Regime, RegimeOperator};
 use crate::step::few;
 
 /// The step of a regime over one sample interval, acting on rows (dx, dv, a, j): changes of drifts and drift rates,
@@ -28,7 +28,7 @@ pub(crate) struct Propagator {
 
 /// What a column of the step is the effect of, all else being zero.
 #[derive(Clone, Copy)]
-pub(crate) enum Cause {
+pub(crate) enum ColumnCause {
     Drift(usize),
     DriftRate(usize),
     Load(usize),
@@ -39,7 +39,7 @@ pub(crate) enum Cause {
     GroundRamp,
 }
 
-impl Cause {
+impl ColumnCause {
     /// Of a column of a step of `n` storeys.
     #[inline(always)]
     pub(crate) fn of(column: usize, n: usize) -> Self {
@@ -61,7 +61,7 @@ pub(crate) fn column_count(n: usize, with_ramps: bool) -> usize {
 
 for_each_path! {
     /// What a step of length `h` adds to (dx, dv, a, j) beyond the first order, of unit drift accelerations and of unit
-    /// rates of these: `sums` gets columns of four padded rows. `terms` gets those of a [`Table`], if it has room.
+    /// rates of these: `sums` gets columns of four padded rows. `terms` gets those of a [`SeriesTable`](crate::step::table::SeriesTable), if it has room.
     pub(crate) fn form_remainders(model: &Model, regime: &Regime, h: f64, order: usize, sums: &mut [f64], terms: &mut [f64])
         = remainders_by_width
 }
@@ -96,7 +96,7 @@ fn remainders<V: Vector, const K: usize>(
     terms: &mut [f64],
 ) {
     let (n, width) = (model.storeys(), WIDTH * K);
-    let operator = Operator::<V, K>::new(model, regime);
+    let operator = RegimeOperator::<V, K>::new(model, regime);
     let zero = [V::splat(0.0); K];
     let inside: [V; K] = load(&model.lanes.inside);
     let keeps_terms = !terms.is_empty();
@@ -157,20 +157,20 @@ fn columns_by_width<V: Vector>(model: &Model, regime: &Regime, h: f64, sums: &[f
 /// [`form_columns`] one after the other.
 #[inline(always)]
 fn columns<V: Vector, const K: usize>(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64]) {
-    let operator = Operator::<V, K>::new(model, regime);
+    let operator = RegimeOperator::<V, K>::new(model, regime);
     let (sums_of_q, sums_of_rate) =
         columns_of::<K>(sums).as_chunks::<4>().0[..2 * model.storeys()].split_at(model.storeys());
     let columns = out.as_chunks_mut::<WIDTH>().0.as_chunks_mut::<K>().0.as_chunks_mut::<4>().0;
     for (column, out) in columns.iter_mut().enumerate() {
         let zero = [V::splat(0.0); K];
         let (mut x, mut v, mut force, mut slope, mut ground, mut ground_slope) = (zero, zero, zero, zero, 0.0, 0.0);
-        match Cause::of(column, model.storeys()) {
-            Cause::Drift(i) => x = unit(i),
-            Cause::DriftRate(i) => v = unit(i),
-            Cause::Load(i) => force = unit(i),
-            Cause::Ramp(i) => slope = unit(i),
-            Cause::Ground => ground = 1.0,
-            Cause::GroundRamp => ground_slope = 1.0,
+        match ColumnCause::of(column, model.storeys()) {
+            ColumnCause::Drift(i) => x = unit(i),
+            ColumnCause::DriftRate(i) => v = unit(i),
+            ColumnCause::Load(i) => force = unit(i),
+            ColumnCause::Ramp(i) => slope = unit(i),
+            ColumnCause::Ground => ground = 1.0,
+            ColumnCause::GroundRamp => ground_slope = 1.0,
         }
         let a = operator.accelerations(&x, &v, &operator.floor_velocities(&v), force);
         let (q, mut floors) = (differences(&a, V::splat(ground)), a);
@@ -232,9 +232,9 @@ fn doubled_columns<V: Vector, const K: usize>(changes: &[f64], n: usize, h: f64)
         for (state, &weight) in columns.iter().zip(of_drifts.iter().chain(of_rates)) {
             add(state, weight);
         }
-        match Cause::of(c, n) {
-            Cause::GroundRamp => add(&columns[c - 1], h),
-            Cause::Ramp(_) => add(&columns[c - n], h),
+        match ColumnCause::of(c, n) {
+            ColumnCause::GroundRamp => add(&columns[c - 1], h),
+            ColumnCause::Ramp(_) => add(&columns[c - n], h),
             _ => {}
         }
         add(column, 2.0);
@@ -268,18 +268,25 @@ impl Propagator {
 }
 
 /// Forms the rows (dx, dv, a, j) of a column from its change of the state over `h`: dx and dv, each padded.
-pub(crate) fn column_of_change(model: &Model, regime: &Regime, cause: Cause, change: &[f64], h: f64, out: &mut [f64]) {
+pub(crate) fn column_of_change(
+    model: &Model,
+    regime: &Regime,
+    cause: ColumnCause,
+    change: &[f64],
+    h: f64,
+    out: &mut [f64],
+) {
     let n = model.storeys();
     let [dx, dv] = [0, model.width].map(|first| &change[first..first + n]);
     let (mut x, mut v) = (dx.to_vec(), dv.to_vec());
     let (mut load, mut slope, mut ground) = (vec![0.0; n], vec![0.0; n], 0.0);
     match cause {
-        Cause::Drift(i) => x[i] += 1.0,
-        Cause::DriftRate(i) => v[i] += 1.0,
-        Cause::Load(i) => load[i] = 1.0,
-        Cause::Ramp(i) => (load[i], slope[i]) = (h, 1.0),
-        Cause::Ground => ground = 1.0,
-        Cause::GroundRamp => ground = h,
+        ColumnCause::Drift(i) => x[i] += 1.0,
+        ColumnCause::DriftRate(i) => v[i] += 1.0,
+        ColumnCause::Load(i) => load[i] = 1.0,
+        ColumnCause::Ramp(i) => (load[i], slope[i]) = (h, 1.0),
+        ColumnCause::Ground => ground = 1.0,
+        ColumnCause::GroundRamp => ground = h,
     }
     let (mut a, mut jerk) = (vec![0.0; n], vec![0.0; n]);
     regime.accelerations(model, &x, &v, &load, &mut a);
@@ -301,7 +308,7 @@ mod tests {
     use super::*;
     use crate::lanes::Plain;
     use crate::scene::{Block, Building, Damping, GravityEffect, Scene, Storey};
-    use crate::step::table::Table;
+    use crate::step::table::SeriesTable;
 
     /// A building of uneven floors and storeys, with P-Delta, and a block on each floor.
     fn uneven(n: usize, damping: Damping) -> Scene {
@@ -335,7 +342,7 @@ mod tests {
             let (h, order) = (0.7 / regime.frequency, 14);
             let formed = |few: bool| {
                 let mut sums = vec![0.0; 2 * n * 4 * WIDTH];
-                let mut terms = vec![0.0; WIDTH * Table::columns(n, order)];
+                let mut terms = vec![0.0; WIDTH * SeriesTable::columns(n, order)];
                 let mut out = vec![0.0; column_count(n, true) * 4 * WIDTH];
                 if few {
                     remainders_by_width::<Plain>(&model, &regime, h, order, &mut sums, &mut terms);

@@ -29,7 +29,7 @@ impl Drive {
 
 /// The state at the start of a step: drifts, drift rates, floor accelerations and their rates, padded.
 #[derive(Clone, Copy)]
-pub(crate) struct Start<'a> {
+pub(crate) struct StepStart<'a> {
     pub(crate) x: &'a Padded,
     pub(crate) v: &'a Padded,
     pub(crate) a: &'a Padded,

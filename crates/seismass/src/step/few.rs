@@ -7,13 +7,13 @@ use crate::polynomial::orders::{INVERSE, WEIGHTS};
 use crate::regime::{Regime, Row};
 
 /// Forces on `S` floors.
-pub(crate) struct Operator<'a, const S: usize> {
+pub(crate) struct FewOperator<'a, const S: usize> {
     /// Of each storey or floor: tangent stiffness, 1 / mass, stiffness- and mass-proportional damping.
     coefficients: [[f64; 4]; S],
     full_damping: Option<&'a [[[f64; WIDTH]; 1]; S]>,
 }
 
-impl<'a, const S: usize> Operator<'a, S> {
+impl<'a, const S: usize> FewOperator<'a, S> {
     #[inline(always)]
     fn new(model: &'a Model, regime: &Regime) -> Self {
         let (tangent, inverse_mass) = (regime.row(Row::Tangent), regime.row(Row::InverseMass));
@@ -73,7 +73,7 @@ impl<'a, const S: usize> Operator<'a, S> {
 }
 
 /// What is linear in drift accelerations and their rates, as a column each: of unit drift accelerations, of unit rates.
-type Linear<V, const S: usize> = [[V; S]; 2];
+type FewColumns<V, const S: usize> = [[V; S]; 2];
 
 /// The homogeneous system over a step: rows of its length times the second derivatives of drift accelerations, of unit
 /// drift accelerations and of unit rates of these.
@@ -85,7 +85,7 @@ struct Homogeneous<V, const S: usize> {
 impl<V: Vector, const S: usize> Homogeneous<V, S> {
     /// The system over `h`, and the second derivatives of the floor accelerations.
     #[inline(always)]
-    fn new(operator: &Operator<S>, h: f64) -> (Self, Linear<V, S>) {
+    fn new(operator: &FewOperator<S>, h: f64) -> (Self, FewColumns<V, S>) {
         let (zero, units) = ([V::splat(0.0); S], units::<V, S>());
         let forces = [operator.forces(operator.springs(&units), &zero), operator.forces(zero, &units)];
         let length = V::splat(h);
@@ -105,7 +105,7 @@ impl<V: Vector, const S: usize> Homogeneous<V, S> {
 
     /// The step's length times the time derivative of what is linear in the state: its product with the system's matrix.
     #[inline(always)]
-    fn derivative(&self, [of_q, of_rate]: &Linear<V, S>) -> Linear<V, S> {
+    fn derivative(&self, [of_q, of_rate]: &FewColumns<V, S>) -> FewColumns<V, S> {
         let mut out = [*of_q, *of_q];
         for c in 0..S {
             // Spring forces reach the storeys next to theirs.
@@ -124,7 +124,7 @@ impl<V: Vector, const S: usize> Homogeneous<V, S> {
 
     /// The derivative of one and another times a factor.
     #[inline(always)]
-    fn with_derivative(&self, factor: f64, other: &Linear<V, S>, of: &Linear<V, S>) -> Linear<V, S> {
+    fn with_derivative(&self, factor: f64, other: &FewColumns<V, S>, of: &FewColumns<V, S>) -> FewColumns<V, S> {
         let mut out = self.derivative(of);
         for set in 0..2 {
             for c in 0..S {
@@ -150,7 +150,7 @@ pub(crate) fn remainders<V: Vector, const S: usize>(
     sums: &mut [f64],
     terms: &mut [f64],
 ) {
-    let (system, mut term) = Homogeneous::<V, S>::new(&Operator::new(model, regime), h);
+    let (system, mut term) = Homogeneous::<V, S>::new(&FewOperator::new(model, regime), h);
     for column in term.as_flattened_mut() {
         *column = V::splat(0.5 * h * h).mul(*column);
     }
@@ -216,7 +216,7 @@ pub(crate) fn columns<V: Vector, const S: usize>(
     sums: &[f64],
     out: &mut [f64],
 ) {
-    let operator = Operator::new(model, regime);
+    let operator = FewOperator::new(model, regime);
     let (system, accelerations) = Homogeneous::<V, S>::new(&operator, 1.0);
     let (zero, units) = (V::splat(0.0), units::<V, S>());
     let (of_q, of_rate) = columns_of::<4>(sums)[..2 * S].split_at(S);

@@ -25,7 +25,9 @@ use nalgebra::DMatrix;
 use crate::lanes::{Symmetric, Vector, WIDTH, filled_to, for_each_path};
 use crate::machines::model::Model;
 use crate::regime::{Regime, Row};
-use crate::step::banded::{BELOW_ROUNDING, SERIES_PHASE, whole_blocks};
+use crate::step::banded::whole_blocks;
+use crate::tolerances::BANDED_PHASE;
+use crate::tolerances::BELOW_ROUNDING;
 
 /// Rows of a product that are formed together: two vectors.
 const PANEL: usize = 2 * WIDTH;
@@ -142,7 +144,7 @@ impl Square {
 }
 
 /// What a regime's system is made of.
-pub(crate) struct System<'a> {
+pub(crate) struct FullSystem<'a> {
     tangent: &'a [f64],
     /// W: its diagonal, and the entries beside it.
     diagonal: Vec<f64>,
@@ -151,7 +153,7 @@ pub(crate) struct System<'a> {
     damping: Vec<[f64; WIDTH]>,
 }
 
-impl<'a> System<'a> {
+impl<'a> FullSystem<'a> {
     fn new(damping: &DMatrix<f64>, regime: &'a Regime) -> Self {
         let n = damping.nrows();
         let inverse_mass = &regime.row(Row::InverseMass)[..n];
@@ -271,8 +273,8 @@ for_each_path! {
 
 #[inline(always)]
 fn effects_by_path<V: Vector>(damping: &DMatrix<f64>, regime: &Regime, dt: f64) -> [Square; 3] {
-    let system = System::new(damping, regime);
-    let halvings = libm::log2(regime.frequency * dt / SERIES_PHASE).ceil().max(0.0);
+    let system = FullSystem::new(damping, regime);
+    let halvings = libm::log2(regime.frequency * dt / BANDED_PHASE).ceil().max(0.0);
     let mut h = dt * libm::exp2(-halvings);
     let mut effects = system.by_series::<V>(h, regime.frequency * h);
     for _ in 0..halvings as usize {
@@ -315,7 +317,7 @@ impl FullStep {
 fn of_ground(model: &Model, regime: &Regime, dt: f64) -> [Vec<f64>; 3] {
     let n = model.storeys();
     let zero = vec![0.0; n];
-    let steps = (regime.frequency * dt / SERIES_PHASE).ceil().max(1.0);
+    let steps = (regime.frequency * dt / BANDED_PHASE).ceil().max(1.0);
     let h = dt / steps;
     let mut integrals = [zero.clone(), zero.clone(), zero.clone()];
     let (mut q, mut a) = (zero.clone(), zero.clone());

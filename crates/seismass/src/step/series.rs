@@ -8,9 +8,9 @@ use crate::lanes::{
 use crate::machines::model::Model;
 use crate::polynomial::orders::{INVERSE, WEIGHTS, terms};
 use crate::polynomial::power::MAX_DEGREE;
-use crate::regime::{Operator, Regime};
-use crate::step::drive::{Drive, Start};
-use crate::step::table::Table;
+use crate::regime::{Regime, RegimeOperator};
+use crate::step::drive::{Drive, StepStart};
+use crate::step::table::SeriesTable;
 
 /// Series of the absolute floor accelerations, stored order by order, padded to whole vectors. What drifts and drift
 /// rates do follows by integration of their differences.
@@ -58,8 +58,8 @@ impl Series {
     pub(crate) fn form<V: Vector, const K: usize>(
         &mut self,
         model: &Model,
-        (regime, table): (&Regime, Option<&Table>),
-        start: &Start,
+        (regime, table): (&Regime, Option<&SeriesTable>),
+        start: &StepStart,
         drive: &Drive,
         h: f64,
     ) {
@@ -104,8 +104,8 @@ impl Series {
     fn by_table<V: Vector, const K: usize, const S: usize, const COLUMNS: usize>(
         &mut self,
         model: &Model,
-        table: &Table,
-        start: &Start,
+        table: &SeriesTable,
+        start: &StepStart,
         drive: &Drive,
     ) {
         let (h, order) = (self.h, self.order);
@@ -191,8 +191,8 @@ impl Series {
 
     /// By the recursion from order to order.
     #[inline(always)]
-    fn by_recursion<V: Vector, const K: usize>(&mut self, model: &Model, regime: &Regime, start: &Start) {
-        let operator = Operator::<V, K>::new(model, regime);
+    fn by_recursion<V: Vector, const K: usize>(&mut self, model: &Model, regime: &Regime, start: &StepStart) {
+        let operator = RegimeOperator::<V, K>::new(model, regime);
         let inside: [V; K] = load(&model.lanes.inside);
         let (zero, h) = (V::splat(0.0), self.h);
         let (mut x, mut v): ([V; K], [V; K]) = (load(start.x), load(start.v));
@@ -229,7 +229,7 @@ impl Series {
 
     /// By the recursion, for more storeys than vectors hold.
     #[inline(always)]
-    fn form_any(&mut self, model: &Model, regime: &Regime, start: &Start, drive: &Drive) {
+    fn form_any(&mut self, model: &Model, regime: &Regime, start: &StepStart, drive: &Drive) {
         let (n, stride) = (self.storeys, self.stride);
         self.x.copy_from_slice(start.x);
         self.v.copy_from_slice(start.v);
@@ -336,11 +336,11 @@ fn put<V: Vector, const K: usize>(vectors: &[V; K], term: &mut [[f64; WIDTH]; K]
 }
 
 for_each_path! {
-    fn form_any(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) = any_by_path
+    fn form_any(series: &mut Series, model: &Model, regime: &Regime, start: &StepStart, drive: &Drive) = any_by_path
 }
 
 /// The compiler makes vectors of the path's width.
 #[inline(always)]
-fn any_by_path<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, start: &Start, drive: &Drive) {
+fn any_by_path<V: Vector>(series: &mut Series, model: &Model, regime: &Regime, start: &StepStart, drive: &Drive) {
     series.form_any(model, regime, start, drive);
 }

@@ -4,11 +4,14 @@ use std::sync::Arc;
 
 use crate::lanes::{Aligned, Plain, WIDTH};
 use crate::machines::model::Model;
-use crate::polynomial::orders::{MAX_PHASE, terms};
+use crate::polynomial::orders::terms;
 use crate::regime::Regime;
-use crate::step::dense::{Cause, Propagator, column_count, column_of_change, doubled, form_columns, form_remainders};
-use crate::step::table::Table;
+use crate::step::dense::{
+    ColumnCause, Propagator, column_count, column_of_change, doubled, form_columns, form_remainders,
+};
+use crate::step::table::SeriesTable;
 use crate::step::tall::TallStep;
+use crate::tolerances::SERIES_PHASE;
 
 /// Most storeys of which tables of the series are kept.
 pub(crate) const MAX_TABLE: usize = 2 * WIDTH;
@@ -19,7 +22,7 @@ const MAX_DENSE: usize = 16;
 /// The steps of a regime.
 pub(crate) struct Steps {
     /// Series of the regime over a step of its own; none above [`MAX_TABLE`] storeys.
-    pub(crate) table: Option<Table>,
+    pub(crate) table: Option<SeriesTable>,
     pub(crate) whole: Whole,
 }
 
@@ -39,12 +42,12 @@ impl Steps {
         }
         let width = model.width;
         let phase = regime.frequency * dt;
-        let halvings = if phase > MAX_PHASE { libm::log2(phase / MAX_PHASE).ceil() } else { 0.0 };
+        let halvings = if phase > SERIES_PHASE { libm::log2(phase / SERIES_PHASE).ceil() } else { 0.0 };
         let h = dt * libm::exp2(-halvings);
         // Parts of a halved interval may be longer than its table's step.
-        let order = terms::<Plain>(if halvings > 0.0 { MAX_PHASE } else { regime.frequency * h });
+        let order = terms::<Plain>(if halvings > 0.0 { SERIES_PHASE } else { regime.frequency * h });
         sums.resize(2 * n * 4 * width, 0.0);
-        let mut table = Aligned::unset(if n <= MAX_TABLE { Table::columns(n, order) * width } else { 0 });
+        let mut table = Aligned::unset(if n <= MAX_TABLE { SeriesTable::columns(n, order) * width } else { 0 });
         form_remainders(model, regime, h, order, sums, &mut table);
         let formed = |with_ramps: bool| {
             let mut columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
@@ -63,7 +66,7 @@ impl Steps {
             columns = Aligned::unset(column_count(n, with_ramps) * 4 * width);
             let changes = changes.chunks_exact(2 * width);
             for (i, (column, change)) in columns.chunks_exact_mut(4 * width).zip(changes).enumerate() {
-                column_of_change(model, regime, Cause::of(i, n), change, dt, column);
+                column_of_change(model, regime, ColumnCause::of(i, n), change, dt, column);
             }
         } else {
             columns = formed(with_ramps);
@@ -72,7 +75,7 @@ impl Steps {
         let (others, ramps) = columns.split_at_mut(column_count(n, false) * 4 * width);
         let ground_ramp = &mut others[(2 * n + 1) * 4 * width..][..4 * width];
         ground_ramp.iter_mut().chain(ramps).for_each(|entry| *entry /= dt);
-        let table = (n <= MAX_TABLE).then_some(Table { h, order, terms: table });
+        let table = (n <= MAX_TABLE).then_some(SeriesTable { h, order, terms: table });
         Self { table, whole: Whole::Dense(Propagator { storeys: n, rows: 4 * width, columns }) }
     }
 

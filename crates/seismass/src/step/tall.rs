@@ -5,10 +5,8 @@ use crate::regime::Regime;
 use crate::scene::StoreyDamping;
 use crate::step::banded::BandedStep;
 use crate::step::full::FullStep;
+use crate::tolerances::TALL_PHASE;
 
-/// Longest step as frequency times time. What steps act on are differences of large forces there: their rounding would
-/// be seen.
-const LONGEST_PHASE: f64 = 8.0;
 /// Whole intervals of a regime that a run solves by series before its band is formed: about as many as forming it
 /// costs, however many storeys, since both costs grow like their number.
 const BANDED_VISITS: u32 = 8;
@@ -24,7 +22,7 @@ pub(crate) enum TallStep {
 impl TallStep {
     /// Whether a regime has such a step over `dt`: it is not too stiff.
     pub(crate) fn exists(regime: &Regime, dt: f64) -> bool {
-        regime.frequency * dt <= LONGEST_PHASE
+        regime.frequency * dt <= TALL_PHASE
     }
 
     /// Whole intervals of a regime that a run solves by series before its step is formed.

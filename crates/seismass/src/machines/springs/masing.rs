@@ -6,7 +6,8 @@ use std::sync::Arc;
 use crate::machines::segment::{Backbone, Crossing, Segment, SpringMachine};
 use crate::machines::sign::Sign;
 use crate::response::EventKind;
-use crate::scene::{SAME_SLOPE, Storey};
+use crate::scene::Storey;
+use crate::tolerances::SAME_SLOPE;
 
 /// An elastic-perfectly-plastic element.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,10 +1,10 @@
-//! Bounds of tall buildings between which no guard falls and no peak is beaten, and the peaks that runs of theirs beat:
+//! TallBounds of tall buildings between which no guard falls and no peak is beaten, and the peaks that runs of theirs beat:
 //! those of [`crate::state::limits`] and [`crate::record::observer`], of any number of storeys, four at a time.
 
-use crate::lanes::{FAR, LANES, Set, Vector, WIDTH, at, filled_to, lanes, members};
+use crate::lanes::{ALL_LANES, FAR, Set, Vector, WIDTH, at, filled_to, lanes, members};
 use crate::machines::sign::Sign;
-use crate::plain::tall::sample::Sample;
-use crate::polynomial::enclosure::apart;
+use crate::plain::tall::sample::TallSample;
+use crate::polynomial::enclosure::separations;
 use crate::record::observer::Observer;
 use crate::record::peaks::PeakLanes;
 use crate::regime::Row;
@@ -37,7 +37,7 @@ impl VectorPeaks {
     #[inline(always)]
     fn take<V: Vector>(&mut self, sizes: V, of: &[f64; WIDTH], time: f64) {
         let kept = V::load(&self.size);
-        let beaten = !kept.not_below(sizes) & LANES;
+        let beaten = !kept.not_below(sizes) & ALL_LANES;
         kept.max(sizes).store(&mut self.size);
         for lane in members(Set::from(beaten)) {
             (self.of[lane], self.time[lane]) = (of[lane], time);
@@ -53,7 +53,7 @@ impl VectorPeaks {
 }
 
 /// What the peaks of a vector of storeys and their floors follow from.
-pub(crate) struct Course {
+pub(crate) struct PeakSources {
     /// Drift and spring force where the drift coordinate is zero.
     base: [f64; WIDTH],
     force: [f64; WIDTH],
@@ -69,7 +69,7 @@ pub(crate) struct Course {
     acceleration: VectorPeaks,
 }
 
-impl Course {
+impl PeakSources {
     fn new(state: &State, observer: &Observer, k: usize) -> Self {
         let (n, from, regime) = (state.storeys(), WIDTH * k, &state.regime);
         let (tangents, flexibilities) = (regime.row(Row::SpringTangent), regime.row(Row::SpringFlexibility));
@@ -104,18 +104,18 @@ impl Course {
     }
 }
 
-/// Bounds and peaks of all storeys and floors.
-pub(crate) struct Bounds {
+/// TallBounds and peaks of all storeys and floors.
+pub(crate) struct TallBounds {
     pub(crate) vectors: Vec<VectorBounds>,
-    courses: Vec<Course>,
+    courses: Vec<PeakSources>,
     /// Largest peaks of drifts and of floor accelerations so far, by lane.
     largest: [[f64; WIDTH]; 2],
 }
 
-/// [`limits::apart`] of a vector.
-pub(crate) type Apart = [[f64; WIDTH]; 3];
+/// [`separations`] of a vector.
+pub(crate) type Separations = [[f64; WIDTH]; 3];
 
-impl Bounds {
+impl TallBounds {
     pub(crate) fn new(state: &State, observer: &Observer, length: usize) -> Self {
         let signs = state.springs.machines.iter().map(|s| s.rate_sign().map_or(0.0, Sign::factor));
         let signs = filled_to(length, signs, 0.0);
@@ -130,7 +130,7 @@ impl Bounds {
         let largest = |peaks: &PeakLanes| [peaks.sizes()[..state.storeys()].iter().copied().fold(0.0, f64::max); WIDTH];
         Self {
             vectors: vectors.collect(),
-            courses: (0..length / WIDTH).map(|k| Course::new(state, observer, k)).collect(),
+            courses: (0..length / WIDTH).map(|k| PeakSources::new(state, observer, k)).collect(),
             largest: [largest(&observer.drift), largest(&observer.acceleration)],
         }
     }
@@ -155,24 +155,24 @@ impl Bounds {
         V::load(&self.courses[k].acceleration.size)
     }
 
-    /// [`Apart`] of vector `k`.
+    /// [`Separations`] of vector `k`.
     #[inline(always)]
-    pub(crate) fn apart<V: Vector>(&self, sample: &Sample, margin: usize, third: V, k: usize) -> [V; 3] {
+    pub(crate) fn separations<V: Vector>(&self, sample: &TallSample, margin: usize, third: V, k: usize) -> [V; 3] {
         let of_vector = &self.vectors[k];
         let drift = [at(&sample.x, k), at(&sample.v, k), at(&sample.q[margin..], k)];
         let floor = [at(&sample.a[1..], k), at(&sample.jerk[1..], k)];
-        apart(drift, floor, V::load(&of_vector.middle), V::load(&of_vector.sign), third)
+        separations(drift, floor, V::load(&of_vector.middle), V::load(&of_vector.sign), third)
     }
 
     /// Takes drifts and shears of vector `k` at drift coordinates into their peaks.
     #[inline(always)]
     pub(crate) fn take_drifts<V: Vector>(&mut self, k: usize, x: &[f64; WIDTH], time: f64) {
-        let course = &mut self.courses[k];
+        let step_columns = &mut self.courses[k];
         let at = V::load(x);
-        let drift = V::load(&course.base).add(at).abs();
-        let shear = V::load(&course.force).add(V::load(&course.tangent).mul(at)).abs();
-        course.drift.take(drift, x, time);
-        course.shear.take(shear, x, time);
+        let drift = V::load(&step_columns.base).add(at).abs();
+        let shear = V::load(&step_columns.force).add(V::load(&step_columns.tangent).mul(at)).abs();
+        step_columns.drift.take(drift, x, time);
+        step_columns.shear.take(shear, x, time);
         V::load(&self.largest[0]).max(drift).store(&mut self.largest[0]);
     }
 
@@ -186,11 +186,11 @@ impl Bounds {
 
     /// Takes drift and shear of storey `i` at a drift coordinate into their peaks.
     pub(crate) fn take_drift(&mut self, i: usize, x: f64, time: f64) {
-        let (course, lane) = (&mut self.courses[i / WIDTH], i % WIDTH);
-        let drift = (course.base[lane] + x).abs();
-        let shear = (course.force[lane] + course.tangent[lane] * x).abs();
-        course.drift.take_one(lane, drift, x, time);
-        course.shear.take_one(lane, shear, x, time);
+        let (step_columns, lane) = (&mut self.courses[i / WIDTH], i % WIDTH);
+        let drift = (step_columns.base[lane] + x).abs();
+        let shear = (step_columns.force[lane] + step_columns.tangent[lane] * x).abs();
+        step_columns.drift.take_one(lane, drift, x, time);
+        step_columns.shear.take_one(lane, shear, x, time);
         self.largest[0][0] = self.largest[0][0].max(drift);
     }
 
@@ -209,12 +209,13 @@ impl Bounds {
     /// Gives the peaks that were beaten to the observer.
     pub(crate) fn put_peaks(&self, state: &State, observer: &mut Observer) {
         for i in 0..state.storeys() {
-            let (course, lane) = (&self.courses[i / WIDTH], i % WIDTH);
+            let (step_columns, lane) = (&self.courses[i / WIDTH], i % WIDTH);
             let beaten = |peaks: &VectorPeaks, kept: &PeakLanes| {
                 (peaks.size[lane] > kept.sizes()[i]).then_some((peaks.of[lane], peaks.time[lane]))
             };
-            let acceleration = beaten(&course.acceleration, &observer.acceleration);
-            let mut places = [beaten(&course.drift, &observer.drift), beaten(&course.shear, &observer.shear)];
+            let acceleration = beaten(&step_columns.acceleration, &observer.acceleration);
+            let mut places =
+                [beaten(&step_columns.drift, &observer.drift), beaten(&step_columns.shear, &observer.shear)];
             // In order of time: the value of one may be just that of the other's peak, which was there before.
             if let [Some((_, first)), Some((_, second))] = places
                 && second < first

@@ -1,6 +1,6 @@
 //! Norms of the derivatives of tall buildings: of a whole building, and of the surroundings of each vector of storeys.
 //!
-//! The bounds of a regime's derivatives ([`Rows::fourth`], [`Rows::second`]) are per unit of a norm of the whole building.
+//! The bounds of a regime's derivatives ([`RegimeRows::fourth`], [`RegimeRows::second`]) are per unit of a norm of the whole building.
 //! A storey of a tall one feels little of what happens far away within a step: with the norm of its surroundings the
 //! same bounds hold there, and tell much more of a storey that moves less than others.
 
@@ -11,19 +11,19 @@ use crate::scene::StoreyDamping;
 use crate::state::State;
 
 /// What a run reads of its regime.
-pub(crate) struct Rows {
+pub(crate) struct RegimeRows {
     pub(crate) root_mass: Vec<f64>,
     pub(crate) root_tangent: Vec<f64>,
-    /// Bounds of fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
+    /// TallBounds of fourth derivatives of drifts, drift rates, floor accelerations and block velocities.
     pub(crate) fourth: [Vec<f64>; 4],
-    /// Bounds of second derivatives of floor accelerations.
+    /// TallBounds of second derivatives of floor accelerations.
     pub(crate) second: Vec<f64>,
     /// Factor by which the norm of the building may grow over the step.
     pub(crate) growth: f64,
     reach: Reach,
 }
 
-impl Rows {
+impl RegimeRows {
     pub(crate) fn new(state: &State, h: f64, length: usize) -> Self {
         let (n, regime) = (state.storeys(), &state.regime);
         let row = |row: Row| filled_to(length, regime.row(row)[..n].iter().copied(), 0.0);
@@ -47,7 +47,7 @@ fn squares<V: Vector>([root_mass, rate, root_tangent, q]: [&[f64; WIDTH]; 4]) ->
 
 /// Sum of (root_mass rate)^2 + (root_tangent q)^2.
 #[inline(always)]
-pub(crate) fn energy<V: Vector>(rows: &Rows, rate: &[f64], q: &[f64]) -> f64 {
+pub(crate) fn energy<V: Vector>(rows: &RegimeRows, rate: &[f64], q: &[f64]) -> f64 {
     let floors = lanes(&rows.root_mass).iter().zip(lanes(rate));
     let mut sum = V::splat(0.0);
     for ((mass, rate), (tangent, q)) in floors.zip(lanes(&rows.root_tangent).iter().zip(lanes(q))) {
@@ -74,7 +74,7 @@ impl Norms {
 
     /// Forms them from rates of floors and drifts.
     #[inline(always)]
-    pub(crate) fn form<V: Vector>(&mut self, rows: &Rows, rate: &[f64], q: &[f64]) {
+    pub(crate) fn form<V: Vector>(&mut self, rows: &RegimeRows, rate: &[f64], q: &[f64]) {
         let count = self.values.len();
         let floors = lanes(&rows.root_mass).iter().zip(lanes(rate));
         let storeys = lanes(&rows.root_tangent).iter().zip(lanes(q));
@@ -208,7 +208,7 @@ mod tests {
             let reach = Reach::of_chain(&root_mass, &root_tangent, &chain.damping, h, 1.0);
             let none = || vec![0.0; STOREYS];
             let fourth = [none(), none(), none(), none()];
-            let rows = Rows { root_mass, root_tangent, fourth, second: none(), growth: 1.0, reach };
+            let rows = RegimeRows { root_mass, root_tangent, fourth, second: none(), growth: 1.0, reach };
             for struck in [0, 5, 23, 47] {
                 let (mut q, mut u) = (none(), none());
                 (q[struck], u[struck]) = (0.3, 1.0);

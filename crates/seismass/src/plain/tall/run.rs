@@ -8,25 +8,27 @@
 //! ([`crate::plain::tall::norms`]). Of a tall building some storey beats its peak in most steps: where one turns inside a step,
 //! the series of that step gives the extreme, and the run goes on.
 
-use crate::STANDARD_GRAVITY;
-use crate::events::guards::NO_CONTACT;
 use crate::lanes::{Vector, WIDTH, at, filled_to, for_each_path, lanes, lanes_mut};
 use crate::machines::sign::Sign;
-use crate::plain::sliding::{FloorBlock, GroundBlock, Linear, SMALL_DIFFERENCE, move_on_ground};
-use crate::plain::tall::bounds::{Apart, Bounds};
-use crate::plain::tall::look::{Beaten, Closer, Curvature, Suspects};
-use crate::plain::tall::norms::{Rows, energy};
-use crate::plain::tall::sample::Sample;
-use crate::plain::tall::series::{FAR_BELOW, StepSeries};
+use crate::plain::sliding::{FloorBlock, GroundBlock, LinearInTime, move_on_ground};
+use crate::plain::tall::bounds::{Separations, TallBounds};
+use crate::plain::tall::norms::{RegimeRows, energy};
+use crate::plain::tall::quintic_check::{Curvature, NearBound, NewPeaksOfVector, QuinticCheck};
+use crate::plain::tall::sample::TallSample;
+use crate::plain::tall::series::StepSeries;
 use crate::polynomial::enclosure::{THIRD, off_cubic, range};
 use crate::record::observer::Observer;
-use crate::regime::operator_long::Operator;
+use crate::regime::operator_long::LongOperator;
 use crate::scene::Motion;
 use crate::state::State;
 use crate::state::accelerations::turned;
-use crate::step::banded::{BandedStep, Start, whole_blocks};
+use crate::step::banded::{BandedStart, BandedStep, whole_blocks};
 use crate::step::full::{FullStep, Shears};
 use crate::step::tall::TallStep;
+use crate::tolerances::BELOW_ROUNDING;
+use crate::tolerances::NO_CONTACT;
+use crate::tolerances::SMALL_DIFFERENCE;
+use crate::units::STANDARD_GRAVITY;
 
 /// Sums of each value and all below it.
 #[inline(always)]
@@ -44,7 +46,7 @@ fn prefix_sums<V: Vector>(values: &[f64], out: &mut [f64]) {
 
 /// Puts vectors into numbers.
 #[inline(always)]
-fn store_all<V: Vector>(vectors: [V; 3], out: &mut Apart) {
+fn store_all<V: Vector>(vectors: [V; 3], out: &mut Separations) {
     for (vector, out) in vectors.into_iter().zip(out) {
         vector.store(out);
     }
@@ -88,22 +90,22 @@ fn run_lanes<V: Vector>(
     let widening = off_cubic(h);
     let vertical = motion.vertical().filter(|_| state.vertical);
     let contact_at = |i: usize| STANDARD_GRAVITY + vertical.map_or(0.0, |vertical| vertical[i]);
-    let rows = Rows::new(state, h, length);
-    let operator = Operator::new(state.model, &state.regime, length);
+    let rows = RegimeRows::new(state, h, length);
+    let operator = LongOperator::new(state.model, &state.regime, length);
     let has_floor_damping = operator.floor_damping.iter().any(|&damping| damping != 0.0);
-    let mut bounds = Bounds::new(state, observer, length);
-    let mut before = Sample::new(state, length, margin);
-    let mut after = Sample::new(state, length, margin);
+    let mut bounds = TallBounds::new(state, observer, length);
+    let mut before = TallSample::new(state, length, margin);
+    let mut after = TallSample::new(state, length, margin);
     let zero = || vec![0.0; length];
     let (mut dx, mut dv, mut floors) = (zero(), zero(), zero());
     let mut rate = vec![0.0; length + 2 * margin];
     let (mut load, mut load_slope) = (zero(), zero());
     let spring_load = filled_to(length, state.springs.load[..n].iter().copied(), 0.0);
     let friction = filled_to(length, state.blocks.friction[..n].iter().copied(), 0.0);
-    let (mut apart_before, mut apart_after) =
-        (vec![Apart::default(); length / WIDTH], vec![Apart::default(); length / WIDTH]);
+    let (mut separations_before, mut separations_after) =
+        (vec![Separations::default(); length / WIDTH], vec![Separations::default(); length / WIDTH]);
     let (mut curvature, mut series) = (Curvature::new(length, margin), StepSeries::new(length, state.effort));
-    let (mut suspects, mut beaten): (Vec<Suspects>, Vec<Beaten>) = (Vec::new(), Vec::new());
+    let (mut near_bound, mut beaten): (Vec<NearBound>, Vec<NewPeaksOfVector>) = (Vec::new(), Vec::new());
     let (mut on_floors, mut on_ground) = sliding_blocks(state);
     let watches_ground = !on_ground.is_empty() || state.blocks.stuck_mu[0].is_finite();
     let mut blocks: Vec<(f64, f64)> = match observer.histories {
@@ -120,7 +122,7 @@ fn run_lanes<V: Vector>(
     let mut slope_before = state.kinematics.jerk_slope;
     for k in 0..length / WIDTH {
         bounds.update::<V>(k);
-        store_all(bounds.apart::<V>(&before, margin, third, k), &mut apart_before[k]);
+        store_all(bounds.separations::<V>(&before, margin, third, k), &mut separations_before[k]);
     }
     let mut reached = first;
     for (pair, next) in samples[first..=end].windows(2).zip(first + 1..) {
@@ -132,8 +134,8 @@ fn run_lanes<V: Vector>(
             turned::<V>(&mut before.jerk[1..], lanes(&friction), lanes(&operator.inverse_mass), change);
             slope_before = contact_slope;
             set_loads(contact.1, contact_slope, &mut load, &mut load_slope);
-            for (k, apart) in apart_before.iter_mut().enumerate() {
-                store_all(bounds.apart::<V>(&before, margin, third, k), apart);
+            for (k, separations) in separations_before.iter_mut().enumerate() {
+                store_all(bounds.separations::<V>(&before, margin, third, k), separations);
             }
         }
         // The step.
@@ -146,7 +148,7 @@ fn run_lanes<V: Vector>(
             Map::Banded(step) => {
                 curvature.form_end::<V>(&operator, 0, &before, margin);
                 let [q_rate, jerk_rate] = curvature.with_margin(margin);
-                let start = Start { q: [&before.q, q_rate], jerk: [&rate, jerk_rate] };
+                let start = BandedStart { q: [&before.q, q_rate], jerk: [&rate, jerk_rate] };
                 step.advance::<V>(start, &mut dx, &mut dv);
             }
             Map::Full(step, shears) => {
@@ -170,12 +172,12 @@ fn run_lanes<V: Vector>(
         let q = &mut after.q[margin..margin + length];
         operator.derivatives(&after.v, &after.a, V::splat(1.0), &load_slope, q, &mut after.jerk[1..]);
         // The proof.
-        let liveliness = energy::<V>(&rows, &rate[margin..], &before.q[margin..]).sqrt() * rows.growth;
+        let derivative_norm = energy::<V>(&rows, &rate[margin..], &before.q[margin..]).sqrt() * rows.growth;
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
-        let fourth = V::splat(liveliness * widening);
-        suspects.clear();
-        for (k, (before, after_now)) in apart_before.iter().zip(&mut apart_after).enumerate() {
-            let now = bounds.apart::<V>(&after, margin, third, k);
+        let fourth = V::splat(derivative_norm * widening);
+        near_bound.clear();
+        for (k, (before, after_now)) in separations_before.iter().zip(&mut separations_after).enumerate() {
+            let now = bounds.separations::<V>(&after, margin, third, k);
             let of_vector = &bounds.vectors[k];
             let limit = V::load(&of_vector.stuck_mu).mul(least_contact).min(bounds.acceleration_peaks(k));
             let limits = [V::load(&of_vector.reach), V::load(&of_vector.turn), limit];
@@ -187,10 +189,11 @@ fn run_lanes<V: Vector>(
             store_all(now, after_now);
             let [drifts, rates, accelerations] = bits;
             if drifts | rates | accelerations != 0 {
-                suspects.push(Suspects { vector: k, drifts, rates, accelerations });
+                near_bound.push(NearBound { vector: k, drifts, rates, accelerations });
             }
         }
-        let (ground, push) = (Linear { start: pair[0], end: pair[1] }, Linear { start: contact.0, end: contact.1 });
+        let (ground, push) =
+            (LinearInTime { start: pair[0], end: pair[1] }, LinearInTime { start: contact.0, end: contact.1 });
         let mut may_turn = false;
         if !on_floors.is_empty() {
             prefix_sums::<V>(&dv, &mut floors);
@@ -199,7 +202,7 @@ fn run_lanes<V: Vector>(
                 block.velocity_after = block.velocity - (pushed + floors[i]);
                 let rates =
                     (-block.friction * contact.0 - before.a[i + 1], -block.friction * contact.1 - after.a[i + 1]);
-                let fourth = liveliness * widening * rows.fourth[3][i];
+                let fourth = derivative_norm * widening * rows.fourth[3][i];
                 let (low, high) = range(block.velocity, rates.0, block.velocity_after, rates.1, h * THIRD, fourth);
                 let least = SMALL_DIFFERENCE * floors[i].abs();
                 may_turn |= !(if block.sign > 0.0 { low > least } else { high < -least });
@@ -207,20 +210,20 @@ fn run_lanes<V: Vector>(
         }
         beaten.clear();
         let mut turns = false;
-        if !suspects.is_empty() || may_turn {
+        if !near_bound.is_empty() || may_turn {
             after.jerk[0] = slope;
             let largest = bounds.largest_peaks();
-            let least = (FAR_BELOW * largest.0, FAR_BELOW * largest.1);
+            let least = (BELOW_ROUNDING * largest.0, BELOW_ROUNDING * largest.1);
             if matches!(map, Map::Full(..)) {
                 curvature.form_end::<V>(&operator, 0, &before, margin);
             }
             curvature.form_end::<V>(&operator, 1, &after, margin);
             curvature.form_norms::<V>(&operator, &rows);
             let (start, end, curvature) = (&before, &after, &curvature);
-            let step = Closer { rows: &rows, bounds: &bounds, start, end, curvature, margin, h, contact, least };
+            let step = QuinticCheck { rows: &rows, bounds: &bounds, start, end, curvature, margin, h, contact, least };
             let mut is_plain = true;
-            for suspects in &suspects {
-                let Some(looked) = step.look::<V>(suspects) else {
+            for near_bound in &near_bound {
+                let Some(looked) = step.look::<V>(near_bound) else {
                     is_plain = false;
                     break;
                 };
@@ -228,7 +231,7 @@ fn run_lanes<V: Vector>(
                     beaten.push(looked);
                 }
             }
-            turns = beaten.iter().any(Beaten::turns);
+            turns = beaten.iter().any(NewPeaksOfVector::turns);
             if !is_plain
                 || may_turn && !on_floors.iter().all(|b| step.keeps_sliding(b, contact_slope, floors[b.floor]))
                 || turns && !series.form::<V>(&operator, &rows, &step, &beaten)
@@ -260,14 +263,14 @@ fn run_lanes<V: Vector>(
         }
         reached = next;
         std::mem::swap(&mut before, &mut after);
-        std::mem::swap(&mut apart_before, &mut apart_after);
+        std::mem::swap(&mut separations_before, &mut separations_after);
         let time = reached as f64 * h;
         for beaten in &beaten {
             let k = beaten.vector;
             if beaten.drifts != 0 {
                 bounds.take_drifts::<V>(k, &lanes(&before.x)[k], time);
                 bounds.update::<V>(k);
-                bounds.apart::<V>(&before, margin, third, k)[0].store(&mut apart_before[k][0]);
+                bounds.separations::<V>(&before, margin, third, k)[0].store(&mut separations_before[k][0]);
             }
             if beaten.accelerations != 0 {
                 bounds.take_accelerations::<V>(k, &lanes(&before.a[1..])[k], time);

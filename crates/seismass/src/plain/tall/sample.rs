@@ -4,7 +4,7 @@ use crate::lanes::filled_to;
 use crate::state::State;
 
 /// The state at a sample.
-pub(crate) struct Sample {
+pub(crate) struct TallSample {
     pub(crate) x: Vec<f64>,
     pub(crate) v: Vec<f64>,
     /// Floor accelerations, that of the ground before them.
@@ -15,7 +15,7 @@ pub(crate) struct Sample {
     pub(crate) q: Vec<f64>,
 }
 
-impl Sample {
+impl TallSample {
     pub(crate) fn new(state: &State, length: usize, margin: usize) -> Self {
         let n = state.storeys();
         let lanes = |values: &[f64]| filled_to(length, values[..n].iter().copied(), 0.0);

@@ -1,26 +1,23 @@
 //! The series of a step of a tall regime with peaks inside, which gives the extremes.
 
 use crate::lanes::{Plain, Set, Vector, WIDTH, at, lanes, lanes_mut, members};
-use crate::plain::tall::bounds::Bounds;
-use crate::plain::tall::look::{Beaten, Closer};
-use crate::plain::tall::norms::{Norms, Rows};
-use crate::plain::tall::sample::Sample;
+use crate::plain::tall::bounds::TallBounds;
+use crate::plain::tall::norms::{Norms, RegimeRows};
+use crate::plain::tall::quintic_check::{NewPeaksOfVector, QuinticCheck};
+use crate::plain::tall::sample::TallSample;
 use crate::polynomial::power::{MAX_DEGREE, Polynomial};
-use crate::regime::operator_long::Operator;
+use crate::regime::operator_long::LongOperator;
 use crate::state::effort::{Effort, LOWEST_ORDER};
+use crate::tolerances::SERIES_ROUNDING;
 
 /// Highest order of a series of floor accelerations; that of the drifts is two orders higher.
 const HIGHEST_ORDER: usize = MAX_DEGREE - 2;
-/// What a series may leave out of a value, as a part of it.
-const ROUNDING: f64 = 0.25 * f64::EPSILON;
-/// The same as a part of the largest value in the building.
-pub(crate) const FAR_BELOW: f64 = 1.0 / (1u64 << 60) as f64;
 
 /// The extremes that a series of length `h` is formed for, in the vectors that turn.
 struct Wanted<'a> {
-    beaten: &'a [Beaten],
-    start: &'a Sample,
-    bounds: &'a Bounds,
+    beaten: &'a [NewPeaksOfVector],
+    start: &'a TallSample,
+    bounds: &'a TallBounds,
     h: f64,
     /// Drifts and accelerations that are negligible anywhere.
     least: (f64, f64),
@@ -29,11 +26,11 @@ struct Wanted<'a> {
 impl Wanted<'_> {
     /// Whether what a series leaves out of them after `order`, whose terms have these norms, is below rounding.
     #[inline(always)]
-    fn is_known<V: Vector>(&self, rows: &Rows, norms: &Norms, order: usize) -> bool {
+    fn is_known<V: Vector>(&self, rows: &RegimeRows, norms: &Norms, order: usize) -> bool {
         let h = self.h;
         let next = h / (order + 1) as f64;
         let twice = next * h * h / ((order + 2) * (order + 3)) as f64;
-        let rounding = V::splat(ROUNDING);
+        let rounding = V::splat(SERIES_ROUNDING);
         for beaten in self.beaten.iter().filter(|beaten| beaten.turns()) {
             let (k, norm) = (beaten.vector, V::splat(norms.values[beaten.vector]));
             let of_drift = norm.mul(V::splat(twice)).mul(at(&rows.fourth[0], k));
@@ -51,7 +48,7 @@ impl Wanted<'_> {
 }
 
 /// The Taylor series of a step, or of half of it, from one of its ends on, to the order that the motion needs.
-pub(crate) struct Series {
+pub(crate) struct PartSeries {
     /// Signed length (s): negative from the end on.
     pub(crate) h: f64,
     pub(crate) order: usize,
@@ -62,7 +59,7 @@ pub(crate) struct Series {
     norms: Norms,
 }
 
-impl Series {
+impl PartSeries {
     fn new(length: usize) -> Self {
         Self { h: 0.0, order: 0, a: Vec::new(), v: Vec::new(), length, norms: Norms::new(length / WIDTH) }
     }
@@ -72,8 +69,8 @@ impl Series {
     #[inline(always)]
     fn form<V: Vector>(
         &mut self,
-        operator: &Operator,
-        rows: &Rows,
+        operator: &LongOperator,
+        rows: &RegimeRows,
         (a_second, q_rate): (&[f64], &[f64]),
         h: f64,
         lowest: usize,
@@ -113,7 +110,7 @@ impl Series {
 
     /// Lanes of vector `k` whose drift rates are not known to keep their signs.
     #[inline(always)]
-    fn drifts_that_turn<V: Vector>(&self, sample: &Sample, margin: usize, k: usize) -> u32 {
+    fn drifts_that_turn<V: Vector>(&self, sample: &TallSample, margin: usize, k: usize) -> u32 {
         let mut size = V::splat(0.0);
         for v in &self.v[1..self.order - 1] {
             size = size.add(at::<V>(v, k).abs());
@@ -124,7 +121,7 @@ impl Series {
 
     /// Lanes of vector `k` whose rates of accelerations are not known to keep their signs.
     #[inline(always)]
-    fn accelerations_that_turn<V: Vector>(&self, sample: &Sample, k: usize) -> u32 {
+    fn accelerations_that_turn<V: Vector>(&self, sample: &TallSample, k: usize) -> u32 {
         let term = |order: usize| V::splat(order as f64).mul(at(&self.a[order - 2][1..], k));
         let mut size = V::splat(0.0);
         for order in 4..=self.order {
@@ -134,7 +131,7 @@ impl Series {
     }
 
     /// Drift coordinate of storey `i` from its sample on.
-    fn drift(&self, sample: &Sample, margin: usize, i: usize) -> Polynomial {
+    fn drift(&self, sample: &TallSample, margin: usize, i: usize) -> Polynomial {
         let (h, order) = (self.h, self.order as f64);
         let first = [sample.x[i], h * sample.v[i], 0.5 * h * h * sample.q[margin + i]];
         let terms = self.v[..self.order - 1].iter().zip(3..).map(|(v, order)| h / f64::from(order) * v[i]);
@@ -144,14 +141,14 @@ impl Series {
     }
 
     /// Absolute acceleration of floor `i` from its sample on.
-    fn floor_acceleration(&self, sample: &Sample, i: usize) -> Polynomial {
+    fn floor_acceleration(&self, sample: &TallSample, i: usize) -> Polynomial {
         let first = [sample.a[i + 1], self.h * sample.jerk[i + 1]];
         Polynomial::new(first.into_iter().chain(self.a[..self.order - 1].iter().map(|a| a[i + 1])))
     }
 
     /// Takes the extremes of the drift of storey `i`, and its value at the far end, into the peaks.
     #[inline(never)]
-    fn take_drifts(&self, bounds: &mut Bounds, sample: &Sample, margin: usize, i: usize, from: f64) {
+    fn take_drifts(&self, bounds: &mut TallBounds, sample: &TallSample, margin: usize, i: usize, from: f64) {
         let drift = self.drift(sample, margin, i);
         let (first, others) = drift.derivative().sign_changes::<Plain>();
         for s in first.into_iter().chain(others).chain([1.0]) {
@@ -161,7 +158,7 @@ impl Series {
 
     /// Takes the extremes of the acceleration of floor `i`, and its value at the far end, into the peaks.
     #[inline(never)]
-    fn take_accelerations(&self, bounds: &mut Bounds, sample: &Sample, i: usize, from: f64) {
+    fn take_accelerations(&self, bounds: &mut TallBounds, sample: &TallSample, i: usize, from: f64) {
         let acceleration = self.floor_acceleration(sample, i);
         let (first, others) = acceleration.derivative().sign_changes::<Plain>();
         for s in first.into_iter().chain(others).chain([1.0]) {
@@ -172,13 +169,13 @@ impl Series {
 
 /// The series of a step with peaks inside: one from its start, or of each half from the sample that it touches.
 pub(crate) struct StepSeries {
-    of_parts: [Series; 2],
+    of_parts: [PartSeries; 2],
     pub(crate) effort: Effort,
 }
 
 impl StepSeries {
     pub(crate) fn new(length: usize, effort: Effort) -> Self {
-        Self { of_parts: [Series::new(length), Series::new(length)], effort }
+        Self { of_parts: [PartSeries::new(length), PartSeries::new(length)], effort }
     }
 
     /// Forms the series until what they leave out of the values that may beat peaks is proved to be below rounding, of
@@ -186,14 +183,14 @@ impl StepSeries {
     #[inline(always)]
     pub(crate) fn form<V: Vector>(
         &mut self,
-        operator: &Operator,
-        rows: &Rows,
-        closer: &Closer,
-        beaten: &[Beaten],
+        operator: &LongOperator,
+        rows: &RegimeRows,
+        guard_check: &QuinticCheck,
+        beaten: &[NewPeaksOfVector],
     ) -> bool {
         for parts in self.effort.parts..=2 {
             self.effort.parts = parts;
-            if self.form_parts::<V>(operator, rows, closer, beaten) {
+            if self.form_parts::<V>(operator, rows, guard_check, beaten) {
                 return true;
             }
         }
@@ -201,12 +198,18 @@ impl StepSeries {
     }
 
     #[inline(always)]
-    fn form_parts<V: Vector>(&mut self, operator: &Operator, rows: &Rows, closer: &Closer, beaten: &[Beaten]) -> bool {
-        let h = closer.h / self.effort.parts as f64;
-        let (least, curvature) = (closer.least, closer.curvature);
+    fn form_parts<V: Vector>(
+        &mut self,
+        operator: &LongOperator,
+        rows: &RegimeRows,
+        guard_check: &QuinticCheck,
+        beaten: &[NewPeaksOfVector],
+    ) -> bool {
+        let h = guard_check.h / self.effort.parts as f64;
+        let (least, curvature) = (guard_check.least, guard_check.curvature);
         // Of what is exactly zero nothing is left out.
         let least = (least.0.max(f64::MIN_POSITIVE), least.1.max(f64::MIN_POSITIVE));
-        let wanted = Wanted { beaten, start: closer.start, bounds: closer.bounds, h, least };
+        let wanted = Wanted { beaten, start: guard_check.start, bounds: guard_check.bounds, h, least };
         let [first, second] = &mut self.of_parts;
         let terms = |which: usize| (curvature.a(which), curvature.q_rate(which));
         // Neighbouring steps need about as many terms.
@@ -223,11 +226,11 @@ impl StepSeries {
     #[inline(always)]
     pub(crate) fn take_extremes<V: Vector>(
         &self,
-        bounds: &mut Bounds,
-        samples: [&Sample; 2],
+        bounds: &mut TallBounds,
+        samples: [&TallSample; 2],
         margin: usize,
         time: f64,
-        beaten: &[Beaten],
+        beaten: &[NewPeaksOfVector],
     ) {
         for (which, (series, sample)) in self.of_parts[..self.effort.parts].iter().zip(samples).enumerate() {
             let from = if which == 0 { time } else { time - 2.0 * series.h };

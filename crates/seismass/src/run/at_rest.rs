@@ -4,19 +4,17 @@ use crate::machines::block::BlockMotion;
 use crate::regime::Row;
 use crate::run::exact_run::ExactRun;
 use crate::scene::Motion;
-
-/// Peaks this close to each other, relatively, may be the same but for rounding.
-const SAME_PEAK: f64 = 1e-9;
+use crate::tolerances::SAME_PEAK;
 
 impl ExactRun<'_> {
     /// The first interval in which anything can move: before it, zeros drive a scene at rest.
-    pub(crate) fn skip_quiet_head(&mut self, motion: &Motion) -> usize {
+    pub(crate) fn skip_head_at_rest(&mut self, motion: &Motion) -> usize {
         if self.state.vertical || !self.state.is_at_rest() {
             return 0;
         }
         let samples = motion.acceleration();
-        let quiet = samples.iter().position(|&a| a != 0.0).unwrap_or(samples.len());
-        let first = quiet.saturating_sub(1);
+        let at_rest = samples.iter().position(|&a| a != 0.0).unwrap_or(samples.len());
+        let first = at_rest.saturating_sub(1);
         for sample in 1..=first {
             self.observer.record(&self.state, sample);
         }
@@ -42,13 +40,13 @@ impl ExactRun<'_> {
             regime.row(Row::Mass).iter().zip(state.kinematics.floor_velocities()).map(|(m, v)| m * v * v).sum();
         let elastic: f64 = (0..rest.len()).map(|i| tangent[i] * (state.kinematics.x[i] - rest[i]).powi(2)).sum();
         // Wider than rounding: without damping the same peak comes back in each cycle.
-        let liveliness = (kinetic + elastic).sqrt() * (1.0 + SAME_PEAK);
+        let derivative_norm = (kinetic + elastic).sqrt() * (1.0 + SAME_PEAK);
         let contact = state.interval.contact;
         (0..rest.len()).all(|i| {
-            let reach = liveliness / tangent[i].sqrt();
+            let reach = derivative_norm / tangent[i].sqrt();
             let (low, high) = (rest[i] - reach, rest[i] + reach);
             let inside = |(lower, upper): (f64, f64)| high < upper && low > lower;
-            let a = liveliness * regime.row(Row::SecondOfAcceleration)[i];
+            let a = derivative_norm * regime.row(Row::SecondOfAcceleration)[i];
             inside(state.springs.segment_ends[i])
                 && inside(state.springs.collapse_bounds[i])
                 && !self.observer.drift_may_peak(state, i, low, high)

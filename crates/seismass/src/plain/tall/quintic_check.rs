@@ -1,16 +1,17 @@
-//! The closer look at a step of a tall regime that the loop does not clear, by quintics.
+//! The check of a step of a tall regime that the loop does not clear, by quintics.
 
 use crate::lanes::{Vector, WIDTH, at};
-use crate::plain::sliding::{FloorBlock, SMALL_DIFFERENCE};
-use crate::plain::tall::bounds::Bounds;
-use crate::plain::tall::norms::{Norms, Rows};
-use crate::plain::tall::sample::Sample;
+use crate::plain::sliding::FloorBlock;
+use crate::plain::tall::bounds::TallBounds;
+use crate::plain::tall::norms::{Norms, RegimeRows};
+use crate::plain::tall::sample::TallSample;
 use crate::polynomial::enclosure::{THIRD, off_cubic, quintic_range, quintic_ranges, ranges, signs};
-use crate::regime::operator_long::Operator;
+use crate::regime::operator_long::LongOperator;
+use crate::tolerances::SMALL_DIFFERENCE;
 
 /// Storeys and floors of a vector whose peaks a step beats, as bits of the lanes: at all; inside, where drifts and
 /// accelerations turn.
-pub(crate) struct Beaten {
+pub(crate) struct NewPeaksOfVector {
     pub(crate) vector: usize,
     pub(crate) drifts: u32,
     pub(crate) accelerations: u32,
@@ -18,7 +19,7 @@ pub(crate) struct Beaten {
     pub(crate) accelerations_inside: u32,
 }
 
-impl Beaten {
+impl NewPeaksOfVector {
     pub(crate) fn turns(&self) -> bool {
         self.drifts_inside | self.accelerations_inside != 0
     }
@@ -35,7 +36,7 @@ pub(crate) struct Curvature {
     /// Second derivatives of drift accelerations, third ones of floor accelerations.
     q: Vec<f64>,
     jerk: Vec<f64>,
-    /// The norms that bound sixth derivatives as [`crate::regime::Regime::liveliness_of`] does fourth ones.
+    /// The norms that bound sixth derivatives as [`crate::regime::Regime::derivative_norm_of`] does fourth ones.
     norms: Norms,
 }
 
@@ -71,7 +72,13 @@ impl Curvature {
 
     /// Forms the derivatives at one end.
     #[inline(always)]
-    pub(crate) fn form_end<V: Vector>(&mut self, operator: &Operator, which: usize, sample: &Sample, margin: usize) {
+    pub(crate) fn form_end<V: Vector>(
+        &mut self,
+        operator: &LongOperator,
+        which: usize,
+        sample: &TallSample,
+        margin: usize,
+    ) {
         let (q, jerk, nothing) = (&sample.q[margin..], &sample.jerk, &operator.nothing);
         let (q_rate, a) = (&mut self.q_rate[which][self.room..], &mut self.a[which][self.room..]);
         operator.derivatives::<V>(q, jerk, V::splat(1.0), nothing, q_rate, a);
@@ -79,7 +86,7 @@ impl Curvature {
 
     /// Forms the norms, from the derivatives at the start.
     #[inline(always)]
-    pub(crate) fn form_norms<V: Vector>(&mut self, operator: &Operator, rows: &Rows) {
+    pub(crate) fn form_norms<V: Vector>(&mut self, operator: &LongOperator, rows: &RegimeRows) {
         let (q_rate, a) = (&self.q_rate[0][self.room..], &self.a[0][self.room - 1..]);
         operator.derivatives(q_rate, a, V::splat(1.0), &operator.nothing, &mut self.q, &mut self.jerk);
         self.norms.form::<V>(rows, &self.jerk, &self.q);
@@ -87,7 +94,7 @@ impl Curvature {
 }
 
 /// A vector of storeys and their floors of which some were not cleared: bits of the lanes.
-pub(crate) struct Suspects {
+pub(crate) struct NearBound {
     pub(crate) vector: usize,
     pub(crate) drifts: u32,
     pub(crate) rates: u32,
@@ -95,11 +102,11 @@ pub(crate) struct Suspects {
 }
 
 /// A step that the loop did not clear.
-pub(crate) struct Closer<'a> {
-    pub(crate) rows: &'a Rows,
-    pub(crate) bounds: &'a Bounds,
-    pub(crate) start: &'a Sample,
-    pub(crate) end: &'a Sample,
+pub(crate) struct QuinticCheck<'a> {
+    pub(crate) rows: &'a RegimeRows,
+    pub(crate) bounds: &'a TallBounds,
+    pub(crate) start: &'a TallSample,
+    pub(crate) end: &'a TallSample,
     pub(crate) curvature: &'a Curvature,
     pub(crate) margin: usize,
     pub(crate) h: f64,
@@ -109,7 +116,7 @@ pub(crate) struct Closer<'a> {
     pub(crate) least: (f64, f64),
 }
 
-impl Closer<'_> {
+impl QuinticCheck<'_> {
     /// What the quintics of vector `k` may miss, per unit of the bounds of fourth derivatives.
     #[inline(always)]
     fn sixth(&self, k: usize) -> f64 {
@@ -119,8 +126,8 @@ impl Closer<'_> {
 
     /// Which peaks the suspect lanes of a vector of storeys and floors beat; nothing if a guard may fall inside the step.
     #[inline(always)]
-    pub(crate) fn look<V: Vector>(&self, suspects: &Suspects) -> Option<Beaten> {
-        let Suspects { vector, drifts, rates, accelerations } = *suspects;
+    pub(crate) fn look<V: Vector>(&self, near_bound: &NearBound) -> Option<NewPeaksOfVector> {
+        let NearBound { vector, drifts, rates, accelerations } = *near_bound;
         let (mut of_drifts, mut of_accelerations) = ((0, 0), (0, 0));
         if drifts | rates != 0 {
             of_drifts = self.look_at_drifts::<V>(vector, drifts, rates)?;
@@ -128,7 +135,7 @@ impl Closer<'_> {
         if accelerations != 0 {
             of_accelerations = self.look_at_accelerations::<V>(vector, accelerations)?;
         }
-        Some(Beaten {
+        Some(NewPeaksOfVector {
             vector,
             drifts: of_drifts.0,
             accelerations: of_accelerations.0,
@@ -168,7 +175,7 @@ impl Closer<'_> {
 
     /// Lanes whose floor accelerations beat a peak, and those of them where they turn.
     #[inline(always)]
-    fn look_at_accelerations<V: Vector>(&self, k: usize, suspects: u32) -> Option<(u32, u32)> {
+    fn look_at_accelerations<V: Vector>(&self, k: usize, near_bound: u32) -> Option<(u32, u32)> {
         let (start, end) = (self.start, self.end);
         let (second, second_end) = (self.curvature.a(0), self.curvature.a(1));
         let (a, a_end) = (at::<V>(&start.a[1..], k), at::<V>(&end.a[1..], k));
@@ -178,10 +185,10 @@ impl Closer<'_> {
         let (low, high) = quintic_ranges([a, jerk, second], [a_end, jerk_end, second_end], self.h, margin);
         let size = high.max(V::splat(0.0).sub(low));
         let limit = V::load(&self.bounds.vectors[k].stuck_mu).mul(V::splat(self.contact.0.min(self.contact.1)));
-        if size.not_below(limit) & suspects != 0 {
+        if size.not_below(limit) & near_bound != 0 {
             return None;
         }
-        let beats = size.not_below(self.bounds.acceleration_peaks(k)) & suspects;
+        let beats = size.not_below(self.bounds.acceleration_peaks(k)) & near_bound;
         if beats == 0 {
             return Some((0, 0));
         }
@@ -195,7 +202,7 @@ impl Closer<'_> {
     /// Whether the relative velocity of a block keeps its sign; `floor` is the change of its floor's velocity.
     pub(crate) fn keeps_sliding(&self, block: &FloorBlock, contact_slope: f64, floor: f64) -> bool {
         let i = block.floor;
-        let at = |sample: &Sample, velocity: f64, contact: f64| {
+        let at = |sample: &TallSample, velocity: f64, contact: f64| {
             let pushed = (block.friction * contact, block.friction * contact_slope);
             [velocity, -pushed.0 - sample.a[i + 1], -pushed.1 - sample.jerk[i + 1]]
         };

@@ -3,13 +3,13 @@
 use crate::machines::block::BlockMotion;
 use crate::machines::model::Model;
 use crate::machines::sign::Sign;
-use crate::plain::beaten::Beaten;
+use crate::plain::new_peaks::NewPeaks;
 use crate::plain::sliding::{GroundBlock, Layer, OnGround};
 use crate::state::State;
 
-/// A run of plain steps between two calls of [`clear_steps`]: the blocks that slide, and the peaks that are beaten.
-pub(crate) struct Walk {
-    pub(crate) beaten: Beaten,
+/// A run of plain steps between two calls of `clear_steps`: the blocks that slide, and the peaks that are beaten.
+pub(crate) struct PlainLoop {
+    pub(crate) beaten: NewPeaks,
     /// Series formed for turns beyond peaks, and turns looked at.
     pub(crate) series: usize,
     pub(crate) isolated: usize,
@@ -46,10 +46,10 @@ pub(crate) fn wears(limits: &[WearLimit], lowest: &[f64], others: &[Layer]) -> b
     })
 }
 
-impl Walk {
+impl PlainLoop {
     pub(crate) fn new(model: &Model) -> Self {
         Self {
-            beaten: Beaten::new(model),
+            beaten: NewPeaks::new(model),
             series: 0,
             isolated: 0,
             renews_bounds: true,

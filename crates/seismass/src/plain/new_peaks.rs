@@ -2,16 +2,16 @@
 
 use std::mem::take;
 
-use crate::lanes::{LANES, Padded, Set, Vector, WIDTH, by_width, for_each_path, load, members, store};
+use crate::lanes::{ALL_LANES, Padded, Set, Vector, WIDTH, by_width, for_each_path, load, members, store};
 use crate::machines::model::Model;
-use crate::plain::closer::Closer;
+use crate::plain::guard_check::GuardCheck;
 use crate::record::observer::Observer;
 use crate::state::State;
 use crate::state::limits::{Bounds, BoundsInLanes};
 use crate::state::sample::Sample;
 
 /// Peaks that a run of plain steps beats, and what is known of them until they are taken.
-pub(crate) struct Beaten {
+pub(crate) struct NewPeaks {
     /// Storeys whose drifts beat their peaks: taken at the end, up to which their rates must keep their signs.
     followed: Set,
     /// Floors whose accelerations have beaten their peaks, with these accelerations and their times.
@@ -29,7 +29,7 @@ pub(crate) struct Beaten {
     end: Padded,
 }
 
-impl Beaten {
+impl NewPeaks {
     pub(crate) fn new(model: &Model) -> Self {
         let zero = || Padded::new(model.width, 0.0);
         Self {
@@ -50,12 +50,12 @@ impl Beaten {
         self.followed | self.floors != 0
     }
 
-    /// Takes note of what a closer look has found of a step; false where the run has to stop at it, as it has where it
-    /// `fails`, by the look or for another reason. `bounds` are those of the state.
+    /// Takes note of what the check has found of a step; false where the run has to stop at it, as it has where it
+    /// `fails`, by the check or for another reason. `bounds` are those of the state.
     #[inline(always)]
     pub(crate) fn note<V: Vector, const K: usize>(
         &mut self,
-        closer: &Closer<V, K>,
+        guard_check: &GuardCheck<V, K>,
         fails: bool,
         is_first: bool,
         [before, after]: [&Sample<V, K>; 2],
@@ -63,7 +63,7 @@ impl Beaten {
         (bounds, in_lanes): (&Bounds, &mut BoundsInLanes<V, K>),
     ) -> bool {
         let turned = if is_first { self.turned } else { [0; 2] };
-        let turns = [closer.turns[0] & !turned[0], closer.turns[1] & !turned[1]];
+        let turns = [guard_check.turns[0] & !turned[0], guard_check.turns[1] & !turned[1]];
         if fails {
             return false;
         }
@@ -81,14 +81,14 @@ impl Beaten {
             self.ended = turned[0];
             store(&after.x, &mut self.end);
         }
-        let followed = closer.beaten[0] & !turned[0];
+        let followed = guard_check.beaten[0] & !turned[0];
         self.followed |= followed;
         let (low, high): ([V; K], [V; K]) = (load(&bounds.guarded[0]), load(&bounds.guarded[1]));
         let (mut accelerations, mut times): ([V; K], [V; K]) = (load(&self.acceleration), load(&self.time));
         for k in 0..K {
             let lanes = WIDTH * k;
             let (x, a, size) = (after.x[k], after.a[k], after.a[k].abs());
-            let drifts = (followed >> lanes) as u32 & LANES;
+            let drifts = (followed >> lanes) as u32 & ALL_LANES;
             let negative = !after.v[k].not_below(V::splat(0.0));
             let sign = V::splat(1.0).with(negative, V::splat(-1.0));
             // From here to the guard on the side that the drift goes to.
@@ -97,7 +97,7 @@ impl Beaten {
             in_lanes.reach[k] = in_lanes.reach[k].with(drifts, to_guard);
             in_lanes.sign[k] = in_lanes.sign[k].with(drifts, sign);
             in_lanes.turn[k] = in_lanes.turn[k].with(drifts, V::splat(0.0));
-            let floors = (closer.beaten[1] >> lanes) as u32 & LANES & !in_lanes.a_peak[k].not_below(size);
+            let floors = (guard_check.beaten[1] >> lanes) as u32 & ALL_LANES & !in_lanes.a_peak[k].not_below(size);
             self.floors |= Set::from(floors) << lanes;
             in_lanes.a_peak[k] = in_lanes.a_peak[k].with(floors, size);
             accelerations[k] = accelerations[k].with(floors, a);
