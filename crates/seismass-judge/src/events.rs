@@ -159,16 +159,23 @@ impl<R: Real> Machines<'_, R> {
         }
     }
 
-    /// The block has come to its next stage of wear: it slides on, and its floor decides about the others.
+    /// The block, and those on its floor that do so at this instant, have come to their next stage of wear: they slide
+    /// on, and the floor decides about the others.
     fn wear(&mut self, block: usize, tau: R) {
-        let data = &self.model.blocks[block];
-        let state = &mut self.state.blocks[block];
-        state.stage += 1;
-        let Stage { path, mu_s, mu_k } = data.stages[state.stage];
-        (state.path, state.mu_s, state.mu_k) = (path, mu_s, mu_k);
-        let (sign, stage) = (state.velocity_sign(), state.stage);
-        self.note(tau, EventKind::Wear, block, sign, stage as u8);
-        self.settle(data.floor, tau, Cause::Wear(block));
+        let floor = self.model.blocks[block].floor;
+        for j in self.on_floor(floor) {
+            let (data, state) = (&self.model.blocks[j], &mut self.state.blocks[j]);
+            let Some(&Stage { path, mu_s, mu_k }) = data.stages.get(state.stage + 1) else { continue };
+            let slides = matches!(state.contact, Contact::Sliding(_));
+            let comes = slides && path - state.path <= R::of(ROUNDING) * R::epsilon() * path;
+            if j == block || comes {
+                state.stage += 1;
+                (state.path, state.mu_s, state.mu_k) = (path, mu_s, mu_k);
+                let (sign, stage) = (state.velocity_sign(), state.stage);
+                self.note(tau, EventKind::Wear, j, sign, stage as u8);
+            }
+        }
+        self.settle(floor, tau, Cause::Wear(block));
     }
 
     /// Sets the relative velocity to exactly zero: of `block`, and of all on its floor that arrive at this instant.

@@ -8,7 +8,7 @@ use crate::machines::settle::{SettleCause, settle};
 use crate::machines::sign::Sign;
 use crate::response::{Event, EventKind};
 use crate::state::State;
-use crate::tolerances::ARRIVED;
+use crate::tolerances::{ARRIVED, FALL_ROUNDING};
 use crate::units::STANDARD_GRAVITY;
 
 /// The entry of the log for an event of a storey, counted from 0.
@@ -52,11 +52,9 @@ pub(crate) fn carry_out_in_lanes<V: Vector, const K: usize>(
             settle_floor::<K>(state, state.model.blocks[block].floor, tau, SettleCause::Other, log);
         }
         Guard::Wear { block } => {
-            let law = &state.model.blocks[block];
-            let motion = &mut state.blocks.motions[block];
-            let (sign, element) = (motion.velocity_sign(), motion.wear(law));
-            log.push(Event { time, kind: EventKind::Wear, number: block + 1, sign, element });
-            settle_floor::<K>(state, law.floor, tau, SettleCause::Other, log);
+            let floor = state.model.blocks[block].floor;
+            wear_with(state, block, time, log);
+            settle_floor::<K>(state, floor, tau, SettleCause::Other, log);
         }
         Guard::Contact => change_contact(state, tau, log),
     }
@@ -96,6 +94,19 @@ fn arrive_with<const K: usize>(state: &mut State, block: usize, tau: f64) {
         let arrives = slowing >= -ARRIVED * size && velocity.abs() <= ARRIVED * size * state.interval.h;
         if j == block || alike || velocity != 0.0 && arrives {
             state.blocks.motions[j].velocity = 0.0;
+        }
+    }
+}
+
+/// Changes the friction coefficients of a block, and of those on its floor that come to a change at the same instant,
+/// within rounding.
+fn wear_with(state: &mut State, block: usize, time: f64, log: &mut Vec<Event>) {
+    let model = state.model;
+    for &j in &model.on_floor[model.blocks[block].floor] {
+        let motion = &mut state.blocks.motions[j];
+        if j == block || motion.sliding().is_some() && motion.path_to_wear() <= FALL_ROUNDING * motion.path() {
+            let (sign, element) = (motion.velocity_sign(), motion.wear(&model.blocks[j]));
+            log.push(Event { time, kind: EventKind::Wear, number: j + 1, sign, element });
         }
     }
 }

@@ -21,6 +21,6 @@ pub(crate) use plain::Plain;
 pub(crate) use set::{Set, first_members, members, spread};
 pub(crate) use symmetric::Symmetric;
 pub(crate) use vector::{ALL_LANES, Vector, WIDTH};
-pub(crate) use width::{FAR, MAX_LANES, WIDEST, by_width, filled, filled_to, padded};
+pub(crate) use width::{FAR, MAX_DENSE, MAX_LANES, WIDEST, by_dense_width, by_width, filled, filled_to, padded};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use x86::Fused;

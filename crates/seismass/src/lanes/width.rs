@@ -5,6 +5,8 @@ use crate::lanes::vector::WIDTH;
 /// Most storeys that the hot loops hold in vectors.
 pub(crate) const MAX_LANES: usize = 48;
 
+/// Most storeys whose step over a sample interval is one matrix without zeros.
+pub(crate) const MAX_DENSE: usize = 16;
 /// As many vectors.
 pub(crate) const WIDEST: usize = MAX_LANES / WIDTH;
 
@@ -65,3 +67,24 @@ macro_rules! by_width {
 }
 
 pub(crate) use by_width;
+
+/// [`by_width`] of widths that hold at most [`MAX_DENSE`] storeys.
+macro_rules! by_dense_width {
+    ($width:expr, $count:ident => $call:expr) => {
+        match $width {
+            4 => {
+                const $count: usize = 1;
+                $call
+            }
+            8 => {
+                const $count: usize = 2;
+                $call
+            }
+            _ => {
+                const $count: usize = crate::lanes::MAX_DENSE / crate::lanes::WIDTH;
+                $call
+            }
+        }
+    };
+}
+pub(crate) use by_dense_width;

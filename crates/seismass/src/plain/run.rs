@@ -14,8 +14,7 @@ use std::mem::take;
 use std::sync::Arc;
 
 use crate::lanes::{
-    FAR, Set, Vector, WIDEST, WIDTH, by_width, differences, first_members, for_each_path, load, numbers, prefix_sums,
-    store,
+    FAR, Set, Vector, WIDTH, by_width, differences, first_members, for_each_path, load, numbers, prefix_sums, store,
 };
 use crate::plain::columns::StepColumns;
 use crate::plain::columns::{MARGINS, multiply, prepare_effects, small_step};
@@ -286,7 +285,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     reached
 }
 
-/// [`clear_steps`] of the present scene.
+/// [`clear_steps`] of the present scene, of at most [`MAX_DENSE`](crate::lanes::MAX_DENSE) storeys.
 fn clear_steps_of_scene(
     state: &mut State,
     plain_loop: &mut PlainLoop,
@@ -305,16 +304,12 @@ fn clear_steps_of_scene(
         (3, true, false) => clear_steps::<1, 3, true, false>,
         (4, true, false) => clear_steps::<1, 4, true, false>,
         (5..=8, false, false) => clear_steps::<2, 0, false, false>,
-        (9..=16, false, false) => clear_steps::<4, 0, false, false>,
+        (_, false, false) => clear_steps::<4, 0, false, false>,
         (5..=8, true, false) => clear_steps::<2, 0, true, false>,
-        (9..=16, true, false) => clear_steps::<4, 0, true, false>,
-        (17..=32, _, false) => clear_steps::<8, 0, true, false>,
-        (_, _, false) => clear_steps::<WIDEST, 0, true, false>,
+        (_, true, false) => clear_steps::<4, 0, true, false>,
         (..=4, _, true) => clear_steps::<1, 0, true, true>,
         (5..=8, _, true) => clear_steps::<2, 0, true, true>,
-        (9..=16, _, true) => clear_steps::<4, 0, true, true>,
-        (17..=32, _, true) => clear_steps::<8, 0, true, true>,
-        (_, _, true) => clear_steps::<WIDEST, 0, true, true>,
+        (_, _, true) => clear_steps::<4, 0, true, true>,
     };
     steps(state, plain_loop, observer, motion, first, end)
 }

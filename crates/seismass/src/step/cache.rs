@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::ops::Deref;
 use std::rc::Rc;
 
-use crate::lanes::{MAX_LANES, WIDTH};
+use crate::lanes::{MAX_DENSE, WIDTH};
 use crate::machines::model::Model;
 use crate::regime::{Regime, Row};
 use crate::step::steps::{MAX_TABLE, Steps};
@@ -211,7 +211,7 @@ impl RegimeCache {
         let entry = &mut self.entries[index];
         let n = model.storeys();
         let is_tall = Steps::are_tall(model, &entry.regime, self.dt);
-        if n == 0 || n > MAX_LANES && !is_tall {
+        if n == 0 || n > MAX_DENSE && !is_tall {
             return false;
         }
         let series_visits = if is_tall { TallStep::series_visits(model) } else { Self::series_visits(n) };

@@ -8,7 +8,7 @@
 //! short enough, and the step composed with itself.
 
 use crate::lanes::{
-    Aligned, Vector, WIDTH, by_width, columns_of, differences, for_each_path, load, numbers, store, unit,
+    Aligned, Vector, WIDTH, by_dense_width, columns_of, differences, for_each_path, load, numbers, store, unit,
 };
 use crate::machines::model::Model;
 use crate::polynomial::orders::INVERSE;
@@ -80,7 +80,7 @@ fn remainders_by_width<V: Vector>(
         2 => few::remainders::<V, 2>(model, regime, h, order, sums, terms),
         3 => few::remainders::<V, 3>(model, regime, h, order, sums, terms),
         4 => few::remainders::<V, 4>(model, regime, h, order, sums, terms),
-        _ => by_width!(model.width, K => remainders::<V, K>(model, regime, h, order, sums, terms)),
+        _ => by_dense_width!(model.width, K => remainders::<V, K>(model, regime, h, order, sums, terms)),
     }
 }
 
@@ -150,7 +150,7 @@ fn columns_by_width<V: Vector>(model: &Model, regime: &Regime, h: f64, sums: &[f
         2 => few::columns::<V, 2>(model, regime, h, sums, out),
         3 => few::columns::<V, 3>(model, regime, h, sums, out),
         4 => few::columns::<V, 4>(model, regime, h, sums, out),
-        _ => by_width!(model.width, K => columns::<V, K>(model, regime, h, sums, out)),
+        _ => by_dense_width!(model.width, K => columns::<V, K>(model, regime, h, sums, out)),
     }
 }
 
@@ -209,7 +209,7 @@ for_each_path! {
 
 #[inline(always)]
 fn doubled_by_width<V: Vector>(changes: &[f64], storeys: usize, width: usize, h: f64) -> Vec<f64> {
-    by_width!(width, K => doubled_columns::<V, K>(changes, storeys, h))
+    by_dense_width!(width, K => doubled_columns::<V, K>(changes, storeys, h))
 }
 
 #[inline(always)]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::lanes::{Aligned, Plain, WIDTH};
+use crate::lanes::{Aligned, MAX_DENSE, Plain, WIDTH};
 use crate::machines::model::Model;
 use crate::polynomial::orders::terms;
 use crate::regime::Regime;
@@ -15,9 +15,6 @@ use crate::tolerances::SERIES_PHASE;
 
 /// Most storeys of which tables of the series are kept.
 pub(crate) const MAX_TABLE: usize = 2 * WIDTH;
-
-/// Most storeys for which one matrix without zeros is taken though a tall step would do.
-const MAX_DENSE: usize = 16;
 
 /// The steps of a regime.
 pub(crate) struct Steps {
