@@ -87,6 +87,11 @@ fn imports(own: &str, text: &str, modules: &BTreeSet<String>) -> BTreeSet<String
             found.extend(longest);
         }
     }
+    // What a module takes from those inside it: `use inner::Item`.
+    for line in code.lines().map(|line| line.trim_start_matches("pub(crate) ").trim_start_matches("pub ")) {
+        let inner = line.strip_prefix("use ").and_then(|path| path.split("::").next());
+        found.extend(inner.map(|inner| format!("{own}::{inner}")).filter(|inner| modules.contains(inner)));
+    }
     found
 }
 
@@ -147,6 +152,7 @@ fn imports_are_found() {
     let modules = ["a", "a::b", "a::c", "d"].map(str::to_owned).into();
     let text = "use crate::a::b::{X, Y};\n// crate::d\nuse super::c::Z;\nfn f() { crate::d::g() }\n";
     assert_eq!(imports("a::x", text, &modules), ["a::b", "a::c", "d"].map(str::to_owned).into());
+    assert_eq!(imports("a", "pub(crate) use b::X;\nuse std::fmt;\n", &modules), ["a::b".to_owned()].into());
 }
 
 /// No state of a run is extended above its layer.

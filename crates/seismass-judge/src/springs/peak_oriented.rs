@@ -3,9 +3,9 @@
 
 use seismass::{EventKind, Storey};
 
-use super::{Course, Crossing, Limit, Part, Slope, Spring, SpringGuard};
 use crate::real::Real;
 use crate::sign::Sign;
+use crate::springs::contract::{Course, Crossing, Limit, Part, Slope, Spring, SpringGuard};
 
 /// Where a branch of the backbone ends, in the direction in which it is followed.
 #[derive(Debug, Clone, Copy)]

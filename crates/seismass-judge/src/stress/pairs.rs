@@ -21,7 +21,7 @@
 
 use seismass::{Event, EventKind, Motion, Response, Scene};
 
-use super::grazing::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
+use super::verdict::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
 use crate::compare::compare_endings;
 use crate::random_scene::Draw;
 use crate::solve::solve_disturbed;
