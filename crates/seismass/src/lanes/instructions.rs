@@ -72,21 +72,21 @@ macro_rules! for_each_path {
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
             fn avx512 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused $($(, $constant)*)?>($($arg),*)
+                $inner::<crate::lanes::x86::Fused $($(, $constant)*)?>($($arg),*)
             }
             #[cfg(target_arch = "x86_64")]
             #[target_feature(enable = "avx2,fma")]
             fn avx2 $(<$(const $constant: $of),*>)? ($($arg: $type),*) $(-> $out)? {
-                $inner::<crate::lanes::Fused $($(, $constant)*)?>($($arg),*)
+                $inner::<crate::lanes::x86::Fused $($(, $constant)*)?>($($arg),*)
             }
-            match crate::lanes::InstructionSet::in_use() {
+            match crate::lanes::instructions::InstructionSet::in_use() {
                 // SAFETY: `in_use` returns only what this machine has.
                 #[cfg(target_arch = "x86_64")]
-                crate::lanes::InstructionSet::Avx512 => unsafe { avx512 $(::<$($constant),*>)? ($($arg),*) },
+                crate::lanes::instructions::InstructionSet::Avx512 => unsafe { avx512 $(::<$($constant),*>)? ($($arg),*) },
                 // SAFETY: as above.
                 #[cfg(target_arch = "x86_64")]
-                crate::lanes::InstructionSet::Avx2 => unsafe { avx2 $(::<$($constant),*>)? ($($arg),*) },
-                _ => $inner::<crate::lanes::Plain $($(, $constant)*)?>($($arg),*),
+                crate::lanes::instructions::InstructionSet::Avx2 => unsafe { avx2 $(::<$($constant),*>)? ($($arg),*) },
+                _ => $inner::<crate::lanes::plain::Plain $($(, $constant)*)?>($($arg),*),
             }
         }
     };

@@ -2,15 +2,15 @@
 
 mod aligned;
 mod arrays;
-mod instructions;
+pub(crate) mod instructions;
 mod padded;
-mod plain;
+pub(crate) mod plain;
 mod set;
 mod symmetric;
-mod vector;
-mod width;
+pub(crate) mod vector;
+pub(crate) mod width;
 #[cfg(target_arch = "x86_64")]
-mod x86;
+pub(crate) mod x86;
 
 pub(crate) use aligned::{Aligned, OnLine};
 pub(crate) use arrays::{at, columns_of, differences, lanes, lanes_mut, load, numbers, prefix_sums, store, unit};
@@ -22,5 +22,3 @@ pub(crate) use set::{Set, first_members, members, spread};
 pub(crate) use symmetric::Symmetric;
 pub(crate) use vector::{ALL_LANES, Vector, WIDTH};
 pub(crate) use width::{FAR, MAX_DENSE, MAX_LANES, WIDEST, by_dense_width, by_width, filled, filled_to, padded};
-#[cfg(target_arch = "x86_64")]
-pub(crate) use x86::Fused;

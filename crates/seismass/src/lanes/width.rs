@@ -59,7 +59,7 @@ macro_rules! by_width {
                 $call
             }
             _ => {
-                const $count: usize = crate::lanes::WIDEST;
+                const $count: usize = crate::lanes::width::WIDEST;
                 $call
             }
         }
@@ -81,7 +81,7 @@ macro_rules! by_dense_width {
                 $call
             }
             _ => {
-                const $count: usize = crate::lanes::MAX_DENSE / crate::lanes::WIDTH;
+                const $count: usize = crate::lanes::width::MAX_DENSE / crate::lanes::vector::WIDTH;
                 $call
             }
         }

@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::history::{History, check_finite};
-use super::{Error, require};
+use super::method::{Error, require};
 use crate::machines::model::Model;
 use crate::response::Status;
 use crate::scene::{Motion, Scene};

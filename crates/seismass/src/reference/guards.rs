@@ -1,6 +1,6 @@
 //! The guards of all state machines as numbers, and how a stepping method carries out their events.
 
-use super::Events;
+use super::method::Events;
 use crate::lanes::by_width;
 use crate::machines::guard::Guard;
 use crate::machines::guard::Outcome;

@@ -8,9 +8,9 @@ use nalgebra::DMatrix;
 
 use super::guards::{carry_out, fallen, value};
 use super::history::{History, check_finite};
+use super::method::{Error, Events};
 use super::roots::first_fall;
 use super::scheme::{Columns, Scheme, StepMap, SteppedSystem};
-use super::{Error, Events};
 use crate::events::carry_out::settle_all;
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::machines::guard::Guard;

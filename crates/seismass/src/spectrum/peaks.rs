@@ -10,10 +10,10 @@ use std::sync::atomic::Ordering;
 
 use rayon::prelude::*;
 
-use super::oscillator::{Oscillator, Step};
-use super::{Load, validate};
 use crate::error::{Error, Result};
 use crate::scene::Motion;
+use crate::spectrum::load::{Load, validate};
+use crate::spectrum::oscillator::{Oscillator, Step};
 use crate::threads::{Control, in_pool};
 
 /// OscillatorSteps between two looks whether the caller wants to stop.
