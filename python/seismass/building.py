@@ -15,7 +15,6 @@ from seismass.errors import InvalidScene
 from seismass.spring_laws import (
     Backbone,
     BackboneLike,
-    Hysteresis,
     check_parts,
     listed_storeys,
     of_first_segment,
@@ -27,6 +26,7 @@ from seismass.spring_laws import (
 from seismass.springs import (
     SHAPE_FIELDS,
     SPRING_FIELDS,
+    Hysteresis,
     SpringArguments,
     SpringShape,
     checked_names,
@@ -358,17 +358,16 @@ class Building(Value):
         return {"V_y/W": self.yield_shear / self.weight, **listed}
 
     def springs_in_use(self) -> dict[str, FloatArray]:
-        """Return `springs` without the numbers of what no storey has, such as stops or peak-oriented hysteresis."""
+        """Return `springs` without the numbers that do not matter, such as those of stops where no storey has one."""
         has = parts(self.springs, self.backbone, self.hysteresis)
-        of_part = {name: SPRING_FIELDS[name].part for name in SPRING_FIELDS}
-        unused = {name for name, part in of_part.items() if part is not None and part not in has}
+        unused = {name for name, field in SPRING_FIELDS.items() if not field.matters(has)}
         if "stop" not in has:
             unused.add("clearance")
         return {name: values for name, values in self.springs.items() if name not in unused}
 
     @property
     def laws(self) -> tuple[str, ...]:
-        """What springs have beside trilinear backbones with Masing unloading: "backbone", "stop", "peak-oriented"."""
+        """What springs have beside trilinear backbones with Masing unloading: "backbone", "stop", or a hysteresis."""
         backbones = () if self.backbone is None else ("backbone",)
         return (*backbones, *sorted(parts(self.springs, self.backbone, self.hysteresis) - {"trilinear"}, reverse=True))
 
@@ -439,8 +438,8 @@ def _law_arguments(building: Building) -> dict[str, Any]:
     found: dict[str, Any] = {}
     if building.backbone is not None:
         found["backbones"] = [None if points is None else np.array(points) for points in building.backbone]
-    if "peak-oriented" in building.hysteresis:
-        found["peak_oriented"] = [name == "peak-oriented" for name in building.hysteresis]
+    if any(name != "masing" for name in building.hysteresis):
+        found["hysteresis"] = list(building.hysteresis)
     return found
 
 

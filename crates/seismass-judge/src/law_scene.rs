@@ -87,32 +87,38 @@ fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Bui
     Building::new(mass, storeys, damping)?.with_gravity(gravity)
 }
 
+/// The laws of a random storey, those drawn more often several times: what they make of a trilinear one.
+const LAWS: [fn(&mut Draw, Storey) -> Storey; 5] = [multilinear, gap, peak_oriented, peak_oriented, peak_oriented];
+
 fn storey(draw: &mut Draw, law: u64, stiffness: f64, yield_shear: f64) -> Storey {
     let (overstrength, second_slope, third_slope) = spring(draw);
     let trilinear = Storey { overstrength, second_slope, third_slope, ..Storey::yielding(stiffness, yield_shear) };
-    match law % 5 {
-        0 => Storey::multilinear(backbone(draw, stiffness, yield_shear)),
-        1 => {
-            let clearance = yield_shear / stiffness * draw.scale(0.3, 4.0);
-            let stop_stiffness = stiffness * draw.scale(0.1, 10.0);
-            let elastic = draw.one_in(5);
-            let yield_shear = if elastic { f64::INFINITY } else { yield_shear };
-            Storey { yield_shear, law: SpringLaw::Gap { clearance, stop_stiffness }, ..trilinear }
-        }
-        _ => {
-            let takeda = draw.one_in(2);
-            let third_slope = match draw.one_in(2) {
-                true => -draw.scale(0.01, 0.5),
-                false => third_slope,
-            };
-            let law = SpringLaw::PeakOriented(PeakOriented {
-                unloading_exponent: if takeda { draw.between(0.1, 0.95) } else { 0.0 },
-                energy_capacity: if draw.one_in(2) { f64::INFINITY } else { draw.scale(2.0, 200.0) },
-                residual_strength: if draw.one_in(2) { 0.0 } else { draw.between(0.05, 1.0) },
-            });
-            Storey { third_slope, law, ..trilinear }
-        }
-    }
+    LAWS[(law % LAWS.len() as u64) as usize](draw, trilinear)
+}
+
+fn multilinear(draw: &mut Draw, trilinear: Storey) -> Storey {
+    Storey::multilinear(backbone(draw, trilinear.stiffness, trilinear.yield_shear))
+}
+
+fn gap(draw: &mut Draw, trilinear: Storey) -> Storey {
+    let clearance = trilinear.yield_shear / trilinear.stiffness * draw.scale(0.3, 4.0);
+    let stop_stiffness = trilinear.stiffness * draw.scale(0.1, 10.0);
+    let yield_shear = if draw.one_in(5) { f64::INFINITY } else { trilinear.yield_shear };
+    Storey { yield_shear, law: SpringLaw::Gap { clearance, stop_stiffness }, ..trilinear }
+}
+
+fn peak_oriented(draw: &mut Draw, trilinear: Storey) -> Storey {
+    let takeda = draw.one_in(2);
+    let third_slope = match draw.one_in(2) {
+        true => -draw.scale(0.01, 0.5),
+        false => trilinear.third_slope,
+    };
+    let law = SpringLaw::PeakOriented(PeakOriented {
+        unloading_exponent: if takeda { draw.between(0.1, 0.95) } else { 0.0 },
+        energy_capacity: if draw.one_in(2) { f64::INFINITY } else { draw.scale(2.0, 200.0) },
+        residual_strength: if draw.one_in(2) { 0.0 } else { draw.between(0.05, 1.0) },
+    });
+    Storey { third_slope, law, ..trilinear }
 }
 
 fn backbone(draw: &mut Draw, stiffness: f64, yield_shear: f64) -> Vec<[f64; 2]> {

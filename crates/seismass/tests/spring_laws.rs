@@ -291,6 +291,10 @@ fn what_is_no_law_is_refused() {
 /// Uniform numbers in [0, 1) of a linear congruential generator (Knuth's MMIX constants).
 struct Draw(u64);
 
+/// The laws of a random storey, each of which is as likely: what they make of a trilinear one.
+const LAWS: [fn(&mut Draw, Storey) -> Storey; 4] =
+    [Draw::multilinear, Draw::gap, Draw::peak_oriented, |_, trilinear| trilinear];
+
 impl Draw {
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -302,42 +306,43 @@ impl Draw {
     }
 
     fn law(&mut self, stiffness: f64, strength: f64) -> Storey {
-        let drift = strength / stiffness;
         let base = Storey {
             overstrength: if self.next() < 0.3 { 1.0 } else { self.between(1.05, 2.5) },
             second_slope: if self.next() < 0.2 { 0.0 } else { self.between(0.01, 0.4) },
             third_slope: 0.0,
             ..Storey::yielding(stiffness, strength)
         };
-        match (4.0 * self.next()) as usize {
-            0 => {
-                let mut point = [drift, strength];
-                let mut slope = stiffness;
-                let mut points = vec![point];
-                for _ in 0..(6.0 * self.next()) as usize {
-                    slope *= self.between(0.1, 0.9);
-                    let length = drift * self.between(0.2, 3.0);
-                    point = [point[0] + length, point[1] + slope * length];
-                    points.push(point);
-                }
-                Storey::multilinear(points)
-            }
-            1 => {
-                let clearance = drift * self.between(0.3, 4.0);
-                let law = SpringLaw::Gap { clearance, stop_stiffness: stiffness * self.between(0.1, 10.0) };
-                Storey { law, ..base }
-            }
-            2 => {
-                let law = PeakOriented {
-                    unloading_exponent: if self.next() < 0.5 { 0.0 } else { self.between(0.1, 0.8) },
-                    energy_capacity: if self.next() < 0.4 { f64::INFINITY } else { self.between(20.0, 400.0) },
-                    residual_strength: self.between(0.05, 0.8),
-                };
-                let third_slope = if self.next() < 0.5 { 0.0 } else { -self.between(0.01, 0.2) };
-                Storey { third_slope, law: SpringLaw::PeakOriented(law), ..base }
-            }
-            _ => base,
+        LAWS[(LAWS.len() as f64 * self.next()) as usize](self, base)
+    }
+
+    fn multilinear(&mut self, base: Storey) -> Storey {
+        let (mut slope, strength) = (base.stiffness, base.yield_shear);
+        let drift = strength / slope;
+        let mut point = [drift, strength];
+        let mut points = vec![point];
+        for _ in 0..(6.0 * self.next()) as usize {
+            slope *= self.between(0.1, 0.9);
+            let length = drift * self.between(0.2, 3.0);
+            point = [point[0] + length, point[1] + slope * length];
+            points.push(point);
         }
+        Storey::multilinear(points)
+    }
+
+    fn gap(&mut self, base: Storey) -> Storey {
+        let clearance = base.elastic_drift() * self.between(0.3, 4.0);
+        let law = SpringLaw::Gap { clearance, stop_stiffness: base.stiffness * self.between(0.1, 10.0) };
+        Storey { law, ..base }
+    }
+
+    fn peak_oriented(&mut self, base: Storey) -> Storey {
+        let law = PeakOriented {
+            unloading_exponent: if self.next() < 0.5 { 0.0 } else { self.between(0.1, 0.8) },
+            energy_capacity: if self.next() < 0.4 { f64::INFINITY } else { self.between(20.0, 400.0) },
+            residual_strength: self.between(0.05, 0.8),
+        };
+        let third_slope = if self.next() < 0.5 { 0.0 } else { -self.between(0.01, 0.2) };
+        Storey { third_slope, law: SpringLaw::PeakOriented(law), ..base }
     }
 
     fn block(&mut self, floor: usize, mass: f64) -> Block {

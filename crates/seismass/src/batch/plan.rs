@@ -4,10 +4,11 @@ use crate::classes::Classes;
 use crate::machines::storey::StoreyLaw;
 use crate::scene::StoreyDamping;
 use crate::scene::{Building, Damping, Motion, Scene};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 use std::cmp::Reverse;
 use std::collections::HashMap;
-use std::hash::{Hash, Hasher};
+use std::hash::{BuildHasher, Hash, Hasher};
+use std::mem::discriminant;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -152,8 +153,9 @@ impl BuildingClasses {
         let structure = self.structures.number(&key);
         key = vec![structure as u64];
         for law in laws() {
-            // Equal structures have laws of one kind in each storey: their tangents differ in number or in order.
+            // Laws of different kinds may have equal tangents and parameters.
             let parameters = law.spring.law().parameters();
+            key.push(FxBuildHasher.hash_one(discriminant(&law.spring)));
             key.push(parameters.len() as u64);
             key.extend(parameters.into_iter().map(f64::to_bits));
         }
