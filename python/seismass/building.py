@@ -57,8 +57,9 @@ class Building(Value):
         Drifts (m) and forces (N) of a polygon from the origin, of slopes that do not increase, with Masing unloading; a
         list has one per storey, None where a storey is trilinear. The stiffness and the yield shear of a storey with a
         backbone are those of its first segment; one number for either of them is for the other storeys.
-    hysteresis : {"masing", "peak-oriented"} or list of them, default "masing"
-        How storeys unload and reload. Peak-oriented ones reload straight to their largest drift so far.
+    hysteresis : {"masing", "peak-oriented", "flag-shaped"} or list of them, default "masing"
+        How storeys unload and reload. Peak-oriented ones reload straight to their largest drift so far. Flag-shaped
+        ones, of slopes k and r2 k, come back to zero drift at zero force.
     damping : float, Rayleigh or array_like of shape (storeys, storeys), default 0.05
         A ratio in every vibration mode of the bare building, from 0 to 1 (0.05 for 5 %), Rayleigh damping, or the
         matrix C (N s/m).
@@ -133,6 +134,7 @@ class Building(Value):
     unloading_exponent: FloatArray
     energy_capacity: FloatArray
     residual_strength: FloatArray
+    flag_height: FloatArray
     backbone: tuple[Backbone | None, ...] | None
     hysteresis: tuple[Hysteresis, ...]
     damping: float | Rayleigh | FloatArray

@@ -29,8 +29,9 @@ DEFAULT_THIRD_SLOPE: Final = _kernel.DEFAULT_THIRD_SLOPE
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
-Hysteresis: TypeAlias = Literal["masing", "peak-oriented"]
-"""Masing unloading and reloading, or straight to the largest drift so far (Clough and Johnston 1966)."""
+Hysteresis: TypeAlias = Literal["masing", "peak-oriented", "flag-shaped"]
+"""Masing's rules, straight to the largest drift so far (Clough and Johnston 1966), or self-centring (Christopoulos,
+Filiatrault and Folz 2002)."""
 HYSTERESES: Final[tuple[Hysteresis, ...]] = get_args(Hysteresis)
 
 Part: TypeAlias = Literal["trilinear", "stop", Hysteresis]
@@ -111,7 +112,7 @@ class SpringShape(TypedDict, total=False):
             "between 0 and 1",
             0.0,
             1.0,
-            ("trilinear",),
+            ("trilinear", "flag-shaped"),
         ),
     ]
     third_slope: Annotated[
@@ -189,6 +190,19 @@ class SpringShape(TypedDict, total=False):
             0.0,
             1.0,
             ("peak-oriented",),
+        ),
+    ]
+    flag_height: Annotated[
+        ArrayLike,
+        SpringField(
+            1.0,
+            "",
+            "beta",
+            "Height beta of flag-shaped hysteresis over V_y, 0 to 1: how far unloading falls with slope k; 0: no loss.",
+            "between 0 and 1",
+            0.0,
+            1.0,
+            ("flag-shaped",),
         ),
     ]
 

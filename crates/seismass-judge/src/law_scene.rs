@@ -14,7 +14,7 @@ use crate::random_scene::{Draw, blocks, mass_above, samples_of, spring};
 ///
 /// 1 to 4 storeys, each with a law of its own or all with one: backbones of 1 to 6 points, some of them on a line or flat
 /// at the end; gaps before and after yield; peak-oriented springs with and without Takeda's exponent, cyclic loss, softening
-/// and residual strength; P-Delta; initial drifts and velocities; no blocks, or up to three per floor and on the ground, whose
+/// and residual strength; flags of any height; P-Delta; initial drifts and velocities; no blocks, or up to three per floor and on the ground, whose
 /// friction falls or grows with the path they slip; sines, noise and steps, with and without vertical motion.
 ///
 /// # Errors
@@ -88,7 +88,8 @@ fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Bui
 }
 
 /// The laws of a random storey, those drawn more often several times: what they make of a trilinear one.
-const LAWS: [fn(&mut Draw, Storey) -> Storey; 5] = [multilinear, gap, peak_oriented, peak_oriented, peak_oriented];
+const LAWS: [fn(&mut Draw, Storey) -> Storey; 7] =
+    [multilinear, gap, peak_oriented, peak_oriented, peak_oriented, flag_shaped, flag_shaped];
 
 fn storey(draw: &mut Draw, law: u64, stiffness: f64, yield_shear: f64) -> Storey {
     let (overstrength, second_slope, third_slope) = spring(draw);
@@ -119,6 +120,12 @@ fn peak_oriented(draw: &mut Draw, trilinear: Storey) -> Storey {
         residual_strength: if draw.one_in(2) { 0.0 } else { draw.between(0.05, 1.0) },
     });
     Storey { third_slope, law, ..trilinear }
+}
+
+fn flag_shaped(draw: &mut Draw, trilinear: Storey) -> Storey {
+    let between = draw.between(0.02, 0.98);
+    let flag_height = draw.one_of(&[0.0, 1.0, between, between, between]);
+    Storey { law: SpringLaw::FlagShaped { flag_height }, ..trilinear }
 }
 
 fn backbone(draw: &mut Draw, stiffness: f64, yield_shear: f64) -> Vec<[f64; 2]> {

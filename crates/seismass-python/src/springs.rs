@@ -14,6 +14,7 @@ struct Spring {
     clearance: f64,
     stop_stiffness: f64,
     peak_oriented: PeakOriented,
+    flag_height: f64,
 }
 
 /// A number of a storey's spring: its name and its place.
@@ -30,6 +31,7 @@ const SPRING_FIELDS: &[SpringField] = &[
     ("unloading_exponent", |spring| &mut spring.peak_oriented.unloading_exponent),
     ("energy_capacity", |spring| &mut spring.peak_oriented.energy_capacity),
     ("residual_strength", |spring| &mut spring.peak_oriented.residual_strength),
+    ("flag_height", |spring| &mut spring.flag_height),
 ];
 
 /// A hysteresis: its name, and the law that it makes of a spring's numbers.
@@ -41,7 +43,11 @@ const MASING: Hysteresis = ("masing", |spring| match spring.clearance {
     clearance => SpringLaw::Gap { clearance, stop_stiffness: spring.stop_stiffness },
 });
 
-const HYSTERESES: &[Hysteresis] = &[MASING, ("peak-oriented", |spring| SpringLaw::PeakOriented(spring.peak_oriented))];
+const HYSTERESES: &[Hysteresis] = &[
+    MASING,
+    ("peak-oriented", |spring| SpringLaw::PeakOriented(spring.peak_oriented)),
+    ("flag-shaped", |spring| SpringLaw::FlagShaped { flag_height: spring.flag_height }),
+];
 
 fn hysteresis(name: &str) -> seismass::Result<&'static Hysteresis> {
     let found = HYSTERESES.iter().find(|(known, _)| *known == name);
@@ -65,6 +71,7 @@ pub(crate) fn storeys(
             clearance: f64::INFINITY,
             stop_stiffness: 0.0,
             peak_oriented: PeakOriented::default(),
+            flag_height: 1.0,
         })
         .collect();
     for &(name, place) in SPRING_FIELDS {

@@ -1,6 +1,7 @@
 //! Storey springs as state machines that are linear between events: what a law tells the run, and one file per law.
 
 mod contract;
+mod flag_shaped;
 mod gap;
 #[cfg(test)]
 mod loops;
@@ -11,6 +12,7 @@ mod trilinear;
 
 use crate::real::Real;
 pub(crate) use contract::{Course, Part, Slope, Spring, SpringGuard};
+use flag_shaped::FlagShaped;
 use gap::Gap;
 use peak_oriented::PeakOriented;
 use seismass::{SpringLaw, Storey};
@@ -25,6 +27,7 @@ pub(crate) fn spring<R: Real>(storey: &Storey) -> Box<dyn Spring<R>> {
         }
         SpringLaw::PeakOriented(_) if storey.yield_shear.is_infinite() => Box::new(trilinear::spring::<R>(storey)),
         SpringLaw::PeakOriented(law) => Box::new(PeakOriented::<R>::new(storey, law)),
+        &SpringLaw::FlagShaped { flag_height } => Box::new(FlagShaped::<R>::new(storey, flag_height)),
     }
 }
 

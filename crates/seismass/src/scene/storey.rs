@@ -32,6 +32,13 @@ pub enum SpringLaw {
     },
     /// Peak-oriented hysteresis (Clough and Johnston 1966) on the trilinear backbone, whose third slope may be negative.
     PeakOriented(PeakOriented),
+    /// Flag-shaped hysteresis of self-centring storeys (Christopoulos, Filiatrault and Folz 2002): slope k up to V_y, r2 k
+    /// beyond. Overstrength and third slope play no part.
+    FlagShaped {
+        /// Height beta of the flag, 0 to 1: unloading goes down by beta V_y with slope k, then back along a line of slope
+        /// r2 k to the elastic one.
+        flag_height: f64,
+    },
 }
 
 /// Unloading, strength loss and residual strength of a peak-oriented spring.
@@ -152,6 +159,9 @@ impl Storey {
                 check(positive(*stop_stiffness), "stop_stiffness", owner, "a positive number", *stop_stiffness)
             }
             SpringLaw::PeakOriented(law) => law.validate(owner),
+            &SpringLaw::FlagShaped { flag_height: beta } => {
+                check((0.0..=1.0).contains(&beta), "flag_height", owner, "between 0 and 1", beta)
+            }
         }
     }
 }

@@ -1,9 +1,11 @@
 //! The spring laws, one file each, and the choice among them.
 
+mod flag_shaped;
 mod gap;
 mod masing;
 mod peak_oriented;
 
+use flag_shaped::FlagShaped;
 use gap::Gap;
 pub(crate) use masing::Element;
 use masing::Masing;
@@ -18,6 +20,7 @@ pub(crate) enum Spring {
     Masing(Masing),
     Gap(Gap),
     PeakOriented(PeakOriented),
+    FlagShaped(FlagShaped),
 }
 
 impl Spring {
@@ -31,6 +34,7 @@ impl Spring {
             scene::SpringLaw::PeakOriented(law) if storey.yield_shear.is_finite() => {
                 Self::PeakOriented(PeakOriented::new(storey, law))
             }
+            &scene::SpringLaw::FlagShaped { flag_height } => Self::FlagShaped(FlagShaped::new(storey, flag_height)),
             _ => Self::Masing(Masing::trilinear(storey)),
         }
     }
@@ -41,6 +45,7 @@ impl Spring {
             Self::Masing(law) => law,
             Self::Gap(law) => law,
             Self::PeakOriented(law) => law,
+            Self::FlagShaped(law) => law,
         }
     }
 
@@ -49,6 +54,7 @@ impl Spring {
             Self::Masing(law) => law,
             Self::Gap(law) => law,
             Self::PeakOriented(law) => law,
+            Self::FlagShaped(law) => law,
         }
     }
 
