@@ -1,8 +1,9 @@
 //! Numbers of equal keys.
 
-use rustc_hash::FxHashMap;
 use std::collections::HashMap;
 use std::hash::Hash;
+
+use rustc_hash::FxHashMap;
 
 /// Numbers equal keys alike, in order of first appearance.
 pub(crate) struct Classes<K>(FxHashMap<K, usize>);

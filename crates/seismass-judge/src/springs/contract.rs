@@ -1,10 +1,12 @@
 //! What a law tells the run: parts of its force, what it waits for, and what happens then.
 
+use std::fmt::Debug;
+
+use seismass::EventKind;
+
 use crate::polynomial::Polynomial;
 use crate::real::Real;
 use crate::sign::Sign;
-use seismass::EventKind;
-use std::fmt::Debug;
 
 /// A force that the run integrates with the drift rate: it never comes from the difference of two large drifts.
 #[derive(Debug, Clone, Copy)]

@@ -10,12 +10,15 @@ mod multilinear;
 mod peak_oriented;
 mod trilinear;
 
+use seismass::{SpringLaw, Storey};
+
 use crate::real::Real;
-pub(crate) use contract::{Course, Part, Slope, Spring, SpringGuard};
+
 use flag_shaped::FlagShaped;
 use gap::Gap;
 use peak_oriented::PeakOriented;
-use seismass::{SpringLaw, Storey};
+
+pub(crate) use contract::{Course, Part, Slope, Spring, SpringGuard};
 
 /// The virgin spring of a storey.
 pub(crate) fn spring<R: Real>(storey: &Storey) -> Box<dyn Spring<R>> {

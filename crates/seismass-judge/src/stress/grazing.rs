@@ -1,14 +1,16 @@
 //! Where kernel and judge part: is it a true grazing? The judge is asked with its input changed in the last digits.
 //! And where the kernel's energies do not balance: does the input carry the digits that are missing?
 
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use seismass::{Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene, Status};
+
 use super::pairs;
 use super::verdict::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
 use crate::compare::compare_endings;
 use crate::random_scene::Draw;
 use crate::{Comparison, DoubleDouble, Solution, compare, compare_events, larger, solve};
-use seismass::{Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene, Status};
-use std::collections::BTreeSet;
-use std::sync::Arc;
 
 /// Powers of ten by which a friction that takes the place of none may be less than the last digits.
 const POWERS: f64 = 40.0;

@@ -3,8 +3,13 @@
 pub(crate) mod plan;
 pub(crate) mod schedule;
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::OnceLock;
+use std::sync::atomic::Ordering;
+
+use rayon::prelude::*;
+
 use crate::batch::plan::Plan;
-pub use crate::batch::plan::Run;
 use crate::batch::schedule::Schedule;
 use crate::error::{Domain, Error, Result};
 use crate::machines::model::Model;
@@ -13,10 +18,8 @@ use crate::run::run;
 use crate::scene::{Motion, Options, Scene};
 use crate::step::cache::RegimeCache;
 use crate::threads::{Control, in_pool};
-use rayon::prelude::*;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::OnceLock;
-use std::sync::atomic::Ordering;
+
+pub use crate::batch::plan::Run;
 
 /// Solves `runs` on `threads` threads (default: all cores).
 ///

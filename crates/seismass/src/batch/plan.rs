@@ -1,16 +1,17 @@
 //! What a batch has in common: which runs are equal, and which share regimes.
 
-use crate::classes::Classes;
-use crate::machines::storey::StoreyLaw;
-use crate::scene::StoreyDamping;
-use crate::scene::{Building, Damping, Motion, Scene};
-use rustc_hash::{FxBuildHasher, FxHashMap};
 use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::hash::{BuildHasher, Hash, Hasher};
 use std::mem::discriminant;
 use std::ops::Range;
 use std::sync::Arc;
+
+use rustc_hash::{FxBuildHasher, FxHashMap};
+
+use crate::classes::Classes;
+use crate::machines::storey::StoreyLaw;
+use crate::scene::{Building, Damping, Motion, Scene, StoreyDamping};
 
 /// One run of a batch: a scene under a motion whose accelerations are multiplied by a factor.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,8 +3,7 @@
 use std::ops::{Deref, DerefMut};
 
 use crate::lanes::aligned::Aligned;
-use crate::lanes::arrays::Lanes;
-use crate::lanes::arrays::{at, columns_of, lanes_mut};
+use crate::lanes::arrays::{Lanes, at, columns_of, lanes_mut};
 use crate::lanes::padded;
 use crate::lanes::vector::{Vector, WIDTH};
 

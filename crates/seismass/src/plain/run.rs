@@ -16,8 +16,7 @@ use std::sync::Arc;
 use crate::lanes::{
     FAR, Set, Vector, WIDTH, by_width, differences, first_members, for_each_path, load, numbers, prefix_sums, store,
 };
-use crate::plain::columns::StepColumns;
-use crate::plain::columns::{MARGINS, multiply, prepare_effects, small_step};
+use crate::plain::columns::{MARGINS, StepColumns, multiply, prepare_effects, small_step};
 use crate::plain::guard_check::GuardCheck;
 use crate::plain::plain_loop::{PlainLoop, wears};
 use crate::plain::sliding::{BlockDrive, LayerInLanes, LinearInTime};
@@ -32,8 +31,7 @@ use crate::state::State;
 use crate::state::limits::BoundsInLanes;
 use crate::state::sample::Sample;
 use crate::step::steps::Whole;
-use crate::tolerances::NO_CONTACT;
-use crate::tolerances::SERIES_PHASE;
+use crate::tolerances::{NO_CONTACT, SERIES_PHASE};
 use crate::units::STANDARD_GRAVITY;
 
 /// Lanes, as bits, in which the larger of two values and a norm times the margin per unit of it are not below a bound.

@@ -2,8 +2,7 @@
 
 use super::method::Events;
 use crate::lanes::by_width;
-use crate::machines::guard::Guard;
-use crate::machines::guard::Outcome;
+use crate::machines::guard::{Guard, Outcome};
 use crate::machines::sign::Sign;
 use crate::response::Event;
 use crate::state::State;

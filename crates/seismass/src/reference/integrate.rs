@@ -1,12 +1,8 @@
 //! A scene under a motion by one of the methods.
 
-use crate::reference::friction_springs;
-use crate::reference::gauss;
 use crate::reference::history::History;
-use crate::reference::leapfrog;
 use crate::reference::method::{Error, Method, checked, fraction, has_plain_laws, positive, require};
-use crate::reference::newmark;
-use crate::reference::stepping;
+use crate::reference::{friction_springs, gauss, leapfrog, newmark, stepping};
 use crate::scene::{Motion, Scene};
 
 /// Integrates a scene under a motion.

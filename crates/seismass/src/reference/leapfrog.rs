@@ -17,8 +17,7 @@ use super::method::Error;
 use crate::lanes::{Vector, for_each_path};
 use crate::machines::model::Model;
 use crate::response::Status;
-use crate::scene::{Motion, Scene};
-use crate::scene::{StoreyDamping, natural_frequencies};
+use crate::scene::{Motion, Scene, StoreyDamping, natural_frequencies};
 use crate::units::STANDARD_GRAVITY;
 
 for_each_path! {

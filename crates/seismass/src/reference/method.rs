@@ -1,8 +1,9 @@
 //! Methods, their options, and what they refuse.
 
+use thiserror::Error;
+
 use crate::error::Domain;
 use crate::scene::{Scene, SpringLaw};
-use thiserror::Error;
 
 /// A method and its parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]

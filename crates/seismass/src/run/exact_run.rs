@@ -3,7 +3,6 @@
 use std::mem::take;
 
 use crate::events::carry_out::settle_all;
-
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::plain::plain_loop::PlainLoop;
 use crate::plain::run::plain_run;

@@ -12,8 +12,7 @@ use crate::record::update::update_bounds;
 use crate::run::advance::{advance, not_finite};
 use crate::run::exact_run::ExactRun;
 use crate::run::limits::{EVENTS_PER_INTERVAL, EVENTS_PER_MACHINE};
-use crate::tolerances::REFUSED_PHASE;
-use crate::tolerances::SERIES_PHASE;
+use crate::tolerances::{REFUSED_PHASE, SERIES_PHASE};
 
 for_each_path! {
     /// Solves the present interval by series and records its end; returns the storey that collapsed, and when.

@@ -1,6 +1,7 @@
 //! Limits of a run: events and phases of an interval, substeps.
 
 use crate::tolerances::SUBSTEP_PHASE;
+
 /// Events one sample interval may have, beside [`EVENTS_PER_MACHINE`].
 pub(crate) const EVENTS_PER_INTERVAL: usize = 256;
 

@@ -1,8 +1,9 @@
 //! A rigid block and its friction.
 
+use std::fmt::Display;
+
 use crate::error::{Domain, Error, Result};
 use crate::scene::check::check;
-use std::fmt::Display;
 
 /// Most changes of a block's friction coefficients over its slip path.
 pub const MAX_WEAR_STAGES: usize = 100;

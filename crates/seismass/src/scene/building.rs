@@ -1,10 +1,11 @@
 //! A shear building: floor masses, storey springs, damping, P-Delta.
 
+use nalgebra::DMatrix;
+
 use crate::error::{Domain, Error, Result};
 use crate::scene::check::{Nth, check, check_length};
 use crate::scene::damping::{Damping, StoreyDamping, natural_frequencies};
 use crate::scene::storey::Storey;
-use nalgebra::DMatrix;
 
 /// Most storeys of a building: a full damping matrix takes 8 MB.
 pub const MAX_STOREYS: usize = 1000;

@@ -1,11 +1,12 @@
 //! Building and blocks, with their initial state.
 
+use std::sync::Arc;
+
 use crate::error::{Domain, Error, Result};
 use crate::scene::block::Block;
 use crate::scene::building::{Building, GravityEffect};
 use crate::scene::check::{Nth, check, check_length};
 use crate::units::STANDARD_GRAVITY;
-use std::sync::Arc;
 
 /// Building and blocks, with their initial state.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,8 @@
 //! Checks of input, and how they name what they refuse.
 
-use crate::error::{Domain, Error, Result};
 use std::fmt::{Display, Formatter};
+
+use crate::error::{Domain, Error, Result};
 
 /// A storey, floor or block by its index, named by its number where an error is written: a grid has a scene per row,
 /// and names formed in advance would cost more than its checks.

@@ -1,7 +1,8 @@
 //! Ground acceleration.
 
-use crate::error::{Domain, Error, Result};
 use std::sync::Arc;
+
+use crate::error::{Domain, Error, Result};
 
 /// Longest motion a run takes (samples): 0.8 GB.
 pub const MAX_SAMPLES: usize = 100_000_000;

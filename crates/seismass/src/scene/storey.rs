@@ -1,10 +1,11 @@
 //! A storey's lateral spring, and its law.
 
+use std::fmt::Display;
+use std::sync::Arc;
+
 use crate::error::Result;
 use crate::scene::check::check;
 use crate::tolerances::SAME_SLOPE;
-use std::fmt::Display;
-use std::sync::Arc;
 
 /// Most points of a multilinear backbone.
 pub const MAX_BACKBONE_POINTS: usize = 100;

@@ -1,10 +1,11 @@
 //! The regimes that a run or a batch has met, with their steps.
 
-use rustc_hash::FxBuildHasher;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::ops::Deref;
 use std::rc::Rc;
+
+use rustc_hash::FxBuildHasher;
 
 use crate::lanes::{MAX_DENSE, WIDTH};
 use crate::machines::model::Model;

@@ -26,8 +26,7 @@ use crate::lanes::{Symmetric, Vector, WIDTH, filled_to, for_each_path};
 use crate::machines::model::Model;
 use crate::regime::{Regime, Row};
 use crate::step::banded::whole_blocks;
-use crate::tolerances::BANDED_PHASE;
-use crate::tolerances::BELOW_ROUNDING;
+use crate::tolerances::{BANDED_PHASE, BELOW_ROUNDING};
 
 /// Rows of a product that are formed together: two vectors.
 const PANEL: usize = 2 * WIDTH;

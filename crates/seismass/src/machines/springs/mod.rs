@@ -5,14 +5,15 @@ mod gap;
 mod masing;
 mod peak_oriented;
 
+use crate::machines::segment::SpringMachine;
+use crate::scene::{self, Storey};
+
 use flag_shaped::FlagShaped;
 use gap::Gap;
-pub(crate) use masing::Element;
 use masing::Masing;
 use peak_oriented::PeakOriented;
 
-use crate::machines::segment::SpringMachine;
-use crate::scene::{self, Storey};
+pub(crate) use masing::Element;
 
 /// A spring of any law.
 #[derive(Debug, Clone, PartialEq)]

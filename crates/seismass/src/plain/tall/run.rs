@@ -25,9 +25,7 @@ use crate::state::accelerations::turned;
 use crate::step::banded::{BandedStart, BandedStep, whole_blocks};
 use crate::step::full::{FullStep, Shears};
 use crate::step::tall::TallStep;
-use crate::tolerances::BELOW_ROUNDING;
-use crate::tolerances::NO_CONTACT;
-use crate::tolerances::SMALL_DIFFERENCE;
+use crate::tolerances::{BELOW_ROUNDING, NO_CONTACT, SMALL_DIFFERENCE};
 use crate::units::STANDARD_GRAVITY;
 
 /// Sums of each value and all below it.
