@@ -28,8 +28,12 @@ ifeq ($(filter-out --quick,$(BENCH_OPTIONS)),)
 	$(BENCH_VENV)/bin/python benchmarks/study.py $(BENCH_OPTIONS)
 	$(BENCH_VENV)/bin/python benchmarks/performance.py $(BENCH_OPTIONS)
 	$(PYTHON) benchmarks/effective_mass.py --map
+	$(BENCH_VENV)/bin/python benchmarks/spring_loops.py
+	$(PYTHON) tools/spring_loops_page.py
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/ground_motions.py $(BENCH_OPTIONS)
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/matching.py $(BENCH_OPTIONS)
+	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/validation.py
+	[ -z "$$SEISMASS_SHARED" ] || $(PYTHON) tools/validation_page.py
 endif
 	$(BENCH_VENV)/bin/python benchmarks/work_precision.py $(BENCH_OPTIONS)
 
@@ -63,7 +67,7 @@ test-rust:
 	cargo test --locked --workspace --exclude seismass-python
 
 # Two processes, a file's tests in one of them: they share its fixtures.
-test-python: build
+test-python: build $(VENV)/browser
 	$(PYTHON) -m pytest --numprocesses 2 --dist loadfile
 
 test-wheel: build
@@ -97,6 +101,10 @@ $(VENV)/installed: $(VENV)/created pyproject.toml
 	$(PYTHON) -m pip install --quiet --upgrade 'pip>=25.1'
 	$(PYTHON) -m pip install --quiet --group dev
 	@touch $@
+
+# Without it, or without a Chromium on the path, the tests that open pages are skipped with a word.
+$(VENV)/browser: $(VENV)/installed
+	@$(PYTHON) -m pip install --quiet --group browser && touch $@ || echo "no Playwright: pages are not opened" >&2
 
 $(BENCH_VENV)/made: tools/find-python tools/make-bench-env benchmarks/requirements.txt
 	sh tools/make-bench-env $(BENCH_VENV)

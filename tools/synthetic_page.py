@@ -17,10 +17,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import seismass as sm
+from seismass.plots.style import BLUE, GREY, INK, STYLE, VERMILION
 from seismass.records.synthetic.files import ALL_RECIPES
 from seismass.records.synthetic.seven import Recipe
 from seismass.records.synthetic.site import SITE_RECIPES
-from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION, save_figure
+from seismass.report.figures import save_figure
 from seismass.report.findings import findings
 from seismass.study import run_study
 

@@ -1,6 +1,10 @@
 """How much of a building's live load acts as mass in an earthquake: exact sliding-block shear-building simulation."""
 
-from seismass import _kernel
+import importlib
+from typing import TYPE_CHECKING
+
+from seismass import _kernel, design
+from seismass.animation import Animation, animate
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
 from seismass.block import Block, blocks_on_floors
@@ -81,10 +85,22 @@ from seismass.spectra import InelasticSpectrum, TargetSpectrum, inelastic_spectr
 from seismass.spring_path import SpringPath, spring_forces
 from seismass.units import STANDARD_GRAVITY
 
+if TYPE_CHECKING:
+    from seismass import plots
+else:
+
+    def __getattr__(name):
+        """Return the module of figures, which is imported when it is first used: matplotlib is slow to import."""
+        if name == "plots":
+            return importlib.import_module("seismass.plots")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
 __version__ = _kernel.VERSION
 
 __all__ = [
     "STANDARD_GRAVITY",
+    "Animation",
     "Assessment",
     "Block",
     "Building",
@@ -129,6 +145,7 @@ __all__ = [
     "SyntheticParameters",
     "TargetSpectrum",
     "__version__",
+    "animate",
     "assess",
     "attached_scene",
     "baker2007",
@@ -140,6 +157,7 @@ __all__ = [
     "catalogue",
     "code_fraction",
     "code_table",
+    "design",
     "effective_mass",
     "effective_mass_map",
     "effective_mass_of_design",
@@ -157,6 +175,7 @@ __all__ = [
     "match_spectrum",
     "match_suite",
     "mean_spectrum",
+    "plots",
     "read_building",
     "read_pair",
     "read_record",

@@ -386,6 +386,11 @@ class Building(Value):
             "mass_is_stated": self.mass_is_stated,
         }
 
+    def _repr_html_(self) -> str:
+        from seismass.sketches.buildings import building_html
+
+        return building_html(self)
+
     def __repr__(self) -> str:
         elastic = bool(np.isinf(self.yield_shear).all()) and not self.laws
         springs = (

@@ -10,10 +10,22 @@ import sys
 from collections.abc import Sequence
 
 from seismass import __version__
-from seismass.commands import building, effective_map, match, pulse, records, run, scale, spectrum, study
+from seismass.commands import (
+    animate,
+    building,
+    effective_map,
+    match,
+    pulse,
+    records,
+    run,
+    scale,
+    spectrum,
+    study,
+    validate,
+)
 from seismass.errors import SeismassError
 
-COMMANDS = (building, effective_map, study, run, records, spectrum, scale, match, pulse)
+COMMANDS = (building, effective_map, study, run, animate, records, spectrum, scale, match, pulse, validate)
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""

@@ -16,7 +16,7 @@ from seismass.block import Block
 from seismass.building import Building
 from seismass.codes import CodeFraction
 from seismass.damping import DEFAULT_DAMPING
-from seismass.design import Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
+from seismass.design import THETA_CAP, Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
 from seismass.errors import InvalidOption
 from seismass.scene import Scene
 from seismass.spectra import TargetSpectrum
@@ -24,10 +24,8 @@ from seismass.units import STANDARD_GRAVITY
 
 DEFAULT_DRIFT_LIMIT: Final = 0.020
 """Allowable drift ratio: ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II."""
-DEFAULT_THETA_LIMIT: Final = 0.25
+DEFAULT_THETA_LIMIT: Final = THETA_CAP
 """Largest stability coefficient of ASCE/SEI 7-10, 12.8.7: 0.5/(beta C_d), at most 0.25."""
-THETA_THRESHOLD: Final = 0.10
-"""Stability coefficient up to which P-Delta need not be considered, ASCE/SEI 7-10, 12.8.7."""
 
 
 @dataclass(frozen=True)

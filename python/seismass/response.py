@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Final, TypedDict, cast
+from typing import TYPE_CHECKING, Any, Final, TypedDict, cast
 
 import numpy as np
 import polars as pl
@@ -12,6 +12,14 @@ from seismass import _kernel
 from seismass._values import FloatArray, frozen, refusal
 from seismass.errors import InvalidOption
 from seismass.forks import require_polars
+from seismass.motion import Motion
+from seismass.scene import Scene
+
+if TYPE_CHECKING:
+    from seismass.animation import Animation
+    from seismass.codes import Use
+    from seismass.plots.accessor import ResponsePlots
+    from seismass.records import Record
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
 """Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""
@@ -62,18 +70,37 @@ class Response:
     """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
 
     Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
-    `simulate` was asked for them, energies and events likewise. Responses pickle, and compare by content.
+    `simulate` was asked for them, energies and events likewise. Responses pickle with their scene and motion, and are
+    equal where their numbers are, whatever scene and motion these came from.
     """
 
-    __slots__ = ("_dt", "_heights", "_known", "_run")
+    __slots__ = ("_known", "_run", "motion", "record", "scene")
     _run: _kernel.Response | None
     _known: dict[str, Any]
+    scene: Scene
+    """The scene that was solved."""
+    motion: Motion
+    """The motion that it was solved under, with the duration of the run."""
+    record: Record | None
+    """The record that was given as the motion, whole; None where it was a `Motion`."""
 
-    def __init__(self, run: _kernel.Response, dt: float, heights: FloatArray | None) -> None:
+    def __init__(self, run: _kernel.Response, scene: Scene, motion: Motion, record: Record | None) -> None:
         self._run = run
         self._known = {}
-        self._dt = dt
-        self._heights = heights
+        self.scene = scene
+        self.motion = motion
+        self.record = record
+
+    @property
+    def plot(self) -> ResponsePlots:
+        """Figures of the response: `response.plot.drift()` and the other functions of `seismass.plots`."""
+        from seismass.plots.accessor import ResponsePlots  # matplotlib is slow to import
+
+        return ResponsePlots(self)
+
+    @property
+    def _heights(self) -> FloatArray | None:
+        return None if self.scene.building is None else self.scene.building.heights
 
     def _get(self, name: str) -> Any:
         """Return what the kernel holds under a name, converted once."""
@@ -180,7 +207,7 @@ class Response:
         """Times of the rows of the histories, shape (rows,)."""
         if "time" not in self._known:
             every = self._asked("time", "histories", stored="every")
-            self._known["time"] = frozen(np.arange(len(self.drift)) * every * self._dt)
+            self._known["time"] = frozen(np.arange(len(self.drift)) * every * self.motion.dt)
         return self._array("time")
 
     @property
@@ -285,6 +312,27 @@ class Response:
         """Work done by the kernel (intervals, steps, events, regimes), what was skipped, and the instructions used."""
         return cast(Statistics, {**self._get("statistics"), "instructions": self._get("instructions")})
 
+    def animate(
+        self, *, code: str = "asce7-10", use: Use = "storage", fraction: float | None = None, title: str | None = None
+    ) -> Animation:
+        """Return the animation of this run beside the model of a code, as `animate` makes it of scene and motion.
+
+        Parameters
+        ----------
+        code, use, fraction, title
+            As for `animate`.
+
+        Returns
+        -------
+        Animation
+            To be shown in a notebook, or written as a page, a GIF or a film. No histories need to have been kept.
+        """
+        from seismass.animation import animate
+
+        name = "" if self.record is None else self.record.name
+        note = ", ".join(part for part in (self.scene.note, name) if part)
+        return animate(self.scene, self.motion, code=code, use=use, fraction=fraction, title=title, note=note)
+
     def _array(self, name: str) -> FloatArray:
         array: FloatArray = self._get(name)
         return array
@@ -302,7 +350,7 @@ class Response:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Response):
             return NotImplemented
-        if self._dt != other._dt or not _same(self._heights, other._heights):
+        if self.motion.dt != other.motion.dt or not _same(self._heights, other._heights):
             return False
         mine, theirs = self._everything(), other._everything()
         return all(_same(mine[name], theirs[name]) for name in _KERNEL_VALUES)
@@ -310,7 +358,7 @@ class Response:
     __hash__ = None  # type: ignore[assignment]
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"known": self._everything(), "dt": self._dt, "heights": self._heights}
+        return {"known": self._everything(), "scene": self.scene, "motion": self.motion, "record": self.record}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._run = None
@@ -318,8 +366,14 @@ class Response:
         for value in self._known.values():
             if isinstance(value, np.ndarray):
                 value.setflags(write=False)
-        self._dt = state["dt"]
-        self._heights = state["heights"]
+        self.scene = state["scene"]
+        self.motion = state["motion"]
+        self.record = state["record"]
+
+    def _repr_html_(self) -> str:
+        from seismass.sketches.results import response_html
+
+        return response_html(self)
 
     def __repr__(self) -> str:
         collapsed = f", storey {self.collapsed_storey}" if self.collapsed_storey is not None else ""

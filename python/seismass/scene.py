@@ -167,6 +167,11 @@ class Scene(Value):
             *(None if array is None else (array + 0.0).tobytes() for array in arrays),
         )
 
+    def _repr_html_(self) -> str:
+        from seismass.sketches.buildings import scene_html
+
+        return scene_html(self)
+
     def __repr__(self) -> str:
         name = f"{self.name!r}, " if self.name else ""
         blocks = {0: "no block", 1: "1 block"}.get(len(self.blocks), f"{len(self.blocks)} blocks")

@@ -6,6 +6,7 @@ from seismass import _kernel
 from seismass._values import as_count, brief, refusal
 from seismass.errors import InvalidOption, InvalidScene
 from seismass.motion import MotionLike, as_motion
+from seismass.records.record import Record
 from seismass.response import Response
 from seismass.scene import Scene
 
@@ -72,7 +73,7 @@ def simulate(
         else as_count(histories, "histories", "simulate", InvalidOption, least=1)
     )
     run = _kernel.simulate(scene._kernel, chosen._kernel, every, bool(displacements_only), bool(energy), bool(events))
-    return Response(run, chosen.dt, None if scene.building is None else scene.building.heights)
+    return Response(run, scene, chosen, motion if isinstance(motion, Record) else None)
 
 
 def instruction_set() -> str:

@@ -8,9 +8,10 @@ from typing import Any, Final
 import polars as pl
 
 from seismass.assessment.models import ADVISED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW, REALS
+from seismass.design import THETA_THRESHOLD
 from seismass.effective_mass import EffectiveMass
 from seismass.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
-from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, THETA_THRESHOLD, OwnBuilding
+from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
 from seismass.scaling import ScalingResult
 from seismass.scene import Scene
@@ -272,7 +273,7 @@ def _about_limits(building: OwnBuilding) -> list[str]:
         theta = "ASCE/SEI 7-10, 12.8.7, 0.5/(beta C_d) and at most 0.25"
     return [
         f"Limits: drift ratio {building.drift_limit:g} ({drift}), stability coefficient {building.theta_limit:g} "
-        f"({theta}); clauses from memory, unverified. Drifts are nonlinear: no C_d is applied; V is the spring force."
+        f"({theta}). Drifts are nonlinear: no C_d is applied; V is the spring force."
     ]
 
 

@@ -132,6 +132,11 @@ class EffectiveMass:
         ]
         return "\n".join([*lines, *(f"remark              {remark}" for remark in self.remarks)])
 
+    def _repr_html_(self) -> str:
+        from seismass.sketches.results import effective_mass_html
+
+        return effective_mass_html(self)
+
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the curve as plain values; null for what is no finite number."""
         names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]

@@ -346,7 +346,7 @@ class Record(Value):
         return record_figure(self, figure=figure, axes=axes)
 
     def _repr_html_(self) -> str:
-        from seismass.report.record_html import record_html
+        from seismass.sketches.records import record_html
 
         return record_html(self)
 

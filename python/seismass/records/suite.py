@@ -103,6 +103,11 @@ class Suite:
     def __getitem__(self, index: int) -> Record:
         return self.records[index]
 
+    def _repr_html_(self) -> str:
+        from seismass.sketches.motions import suite_html
+
+        return suite_html(self)
+
     def table(self) -> pl.DataFrame:
         """Return one row per file, those taken first, in order, then those left out with the reason."""
         schema = {

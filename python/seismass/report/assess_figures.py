@@ -17,11 +17,9 @@ from seismass.assessment.advice import NAMES
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
 from seismass.assessment.result import Assessment
 from seismass.effective_mass import EffectiveMass
+from seismass.plots.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
 from seismass.report.effective_figures import STORAGE_CODES
-from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION
 
-SKY: Final = "#56B4E9"
-GREEN: Final = "#009E73"
 PURPLE: Final = "#CC79A7"
 DASH: Final = (0, (5, 2))
 DOT: Final = (0, (1, 1.5))

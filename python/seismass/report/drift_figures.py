@@ -9,17 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.report.figures import (
-    BLUE,
-    GREEN,
-    GREY,
-    LEAST_WIDTH,
-    VERMILION,
-    labels_of,
-    occupancy_title,
-    plain,
-    suite_caption,
-)
+from seismass.plots.style import ALPHA, BLUE, GREEN, GREY, LAMBDA, MU, VERMILION, plain
+from seismass.report.figures import LEAST_WIDTH, labels_of, occupancy_title, suite_caption
 from seismass.study import Model, StudyResult
 
 LOOKS: Final[dict[Model, dict[str, Any]]] = {
@@ -67,7 +58,7 @@ def drift_figure(result: StudyResult, factor: float, mu: float) -> Figure:
         axes_row[0].set_yticks(range(1, storeys + 1))
         axes_row[0].set_ylabel(f"{storeys} storeys, {period:g} s\n\nstorey")
     for axes, (occupancy, design, analysis, alpha) in zip(grid[0], columns, strict=True):
-        axes.set_title(f"{occupancy_title(occupancy, design, analysis)}\n" + rf"$\alpha$ = {alphas[alpha]}")
+        axes.set_title(f"{occupancy_title(occupancy, design, analysis)}\n" + f"{ALPHA} = {alphas[alpha]}")
     for axes in grid[-1]:
         axes.set_xlabel("mean peak drift (mm)")
     behaviour = " (elastic)" if factor == 1.0 and not result.metadata["parameters"]["yield_at_r1"] else ""
@@ -75,11 +66,11 @@ def drift_figure(result: StudyResult, factor: float, mu: float) -> Figure:
     texts: dict[Model, str] = {
         "real": "real: blocks may slide",
         "attached": "attached: all of the block mass, none slides",
-        "code": rf"code, {code}: $\lambda$ of the block mass attached",
+        "code": f"code, {code}: {LAMBDA} of the block mass attached",
     }
     handles = [Line2D([], [], label=text, **LOOKS[model]) for model, text in texts.items()]
     handles.append(Line2D([], [], linestyle="", label="numbers: underestimation (real \N{EN DASH} code) / code, %"))
-    friction = rf", $\mu$ = {mu:g}" if result.summary["mu"].n_unique() > 1 else ""
+    friction = f", {MU} = {mu:g}" if result.summary["mu"].n_unique() > 1 else ""
     title = f"R = {label}{behaviour}{friction}"
     legend = figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False, title=title)
     legend.get_title().set_fontsize(11.0)

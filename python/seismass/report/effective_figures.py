@@ -14,9 +14,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from seismass.codes import code_fraction
 from seismass.effective_mass.result import EffectiveMass
-from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION
+from seismass.plots.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
 
-GREEN: Final = "#009E73"
 _MARKED: Final = {
     "asce7-10": "ASCE 7",
     "nsr-10": "NSR-10",

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
 from seismass.effective_mass.design_map import EffectiveMassMap
-from seismass.report.effective_figures import GREEN, STORAGE_CODES
-from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION
+from seismass.plots.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.report.effective_figures import STORAGE_CODES
 
 LONGEST_ETA: Final = 2.2
 """Largest eta that the figure shows; beyond it the fraction is 1."""

@@ -13,16 +13,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from seismass._values import FloatArray, counted
-from seismass.report.figures import (
-    BLUE,
-    CAPTION_CHARACTERS,
-    GREY,
-    INK,
-    PERIOD_TICKS,
-    STYLE,
-    VERMILION,
-    plain,
-)
+from seismass.plots.style import BLUE, GREY, INK, PERIOD_TICKS, STYLE, VERMILION, plain
+from seismass.report.figures import CAPTION_CHARACTERS
 from seismass.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

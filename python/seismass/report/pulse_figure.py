@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from seismass._values import FloatArray
+from seismass.plots.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION, plain
 from seismass.pulses.extraction import CENTIMETRES, cumulative_share
 from seismass.pulses.limits import ARRIVAL, LEAST_PGV, NO_PULSE_BELOW, PULSE_ABOVE
 from seismass.pulses.result import BAKER, Candidate, OrientationScan, PulseResult
-from seismass.report.figures import BLUE, GREEN, GREY, INK, STYLE, VERMILION, plain
 
 _PULSE_STYLE = (0, (5, 2))
 _SHOWN = 0.999

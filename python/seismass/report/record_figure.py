@@ -13,8 +13,9 @@ from matplotlib.figure import Figure, SubFigure
 
 from seismass._values import FloatArray, brief, refusal
 from seismass.errors import InvalidOption
+from seismass.plots.style import BLUE, GREY, INK, STYLE, VERMILION, plain
 from seismass.records.intensity import build_up, drift_remarks, time_of_share
-from seismass.report.figures import BLUE, CAPTION_CHARACTERS, GREY, INK, STYLE, VERMILION, plain
+from seismass.report.figures import CAPTION_CHARACTERS
 from seismass.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from seismass._values import FloatArray
-from seismass.report.figures import BLUE, GREEN, GREY, PERIOD_TICKS, VERMILION, plain
+from seismass.plots.style import BLUE, GREEN, GREY, PERIOD_TICKS, VERMILION, plain
 from seismass.scaling.result import ScalingResult
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.units import STANDARD_GRAVITY

@@ -6,8 +6,9 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from seismass.plots.style import BLUE, ETA, GREEN, GREY, INK, ORANGE, PURPLE, SKY, STYLE, VERMILION, lay_out, plain
 from seismass.report.drift_figures import drift_figure
-from seismass.report.figures import BLUE, GREEN, GREY, STYLE, VERMILION, labels_of, spectrum_figure, suite_caption
+from seismass.report.figures import labels_of, spectrum_figure, suite_caption
 from seismass.report.underestimation_figure import underestimation_figure
 from seismass.study import StudyResult
 
@@ -28,12 +29,13 @@ def study_figures(result: StudyResult) -> dict[str, Figure]:
         for mu, name in frictions.items():
             behind = f"_mu{name}" if len(frictions) > 1 else ""
             figures[f"underestimation{behind}"] = underestimation_figure(result, mu)
+            first = None
             for factor, label in factors.items():
-                figures[f"drift_R{label}{behind}"] = drift_figure(result, factor, mu)
+                figure = drift_figure(result, factor, mu)
+                figures[f"drift_R{label}{behind}"] = lay_out(figure, like=first)
+                first = first or figure
         for figure in figures.values():
-            # Lay out once, not again for every file.
-            figure.draw_without_rendering()
-            figure.set_layout_engine("none")
+            lay_out(figure)
     return figures
 
 
@@ -42,7 +44,7 @@ def effective_figure(result: StudyResult) -> Figure:
     table = result.fractions.drop_nulls("effective")
     figure = Figure(figsize=(6.4, 4.6), layout="constrained")
     axes = figure.add_subplot()
-    colours = (VERMILION, BLUE, GREEN, "#CC79A7", "#E69F00", "#56B4E9")
+    colours = (VERMILION, BLUE, GREEN, PURPLE, ORANGE, SKY)
     for position, (factor, label) in enumerate(labels_of(table["R"]).items()):
         here = table.filter(R=factor).unique(["eta", "effective"], maintain_order=True)
         eta, value = here["eta"].to_numpy(), here["effective"].to_numpy()
@@ -60,17 +62,17 @@ def effective_figure(result: StudyResult) -> Figure:
         )
     end = 1.05 * max(1.2, float(table["eta"].filter(table["eta"].is_finite()).max() or 0.0))  # type: ignore[arg-type]
     eta = np.linspace(0.0, end, 400)
-    axes.plot(eta, np.minimum(1.0, eta**2), color="#222222", linewidth=1.8, label=r"min(1, $\eta^2$)")
+    axes.plot(eta, np.minimum(1.0, eta**2), color=INK, linewidth=1.8, label=f"min(1, {ETA}\N{SUPERSCRIPT TWO})")
     rule = np.minimum(1.0, eta)
-    axes.plot(eta, rule, color="#222222", linewidth=1.4, linestyle=(0, (5, 2)), label=r"min(1, $\eta$), conservative")
+    axes.plot(eta, rule, color=INK, linewidth=1.4, linestyle=(0, (5, 2)), label=f"min(1, {ETA}), conservative")
     shares = result.summary.select("occupancy", "lambda_analysis").unique(maintain_order=True).rows()
     for occupancy, share in shares:
         axes.axhline(share, color=GREY, linewidth=1.0, linestyle=(0, (1, 2)))
-        text = f"{result.metadata['code']['name']}, {occupancy}".replace("$", r"\$")
+        text = plain(f"{result.metadata['code']['name']}, {occupancy}")
         axes.annotate(text, (end, share), xytext=(-3, 3), textcoords="offset points", ha="right", fontsize=7.5)
     axes.set_xlim(0.0, end)
     axes.set_ylim(-0.03, 1.06)
-    axes.set_xlabel(r"$\eta$ = friction coefficient over base shear coefficient of the attached model")
+    axes.set_xlabel(f"{ETA} = friction coefficient over base shear coefficient of the attached model")
     axes.set_ylabel("effective fraction of the live load")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=3, frameon=False)

@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from seismass.effective_mass.live_load import LiveLoadUncertainty
-from seismass.report.effective_figures import GREEN, STORAGE_CODES
-from seismass.report.figures import BLUE, GREY, INK, STYLE, VERMILION
+from seismass.plots.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.report.effective_figures import STORAGE_CODES
 
 
 def uncertainty_figure(result: LiveLoadUncertainty) -> Figure:

@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from seismass.report.figures import GREY, INK, LEAST_WIDTH, labels_of, occupancy_title, plain, suite_caption
+from seismass.plots.style import ALPHA, GREY, INK, MU, plain
+from seismass.report.figures import LEAST_WIDTH, labels_of, occupancy_title, suite_caption
 from seismass.study import StudyResult
 
 ALPHA_COLOURS: Final = ("#56B4E9", "#0072B2", "#002B4D")
@@ -69,7 +70,7 @@ def underestimation_figure(result: StudyResult, mu: float) -> Figure:
         Patch(color=GREY, alpha=0.12, linewidth=0.0, label="code gives more drift"),
     ]
     code = plain(result.metadata["code"]["name"])
-    friction = rf", $\mu$ = {mu:g}" if result.summary["mu"].n_unique() > 1 else ""
+    friction = f", {MU} = {mu:g}" if result.summary["mu"].n_unique() > 1 else ""
     figure.legend(
         handles=handles,
         loc="outside upper center",
@@ -83,7 +84,7 @@ def underestimation_figure(result: StudyResult, mu: float) -> Figure:
 
 def _alpha_handle(look: tuple[str, str], label: str) -> Line2D:
     colour, marker = look
-    return Line2D([], [], color=colour, marker=marker, markersize=5.0, linewidth=1.0, label=rf"$\alpha$ = {label}")
+    return Line2D([], [], color=colour, marker=marker, markersize=5.0, linewidth=1.0, label=f"{ALPHA} = {label}")
 
 
 def _looks(count: int) -> list[tuple[str, str]]:

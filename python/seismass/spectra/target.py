@@ -296,6 +296,11 @@ class TargetSpectrum:
         ordinates = self(np.clip(periods, self.shortest, self.longest))
         return float(np.max(ordinates * periods) / np.max(ordinates))
 
+    def _repr_html_(self) -> str:
+        from seismass.sketches.motions import target_html
+
+        return target_html(self)
+
     def __eq__(self, other: object) -> bool:
         """Return whether the other spectrum was made from the same."""
         if not isinstance(other, TargetSpectrum):

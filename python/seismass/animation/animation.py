@@ -1,0 +1,180 @@
+"""`animate` and what it returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from seismass._values import as_number, as_path, brief, refusal
+from seismass.animation.shown import Shown, shown
+from seismass.codes import Use, code_fraction
+from seismass.effective_mass.models import attached_scene
+from seismass.errors import InvalidOption, InvalidScene
+from seismass.files import written_whole
+from seismass.motion import MotionLike, as_motion
+from seismass.scene import Scene
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+SUFFIXES: Final = (".html", ".gif", ".mp4")
+"""Kinds of files that an animation is written as."""
+DEFAULT_CODE: Final = "asce7-10"
+"""Code whose share of the live load is attached where none is chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Animation:
+    """An animation of one scene under one motion, as `animate` makes it.
+
+    Attributes
+    ----------
+    title, note : str
+        What it is called, and a line below.
+    scene : Scene
+        The real building.
+    shown : Shown
+        What is drawn.
+    """
+
+    title: str
+    note: str
+    scene: Scene
+    shown: Shown
+
+    def fragment(self) -> Markup:
+        """Return a part of a page, with its style and script; any number of them may be in one page.
+
+        Its style applies to it alone, and its script to the element that the script stands in. `page_html` of
+        `seismass.report.page` names the script in the policy of the page.
+        """
+        from seismass.animation.html import fragment
+
+        return fragment(self)
+
+    def html(self) -> str:
+        """Return a page that needs nothing but itself: play, pause, scrub, speed, and the same by keys."""
+        from seismass.animation.html import page
+
+        return page(self)
+
+    def write(self, path: str | Path, *, frames_per_second: float | None = None, speed: float = 1.0) -> None:
+        """Write a page (.html), a GIF (.gif) or a film (.mp4, which needs ffmpeg).
+
+        Parameters
+        ----------
+        path : path-like
+            The file; its suffix decides.
+        frames_per_second : float, optional
+            Of a GIF (default 12.5, at most 50) or a film (default 25). A page draws as often as its screen.
+        speed : float, default 1
+            Time that passes in a GIF or film in a second.
+
+        Raises
+        ------
+        InvalidOption
+            Another suffix, or numbers that are out of range or have no meaning for a page.
+        MissingPackage
+            There is no ffmpeg to make a film with.
+        OSError
+            The file cannot be written.
+        """
+        target = as_path(path, "animation", InvalidOption)
+        suffix = target.suffix.lower()
+        if suffix not in SUFFIXES:
+            raise refusal(InvalidOption, "suffix", "animation", f"one of {', '.join(SUFFIXES)}", brief(target.suffix))
+        if suffix == ".html":
+            if frames_per_second is not None or speed != 1.0:
+                requirement = "left out for a page, which has a choice of speeds"
+                raise refusal(InvalidOption, "frames_per_second or speed", "animation", requirement, "a number")
+            with written_whole(target) as temporary:
+                temporary.write_text(self.html(), encoding="utf-8")
+            return
+        from seismass.animation.film import write_film
+
+        write_film(self, target, frames_per_second, speed)
+
+    def _repr_html_(self) -> str:
+        """A frame of its own, so that a notebook's style and script and those of the page do not meet."""
+        return (
+            f'<iframe srcdoc="{escape(self.html())}" sandbox="allow-scripts" title="{escape(self.title)}" '
+            'style="width:100%;height:56rem;border:0"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        runs = " and ".join(run.label for run in self.shown.runs)
+        seconds = (self.shown.rows - 1) * self.shown.step
+        return f"Animation({self.title!r}, {runs}, {seconds:g} s, {self.shown.rows} rows)"
+
+
+def animate(
+    scene: Scene,
+    motion: MotionLike,
+    *,
+    code: str = DEFAULT_CODE,
+    use: Use = "storage",
+    fraction: float | None = None,
+    title: str | None = None,
+    note: str | None = None,
+) -> Animation:
+    """Solve a scene, and the model of a code beside it, and return their animation.
+
+    The model has a share of the goods attached to the floors as mass and nothing that slides; stiffness, strength,
+    damping and gravity load are those of the real building (`attached_scene`). A scene without goods on a floor is
+    shown alone.
+
+    Parameters
+    ----------
+    scene : Scene
+        Building and blocks, or blocks on the ground.
+    motion : Motion or Record
+        Ground motion.
+    code : str, default "asce7-10"
+        Code whose share of the live load the model has, as `code_fraction` takes it.
+    use : {"storage", "ordinary"}
+        Use of the floors, for the code.
+    fraction : float, optional
+        A share in place of the code's, from 0 to 1. Blocks are taken as the whole live load.
+    title, note : str, optional
+        What it is called, and a line below; by default the names of scene and record.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption
+        An argument is not what it must be.
+    SimulationError
+        A run could not be carried to its end.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> building = sm.Building.uniform(2, 0.4, yield_shear_over_weight=[0.3, 0.2])
+    >>> scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0], mu=0.2))
+    >>> animation = sm.animate(scene, sm.builtin_record("synthetic-1"), fraction=0.25)
+    >>> len(animation.html()) < 150_000
+    True
+    """
+    if not isinstance(scene, Scene):
+        raise refusal(InvalidScene, "scene", "animation", "a Scene", brief(scene))
+    chosen = as_motion(motion, "motion", "animation")
+    scenes: list[tuple[str, float | None, Scene]] = [
+        ("real building" if scene.building else "blocks on the ground", None, scene)
+    ]
+    if any(floor > 0 for floor in scene.block_floor):
+        if fraction is None:
+            row = code_fraction(code, use)
+            share, label = row.fraction, f"{row.code} model"
+        else:
+            share, label = as_number(fraction, "fraction", "animation", InvalidOption), "model"
+            if not 0.0 <= share <= 1.0:
+                raise refusal(InvalidOption, "fraction", "animation", "between 0 and 1", f"{share:g}")
+        scenes.append((label, share, attached_scene(scene, share)))
+    source: Any = getattr(motion, "name", "")
+    return Animation(
+        title=title if title is not None else scene.name or "Animation of a building",
+        note=note if note is not None else ", ".join(part for part in (scene.note, str(source)) if part),
+        scene=scene,
+        shown=shown(scenes, chosen),
+    )

@@ -1,0 +1,86 @@
+"""`seismass animate SCENE`: a building with goods that slide beside the model of a code, as a page, a GIF or a film."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any, get_args
+
+from seismass.codes import Use
+from seismass.commands.options import check_files, positive_option
+from seismass.errors import InvalidOption, SimulationError
+
+_EPILOG = """examples:
+  seismass animate --example
+  seismass animate scene.toml
+  seismass animate scene.toml --code ec8 --out scene.gif
+  seismass animate scene.toml --fraction 0.5 --out scene.mp4 --speed 0.5
+
+docs/scene_file.md explains the keys of a scene file, docs/animation.md what is shown. A page (.html) needs nothing but
+itself; a film (.mp4) needs ffmpeg on the path.
+exit codes: 0 done (a collapse is a result), 1 the run failed, 2 bad input"""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the subcommand to those of the `seismass` command."""
+    parser = subparsers.add_parser(
+        "animate",
+        help="animate one scene file",
+        description="Animate a scene file: the building sways and its goods slide, beside the model of a code, which "
+        "has a share of them attached as mass, above the histories of record, drift and slip.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("scene", type=Path, nargs="?", metavar="SCENE", help="scene file, .toml or .json")
+    what.add_argument("--example", action="store_true", help="the built-in example: three storeys of storage")
+    parser.add_argument(
+        "--out",
+        type=Path,
+        metavar="FILE",
+        help="file to write, .html, .gif or .mp4 (the name of the scene file with .html, in this folder)",
+    )
+    parser.add_argument(
+        "--code", metavar="ID", help="code whose share is attached, as seismass building --codes lists them"
+    )
+    parser.add_argument("--use", choices=get_args(Use), help="use of the floors, for the code (storage)")
+    parser.add_argument("--fraction", type=float, metavar="SHARE", help="a share in place of a code's, from 0 to 1")
+    parser.add_argument(
+        "--fps", type=positive_option, metavar="N", help="frames per second of a GIF (12.5) or film (25)"
+    )
+    parser.add_argument("--speed", type=positive_option, default=1.0, metavar="X", help="speed of a GIF or film (1)")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Write the animation; return the exit code: 1 if a run failed. Bad input is raised."""
+    from seismass.animation import animate
+    from seismass.records.builtin import data_directory
+    from seismass.scene_file import read_scene
+
+    if args.fraction is not None and (args.code is not None or args.use is not None):
+        raise InvalidOption("--fraction of seismass animate must be left out with --code or --use; got both")
+    scene: Path = data_directory() / "examples" / "storage.toml" if args.example else args.scene
+    target = args.out or Path(scene.name).with_suffix(".html")
+    check_files(target)
+    file = read_scene(scene)
+    for remark in file.remarks:
+        print(f"seismass: {remark}", file=sys.stderr)
+    chosen = {"code": args.code, "use": args.use, "fraction": args.fraction}
+    note = ", ".join(part for part in (file.note, *(record.name for record in file.records[:1])) if part)
+    try:
+        animation = animate(
+            file.scene,
+            file.motion,
+            title=file.name or scene.stem,
+            note=note,
+            **{name: value for name, value in chosen.items() if value is not None},
+        )
+    except SimulationError as error:
+        print(f"seismass: run failed: {error}", file=sys.stderr)
+        return 1
+    animation.write(target, frames_per_second=args.fps, speed=args.speed)
+    print("\n".join(animation.shown.sentences))
+    print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
+    return 0

@@ -1,0 +1,279 @@
+"""Equivalent lateral forces: the seismic response coefficient and the distribution of the base shear over height."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Final, Literal, TypeAlias
+
+import numpy as np
+import polars as pl
+from numpy.typing import ArrayLike
+
+from seismass._values import FloatArray, as_number, frozen, known_id, refusal
+from seismass.codes import FROM_MEMORY, VERIFIED
+from seismass.design.modes import positive, positive_of_length
+from seismass.design.spectrum_analysis import moments
+from seismass.errors import InvalidOption
+
+Exponent: TypeAlias = Literal["period", "one", "two"]
+Top: TypeAlias = Literal["none", "period", "eight-percent"]
+
+
+@dataclass(frozen=True)
+class DistributionRule:
+    """How a code distributes the base shear over height: F_x = F_top + (V - F_top) w_x h_x^k / sum of w_i h_i^k.
+
+    Attributes
+    ----------
+    code_id, code : str
+        Short name of the code, as options take it, and its full name.
+    exponent : {"period", "one", "two"}
+        k: 1 up to 0.5 s and 2 from 2.5 s with a line between, or always 1 or 2.
+    top : {"none", "period", "eight-percent"}
+        F_top at the roof alone: none; 0.07 T V above 0.7 s, at most 0.25 V; or 0.08 V.
+    clause : str
+        Where the code says so.
+    status : {"verified", "second-hand", "from memory, unverified"}
+        How the row was checked, as in `code_table`.
+    """
+
+    code_id: str
+    code: str
+    exponent: Exponent
+    top: Top
+    clause: str
+    status: str
+
+
+_RULES: Final = (
+    DistributionRule("asce7-10", "ASCE/SEI 7-10", "period", "none", "12.8.3", VERIFIED),
+    DistributionRule("asce7-16", "ASCE/SEI 7-16", "period", "none", "12.8.3", FROM_MEMORY),
+    DistributionRule("asce7-22", "ASCE/SEI 7-22", "period", "none", "12.8.3", FROM_MEMORY),
+    DistributionRule("bnbc2017", "BNBC 2017, Bangladesh", "period", "none", "2.5.7.4", VERIFIED),
+    DistributionRule("ec8", "Eurocode 8, EN 1998-1", "one", "none", "4.3.3.2.3(3), linear shape", FROM_MEMORY),
+    DistributionRule("nbc", "NBC of Canada", "one", "period", "4.1.8.11", FROM_MEMORY),
+    DistributionRule("ubc-97", "UBC-97", "one", "period", "1630.5", FROM_MEMORY),
+    DistributionRule("nzs1170.5", "NZS 1170.5", "one", "eight-percent", "6.2.1.3", FROM_MEMORY),
+    DistributionRule("as1170.4", "AS 1170.4", "period", "none", "6.3", FROM_MEMORY),
+    DistributionRule("is1893", "IS 1893 (Part 1): 2016", "two", "none", "7.6.3", FROM_MEMORY),
+)
+DISTRIBUTION_CODES: Final = tuple(rule.code_id for rule in _RULES)
+"""Short names of the codes whose distribution is known here."""
+
+
+@dataclass(frozen=True, eq=False)
+class LateralForces:
+    """Equivalent lateral forces of a building.
+
+    Attributes
+    ----------
+    rule : DistributionRule
+        The code, with its clause and how it was checked.
+    base_shear : float
+        V (N).
+    exponent : float
+        k.
+    top_force : float
+        Part of the force at the roof that acts there alone (N).
+    weight : ndarray, shape (floors,)
+        Seismic weights (N).
+    heights : ndarray, shape (storeys,)
+        Storey heights (m).
+    force : ndarray, shape (floors,)
+        Lateral forces F_x (N); they add up to V.
+    shear : ndarray, shape (storeys,)
+        Storey shears (N).
+    overturning : ndarray, shape (storeys,)
+        Overturning moments at the foot of each storey (N m).
+    """
+
+    rule: DistributionRule
+    base_shear: float
+    exponent: float
+    top_force: float
+    weight: FloatArray
+    heights: FloatArray
+    force: FloatArray
+    shear: FloatArray
+    overturning: FloatArray
+
+    def drift(self, stiffness: ArrayLike) -> FloatArray:
+        """Return the elastic storey drifts (m) under the forces, shape (storeys,).
+
+        Parameters
+        ----------
+        stiffness : array_like, shape (storeys,)
+            Storey stiffnesses (N/m).
+
+        Raises
+        ------
+        InvalidScene
+            A stiffness is not positive, or there are not as many as storeys.
+        """
+        return frozen(self.shear / positive_of_length(stiffness, "stiffness", len(self.shear)))
+
+    def table(self) -> pl.DataFrame:
+        """Return one row per storey.
+
+        Returns
+        -------
+        polars.DataFrame
+            storey, from 1; level, the height of its floor above the base (m); weight of that floor (N); share, F_x/V;
+            force (N); shear of the storey (N); overturning at its foot (N m).
+        """
+        return pl.DataFrame(
+            {
+                "storey": list(range(1, len(self.force) + 1)),
+                "level": np.cumsum(self.heights),
+                "weight": self.weight,
+                "share": self.force / self.base_shear,
+                "force": self.force,
+                "shear": self.shear,
+                "overturning": self.overturning,
+            },
+            schema_overrides={"storey": pl.UInt32},
+        )
+
+
+def equivalent_lateral_forces(
+    weight: ArrayLike, heights: ArrayLike, base_shear: float, period: float, *, code_id: str = "asce7-10"
+) -> LateralForces:
+    """Return the distribution of a base shear over height by a code.
+
+    Parameters
+    ----------
+    weight : array_like, shape (floors,)
+        Seismic weight of each floor (N), floor 1 first.
+    heights : array_like
+        Storey heights (m); one number stands for all storeys.
+    base_shear : float
+        V (N).
+    period : float
+        Period of the design (s), on which k and the force at the roof depend.
+    code_id : str
+        One of `DISTRIBUTION_CODES`, in any case.
+
+    Raises
+    ------
+    InvalidScene, InvalidOption
+        An argument is out of its range.
+
+    Examples
+    --------
+    Equal weights and heights, T up to 0.5 s: a triangle, with storey shears as 6 : 5 : 3.
+
+    >>> import seismass as sm
+    >>> found = sm.design.equivalent_lateral_forces([1e6, 1e6, 1e6], 3.5, 0.24 * 3e6, 0.5)
+    >>> (found.shear / 3e6).round(3).tolist()
+    [0.24, 0.2, 0.12]
+    """
+    code = known_id(code_id, DISTRIBUTION_CODES, "code")
+    rule = next(row for row in _RULES if row.code_id == code)
+    w = positive(weight, "weight")
+    h = positive_of_length(heights, "heights", len(w))
+    total, seconds = _positive(base_shear, "base_shear"), _positive(period, "period")
+    k = {"period": exponent_k(seconds), "one": 1.0, "two": 2.0}[rule.exponent]
+    of_period = min(0.07 * seconds, 0.25) if seconds > 0.7 else 0.0
+    top = {"none": 0.0, "period": of_period, "eight-percent": 0.08}[rule.top] * total
+    moment = w * np.cumsum(h) ** k
+    force = (total - top) * moment / moment.sum()
+    force[-1] += top
+    shear = np.cumsum(force[::-1])[::-1]
+    return LateralForces(rule, total, k, top, w, h, frozen(force), frozen(shear), frozen(moments(shear, h)))
+
+
+def exponent_k(period: float) -> float:
+    """Return k of the vertical distribution: 1 up to 0.5 s, 2 from 2.5 s, linear between.
+
+    Parameters
+    ----------
+    period : float
+        Period of the design (s).
+
+    Raises
+    ------
+    InvalidOption
+        The period is not positive.
+
+    Notes
+    -----
+    ASCE/SEI 7-10, 12.8.3 (verified), which allows 2 between as well; BNBC 2017, 2.5.7.4.
+    """
+    return float(np.clip(1.0 + (_positive(period, "period") - 0.5) / 2.0, 1.0, 2.0))
+
+
+def seismic_response_coefficient(
+    s_ds: float,
+    s_d1: float,
+    period: float,
+    reduction: float,
+    *,
+    importance: float = 1.0,
+    s_1: float | None = None,
+    t_l: float = np.inf,
+    minimum: bool = True,
+) -> float:
+    """Return C_s, the base shear over the effective seismic weight.
+
+    Parameters
+    ----------
+    s_ds, s_d1 : float
+        Design spectral accelerations at short periods and at 1 s (g).
+    period : float
+        Period of the design T (s).
+    reduction : float
+        Response modification coefficient R.
+    importance : float
+        Importance factor I_e.
+    s_1 : float, optional
+        Mapped spectral acceleration at 1 s (g); from 0.6 g it gives a further minimum.
+    t_l : float
+        Long-period transition period T_L (s).
+    minimum : bool
+        False leaves out 0.044 S_DS I_e, which need not be considered for drift (12.8.6.1), and 0.01.
+
+    Raises
+    ------
+    InvalidOption
+        An argument is out of its range.
+
+    Notes
+    -----
+    ASCE/SEI 7-10, 12.8.1.1, equations 12.8-2 to 12.8-6 (verified). A period of S_D1/S_DS has both branches.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.design.seismic_response_coefficient(1.0, 0.6, 0.5, 8.0)
+    0.125
+    >>> sm.design.seismic_response_coefficient(1.0, 0.6, 1.0, 8.0)
+    0.075
+    """
+    short, second = _positive(s_ds, "s_ds"), _positive(s_d1, "s_d1")
+    t, longest = _positive(period, "period"), _positive(t_l, "t_l", or_infinite=True)
+    reduced = _positive(reduction, "reduction") / _positive(importance, "importance")
+    limit = second / t if t <= longest else second * longest / t**2
+    found = min(short, limit) / reduced
+    if minimum:
+        found = max(found, 0.044 * short * importance, 0.01)
+    if s_1 is not None and _positive(s_1, "s_1") >= 0.6:
+        found = max(found, 0.5 * s_1 / reduced)
+    return found
+
+
+def distribution_table() -> pl.DataFrame:
+    """Return one row per code whose distribution is known here.
+
+    Returns
+    -------
+    polars.DataFrame
+        Columns as `DistributionRule` has them.
+    """
+    return pl.DataFrame([asdict(rule) for rule in _RULES])
+
+
+def _positive(value: float, name: str, *, or_infinite: bool = False) -> float:
+    number = as_number(value, name, "lateral forces", InvalidOption)
+    if np.isnan(number) or number <= 0.0 or (np.isinf(number) and not or_infinite):
+        raise refusal(InvalidOption, name, "lateral forces", "a positive number", f"{number:g}")
+    return number

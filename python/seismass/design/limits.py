@@ -1,0 +1,301 @@
+"""Drift limits by risk category, the stability coefficient, and the check of storeys against both."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Final
+
+import numpy as np
+import polars as pl
+from numpy.typing import ArrayLike
+
+from seismass._values import FloatArray, as_array, as_number, brief, frozen, known_id, refusal
+from seismass.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
+from seismass.design.modes import positive, positive_of_length
+from seismass.design.systems import known_category
+from seismass.errors import InvalidOption
+
+THETA_THRESHOLD: Final = 0.10
+"""Stability coefficient up to which P-Delta need not be considered: ASCE/SEI 7-10, 12.8.7 (verified)."""
+THETA_CAP: Final = 0.25
+"""Largest limit of the stability coefficient: ASCE/SEI 7-10, equation 12.8-17 (verified)."""
+
+
+@dataclass(frozen=True)
+class DriftLimit:
+    """Allowable drift ratio of a code for one kind of structure and risk category.
+
+    Attributes
+    ----------
+    code_id, code : str
+        Short name of the code, as options take it, and its full name.
+    structure : str
+        Kind of structure, as options take it.
+    risk_category : {"I", "II", "III", "IV"}
+        Risk category; importance class in Eurocode 8.
+    ratio : float
+        Allowable drift over the storey height.
+    of : str
+        The drift that is limited.
+    clause : str
+        Where the code says so.
+    status : {"verified", "second-hand", "from memory, unverified"}
+        How the row was checked, as in `code_table`.
+    note : str
+        Conditions.
+    """
+
+    code_id: str
+    code: str
+    structure: str
+    risk_category: str
+    ratio: float
+    of: str
+    clause: str
+    status: str
+    note: str
+
+
+_CATEGORIES: Final = ("I", "II", "III", "IV")
+_SOFT: Final = (
+    "up to 4 storeys, with interior walls, partitions, ceilings and exterior walls that accommodate the drift; no "
+    "limit for such structures of one storey"
+)
+_ASCE: Final = (
+    ("other", (0.020, 0.020, 0.015, 0.010), "divided by rho for moment frames alone in categories D to F, 12.12.1.1"),
+    ("low-rise-accommodating", (0.025, 0.025, 0.020, 0.015), _SOFT),
+    ("masonry-cantilever-wall", (0.010,) * 4, ""),
+    ("masonry-wall", (0.007,) * 4, ""),
+)
+_EC8_NOTE: Final = "alpha/nu with nu = 0.5 in classes I and II, 0.4 in III and IV; damage limitation"
+_EC8: Final = (
+    ("brittle-partitions", (0.005 / 0.5, 0.005 / 0.5, 0.005 / 0.4, 0.005 / 0.4), _EC8_NOTE),
+    ("ductile-partitions", (0.0075 / 0.5, 0.0075 / 0.5, 0.0075 / 0.4, 0.0075 / 0.4), _EC8_NOTE),
+    ("other", (0.010 / 0.5, 0.010 / 0.5, 0.010 / 0.4, 0.010 / 0.4), _EC8_NOTE + "; partitions that do not interfere"),
+)
+_AMPLIFIED, _DESIGN_FORCE = "C_d times elastic drift over I_e", "elastic drift under the design forces"
+_TABLES: Final = (
+    ("asce7-10", "ASCE/SEI 7-10", "12.12.1, table 12.12-1", VERIFIED, _AMPLIFIED, _ASCE),
+    ("asce7-16", "ASCE/SEI 7-16", "12.12.1, table 12.12-1", FROM_MEMORY, _AMPLIFIED, _ASCE),
+    ("asce7-22", "ASCE/SEI 7-22", "12.12.1, table 12.12-1", FROM_MEMORY, _AMPLIFIED, _ASCE),
+    ("bnbc2017", "BNBC 2017, Bangladesh", "2.5.14.1, table 6.2.21", VERIFIED, _AMPLIFIED, _ASCE),
+    ("ec8", "Eurocode 8, EN 1998-1", "4.4.3.2(1)", SECOND_HAND, "q times elastic drift under the design forces", _EC8),
+    (
+        "nbc",
+        "NBC of Canada",
+        "4.1.8.13(3)",
+        FROM_MEMORY,
+        "R_d R_o times elastic drift over I_E",
+        (("other", (0.025, 0.025, 0.020, 0.010), "III: high importance, IV: post-disaster"),),
+    ),
+    (
+        "nzs1170.5",
+        "NZS 1170.5",
+        "7.5.1",
+        FROM_MEMORY,
+        "drift in the ultimate limit state",
+        (("other", (0.025,) * 4, ""),),
+    ),
+    ("is1893", "IS 1893 (Part 1): 2016", "7.11.1.1", FROM_MEMORY, _DESIGN_FORCE, (("other", (0.004,) * 4, ""),)),
+)
+_LIMITS: Final = tuple(
+    DriftLimit(code_id, code, structure, category, ratio, of, clause, status, note)
+    for code_id, code, clause, status, of, rows in _TABLES
+    for structure, ratios, note in rows
+    for category, ratio in zip(_CATEGORIES, ratios, strict=True)
+)
+DRIFT_LIMIT_CODES: Final = tuple(dict.fromkeys(row.code_id for row in _LIMITS))
+"""Short names of the codes whose drift limits are known here."""
+
+
+def drift_limit(code_id: str, risk_category: str = "II", structure: str = "other") -> DriftLimit:
+    """Return the allowable drift ratio of a code.
+
+    Parameters
+    ----------
+    code_id : str
+        One of `DRIFT_LIMIT_CODES`, in any case.
+    risk_category : {"I", "II", "III", "IV"}
+        Risk category.
+    structure : str
+        Kind of structure; `drift_limit_table` lists those of each code.
+
+    Raises
+    ------
+    InvalidOption
+        There is no such row.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.design.drift_limit("asce7-10", "IV").ratio
+    0.01
+    """
+    code = known_id(code_id, DRIFT_LIMIT_CODES, "code")
+    category = known_category(risk_category)
+    of_code = {row.structure: row for row in _LIMITS if (row.code_id, row.risk_category) == (code, category)}
+    if structure not in of_code:
+        raise refusal(InvalidOption, "structure", f"code {code}", f"one of {', '.join(of_code)}", brief(structure))
+    return of_code[structure]
+
+
+def drift_limit_table() -> pl.DataFrame:
+    """Return one row per code, kind of structure and risk category.
+
+    Returns
+    -------
+    polars.DataFrame
+        Columns as `DriftLimit` has them.
+    """
+    return pl.DataFrame([asdict(row) for row in _LIMITS])
+
+
+def stability_coefficient(load: ArrayLike, drift: ArrayLike, shear: ArrayLike, heights: ArrayLike) -> FloatArray:
+    """Return the stability coefficient theta = P d/(V h) of each storey.
+
+    Parameters
+    ----------
+    load : array_like, shape (storeys,)
+        Vertical load P at and above each storey (N).
+    drift : array_like, shape (storeys,)
+        Elastic drift d under the shears (m). With the amplified drift Delta = C_d d/I_e it is theta C_d/I_e.
+    shear : array_like, shape (storeys,)
+        Storey shear V (N).
+    heights : array_like
+        Storey heights h (m); one number stands for all storeys.
+
+    Raises
+    ------
+    InvalidScene, InvalidOption
+        An argument is out of its range.
+
+    Notes
+    -----
+    ASCE/SEI 7-10, equation 12.8-16, P Delta I_e/(V h C_d), with Delta I_e/C_d = d (verified).
+    """
+    v = positive(shear, "shear")
+    h = positive_of_length(heights, "heights", len(v))
+    p, d = (_not_negative(values, name, len(v)) for values, name in ((load, "load"), (drift, "drift")))
+    return frozen(p * d / (v * h))
+
+
+def stability_limit(c_d: float, *, beta: float = 1.0) -> float:
+    """Return theta_max, the limit of the stability coefficient.
+
+    Parameters
+    ----------
+    c_d : float
+        Deflection amplification factor C_d.
+    beta : float
+        Shear demand over shear capacity of the storey; 1 is conservative.
+
+    Raises
+    ------
+    InvalidOption
+        An argument is not positive.
+
+    Notes
+    -----
+    ASCE/SEI 7-10, equation 12.8-17: 0.5/(beta C_d), at most 0.25 (verified).
+    """
+    factors = [
+        as_number(value, name, "stability limit", InvalidOption) for value, name in ((c_d, "c_d"), (beta, "beta"))
+    ]
+    for value, name in zip(factors, ("c_d", "beta"), strict=True):
+        if not 0.0 < value < np.inf:
+            raise refusal(InvalidOption, name, "stability limit", "a positive number", f"{value:g}")
+    return min(0.5 / (factors[0] * factors[1]), THETA_CAP)
+
+
+def storey_checks(
+    shear: ArrayLike,
+    drift: ArrayLike,
+    heights: ArrayLike,
+    *,
+    c_d: float,
+    importance: float = 1.0,
+    limit: float,
+    load: ArrayLike | None = None,
+    beta: float = 1.0,
+) -> pl.DataFrame:
+    """Return the check of each storey against the drift limit and the limit of the stability coefficient.
+
+    Parameters
+    ----------
+    shear, drift : array_like, shape (storeys,)
+        Storey shears (N) and elastic drifts (m) under the same design forces: those of `LateralForces`, or those of
+        `SpectrumAnalysis.for_design` without a base shear.
+    heights : array_like
+        Storey heights (m); one number stands for all storeys.
+    c_d, importance : float
+        C_d and I_e.
+    limit : float
+        Allowable drift ratio, as `drift_limit` has it.
+    load : array_like, shape (storeys,), optional
+        Vertical load at and above each storey (N); without it stability is not checked.
+    beta : float
+        Shear demand over shear capacity.
+
+    Returns
+    -------
+    polars.DataFrame
+        storey, from 1; elastic_drift and design_drift, C_d times that over I_e (m), not yet amplified for P-Delta;
+        theta, theta_limit; amplification, 1/(1 - theta) where theta is above 0.10, else 1; drift_ratio, the amplified
+        design drift over the height; limit; drift_ok; p_delta: "negligible", "to be considered" or "unstable" (theta
+        above its limit, without an amplification and a drift ratio). What needs the load is null without it.
+
+    Raises
+    ------
+    InvalidScene, InvalidOption
+        An argument is out of its range.
+
+    Notes
+    -----
+    ASCE/SEI 7-10, 12.8.6, 12.8.7 and 12.12.1 (verified). The drift is amplified before it is compared with its limit.
+    """
+    v = positive(shear, "shear")
+    storeys = len(v)
+    h, elastic = positive_of_length(heights, "heights", storeys), _not_negative(drift, "drift", storeys)
+    factor, share = (as_number(value, name, "storey checks", InvalidOption) for value, name in
+                     ((importance, "importance"), (limit, "limit")))  # fmt: skip
+    for value, name in ((factor, "importance"), (share, "limit")):
+        if not 0.0 < value < np.inf:
+            raise refusal(InvalidOption, name, "storey checks", "a positive number", f"{value:g}")
+    theta_limit = stability_limit(c_d, beta=beta)
+    design = c_d * elastic / factor
+    theta = None if load is None else stability_coefficient(load, elastic, v, h)
+    rows = []
+    for i in range(storeys):
+        own = None if theta is None else float(theta[i])
+        unstable = own is not None and own > theta_limit
+        larger = 1.0 if own is None or own <= THETA_THRESHOLD else 1.0 / (1.0 - own)
+        ratio = None if unstable else larger * float(design[i] / h[i])
+        state = None
+        if own is not None:
+            state = "unstable" if unstable else "to be considered" if own > THETA_THRESHOLD else "negligible"
+        rows.append(
+            {
+                "storey": i + 1,
+                "elastic_drift": float(elastic[i]),
+                "design_drift": float(design[i]),
+                "theta": own,
+                "theta_limit": None if own is None else theta_limit,
+                "amplification": None if own is None or unstable else larger,
+                "drift_ratio": ratio,
+                "limit": share,
+                "drift_ok": ratio is not None and ratio <= share,
+                "p_delta": state,
+            }
+        )
+    numbers = dict.fromkeys(("theta", "theta_limit", "amplification", "drift_ratio"), pl.Float64)
+    return pl.DataFrame(rows, schema_overrides={"storey": pl.UInt32, "p_delta": pl.String, **numbers})
+
+
+def _not_negative(values: ArrayLike, name: str, storeys: int) -> FloatArray:
+    array = as_array(values, name, "storeys", InvalidOption)
+    if len(array) != storeys:
+        requirement = f"a list of {storeys} values, one per storey"
+        raise refusal(InvalidOption, name, "storeys", requirement, f"{len(array)} values")
+    if not (np.isfinite(array) & (array >= 0.0)).all():
+        raise refusal(InvalidOption, name, "storeys", "numbers of at least 0", brief(array.tolist()))
+    return array

@@ -1,0 +1,234 @@
+"""Vibration modes of a shear building: periods, shapes, participation and effective masses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias, get_args
+
+import numpy as np
+import polars as pl
+from numpy.typing import ArrayLike
+
+from seismass._values import FloatArray, as_array, as_number, brief, frozen, refusal
+from seismass.errors import InvalidOption, InvalidScene
+
+Combination: TypeAlias = Literal["srss", "cqc"]
+"""How modal peaks are combined: root of the sum of squares, or complete quadratic combination."""
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """Vibration modes of an undamped shear building, longest period first.
+
+    Attributes
+    ----------
+    periods : ndarray, shape (modes,)
+        Natural periods (s).
+    shapes : ndarray, shape (floors, modes)
+        Mode shapes with unit modal mass, positive at the roof.
+    participation : ndarray, shape (modes,)
+        Gamma_n = phi_n^T m 1.
+    effective_mass : ndarray, shape (modes,)
+        Gamma_n^2 (kg); they add up to the mass of the building.
+    """
+
+    periods: FloatArray
+    shapes: FloatArray
+    participation: FloatArray
+    effective_mass: FloatArray
+
+    @property
+    def mass(self) -> float:
+        """Mass of the building (kg): the sum of the effective masses."""
+        return float(self.effective_mass.sum())
+
+    def modes_needed(self, share: float = 0.90) -> int:
+        """Return the number of modes whose effective masses add up to a share of the mass.
+
+        Parameters
+        ----------
+        share : float
+            Share of the mass, above 0 and up to 1. ASCE/SEI 7-10, 12.9.1, and Eurocode 8, 4.3.3.3.1, ask for 0.90.
+
+        Raises
+        ------
+        InvalidOption
+            The share is out of its range.
+        """
+        wanted = as_number(share, "share", "modes", InvalidOption)
+        if not 0.0 < wanted <= 1.0:
+            raise refusal(InvalidOption, "share", "modes", "above 0 and up to 1", f"{wanted:g}")
+        reached = np.cumsum(self.effective_mass) / self.mass >= wanted * (1.0 - 1e-12)
+        return int(np.argmax(reached)) + 1
+
+    def table(self) -> pl.DataFrame:
+        """Return one row per mode.
+
+        Returns
+        -------
+        polars.DataFrame
+            mode, from 1; period (s); frequency (Hz); participation, Gamma_n phi_n at the roof, which does not depend on
+            how shapes are scaled; effective_mass (kg), effective_share, that over the mass, and cumulative_share; and
+            floor_1, floor_2, ..., the shape with 1 at the roof.
+        """
+        roof = self.shapes[-1]
+        columns: dict[str, FloatArray | list[int]] = {
+            "mode": list(range(1, len(self.periods) + 1)),
+            "period": self.periods,
+            "frequency": 1.0 / self.periods,
+            "participation": self.participation * roof,
+            "effective_mass": self.effective_mass,
+            "effective_share": self.effective_mass / self.mass,
+            "cumulative_share": np.cumsum(self.effective_mass) / self.mass,
+        }
+        floors = {f"floor_{number}": row / roof for number, row in enumerate(self.shapes, start=1)}
+        return pl.DataFrame(columns | floors, schema_overrides={"mode": pl.UInt32})
+
+
+def vibration_modes(mass: ArrayLike, stiffness: ArrayLike) -> Modes:
+    """Return the modes of a shear building.
+
+    Parameters
+    ----------
+    mass, stiffness : array_like, shape (storeys,)
+        Floor masses (kg) and storey stiffnesses (N/m), storey 1 first.
+
+    Raises
+    ------
+    InvalidScene
+        The lists differ in length, are empty, or hold a value that is not positive.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> modes = sm.design.vibration_modes([1000.0, 1000.0, 1000.0], [553676.0, 553676.0, 553676.0])
+    >>> modes.periods.round(4)
+    array([0.6   , 0.2141, 0.1482])
+    >>> modes.table()["cumulative_share"].round(3).to_list()
+    [0.914, 0.989, 1.0]
+    """
+    m, k = positive(mass, "mass"), positive(stiffness, "stiffness")
+    if len(m) != len(k):
+        requirement = f"a list of {len(m)} values, one per storey"
+        raise refusal(InvalidScene, "stiffness", "building", requirement, f"{len(k)} values")
+    from scipy.linalg import eigh_tridiagonal  # slow to import
+
+    # M^(-1/2) K M^(-1/2) is symmetric and tridiagonal.
+    diagonal = (k + np.append(k[1:], 0.0)) / m
+    beside = -k[1:] / np.sqrt(m[1:] * m[:-1])
+    squares, vectors = eigh_tridiagonal(diagonal, beside)
+    shapes = vectors / np.sqrt(m)[:, None]
+    shapes = shapes * np.where(shapes[-1] < 0.0, -1.0, 1.0)
+    participation = m @ shapes
+    return Modes(
+        periods=frozen(2.0 * np.pi / np.sqrt(squares)),
+        shapes=frozen(shapes),
+        participation=frozen(participation),
+        effective_mass=frozen(participation**2),
+    )
+
+
+def modal_correlation(periods: ArrayLike, damping: float) -> FloatArray:
+    """Return the CQC correlation of modes of equal damping ratio, shape (modes, modes).
+
+    Parameters
+    ----------
+    periods : array_like, shape (modes,)
+        Natural periods (s).
+    damping : float
+        Ratio of critical damping.
+
+    Notes
+    -----
+    Der Kiureghian (1981), Earthquake Engng Struct. Dyn. 9:419, for equal damping ratios.
+    """
+    t = np.asarray(periods, dtype=np.float64)
+    r = t[:, None] / t[None, :]
+    numerator = 8.0 * damping**2 * (1.0 + r) * r**1.5
+    correlation: FloatArray = numerator / ((1.0 - r**2) ** 2 + 4.0 * damping**2 * r * (1.0 + r) ** 2)
+    return correlation
+
+
+def combined_modes(
+    modal: ArrayLike, periods: ArrayLike, *, combination: Combination = "srss", damping: float = 0.05
+) -> FloatArray:
+    """Return the combined peaks of quantities whose modal peaks are known.
+
+    Parameters
+    ----------
+    modal : array_like, shape (modes, quantities)
+        Peak of each quantity in each mode, with the sign of the mode shape.
+    periods : array_like, shape (modes,)
+        Natural periods (s).
+    combination : {"srss", "cqc"}
+        SRSS, or CQC with equal damping in every mode.
+    damping : float
+        Ratio of critical damping for the correlation of modes in CQC.
+
+    Returns
+    -------
+    ndarray, shape (quantities,)
+        sqrt(sum over modes n, m of r_n rho_nm r_m); rho is the unit matrix for SRSS.
+
+    Raises
+    ------
+    InvalidOption
+        An argument is out of its range, or the shapes do not fit.
+
+    Examples
+    --------
+    Modes of equal period have the correlation 1, so that CQC adds them:
+
+    >>> import seismass as sm
+    >>> sm.design.combined_modes([[3.0], [4.0]], [0.5, 0.5], combination="cqc").round(12).tolist()
+    [7.0]
+    >>> sm.design.combined_modes([[3.0], [4.0]], [0.5, 0.5]).tolist()
+    [5.0]
+    """
+    owner = "modal combination"
+    ratio = checked_combination(combination, damping, owner)
+    peaks = as_array(modal, "modal", owner, InvalidOption, dimensions=2)
+    t = as_array(periods, "periods", owner, InvalidOption)
+    if len(t) != len(peaks):
+        raise refusal(InvalidOption, "periods", owner, f"{len(peaks)} values, one per mode", f"{len(t)} values")
+    if not (np.isfinite(t) & (t > 0.0)).all():
+        raise refusal(InvalidOption, "periods", owner, "positive", brief(t.tolist()))
+    return combine(peaks, t, combination, ratio)
+
+
+def combine(modal: FloatArray, periods: FloatArray, combination: Combination, damping: float) -> FloatArray:
+    """Return the combined peaks, shape (quantities,), of checked arguments."""
+    correlation = np.eye(len(periods)) if combination == "srss" else modal_correlation(periods, damping)
+    return frozen(np.sqrt(np.maximum(np.einsum("ni,nm,mi->i", modal, correlation, modal), 0.0)))
+
+
+def checked_combination(combination: str, damping: float, owner: str) -> float:
+    """Return the damping ratio; an unknown combination and a ratio out of range are refused."""
+    if combination not in get_args(Combination):
+        raise refusal(InvalidOption, "combination", owner, "srss or cqc", brief(combination))
+    ratio = as_number(damping, "damping", owner, InvalidOption)
+    if not 0.0 < ratio < 1.0:
+        raise refusal(InvalidOption, "damping", owner, "above 0 and below 1", f"{ratio:g}")
+    return ratio
+
+
+def positive(values: ArrayLike, name: str) -> FloatArray:
+    """Return one positive number per storey; an empty list and other values are refused."""
+    array = as_array(values, name, "building", InvalidScene)
+    if len(array) == 0:
+        raise refusal(InvalidScene, name, "building", "a list of at least one value", "none")
+    for number, value in enumerate(array, start=1):
+        if not (np.isfinite(value) and value > 0.0):
+            raise refusal(InvalidScene, name, f"storey {number}", "a positive number", f"{value:g}")
+    return array
+
+
+def positive_of_length(values: ArrayLike, name: str, storeys: int) -> FloatArray:
+    """Return one positive number per storey; one number stands for all of them."""
+    if np.ndim(values) == 0:
+        values = np.full(storeys, as_number(values, name, "building", InvalidScene))
+    array = positive(values, name)
+    if len(array) != storeys:
+        requirement = f"one number or a list of {storeys} values, one per storey"
+        raise refusal(InvalidScene, name, "building", requirement, f"{len(array)} values")
+    return array

@@ -1,0 +1,313 @@
+"""Figures of many runs: demand against intensity, fragility, any column against any other."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import matplotlib as mpl
+import numpy as np
+import polars as pl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike
+
+from seismass._values import FloatArray, as_array, as_number, brief, refusal
+from seismass.errors import InvalidOption
+from seismass.plots.axes import grid_lines, single
+from seismass.plots.columns import checked_table, demand_of, in_unit, label_of, one_value
+from seismass.plots.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, plain
+from seismass.study.tables import quantile
+
+FRACTILES: Final[tuple[tuple[float, str, dict[str, Any]], ...]] = (
+    (0.16, "16 %", {"color": BLUE, "linestyle": (0, (1.2, 1.2)), "linewidth": 1.6}),
+    (0.50, "median", {"color": BLUE, "linestyle": "-", "linewidth": 2.2}),
+    (0.84, "84 %", {"color": BLUE, "linestyle": (0, (5, 2)), "linewidth": 1.6}),
+)
+"""Shares of the motions, and how their curves are drawn."""
+
+_POINTS: Final = (
+    (BLUE, "o"),
+    (VERMILION, "s"),
+    (GREEN, "^"),
+    (INK, "D"),
+    (PURPLE, "v"),
+    (ORANGE, "P"),
+    (SKY, "X"),
+)
+"""Colour and marker of points by a column."""
+
+_CROSS: Final[dict[str, Any]] = {"color": INK, "linestyle": "", "marker": "x"}
+_LIMIT: Final[dict[str, Any]] = {"color": VERMILION, "linestyle": (0, (8, 2)), "linewidth": 1.2}
+
+
+def ida(
+    table: pl.DataFrame,
+    intensity: str = "scale",
+    demand: str = "peak_drift_ratio",
+    *,
+    limit: float | None = None,
+    ax: Axes | None = None,
+) -> Figure:
+    """Draw curves of incremental dynamic analysis: demand against intensity of each motion, and their fractiles.
+
+    Parameters
+    ----------
+    table : polars.DataFrame
+        Rows of `simulate_many` or `long_table` with a column of intensities: of a `Grid` with several `scale`, say,
+        `long_table` has it. Of several rows with the same motion and intensity, such as storeys, the largest demand
+        counts. A collapse counts as infinite demand.
+    intensity, demand : str
+        Columns.
+    limit : float, optional
+        Demand (in the unit of the axis) that is marked.
+    ax : Axes, optional
+        Axes to draw into.
+
+    Returns
+    -------
+    Figure
+        The whole figure. The last point of a curve before a collapse has a cross.
+
+    Raises
+    ------
+    InvalidOption
+        A column is missing, all runs failed, or `ax` is no Axes.
+
+    Notes
+    -----
+    Vamvatsikos and Cornell (2002), Earthquake Eng. Struct. Dyn. 31:491-514: fractiles of the demand at each intensity,
+    a collapse being larger than all.
+    """
+    levels, demands = _by_motion(table, intensity, demand, "IDA figure")
+    values = in_unit(demand, demands)
+    with mpl.rc_context(STYLE):
+        place = single(ax, "IDA figure", size=(6.4, 4.6))
+        axes = place.axes[0]
+        for curve in values:
+            axes.plot(np.append(0.0, curve), np.append(0.0, levels), color=GREY, linewidth=0.8, alpha=0.8, gid="motion")
+            fell = np.flatnonzero(np.isinf(curve))
+            if len(fell) and fell[0] > 0:
+                last = fell[0] - 1
+                axes.plot(
+                    curve[last], levels[last], color=INK, linestyle="", marker="x", markersize=5.0, gid="collapse"
+                )
+        for share, name, look in FRACTILES:
+            of_level = quantile(values.T, share)
+            axes.plot(np.append(0.0, of_level), np.append(0.0, levels), **look, label=name, gid=name)
+        if limit is not None:
+            axes.axvline(as_number(limit, "limit", "IDA figure", InvalidOption), **_LIMIT)
+        axes.set_xlim(0.0, 1.1 * float(np.max(values[np.isfinite(values)], initial=0.0)) or 1.0)
+        axes.set_ylim(0.0, 1.04 * levels[-1])
+        axes.set_xlabel(label_of(demand))
+        axes.set_ylabel(label_of(intensity))
+        grid_lines(axes)
+        handles = [Line2D([], [], color=GREY, linewidth=0.8, label="each motion")]
+        handles += [Line2D([], [], **look, label=name) for _, name, look in FRACTILES]
+        if limit is not None:
+            handles.append(Line2D([], [], **_LIMIT, label="limit"))
+        if np.isinf(values).any():
+            handles.append(Line2D([], [], **_CROSS, markersize=5.0, label="last before collapse"))
+        place.legend(handles, columns=3)
+    return place.figure
+
+
+def fragility(
+    table: pl.DataFrame,
+    limit: float,
+    intensity: str = "scale",
+    demand: str = "peak_drift_ratio",
+    *,
+    ax: Axes | None = None,
+) -> Figure:
+    """Draw the share of motions by which a limit is exceeded against intensity, and the lognormal curve through it.
+
+    Parameters
+    ----------
+    table : polars.DataFrame
+        Rows as for `ida`.
+    limit : float
+        Demand that must not be exceeded, in the unit of the column (SI); a collapse exceeds it.
+    intensity, demand : str
+        Columns.
+    ax : Axes, optional
+        Axes to draw into.
+
+    Returns
+    -------
+    Figure
+        The whole figure; without a curve where `fragility_fit` has none.
+
+    Raises
+    ------
+    InvalidOption
+        A column is missing, all runs failed, the limit is no number, or `ax` is no Axes.
+    """
+    from scipy.stats import norm  # slow to import
+
+    bound = as_number(limit, "limit", "fragility", InvalidOption)
+    levels, demands = _by_motion(table, intensity, demand, "fragility")
+    exceeded = (demands > bound).sum(axis=0)
+    fit = fragility_fit(levels, exceeded, np.full(len(levels), len(demands)))
+    with mpl.rc_context(STYLE):
+        place = single(ax, "fragility", size=(6.4, 4.2))
+        axes = place.axes[0]
+        axes.plot(
+            levels,
+            exceeded / len(demands),
+            color=INK,
+            linestyle="",
+            marker="o",
+            markersize=5.0,
+            markerfacecolor=PAPER,
+            label=f"share of {len(demands)} motions",
+            gid="shares",
+        )
+        end = 1.05 * levels[-1]
+        if fit is not None:
+            median, beta = fit
+            way = np.linspace(0.0, end, 301)[1:]
+            curve = norm.cdf(np.log(way / median) / beta)
+            label = f"lognormal, median {median:.3g}, dispersion {beta:.2f}"
+            axes.plot(way, curve, color=BLUE, linewidth=1.8, label=label, gid="curve")
+        axes.set_xlim(0.0, end)
+        axes.set_ylim(-0.02, 1.02)
+        axes.set_xlabel(label_of(intensity))
+        shown = float(in_unit(demand, np.array(bound)))
+        name, _, unit = label_of(demand).partition(" (")
+        axes.set_ylabel(f"probability that {name} > {shown:g} {unit.rstrip(')')}".rstrip())
+        grid_lines(axes)
+        place.legend(axes.get_legend_handles_labels()[0], columns=2)
+    return place.figure
+
+
+def fragility_fit(intensity: ArrayLike, exceeded: ArrayLike, number: ArrayLike) -> tuple[float, float] | None:
+    """Return median and dispersion of the lognormal fragility of the greatest likelihood.
+
+    Parameters
+    ----------
+    intensity : array_like, shape (levels,)
+        Intensities, positive.
+    exceeded, number : array_like of int, shape (levels,)
+        How many motions exceeded the limit there, of how many.
+
+    Returns
+    -------
+    (float, float) or None
+        Median, and standard deviation of the logarithm. None where the likelihood has no maximum: the limit is always
+        or never exceeded, there is an intensity that parts one from the other, or more of it does not mean more
+        exceedance.
+
+    Raises
+    ------
+    InvalidOption
+        Lists differ in length, or an intensity is not positive.
+
+    Notes
+    -----
+    Binomial likelihood as in Baker (2015), Earthquake Spectra 31:579-599, eq. 11. In a + b ln(x), with b = 1/beta and
+    a = -ln(median)/beta, it is concave.
+    """
+    from scipy.optimize import minimize  # slow to import
+    from scipy.special import log_ndtr
+
+    owner = "fragility fit"
+    x = as_array(intensity, "intensity", owner, InvalidOption)
+    k, n = (as_array(v, name, owner, InvalidOption) for v, name in ((exceeded, "exceeded"), (number, "number")))
+    if not len(x) == len(k) == len(n):
+        raise refusal(
+            InvalidOption, "exceeded and number", owner, f"lists of {len(x)} values", f"{len(k)} and {len(n)}"
+        )
+    if not (x > 0.0).all():
+        raise refusal(InvalidOption, "intensity", owner, "positive", brief(x.min(initial=np.inf)))
+    log, safe = np.log(x), n - k
+    if not (k > 0.0).any() or not (safe > 0.0).any():
+        return None
+    parted = log[k > 0.0].min() >= log[safe > 0.0].max()
+    if parted or np.average(log, weights=k) <= np.average(log, weights=safe):
+        return None
+    centre, spread = float(log.mean()), float(log.std())
+
+    def loss(ab: FloatArray) -> float:
+        z = ab[0] + ab[1] * (log - centre) / spread
+        return -float(k @ log_ndtr(z) + safe @ log_ndtr(-z))
+
+    a, b = minimize(loss, np.array([0.0, 1.0]), method="BFGS").x
+    return float(np.exp(centre - spread * a / b)), float(spread / b)
+
+
+def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: Axes | None = None) -> Figure:
+    """Draw one column of a table against another, a point for each row.
+
+    Parameters
+    ----------
+    table : polars.DataFrame
+        Any table. Of a column of lists, such as one value per storey, the largest is taken. Rows of failed runs and
+        of nulls are left out; those of collapsed runs have a cross.
+    x, y : str
+        Columns of numbers.
+    by : str, optional
+        Column by whose values points differ in colour and marker; at most seven values.
+    ax : Axes, optional
+        Axes to draw into.
+
+    Returns
+    -------
+    Figure
+        The whole figure.
+
+    Raises
+    ------
+    InvalidOption
+        A column is missing or `by` has too many values, all runs failed, or `ax` is no Axes.
+    """
+    kept = checked_table(table, (x, y) if by is None else (x, y, by), "scatter figure")
+    fell = pl.col("status") == "collapsed" if "status" in kept.columns else pl.lit(False)
+    points = kept.select(x=one_value(kept, x), y=one_value(kept, y), by=pl.lit("") if by is None else by, fell=fell)
+    points = points.drop_nulls(["x", "y"])
+    groups = points["by"].unique().sort().to_list()
+    if len(groups) > len(_POINTS):
+        raise refusal(
+            InvalidOption, "by", "scatter figure", f"a column of at most {len(_POINTS)} values", f"{len(groups)}"
+        )
+    with mpl.rc_context(STYLE):
+        place = single(ax, "scatter figure")
+        axes = place.axes[0]
+        for group, (colour, marker) in zip(groups, _POINTS, strict=False):
+            here = points.filter(pl.col("by").eq_missing(group))
+            look: Any = {"color": colour, "linestyle": "", "marker": marker, "markersize": 4.0, "alpha": 0.75}
+            name = (
+                "" if by is None else f"{plain(by)} = {plain(f'{group:g}' if isinstance(group, float) else str(group))}"
+            )
+            axes.plot(
+                in_unit(x, here["x"].to_numpy()), in_unit(y, here["y"].to_numpy()), **look, label=name, gid="points"
+            )
+        collapsed = points.filter("fell")
+        if collapsed.height:
+            at = in_unit(x, collapsed["x"].to_numpy()), in_unit(y, collapsed["y"].to_numpy())
+            axes.plot(*at, **_CROSS, markersize=7.0, label="collapsed", gid="collapse")
+        axes.set_xlabel(label_of(x))
+        axes.set_ylabel(label_of(y))
+        grid_lines(axes)
+        place.legend([handle for handle in axes.get_legend_handles_labels()[0] if handle.get_label()])
+    return place.figure
+
+
+def _by_motion(table: pl.DataFrame, intensity: str, demand: str, owner: str) -> tuple[FloatArray, FloatArray]:
+    """Return intensities in order, and demands of shape (motions, intensities)."""
+    kept = checked_table(table, ("motion", intensity, demand), owner)
+    largest = (
+        kept.select("motion", level=one_value(kept, intensity), demand=demand_of(kept, demand))
+        .group_by("motion", "level")
+        .agg(pl.col("demand").max())
+        .pivot("level", index="motion", values="demand", sort_columns=False)
+        .sort("motion")
+    )
+    levels = kept.select(one_value(kept, intensity)).to_series().unique().sort().to_numpy().astype(float)
+    names = {float(name): name for name in largest.columns[1:]}
+    demands = largest.select(names[level] for level in levels).to_numpy().astype(float)
+    if np.isnan(demands).any():
+        raise refusal(
+            InvalidOption, "table", owner, "one with every motion at every intensity, and their demands", "gaps"
+        )
+    return levels, demands

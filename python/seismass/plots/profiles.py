@@ -1,0 +1,219 @@
+"""Peaks of one run over the height of its building, and response spectra of its floors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike, NDArray
+
+from seismass._values import as_number, brief, refusal
+from seismass.errors import InvalidOption
+from seismass.motion import Motion
+from seismass.plots.axes import columns, grid_lines, single
+from seismass.plots.histories import numbers
+from seismass.plots.style import BLUE, GREY, INK, PERIOD_TICKS, SERIES, STYLE, VERMILION
+from seismass.response import Response
+from seismass.spectra import response_spectrum
+from seismass.units import STANDARD_GRAVITY
+
+SPECTRUM_PERIODS: Final = np.geomspace(0.03, 4.0, 160)
+"""Periods of floor spectra (s)."""
+
+
+@dataclass(frozen=True)
+class _Quantity:
+    """What a panel shows: where it lies over the height, its unit, and its values."""
+
+    label: str
+    per_storey: bool
+    values: NDArray[Any]
+    levels: NDArray[Any]
+
+
+def profile(
+    response: Response,
+    *,
+    quantities: Sequence[str] = ("drift", "acceleration", "shear", "slip"),
+    limits: Mapping[str, float] | None = None,
+    ax: Axes | Sequence[Axes] | None = None,
+) -> Figure:
+    """Draw the peaks of a run over the height of the building, in continuous time, with limits.
+
+    Parameters
+    ----------
+    response : Response
+        A run.
+    quantities : sequence of str
+        Panels: "drift" (over the storey height in % where heights are known, otherwise mm), "acceleration" of the
+        ground and of floors (g), "shear" of storeys (kN, or over the weight where the mass is not stated), "slip" of
+        blocks (mm; left out where there are none on floors).
+    limits : mapping of str to float, optional
+        Limit of a quantity, in the unit of its panel.
+    ax : Axes or sequence of Axes, optional
+        One Axes for each quantity.
+
+    Returns
+    -------
+    Figure
+        The whole figure that was drawn into.
+
+    Raises
+    ------
+    InvalidOption
+        There is no building or no such quantity, a limit is no number or is for none of the panels, or `ax` fits not.
+    """
+    owner = "profile"
+    chosen = [quantities] if isinstance(quantities, str) else list(quantities)
+    known = _quantities(response)
+    for name in chosen:
+        if name not in ("drift", "acceleration", "shear", "slip"):
+            raise refusal(InvalidOption, "quantities", owner, "some of drift, acceleration, shear, slip", brief(name))
+    shown = [name for name in chosen if name in known]
+    bounds = {name: as_number(value, "limit", owner, InvalidOption) for name, value in (limits or {}).items()}
+    for name in bounds:
+        if name not in shown:
+            raise refusal(InvalidOption, "limits", owner, f"for some of {', '.join(shown)}", brief(name))
+    storeys = response.scene.storeys
+    with mpl.rc_context(STYLE):
+        place = columns(ax, len(shown), owner, width=2.1, height=1.3 + 0.35 * min(max(storeys, 4), 16))
+        for name, axes in zip(shown, place.axes, strict=True):
+            _panel(axes, known[name], bounds.get(name))
+            axes.set_ylim(0.0, storeys + 0.25)
+            axes.set_yticks(range(storeys + 1) if storeys <= 12 else range(0, storeys + 1, storeys // 6))
+        for axes in place.axes if not place.own else place.axes[:1]:
+            axes.set_ylabel("floor (0: ground)")
+        handles = [
+            Line2D([], [], color=BLUE, linewidth=1.6, label="of storeys"),
+            Line2D([], [], color=BLUE, marker="o", markersize=4.0, linewidth=1.2, label="of floors and blocks"),
+        ]
+        if bounds:
+            handles.append(Line2D([], [], **_LIMIT, label="limit"))
+        if place.own:
+            place.legend(handles, columns=3)
+    return place.figure
+
+
+_LIMIT: Final[dict[str, Any]] = {"color": VERMILION, "linestyle": (0, (5, 2)), "linewidth": 1.4}
+
+
+def _quantities(response: Response) -> dict[str, _Quantity]:
+    """What can be shown of a run by name."""
+    building, floors = response.scene.building, response.scene.block_floor
+    if building is None:
+        raise refusal(InvalidOption, "scene", "profile", "one with a building", "none")
+    storey = np.arange(building.storeys) + 0.5
+    ratio = response.peak_drift_ratio
+    drift = 1e3 * response.peak_drift if ratio is None else 100.0 * ratio
+    shear = response.peak_storey_shear
+    found = {
+        "drift": _Quantity("peak drift (mm)" if ratio is None else "peak drift / height (%)", True, drift, storey),
+        "acceleration": _Quantity(
+            "peak acceleration (g)",
+            False,
+            np.append(response.motion.pga, response.peak_floor_acceleration) / STANDARD_GRAVITY,
+            np.arange(building.storeys + 1.0),
+        ),
+        "shear": _Quantity("peak storey shear (kN)", True, 1e-3 * shear, storey)
+        if building.mass_is_stated
+        else _Quantity("peak storey shear / weight", True, shear / building.weight, storey),
+    }
+    if any(floors):
+        found["slip"] = _Quantity("peak slip (mm)", False, 1e3 * response.peak_slip, np.array(floors, dtype=float))
+    return found
+
+
+def _panel(axes: Axes, quantity: _Quantity, limit: float | None) -> None:
+    values, levels = quantity.values, quantity.levels
+    if quantity.per_storey:
+        edges = np.arange(len(values) + 1.0)
+        axes.stairs(values, edges, orientation="horizontal", color=BLUE, linewidth=1.6, baseline=None)
+    else:
+        order = np.argsort(levels, kind="stable")
+        line = "-" if len(set(levels)) == len(levels) else ""
+        look: Any = {"color": BLUE, "linestyle": line, "marker": "o", "markersize": 4.0, "linewidth": 1.2}
+        axes.plot(values[order], levels[order], **look)
+    largest = max(float(np.max(values, initial=0.0)), 0.0 if limit is None else limit)
+    axes.set_xlim(0.0, 1.12 * largest or 1.0)
+    if limit is not None:
+        axes.axvline(limit, **_LIMIT)
+    axes.set_xlabel(quantity.label)
+    axes.locator_params(axis="x", nbins=4)
+    grid_lines(axes)
+
+
+def floor_spectra(
+    response: Response,
+    *,
+    floors: int | Sequence[int] | None = None,
+    periods: ArrayLike | None = None,
+    damping: float = 0.05,
+    ax: Axes | None = None,
+) -> Figure:
+    """Draw the pseudo-acceleration spectrum of the ground and of floors, for what stands on them.
+
+    The absolute acceleration of a floor counts as linear between the rows of its history.
+
+    Parameters
+    ----------
+    response : Response
+        A run with histories at every sample, not of displacements only, that did not collapse.
+    floors : int or sequence of int, optional
+        Numbers of floors, from 1; all by default.
+    periods : array_like, optional
+        Periods (s); by default 160 from 0.03 to 4 s.
+    damping : float, default 0.05
+        Ratio of critical damping.
+    ax : Axes, optional
+        Axes to draw into.
+
+    Returns
+    -------
+    Figure
+        The whole figure that was drawn into.
+
+    Raises
+    ------
+    InvalidOption
+        The run has no such histories or collapsed, there is no such floor, a period or the damping is out of its range,
+        or `ax` is no Axes.
+    """
+    owner = "floor spectra"
+    chosen = numbers(floors, response.scene.storeys, "floors", owner)
+    every = response._asked("floor spectra", "histories", stored="every")
+    if every != 1:
+        raise refusal(InvalidOption, "histories", owner, "True, a row at every sample", str(every))
+    if response.status != "completed":
+        raise refusal(InvalidOption, "response", owner, "that of a completed run", response.status)
+    at = SPECTRUM_PERIODS if periods is None else np.asarray(periods, dtype=float)
+    ground = response.motion
+    motions = [Motion(response.floor_acceleration[:, number - 1], ground.dt) for number in chosen]
+    spectra = response_spectrum([ground, *motions], at, damping) / STANDARD_GRAVITY
+    with mpl.rc_context(STYLE):
+        place = single(ax, owner)
+        axes = place.axes[0]
+        axes.plot(at, spectra[0], color=GREY, linewidth=2.2, label="ground")
+        for position, (number, spectrum) in enumerate(zip(chosen, spectra[1:], strict=True)):
+            axes.plot(at, spectrum, **SERIES[position % len(SERIES)], linewidth=1.4, label=f"floor {number}")
+        axes.set_xscale("log")
+        axes.set_xlim(at[0], at[-1])
+        ticks = [tick for tick in PERIOD_TICKS if at[0] <= tick <= at[-1] * 1.0001]
+        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        axes.minorticks_off()
+        axes.set_ylim(0.0, 1.1 * float(spectra.max()) or 1.0)
+        building = response.scene.building
+        assert building is not None
+        axes.axvline(building.periods[0], color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
+        place_of_text: Any = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points", "xytext": (2, -9)}
+        axes.annotate("T1", (building.periods[0], 1.0), **place_of_text, fontsize=7.5)
+        axes.set_xlabel("period (s)")
+        axes.set_ylabel(f"pseudo-acceleration, {100.0 * damping:g} % damping (g)")
+        grid_lines(axes)
+        place.legend(axes.get_legend_handles_labels()[0], columns=5)
+    return place.figure

@@ -1,0 +1,481 @@
+"use strict";
+(() => {
+  const root = document.currentScript.parentElement;
+  const data = JSON.parse(root.querySelector('script[type="application/json"]').textContent);
+  const one = (name) => root.querySelector("." + name);
+  const [play, slider, clock, speed, factor] = ["play", "time", "clock", "speed", "factor"].map(one);
+  const [buildings, plots] = [one("buildings"), one("plots")];
+  const still = matchMedia("(prefers-reduced-motion: reduce)");
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const FLASH = 0.35; // seconds on the screen
+
+  // ---- data -------------------------------------------------------------------------------------------------------
+  const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
+  // Values are little-endian, as every machine with a browser is.
+  const numbers = (text, peak) => Float32Array.from(new Int16Array(bytes(text)), (value) => (value * peak) / 32767);
+  const ground = { low: numbers(data.ground.low, data.ground.peak), high: numbers(data.ground.high, data.ground.peak) };
+  const storeys = data.heights.length;
+  const kinds = Object.fromEntries(data.kinds.map((name, i) => [name, i]));
+  const END = (data.rows - 1) * data.step;
+
+  const runs = data.runs.map((given) => {
+    const drift = numbers(given.drift.values, given.drift.peak);
+    const slip = numbers(given.slip.values, given.slip.peak);
+    const blocks = given.slip.peak > 0 || slip.length ? slip.length / given.rows : 0;
+    const event = { row: new Uint32Array(bytes(given.events.row)), kind: new Uint8Array(bytes(given.events.kind)) };
+    event.number = new Uint16Array(bytes(given.events.number));
+    const largest = new Float32Array(given.rows); // drift so far, of the storey that is compared
+    for (let row = 0; row < given.rows; row++) {
+      const here = storeys ? Math.abs(drift[row * storeys + data.storey]) : 0;
+      largest[row] = row ? Math.max(largest[row - 1], here) : here;
+    }
+    // Of each storey and block the events that change its state, and what the state is from there on.
+    const starts = { yield: 1, slip: 1, reverse: 1, lift: 2, unload: 0, reload: 0, stick: 0, touch: 1, land: 1 };
+    const changes = new Map();
+    event.row.forEach((row, i) => {
+      const name = data.kinds[event.kind[i]];
+      if (!(name in starts)) return;
+      const ofStorey = name === "yield" || name === "unload" || name === "reload";
+      const places = ofStorey || event.number[i] ? [event.number[i]] : Array.from({ length: blocks }, (_, j) => j + 1);
+      for (const place of places) {
+        const key = (ofStorey ? "s" : "b") + place;
+        if (!changes.has(key)) changes.set(key, []);
+        changes.get(key).push([row, starts[name]]);
+      }
+    });
+    return { ...given, drift, slip, blocks, event, largest, changes };
+  });
+  const blockCount = runs[0].blocks;
+
+  const lastUpTo = (list, row, of) => {
+    let [low, high] = [0, list.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (of(list[middle]) <= row) low = middle + 1;
+      else high = middle;
+    }
+    return low - 1;
+  };
+  const stateOf = (run, key, row) => {
+    const list = run.changes.get(key);
+    if (list === undefined) return [0, Infinity];
+    const i = lastUpTo(list, row, (entry) => entry[0]);
+    return i < 0 ? [0, Infinity] : [list[i][1], (row - list[i][0]) * data.step];
+  };
+  const between = (values, columns, column, rows, at) => {
+    const last = rows - 1;
+    const row = Math.min(Math.floor(at), last);
+    const next = Math.min(row + 1, last);
+    const part = Math.min(at - row, 1);
+    return (1 - part) * values[row * columns + column] + part * values[next * columns + column];
+  };
+
+  // ---- drawing ----------------------------------------------------------------------------------------------------
+  let colours = {};
+  const readColours = () => {
+    const style = getComputedStyle(root);
+    for (const name of ["paper", "ink", "soft", "line", "real", "model", "other", "yield", "slab"]) {
+      colours[name] = style.getPropertyValue("--" + name).trim();
+    }
+  };
+  const colourOf = (run) => (run.attached === null ? colours.real : colours.model);
+  const font = (size, weight = "") => `${weight} ${size}px system-ui, "DejaVu Sans", sans-serif`.trim();
+
+  function sized(canvas) {
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
+    if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+    const context = canvas.getContext("2d");
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, width, height);
+    return [context, width, height];
+  }
+
+  function text(context, words, x, y, { size = 12, weight = "", colour = colours.ink, align = "left", fit = 0 } = {}) {
+    context.fillStyle = colour;
+    context.font = font(size, weight);
+    context.textAlign = align;
+    if (fit) while (size > 8 && context.measureText(words).width > fit) context.font = font(--size, weight);
+    context.fillText(words, x, y, fit || undefined);
+  }
+
+  const driftText = (value) =>
+    data.known ? `${((100 * value) / data.heights[data.storey]).toFixed(2)} %` : `${(1000 * value).toFixed(1)} mm`;
+
+  function drawBuilding(context, run, left, width, height, at, enlarged) {
+    const bottom = 30;
+    const roof = storeys && data.blocks.some((block) => block.floor === storeys);
+    const top = 72 + (roof ? Math.min(46, (0.5 * (height - 150)) / storeys) : 0);
+    const total = data.heights.reduce((sum, one) => sum + one, 0) || 1.2; // m of ground
+    const scale = (height - top - bottom) / total;
+    const middle = left + width / 2;
+    const floor = height - bottom;
+    const half = Math.min(width * 0.27, Math.max((storeys ? 0.42 : 1.5) * total * scale, 40));
+    const row = Math.min(at, run.rows - 1);
+    const colour = colourOf(run);
+    const flash = (age) => (still.matches || age < 0 ? 0 : Math.max(0, 1 - age / (FLASH * Number(speed.value))));
+
+    const line = (words, y, options = {}) => text(context, words, middle, y, { align: "center", fit: width - 8, ...options });
+    line(run.label[0].toUpperCase() + run.label.slice(1), 15, { weight: "600", colour, size: 14 });
+    line(run.what, 31, { colour: colours.soft });
+    if (storeys) {
+      const so = driftText(run.largest[Math.min(Math.floor(at), run.rows - 1)]);
+      const words = width < 260 ? `largest drift ${so}` : `largest drift of storey ${data.storey + 1} so far ${so}`;
+      line(words, 47, { colour: colours.soft });
+    }
+    if (run.collapsed !== null && at >= run.rows - 1) {
+      const words = `storey ${run.collapsed} collapsed at ${run.end.toFixed(2)} s`;
+      line(words, 63, { weight: "600", colour: colours.yield });
+    }
+
+    context.save();
+    context.beginPath();
+    context.rect(left, 66, width, height - 66);
+    context.clip();
+    context.lineCap = "round";
+    context.strokeStyle = colours.soft;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(left + width * 0.06, floor + 2);
+    context.lineTo(left + width * 0.94, floor + 2);
+    context.stroke();
+
+    const xs = [middle];
+    const ys = [floor];
+    for (let s = 0; s < storeys; s++) {
+      xs.push(xs[s] + enlarged * scale * between(run.drift, storeys, s, run.rows, row));
+      ys.push(ys[s] - data.heights[s] * scale);
+    }
+    const thin = Math.min(4, Math.max(1.2, (scale * total) / Math.max(storeys, 1) / 22));
+    for (let s = 0; s < storeys; s++) {
+      const [state, age] = stateOf(run, "s" + (s + 1), row);
+      const glow = state ? flash(age) : 0;
+      const mid = (ys[s] + ys[s + 1]) / 2;
+      for (const side of [-0.88, 0.88]) {
+        const path = new Path2D();
+        path.moveTo(xs[s] + side * half, ys[s]);
+        path.bezierCurveTo(xs[s] + side * half, mid, xs[s + 1] + side * half, mid, xs[s + 1] + side * half, ys[s + 1]);
+        if (glow > 0) {
+          context.globalAlpha = 0.45 * glow;
+          context.strokeStyle = colours.yield;
+          context.lineWidth = thin + 14;
+          context.stroke(path);
+          context.globalAlpha = 1;
+        }
+        context.strokeStyle = state ? colours.yield : colour;
+        context.lineWidth = state ? thin * 2 + 1 : thin;
+        context.stroke(path);
+      }
+    }
+    const slab = Math.min(7, Math.max(2, (scale * total) / Math.max(storeys, 1) / 10));
+    for (let s = 1; s <= storeys; s++) {
+      context.fillStyle = colours.slab;
+      context.fillRect(xs[s] - half, ys[s], 2 * half, slab);
+    }
+    drawBlocks(context, run, { xs, ys, half, scale, row, enlarged, flash, colour, total });
+    context.restore();
+
+    const shake = (ground.low[Math.round(at)] + ground.high[Math.round(at)]) / 2 / (data.ground.peak || 1);
+    const [label, edge] = [width < 260 ? "ground" : "ground acceleration", left + width * 0.06];
+    text(context, label, edge, floor + 20, { size: 11, colour: colours.soft });
+    const room = middle - edge - context.measureText(label).width - 6;
+    arrow(context, middle, floor + 16, shake * Math.min(width * 0.3, room));
+  }
+
+  function drawBlocks(context, run, place) {
+    const { xs, ys, half, scale, row, enlarged, flash, colour, total } = place;
+    const onFloor = new Map();
+    data.blocks.forEach((block) => onFloor.set(block.floor, (onFloor.get(block.floor) || 0) + 1));
+    const taken = new Map();
+    data.blocks.forEach((block, j) => {
+      if (run.attached !== null && block.floor === 0) return;
+      const count = onFloor.get(block.floor);
+      const position = taken.get(block.floor) || 0;
+      taken.set(block.floor, position + 1);
+      const slot = (1.7 * half) / count;
+      const storey = (storeys ? data.heights[Math.min(block.floor, storeys - 1)] : total) * scale;
+      const wide = Math.max(6, Math.min(0.62 * slot, 0.9 * half) * (0.4 + 0.6 * block.size));
+      const high = Math.max(4, Math.min(0.5 * storey, 0.8 * wide, storeys ? 46 : 120) * (0.4 + 0.6 * block.size));
+      const home = xs[block.floor] - 0.85 * half + slot * (position + 0.5);
+      const base = ys[block.floor];
+      if (run.attached !== null) {
+        context.lineWidth = 1.2;
+        context.strokeStyle = colour;
+        context.setLineDash([4, 3]);
+        context.strokeRect(home - wide / 2, base - high, wide, high);
+        context.setLineDash([]);
+        context.fillStyle = colour;
+        context.fillRect(home - wide / 2, base - high * run.attached, wide, high * run.attached);
+        return;
+      }
+      const [state, age] = stateOf(run, "b" + (j + 1), row);
+      const slip = between(run.slip, run.blocks, j, run.rows, row);
+      const x = home + enlarged * scale * slip;
+      const y = base - (state === 2 ? 4 : 0);
+      const glow = state ? flash(age) : 0;
+      if (glow > 0) {
+        context.globalAlpha = 0.45 * glow;
+        context.fillStyle = colour;
+        context.fillRect(x - wide / 2 - 6, y - high - 6, wide + 12, high + 6);
+        context.globalAlpha = 1;
+      }
+      context.strokeStyle = colours.ink;
+      context.lineWidth = 1.5;
+      context.beginPath(); // where it stood at the start
+      context.moveTo(home, base + 1);
+      context.lineTo(home, base + 6);
+      context.stroke();
+      context.fillStyle = state ? colour : colours.paper;
+      context.fillRect(x - wide / 2, y - high, wide, high);
+      context.strokeStyle = colour;
+      context.strokeRect(x - wide / 2, y - high, wide, high);
+      context.beginPath(); // its own mark, above that of the floor
+      context.strokeStyle = state ? colours.paper : colour;
+      context.moveTo(x, y);
+      context.lineTo(x, y - Math.min(6, high));
+      context.stroke();
+      if (data.blocks.length > 1 && high >= 22) {
+        text(context, String(j + 1), x, y - high / 2 + 3, { size: 11, align: "center", colour: state ? colours.paper : colours.ink });
+      }
+    });
+  }
+
+  function arrow(context, x, y, length) {
+    if (Math.abs(length) < 1) return;
+    const head = Math.sign(length) * Math.min(6, Math.abs(length));
+    context.strokeStyle = context.fillStyle = colours.soft;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(x + length - head, y);
+    context.stroke();
+    context.beginPath();
+    context.moveTo(x + length, y);
+    context.lineTo(x + length - head, y - 4);
+    context.lineTo(x + length - head, y + 4);
+    context.fill();
+  }
+
+  // ---- histories --------------------------------------------------------------------------------------------------
+  const rangeOf = (curves) => {
+    let [low, high] = [0, 0];
+    for (const { values, columns, column, rows, scale } of curves) {
+      for (let row = 0; row < rows; row++) {
+        const value = scale * values[row * columns + column];
+        [low, high] = [Math.min(low, value), Math.max(high, value)];
+      }
+    }
+    return [low, high];
+  };
+  const DASHES = [[], [6, 3], [2, 3], [9, 3, 2, 3], [1, 2]];
+  function panelsOf(mostCurves) {
+    const wide = storeys ? (data.known ? 100 / data.heights[data.storey] : 1000) : 1;
+    const peak = data.ground.peak;
+    const panels = [{ title: "ground acceleration (g)", ends: [-peak, peak], digits: 2, range: ground, curves: [] }];
+    if (storeys) {
+      const unit = data.known ? "% of height" : "mm";
+      const curves = runs.map((run, i) => ({
+        values: run.drift, columns: storeys, column: data.storey, rows: run.rows, scale: wide,
+        colour: colourOf(run), dash: i ? [5, 2] : [], label: run.attached === null ? "real" : "model",
+      }));
+      const title = `drift of storey ${data.storey + 1} (${unit})`;
+      panels.push({ title, ends: rangeOf(curves), digits: data.known ? 2 : 1, curves });
+    }
+    if (blockCount) {
+      const real = runs[0];
+      const all = data.blocks.map((_, j) => ({
+        values: real.slip, columns: blockCount, column: j, rows: real.rows, scale: 1000, label: `${j + 1}`,
+      }));
+      const reach = (curve) => Math.max(...rangeOf([curve]).map(Math.abs));
+      const most = all.map((curve) => [reach(curve), curve]).sort(([a], [b]) => b - a).slice(0, mostCurves);
+      const hues = [colours.real, colours.other, colours.yield, colours.ink, colours.model];
+      const curves = all.filter((curve) => most.some(([, other]) => other === curve));
+      curves.forEach((curve, i) => Object.assign(curve, { colour: hues[i], dash: DASHES[i] }));
+      const title = all.length > mostCurves ? `slip (mm), ${mostCurves} blocks of ${all.length}` : "slip of blocks (mm)";
+      panels.push({ title, ends: rangeOf(curves), digits: 1, curves });
+    }
+    return panels;
+  }
+
+  const MARGIN = { left: 50, right: 12, top: 4, bottom: 24, title: 20, gap: 12 };
+  let backdrop = null; // the histories without cursor, and where their panels are
+
+  function drawBackdrop(width, height) {
+    const canvas = document.createElement("canvas");
+    const ratio = window.devicePixelRatio || 1;
+    [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+    const context = canvas.getContext("2d");
+    context.scale(ratio, ratio);
+    const panels = panelsOf(width < 500 ? 3 : 5);
+    const [x0, x1] = [MARGIN.left, width - MARGIN.right];
+    const each = (height - MARGIN.top - MARGIN.bottom) / panels.length;
+    const xOf = (row) => x0 + ((x1 - x0) * row) / Math.max(data.rows - 1, 1);
+    panels.forEach((panel, p) => {
+      const [top, low] = [MARGIN.top + p * each + MARGIN.title, MARGIN.top + (p + 1) * each - MARGIN.gap];
+      const [least, most] = panel.ends[0] < panel.ends[1] ? panel.ends : [-1, 1];
+      const yOf = (value) => low - ((value - least) / (most - least)) * (low - top);
+      Object.assign(panel, { top, low, yOf });
+      context.strokeStyle = colours.line;
+      context.lineWidth = 1;
+      // An end close to zero has no label of its own.
+      for (const value of [least, 0, most].filter((one) => one === 0 || Math.abs(yOf(one) - yOf(0)) > 12)) {
+        context.beginPath();
+        context.moveTo(x0, yOf(value));
+        context.lineTo(x1, yOf(value));
+        context.stroke();
+        const words = value === 0 ? "0" : value.toFixed(panel.digits).replace("-", "\u2212");
+        text(context, words, x0 - 6, yOf(value) + 4, { size: 11, colour: colours.soft, align: "right", fit: x0 - 8 });
+      }
+      let x = x1;
+      for (const curve of panel.curves.length > 1 ? panel.curves.toReversed() : []) {
+        context.font = font(11);
+        x -= context.measureText(curve.label).width;
+        text(context, curve.label, x, top - 7, { size: 11, colour: colours.soft });
+        stroke(context, curve, 2, [[x - 26, top - 11], [x - 5, top - 11]]);
+        x -= 36;
+      }
+      text(context, panel.title, x0 + 5, top - 7, { size: 12, fit: x - x0 - 5 });
+      if (panel.range !== undefined) {
+        context.strokeStyle = colours.ink;
+        context.lineWidth = 1;
+        context.beginPath();
+        for (let row = 0; row < data.rows; row++) {
+          context.lineTo(xOf(row), yOf(panel.range.high[row]));
+          context.lineTo(xOf(row), yOf(panel.range.low[row]));
+        }
+        context.stroke();
+      }
+      for (const curve of panel.curves) {
+        const points = Array.from({ length: curve.rows }, (_, row) => [
+          xOf(row), yOf(curve.scale * curve.values[row * curve.columns + curve.column]),
+        ]);
+        stroke(context, curve, 1.5, points);
+      }
+    });
+    const seconds = [1, 2, 5, 10, 20, 50, 100, 200, 500].find((one) => (x1 - x0) / (END / one) >= 44) || 1000;
+    for (let t = 0; t <= END + 1e-9; t += seconds) {
+      const last = t + seconds > END;
+      text(context, last ? `${t} s` : String(t), xOf(t / data.step), height - 8, { size: 11, colour: colours.soft, align: "center" });
+    }
+    return { canvas, panels, x0, x1, width, height };
+  }
+
+  function stroke(context, curve, width, points) {
+    context.strokeStyle = curve.colour;
+    context.lineWidth = width;
+    context.setLineDash(curve.dash);
+    context.beginPath();
+    for (const [x, y] of points) context.lineTo(x, y);
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  function drawPlots(at) {
+    const [context, width, height] = sized(plots);
+    if (backdrop === null || backdrop.width !== width || backdrop.height !== height) backdrop = drawBackdrop(width, height);
+    const { canvas, panels, x0, x1 } = backdrop;
+    context.drawImage(canvas, 0, 0, width, height);
+    const x = x0 + ((x1 - x0) * at) / Math.max(data.rows - 1, 1);
+    context.strokeStyle = colours.ink;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    context.moveTo(x, panels[0].top - 2);
+    context.lineTo(x, panels.at(-1).low + 4);
+    context.stroke();
+    for (const panel of panels) {
+      for (const curve of panel.curves) {
+        const value = curve.scale * between(curve.values, curve.columns, curve.column, curve.rows, at);
+        context.fillStyle = curve.colour;
+        context.beginPath();
+        context.arc(x, panel.yOf(value), 3.5, 0, 2 * Math.PI);
+        context.fill();
+      }
+    }
+  }
+
+  // ---- player -----------------------------------------------------------------------------------------------------
+  let time = 0;
+  let since = null; // the time of the last frame on the screen while it plays
+
+  function draw() {
+    const at = Math.min(time / data.step, data.rows - 1) || 0;
+    const [context, width, height] = sized(buildings);
+    if (width === 0) return;
+    const each = width / runs.length;
+    runs.forEach((run, i) => drawBuilding(context, run, i * each, each, height, at, Number(factor.value)));
+    drawPlots(at);
+    slider.value = String(time);
+    slider.setAttribute("aria-valuetext", `${time.toFixed(1)} of ${END.toFixed(1)} seconds`);
+    clock.textContent = `${time.toFixed(2)} of ${END.toFixed(1)} s`;
+  }
+  const redraw = () => {
+    readColours();
+    backdrop = null;
+    draw();
+  };
+  function goTo(seconds) {
+    time = Math.min(Math.max(seconds, 0), END);
+    draw();
+  }
+  function frame(now) {
+    if (since === null) return;
+    const passed = Math.min(now - since, 250) / 1000;
+    since = now;
+    goTo(time + passed * Number(speed.value));
+    if (time >= END) setPlaying(false);
+    else requestAnimationFrame(frame);
+  }
+  function setPlaying(on) {
+    if (on && time >= END) time = 0;
+    const was = since !== null;
+    since = on ? performance.now() : null;
+    play.textContent = on ? "Pause" : "Play";
+    if (on && !was) requestAnimationFrame(frame);
+  }
+  function faster(by) {
+    speed.selectedIndex = Math.min(Math.max(speed.selectedIndex + by, 0), speed.options.length - 1);
+  }
+
+  play.addEventListener("click", () => setPlaying(since === null));
+  slider.addEventListener("input", () => goTo(Number(slider.value)));
+  factor.addEventListener("change", draw);
+  const drag = (event) => {
+    if (event.buttons === 0 || backdrop === null) return;
+    const x = event.clientX - plots.getBoundingClientRect().left;
+    goTo(((x - backdrop.x0) / (backdrop.x1 - backdrop.x0)) * END);
+  };
+  plots.addEventListener("pointerdown", (event) => {
+    plots.setPointerCapture(event.pointerId);
+    root.focus({ preventScroll: true });
+    drag(event);
+  });
+  plots.addEventListener("pointermove", drag);
+
+  const alone = "autoplay" in root.dataset;
+  (alone ? document : root).addEventListener("keydown", (event) => {
+    if (event.target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) return;
+    const by = event.shiftKey ? 1 : 0.1;
+    const does = {
+      " ": () => setPlaying(since === null),
+      ArrowLeft: () => goTo(time - by), ArrowDown: () => goTo(time - by),
+      ArrowRight: () => goTo(time + by), ArrowUp: () => goTo(time + by),
+      Home: () => goTo(0), End: () => goTo(END),
+      "+": () => faster(1), "-": () => faster(-1),
+    }[event.key];
+    const onPage = event.target === document.body && event.key.startsWith("Arrow") && !event.key.match(/Left|Right/);
+    if (does === undefined || onPage || (event.key === " " && event.target === play)) return;
+    event.preventDefault();
+    does();
+  });
+
+  dark.addEventListener("change", redraw);
+  window.addEventListener("beforeprint", () => requestAnimationFrame(redraw));
+  window.addEventListener("afterprint", redraw);
+  new ResizeObserver(() => {
+    backdrop = null;
+    draw();
+  }).observe(root);
+  redraw();
+  if (alone && !still.matches) setPlaying(true);
+})();

@@ -1,0 +1,55 @@
+"use strict";
+(() => {
+  document.documentElement.classList.add("script");
+  const collator = new Intl.Collator("en", { numeric: true, sensitivity: "base" });
+
+  function sortable(table) {
+    const body = table.tBodies[0];
+    const given = Array.from(body.rows);
+    const heads = Array.from(table.tHead.rows[0].cells);
+    const valueOf = (row, column, isNumber) => {
+      const cell = row.cells[column];
+      if (!isNumber) return cell.textContent.trim();
+      return cell.dataset.value === undefined ? null : Number(cell.dataset.value);
+    };
+    heads.forEach((head, column) => {
+      const isNumber = head.classList.contains("number");
+      head.querySelector("button").addEventListener("click", () => {
+        const next = { ascending: "descending", descending: null }[head.getAttribute("aria-sort")];
+        const order = next === undefined ? "ascending" : next;
+        heads.forEach((other) => other.removeAttribute("aria-sort"));
+        if (order === null) { body.append(...given); return; }
+        head.setAttribute("aria-sort", order);
+        const sign = order === "ascending" ? 1 : -1;
+        const keyed = given.map((row) => [valueOf(row, column, isNumber), row]);
+        keyed.sort(([a], [b]) => {
+          if (a === null || b === null) return (a === null) - (b === null);
+          return sign * (isNumber ? a - b : collator.compare(a, b));
+        });
+        body.append(...keyed.map(([, row]) => row));
+      });
+    });
+  }
+
+  function filterable(holder) {
+    const input = holder.querySelector(".filter input");
+    if (input === null) return;
+    const output = holder.querySelector(".filter output");
+    const rows = Array.from(holder.querySelector("table").tBodies[0].rows);
+    const texts = rows.map((row) => Array.from(row.cells, (cell) => cell.textContent).join(" ").toLowerCase());
+    input.addEventListener("input", () => {
+      const words = input.value.toLowerCase().split(/\s+/).filter(Boolean);
+      let shown = 0;
+      rows.forEach((row, i) => {
+        row.hidden = !words.every((word) => texts[i].includes(word));
+        shown += row.hidden ? 0 : 1;
+      });
+      output.textContent = words.length ? `${shown} of ${rows.length} rows` : "";
+    });
+  }
+
+  for (const holder of document.querySelectorAll(".table")) {
+    sortable(holder.querySelector("table"));
+    filterable(holder);
+  }
+})();

@@ -1,0 +1,135 @@
+"""Validations of the paper: its section 4 by several programs, its shaking table over ranges, and its claims.
+
+Nothing here needs OpenSees: its results are kept as data, with versions and settings. Recordings are not part of the
+package; without them built-in motions stand in, and results say so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from seismass._values import brief, refusal
+from seismass.errors import InvalidMotion
+from seismass.records import Suite, builtin_suite
+from seismass.spectra import TargetSpectrum
+from seismass.study import Sensitivity, StudyResult, run_study
+from seismass.validation.paper_claims import Claim, Verdict, claims, claims_table
+from seismass.validation.recordings import STAND_INS, Station, components
+from seismass.validation.shaking_table import Band, Platform, platform, platform_scene
+from seismass.validation.three_storeys import Histories, Section4, section4, section4_scene
+
+__all__ = [
+    "STAND_INS",
+    "Band",
+    "Claim",
+    "Histories",
+    "Platform",
+    "Section4",
+    "Station",
+    "Validation",
+    "Verdict",
+    "claims",
+    "claims_table",
+    "components",
+    "platform",
+    "platform_scene",
+    "section4",
+    "section4_scene",
+    "validate",
+]
+
+
+@dataclass(frozen=True, eq=False)
+class Validation:
+    """All validations.
+
+    Attributes
+    ----------
+    study : StudyResult
+        The parametric study that claims are taken from.
+    section4 : Section4
+        The three-storey building under the Brawley record.
+    platform : Platform
+        The platform under the time-compressed Erzincan record.
+    claims : list of Claim
+        The paper's claims with our numbers.
+    """
+
+    study: StudyResult
+    section4: Section4
+    platform: Platform
+    claims: list[Claim]
+
+    def metadata(self) -> dict[str, Any]:
+        """Return versions and motions, for files and pages."""
+        return {
+            "package_version": self.study.metadata["package_version"],
+            "suite": self.study.metadata["suite"]["name"],
+            "section4_motion": _motion_text("Brawley Airport", self.section4.synthetic),
+            "platform_motion": _motion_text("Erzincan", self.platform.synthetic),
+        }
+
+
+def _motion_text(station: Station, synthetic: bool) -> str:
+    if synthetic:
+        return f"{STAND_INS[station]}, a built-in motion in place of the recording of {station}"
+    return f"recording of {station}"
+
+
+def validate(
+    suite: Suite | None = None,
+    target: TargetSpectrum | None = None,
+    *,
+    study: StudyResult | None = None,
+    sensitivity: Sensitivity | None = None,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Validation:
+    """Run all validations.
+
+    Parameters
+    ----------
+    suite : Suite, optional
+        Motions of the study, unscaled; default the built-in suite of seven. Recordings of Brawley Airport and Erzincan
+        in it, and other components of them in the same folder, are those of the paper's section 4. Built-in motions
+        stand in where there are none.
+    target : TargetSpectrum, optional
+        Target spectrum of the study; default the ASCE 7 shape.
+    study : StudyResult, optional
+        A study of the suite that has been run.
+    sensitivity : Sensitivity, optional
+        Its sensitivity, for the claims.
+    threads : int, optional
+        Number of threads; default all cores.
+    progress : callable, optional
+        Called with (analyses done, distinct analyses) of the study.
+
+    Returns
+    -------
+    Validation
+        Results and claims.
+
+    Raises
+    ------
+    InvalidMotion, InvalidOption
+        The suite is none, or cannot be scaled.
+    RecordFormatError
+        A recording beside one of the suite cannot be read.
+
+    Examples
+    --------
+    >>> from seismass.validation import validate
+    >>> found = validate()
+    >>> found.section4.synthetic, found.claims[1].verdict
+    (True, 'reproduced')
+    """
+    if suite is not None and not isinstance(suite, Suite):
+        raise refusal(InvalidMotion, "suite", "validation", "a Suite of records", brief(suite))
+    if study is None:
+        chosen = builtin_suite("seven") if suite is None else suite
+        study = run_study(chosen, target or TargetSpectrum.asce7(), threads=threads, progress=progress)
+    building = section4(components("Brawley Airport", suite))
+    table = platform(components("Erzincan", suite))
+    return Validation(study, building, table, claims(study, building, table, sensitivity=sensitivity))

@@ -1,0 +1,267 @@
+"""The paper's section 4: three storeys with sliding blocks under the Brawley record, by three programs (Fig. 5).
+
+The paper compared its model with ANSYS and PERFORM. Here the exact kernel stands beside OpenSees, whose results are
+kept as data, and beside a program of our own that puts stiff elastic-plastic springs in the place of friction.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from itertools import product
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+import polars as pl
+
+from seismass import _kernel
+from seismass._values import FloatArray
+from seismass.block import blocks_on_floors
+from seismass.building import Building
+from seismass.errors import SimulationError
+from seismass.motion import Motion
+from seismass.records import Record
+from seismass.scene import Scene
+from seismass.simulate import simulate
+from seismass.validation.recordings import label
+
+STOREYS: Final = 3
+PERIOD: Final = 0.60
+YIELD_SHEAR_OVER_WEIGHT: Final = (0.24, 0.20, 0.12)
+MASS_RATIO: Final = 1.0
+MU: Final = 0.3
+"""The building of section 4: first period (s), V_y/W of the storeys, block over floor mass, friction coefficient."""
+PEAK_G: Final = 0.7
+"""Peak of the record in the comparison of programs (g); the paper does not give its scale."""
+PEAKS_G: Final = (0.35, 0.5, 0.6, 0.7, 0.8, 0.9)
+SECOND_SLOPES: Final = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
+"""Peaks (g) and second slopes r2 for which the paper's statements are checked; the paper states neither."""
+COMPARED_SLOPES: Final = (0.05, 0.5)
+"""Second slopes of the comparison of programs."""
+SPRINGS: Final = ((1e2, 5), (1e3, 20), (1e4, 50), (1e5, 200))
+"""Stiffness of friction springs over that of storey 1, and steps per sample interval, of the stiff-spring variant."""
+EXACT: Final = "exact kernel"
+FRICTION_SPRINGS: Final = "friction springs"
+OPENSEES: Final = "OpenSees"
+_NOTHING: Final = np.zeros((0, STOREYS))
+KEPT: Final = Path(__file__).parent / "opensees.parquet"
+
+
+@dataclass(frozen=True, eq=False)
+class Histories:
+    """Response by one program.
+
+    Attributes
+    ----------
+    program, setting : str
+        Which, and how it was run.
+    component : str
+        Component of the record.
+    second_slope : float
+        Second slope r2.
+    every : int
+        Sample intervals between two instants of the histories.
+    time : ndarray, shape (instants,)
+        Instants (s).
+    drift, slip : ndarray, shape (instants, 3)
+        Drift of the storeys and slip of the blocks (m).
+    """
+
+    program: str
+    setting: str
+    component: str
+    second_slope: float
+    every: int
+    time: FloatArray = field(repr=False)
+    drift: FloatArray = field(repr=False)
+    slip: FloatArray = field(repr=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Section4:
+    """What the section-4 building does.
+
+    Attributes
+    ----------
+    runs : polars.DataFrame
+        One row per component, second slope and peak of the record: yields of each storey, `all_yield`, peak drifts and
+        slips (m), `slides_most` (the floor with the largest slip, null where no block slides).
+    differences : polars.DataFrame
+        One row per component, second slope, program and setting: the largest difference of the histories from those of
+        the exact kernel, in mm and in percent of the largest drift, or slip, of the building; null where the program
+        did not converge.
+    histories : tuple of Histories
+        Histories of the comparison.
+    synthetic : bool
+        Whether a built-in motion stands in for the recording.
+    """
+
+    runs: pl.DataFrame
+    differences: pl.DataFrame
+    histories: tuple[Histories, ...]
+    synthetic: bool
+
+    def of(self, component: str, second_slope: float) -> tuple[Histories, ...]:
+        """Return the histories of one run by all programs, the exact kernel first."""
+        return tuple(
+            item for item in self.histories if item.component == component and item.second_slope == second_slope
+        )
+
+
+def section4_scene(second_slope: float) -> Scene:
+    """Return the building of section 4 with its blocks.
+
+    Parameters
+    ----------
+    second_slope : float
+        Second slope r2 of the storeys over the first. The paper does not give it.
+    """
+    building = Building.uniform(
+        STOREYS, PERIOD, yield_shear_over_weight=YIELD_SHEAR_OVER_WEIGHT, second_slope=second_slope
+    )
+    return Scene(building, blocks_on_floors([MASS_RATIO] * STOREYS, mu=MU))
+
+
+def samples_digest(record: Record) -> str:
+    """Return a digest of the samples of a record and their step."""
+    return hashlib.sha256(record.acceleration.tobytes() + np.float64(record.dt).tobytes()).hexdigest()
+
+
+def section4(components: Sequence[Record]) -> Section4:
+    """Solve the building of section 4 for all components, peaks and second slopes, and compare the programs.
+
+    Parameters
+    ----------
+    components : sequence of Record
+        Components of the Brawley record, unscaled, or a stand-in.
+
+    Returns
+    -------
+    Section4
+        Runs, differences and histories. OpenSees has its part where its kept results are of these samples.
+    """
+    grid = product(components, SECOND_SLOPES, PEAKS_G)
+    runs = [_run(label(record), record, slope, peak) for record, slope, peak in grid]
+    histories: list[Histories] = []
+    differences: list[dict[str, Any]] = []
+    for record, slope in product(components, COMPARED_SLOPES):
+        exact = _exact(record, slope)
+        others = [*_springs(record, slope), *_opensees(record, slope)]
+        histories += [exact, *(item for item in others if item.time.size)]
+        differences += [_difference(item, exact) for item in others]
+    return Section4(
+        pl.DataFrame(runs),
+        pl.DataFrame(differences, schema=_DIFFERENCES),
+        tuple(histories),
+        any(record.synthetic for record in components),
+    )
+
+
+_DIFFERENCES: Final[Any] = {
+    "component": pl.String,
+    "second_slope": pl.Float64,
+    "program": pl.String,
+    "setting": pl.String,
+    "drift_mm": pl.Float64,
+    "drift_percent": pl.Float64,
+    "slip_mm": pl.Float64,
+    "slip_percent": pl.Float64,
+}
+
+
+def _run(component: str, record: Record, second_slope: float, peak_g: float) -> dict[str, Any]:
+    response = simulate(section4_scene(second_slope), record.scaled(peak_g / record.pga_g))
+    yields = response.events.filter(kind="yield")["number"]
+    counts = [int((yields == storey).sum()) for storey in range(1, STOREYS + 1)]
+    slip = response.peak_slip
+    return {
+        "component": component,
+        "second_slope": second_slope,
+        "peak_g": peak_g,
+        "yields": counts,
+        "all_yield": all(counts),
+        "peak_drift": response.peak_drift.tolist(),
+        "peak_slip": slip.tolist(),
+        "slides_most": int(slip.argmax()) + 1 if slip.max() > 0.0 else None,
+    }
+
+
+def _scaled(record: Record) -> Motion:
+    """The record with the peak of the comparison."""
+    return record.scaled(PEAK_G / record.pga_g).motion
+
+
+def _times(motion: Motion) -> FloatArray:
+    return np.asarray(np.arange(motion.samples) * motion.dt, dtype=np.float64)
+
+
+def _exact(record: Record, second_slope: float) -> Histories:
+    motion = _scaled(record)
+    response = simulate(section4_scene(second_slope), motion, histories=True)
+    assert response.drift is not None
+    assert response.slip is not None
+    return Histories(EXACT, "", label(record), second_slope, 1, _times(motion), response.drift, response.slip)
+
+
+def _springs(record: Record, second_slope: float) -> Iterator[Histories]:
+    """Histories with friction springs, without an instant where Newton's method did not converge."""
+    motion = _scaled(record)
+    scene = section4_scene(second_slope)
+    for ratio, substeps in SPRINGS:
+        time, drift, slip = _times(motion), _NOTHING, _NOTHING
+        try:
+            found = _kernel.integrate_reference(
+                scene._kernel, motion._kernel, "friction_springs", substeps, stiffness_ratio=ratio
+            )
+            drift, slip = found.drift, found.slip
+        except SimulationError:
+            time = time[:0]
+        setting = setting_label(ratio, substeps)
+        yield Histories(FRICTION_SPRINGS, setting, label(record), second_slope, 1, time, drift, slip)
+
+
+def _opensees(record: Record, second_slope: float) -> Iterator[Histories]:
+    """Histories of OpenSees, where they are kept for these samples."""
+    for row in kept().filter(samples=samples_digest(record), second_slope=second_slope).rows(named=True):
+        drift, slip = (np.array(row[name], dtype=np.float64).reshape(-1, STOREYS) for name in ("drift", "slip"))
+        setting = setting_label(row["stiffness_ratio"], row["substeps"])
+        time = np.asarray(np.arange(len(drift)) * (row["every"] * row["dt"]), dtype=np.float64)
+        yield Histories(OPENSEES, setting, label(record), second_slope, row["every"], time, drift, slip)
+
+
+def setting_label(ratio: float, substeps: int) -> str:
+    """Return what tables call a stiffness of friction springs over that of storey 1, and a step."""
+    return f"{ratio:.0e} k, dt / {substeps}".replace("e+0", "e")
+
+
+@cache
+def kept() -> pl.DataFrame:
+    """Return the results of OpenSees that are kept, one row per component, second slope and setting.
+
+    Columns: component, samples (digest of the record), peak_g, second_slope, stiffness_ratio, substeps, every (sample
+    intervals between kept instants), dt (s), version, openseespy, platform, drift and slip (m, instants times storeys),
+    peak_drift and peak_slip over all steps (m).
+    """
+    return pl.read_parquet(KEPT)
+
+
+def _difference(item: Histories, exact: Histories) -> dict[str, Any]:
+    row: dict[str, Any] = {
+        "component": item.component,
+        "second_slope": item.second_slope,
+        "program": item.program,
+        "setting": item.setting,
+    }
+    for name in ("drift", "slip"):
+        row[f"{name}_mm"] = row[f"{name}_percent"] = None
+        if not item.time.size:
+            continue
+        true: FloatArray = getattr(exact, name)
+        largest = float(np.abs(true).max())
+        difference = float(np.abs(getattr(item, name) - true[:: item.every]).max())
+        row[f"{name}_mm"] = 1e3 * difference
+        row[f"{name}_percent"] = 100.0 * difference / largest if largest > 0.0 else None
+    return row
