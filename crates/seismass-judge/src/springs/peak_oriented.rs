@@ -181,6 +181,7 @@ impl<R: Real> PeakOriented<R> {
 
     /// The force is zero, and the spring goes on to the peak of this side, which the half cycle just ended has lowered.
     fn reload(&mut self, side: Sign, drift: R) -> Crossing {
+        self.half_cycle = self.half_cycle.max(R::zero());
         let loss = self.loss();
         self.before = self.before + self.half_cycle;
         self.half_cycle = R::zero();

@@ -59,7 +59,7 @@ impl Shape {
     }
 
     /// Stiffness of unloading from the side whose largest drift is `drift`, with `force` there. Not below that of the line
-    /// from the origin: the force is zero before the drift is, and what is dissipated is not negative.
+    /// from the origin: the force is zero before the drift is.
     fn unloading(&self, drift: f64, force: f64) -> f64 {
         if self.exponent == 0.0 || drift <= self.yield_drift {
             return self.stiffness;
@@ -162,7 +162,7 @@ impl PeakOriented {
     /// The force is zero: loading begins in the direction `sign`, towards a peak that has lost strength by what the half
     /// cycle has dissipated.
     fn reload(&mut self, sign: Sign) -> Crossing {
-        let [before, half_cycle] = self.dissipated;
+        let [before, half_cycle] = [self.dissipated[0], self.dissipated[1].max(0.0)];
         self.dissipated = [before + half_cycle, 0.0];
         let peak = &mut self.peaks[side(sign)];
         if self.shape.capacity.is_finite() {
