@@ -45,6 +45,22 @@ pub fn law_scene(seed: u64) -> Result<(Scene, Motion)> {
     Ok((scene, Motion::new(acceleration, dt, vertical)?))
 }
 
+/// In one scene of three, gives about half of the storeys that yield a further law, and every block wear.
+pub(crate) fn draw_laws(seed: u64, storeys: &mut [Storey], blocks: &mut [Block]) {
+    let mut draw = Draw(seed ^ 0x6c61_7773);
+    let draw = &mut draw;
+    if !draw.one_in(3) {
+        return;
+    }
+    for storey in storeys.iter_mut().filter(|storey| storey.yield_shear.is_finite()) {
+        if draw.one_in(2) {
+            let law = draw.bits() % LAWS.len() as u64;
+            *storey = LAWS[law as usize](draw, storey.clone());
+        }
+    }
+    blocks.iter_mut().for_each(|block| block.wear = wear(draw, block));
+}
+
 /// Up to three changes of friction, by paths of the order of those that blocks slip.
 fn wear(draw: &mut Draw, block: &Block) -> Vec<Wear> {
     let mut path = 0.0;

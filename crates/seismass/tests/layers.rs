@@ -82,9 +82,14 @@ fn imports(own: &str, text: &str, modules: &BTreeSet<String>) -> BTreeSet<String
         for (at, _) in code.match_indices(start) {
             let rest = &code[at + start.len()..];
             let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':')).unwrap_or(rest.len());
-            let path: Vec<&str> = from.split("::").chain(rest[..end].split("::")).filter(|p| !p.is_empty()).collect();
-            let longest = (1..=path.len()).rev().map(|n| path[..n].join("::")).find(|path| modules.contains(path));
-            found.extend(longest);
+            // The items of a list are looked up one by one.
+            let list = rest[end..].strip_prefix('{').and_then(|list| list.split('}').next());
+            for item in list.unwrap_or_default().split(',') {
+                let parts = from.split("::").chain(rest[..end].split("::")).chain([item.trim()]);
+                let path: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+                let longest = (1..=path.len()).rev().map(|n| path[..n].join("::")).find(|path| modules.contains(path));
+                found.extend(longest);
+            }
         }
     }
     // What a module takes from those inside it: `use inner::Item`.
@@ -150,7 +155,7 @@ fn imports_of_the_judge_form_no_circle() {
 #[test]
 fn imports_are_found() {
     let modules = ["a", "a::b", "a::c", "d"].map(str::to_owned).into();
-    let text = "use crate::a::b::{X, Y};\n// crate::d\nuse super::c::Z;\nfn f() { crate::d::g() }\n";
+    let text = "use crate::a::{b, b::X};\n// crate::d\nuse super::c::Z;\nfn f() { crate::d::g() }\n";
     assert_eq!(imports("a::x", text, &modules), ["a::b", "a::c", "d"].map(str::to_owned).into());
     assert_eq!(imports("a", "pub(crate) use b::X;\nuse std::fmt;\n", &modules), ["a::b".to_owned()].into());
 }
