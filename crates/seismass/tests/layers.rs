@@ -85,7 +85,7 @@ fn imports(own: &str, text: &str, modules: &BTreeSet<String>) -> BTreeSet<String
             // The items of a list are looked up one by one.
             let list = rest[end..].strip_prefix('{').and_then(|list| list.split('}').next());
             for item in list.unwrap_or_default().split(',') {
-                let parts = from.split("::").chain(rest[..end].split("::")).chain([item.trim()]);
+                let parts = from.split("::").chain(rest[..end].split("::")).chain(item.trim().split("::"));
                 let path: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
                 let longest = (1..=path.len()).rev().map(|n| path[..n].join("::")).find(|path| modules.contains(path));
                 found.extend(longest);

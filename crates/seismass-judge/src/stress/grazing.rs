@@ -213,7 +213,7 @@ mod tests {
 
     use super::*;
     use crate::stress::random::{LARGEST_RESIDUAL, solve_checked};
-    use crate::stress::scene_of;
+    use crate::stress::{Family, scene_of};
 
     /// The kernel's response, as if its energies did not balance by this.
     fn with_residual(response: &Response, relative_residual: f64) -> Response {
@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn a_residual_of_an_ordinary_scene_is_not_explained() {
         for seed in 0..20 {
-            let (scene, motion) = scene_of(seed).unwrap();
+            let (scene, motion) = Family::Usual.scene(seed).unwrap();
             let response = solve_checked(&scene, &motion).unwrap();
             let planted = with_residual(&response, 2.0 * LARGEST_RESIDUAL);
             assert_eq!(explained_residual(&scene, &motion, &planted), None, "seed {seed}");
