@@ -12,6 +12,8 @@ use crate::state::{BlockState, Contact, Drive, State};
 
 /// Rounding of a guard, in units of the number type's epsilon times the size of its terms.
 const ROUNDING: f64 = 64.0;
+/// Places of roots at one drift differ by at most so much rounding: what it is over the drift that is left.
+const SAME_PLACE: f64 = 1024.0;
 
 /// A state machine's condition for staying as it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,9 +68,17 @@ impl<R: Real> Machines<'_, R> {
         let mut consider = |guard: Guard, polynomial: Polynomial<R>, size: R| {
             let rounding = R::of(ROUNDING) * R::epsilon();
             let Some(place) = polynomial.first_fall(rounding * size) else { return };
-            // At A = 0 a stuck block's limit and the contact force vanish together: contact comes first.
+            // At A = 0 a stuck block's limit and the contact force vanish together: contact comes first. A backbone may
+            // end where the storey collapses: collapse comes first.
             let earlier = |(other, before): (R, Guard)| {
-                place < if before == Guard::Contact { other - rounding * other } else { other }
+                place
+                    < match (guard, before) {
+                        (_, Guard::Contact) => other - rounding * other,
+                        (Guard::Collapse { storey }, Guard::Spring { storey: ends, .. }) if storey == ends => {
+                            other + R::of(SAME_PLACE) * rounding
+                        }
+                        _ => other,
+                    }
             };
             if first.is_none_or(earlier) {
                 first = Some((place, guard));

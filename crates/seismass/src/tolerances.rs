@@ -14,6 +14,9 @@ pub(crate) const SAME_FORCE: f64 = 1e-12;
 /// Forces and accelerations that agree to this fraction of their terms are equal.
 pub(crate) const DECISION_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// A segment that ends this close to the collapse drift, relatively, ends there.
+pub(crate) const SAME_DRIFT: f64 = 1e-12;
+
 /// A guard falls when it is below zero by more than this fraction of its terms.
 pub(crate) const FALL_ROUNDING: f64 = 16.0 * f64::EPSILON;
 

@@ -9,7 +9,7 @@ use crate::polynomial::power::Polynomial;
 use crate::regime::Row;
 use crate::state::State;
 use crate::state::relative::{block_change, relative_velocity, slip_change};
-use crate::tolerances::{DECISION_ROUNDING, FALL_ROUNDING, NO_CONTACT};
+use crate::tolerances::{DECISION_ROUNDING, FALL_ROUNDING, NO_CONTACT, SAME_DRIFT};
 use crate::units::STANDARD_GRAVITY;
 
 /// The first guard that falls within the present series, which starts at `tau` and whose ranges are formed.
@@ -91,8 +91,12 @@ fn drift_guards<V: Vector, const K: usize>(
         true => (Sign::Positive, high, yields.1, collapses.1),
         false => (Sign::Negative, -low, -yields.0, -collapses.0),
     };
-    let yields = Guard::SegmentEnd { storey: i, sign };
-    drift_guard::<V, K>(state, yields, (i, sign), reached, of_yield, first, isolated);
+    // A backbone without residual strength may end where the storey collapses, which then is all that happens.
+    let rounding = SAME_DRIFT * (of_collapse.abs() + state.springs.machines[i].segment().range);
+    if of_collapse == f64::INFINITY || of_yield < of_collapse - rounding {
+        let yields = Guard::SegmentEnd { storey: i, sign };
+        drift_guard::<V, K>(state, yields, (i, sign), reached, of_yield, first, isolated);
+    }
     drift_guard::<V, K>(state, Guard::Collapse { storey: i }, (i, sign), reached, of_collapse, first, isolated);
 }
 

@@ -25,6 +25,8 @@ struct Shape {
     exponent: f64,
     /// Energy that can be dissipated (J).
     capacity: f64,
+    /// Where strength can be lost, the slope of the first branch: unloading is not softer.
+    least_unloading: f64,
 }
 
 impl Shape {
@@ -32,6 +34,7 @@ impl Shape {
         let &Storey { stiffness, yield_shear, overstrength, second_slope, third_slope, .. } = storey;
         let yield_drift = yield_shear / stiffness;
         let rise = (overstrength - 1.0) * yield_shear / (second_slope * stiffness);
+        let first_slope = if overstrength == 1.0 { third_slope } else { second_slope };
         Self {
             stiffness,
             yield_force: yield_shear,
@@ -42,6 +45,7 @@ impl Shape {
             residual: law.residual_strength * yield_shear,
             exponent: law.unloading_exponent,
             capacity: law.energy_capacity * yield_shear * yield_drift,
+            least_unloading: if law.energy_capacity.is_finite() { first_slope.max(0.0) * stiffness } else { 0.0 },
         }
     }
 
@@ -58,13 +62,15 @@ impl Shape {
         }
     }
 
-    /// Stiffness of unloading from the side whose largest drift is `drift`, with `force` there. Not below that of the line
-    /// from the origin: the force is zero before the drift is.
-    fn unloading(&self, drift: f64, force: f64) -> f64 {
+    /// Stiffness of unloading from the side whose largest drift is `drift`, with `force` there, after the force went up
+    /// from zero with the slope `reload_slope`. Not below that of the line from the origin, nor below that slope: what is
+    /// stored is not more than the work since the force was zero.
+    fn unloading(&self, drift: f64, force: f64, reload_slope: f64) -> f64 {
         if self.exponent == 0.0 || drift <= self.yield_drift {
             return self.stiffness;
         }
-        (self.stiffness * libm::pow(self.yield_drift / drift, self.exponent)).max(force / drift)
+        let by_drift = self.stiffness * libm::pow(self.yield_drift / drift, self.exponent);
+        by_drift.max(force / drift).max(reload_slope).max(self.least_unloading)
     }
 
     /// How many segments have been left on a branch.
@@ -113,6 +119,8 @@ pub(crate) struct PeakOriented {
     base_force: f64,
     /// Of the positive and of the negative side.
     peaks: [Peak; 2],
+    /// Slope of the line on which the force last went up from zero; 0 before the first.
+    reload_slope: f64,
     /// Energy dissipated before the last zero of the force, and since.
     dissipated: [f64; 2],
 }
@@ -125,7 +133,15 @@ impl PeakOriented {
     pub(crate) fn new(storey: &Storey, law: &Parameters) -> Self {
         let shape = Shape::new(storey, law);
         let virgin = Peak { drift: shape.yield_drift, force: shape.yield_force, branch: shape.first };
-        Self { shape, mode: Mode::Virgin, base_drift: 0.0, base_force: 0.0, peaks: [virgin; 2], dissipated: [0.0; 2] }
+        Self {
+            shape,
+            mode: Mode::Virgin,
+            base_drift: 0.0,
+            base_force: 0.0,
+            peaks: [virgin; 2],
+            reload_slope: 0.0,
+            dissipated: [0.0; 2],
+        }
     }
 
     /// Moves the base to coordinate `x`.
@@ -149,10 +165,12 @@ impl PeakOriented {
         let (shape, force) = (&self.shape, self.base_force + self.tangent() * x);
         let stiffness = match self.mode {
             Mode::Virgin => shape.stiffness,
-            Mode::Loading(_, Loading::Backbone(_)) => shape.unloading((self.base_drift + x).abs(), force.abs()),
+            Mode::Loading(_, Loading::Backbone(_)) => {
+                shape.unloading((self.base_drift + x).abs(), force.abs(), self.reload_slope)
+            }
             Mode::Loading(sign, Loading::Reloading(_)) => {
                 let Peak { drift, force, .. } = self.peaks[side(sign)];
-                shape.unloading(drift, force)
+                shape.unloading(drift, force, self.reload_slope)
             }
             Mode::Unloading { stiffness, .. } => stiffness,
         };
@@ -173,6 +191,7 @@ impl PeakOriented {
         let distance = peak.drift - sign.factor() * self.base_drift;
         let slope = if distance > 0.0 { peak.force / distance } else { 0.0 };
         self.base_force = 0.0;
+        self.reload_slope = slope;
         self.mode = Mode::Loading(sign, Loading::Reloading(slope));
         Crossing::new(EventKind::Reload, sign)
     }
@@ -253,7 +272,7 @@ impl SpringMachine for PeakOriented {
         if let Loading::Backbone(branch) = left {
             *peak = Peak { drift: drift.max(self.shape.yield_drift), force: turn_force, branch };
         }
-        let stiffness = self.shape.unloading(peak.drift, peak.force);
+        let stiffness = self.shape.unloading(peak.drift, peak.force, self.reload_slope);
         self.mode = Mode::Unloading { sign, stiffness, turn_force, left };
         Crossing::new(EventKind::Unload, sign)
     }
