@@ -337,13 +337,13 @@ def test_figures_of_a_study_are_drawn_once_for_each_file(tmp_path: Path, monkeyp
     counted(Figure, "draw")
     counted(ConstrainedLayoutEngine, "execute")
     figures = study_figures(result)
-    assert calls == ["execute"] * 3  # spectrum, underestimation, drift profiles
-    assert len(figures) == 6
+    assert calls == ["execute"] * 5  # spectrum, underestimation, heat map, slip, drift profiles
+    assert len(figures) == 8
     calls.clear()
     for name, figure in figures.items():
         save_figure(figure, "png", tmp_path / f"{name}.png")
         save_figure(figure, "svg", tmp_path / f"{name}.svg")
-    assert calls == ["draw"] * 12
+    assert calls == ["draw"] * 16
     places = [[axes.get_position().bounds for axes in figures[f"drift_R{factor}"].axes] for factor in (1, 2, 4, 6)]
     assert places[0] == places[1] == places[2] == places[3]
     assert not any("$" in text.get_text() for figure in figures.values() for text in figure.findobj(Text))

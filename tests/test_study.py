@@ -17,6 +17,7 @@ from seismass.report import write
 from seismass.report.figures import suite_caption
 from seismass.report.findings import findings, findings_text
 from seismass.report.study_figures import study_figures
+from seismass.report.study_tables import study_tables
 from seismass.spectra import mean_spectrum
 from seismass.study import StudyParameters, StudyResult, display_names, run_study
 
@@ -361,7 +362,7 @@ def test_a_suite_is_asked_for() -> None:
 
 def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -> None:
     out = tmp_path / "deep" / "study"
-    files = write.write_study(small, out)
+    files = write.write_study(study_tables(small), out, png=True)
     assert sorted(files) == sorted(out.iterdir())
     for name, table in (("responses", small.responses), ("summary", small.summary), ("designs", small.designs)):
         assert pl.read_parquet(out / f"{name}.parquet").equals(table)
@@ -372,12 +373,12 @@ def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -
     assert document["parameters"]["second_slope"] == 0.05
     assert document["instructions"] == sm.instruction_set()
     assert document["suite"]["synthetic"] == 7
-    for name in ("spectrum", "underestimation", "drift_R1", "drift_R4"):
+    for name in ("spectrum", "underestimation", "heat", "slip", "drift_R1", "drift_R4"):
         assert (out / f"{name}.png").read_bytes().startswith(b"\x89PNG")
         assert (out / f"{name}.svg").read_text().startswith("<?xml")
     assert "synthetic motions" in (out / "drift_R4.svg").read_text()
     before = {file.name: file.read_bytes() for file in files}
-    write.write_study(small, out)
+    write.write_study(study_tables(small), out, png=True)
     assert {file.name: file.read_bytes() for file in out.iterdir()} == before
 
 
@@ -395,14 +396,14 @@ def test_figures_of_an_earlier_study_do_not_stay(
     with monkeypatch.context() as patch:
         patch.setattr("seismass.report.figures.save_figure", failing)
         with pytest.raises(OSError, match="disk full"):
-            write.write_study(small, tmp_path)
+            write.write_study(study_tables(small), tmp_path, png=True)
     assert {file.name for file in tmp_path.iterdir()} == earlier | others
 
-    files = write.write_study(small, tmp_path)
+    files = write.write_study(study_tables(small), tmp_path, png=True)
     figures = {file.name for file in files if file.suffix in (".png", ".svg")}
     assert figures == {file.name for file in files if write.FIGURE_FILE.fullmatch(file.name)}
     assert {file.name for file in tmp_path.iterdir()} == {file.name for file in files} | others
-    tables = write.write_study(small, tmp_path, figures=False)
+    tables = write.write_study(study_tables(small), tmp_path, figures=False)
     assert {file.name for file in tmp_path.iterdir()} == {file.name for file in tables} | others
     assert (tmp_path / "drift_R_mine.png").read_text() == "earlier"
 
@@ -435,7 +436,7 @@ def test_recorded_and_synthetic_motions_are_counted_apart(
     assert suite_caption(result).startswith(f"{says} (mixed), scaled")
     (legend,) = study_figures(result)["spectrum"].legends
     assert legend.get_texts()[0].get_text() == f"mean of {says}, scaled"
-    monkeypatch.setattr("seismass.study.run_study", lambda *_, **__: result)
+    monkeypatch.setattr("seismass.records.builtin_suite", lambda _: mixed)
     assert command("study", "--out", tmp_path / "out", "--no-figures") == 0
     printed = capsys.readouterr().out
     assert f": {says}\n" in printed
@@ -462,7 +463,7 @@ def test_figures_tell_every_alpha_and_r_apart() -> None:
     )
     result = run_study(sm.Suite("x$_$y", sm.builtin_suite("seven").records), TARGET, chosen)
     figures = study_figures(result)
-    assert list(figures) == ["spectrum", "underestimation", "drift_R2", "drift_R2.0000001"]
+    assert list(figures) == ["spectrum", "underestimation", "heat", "slip", "drift_R2", "drift_R2.0000001"]
     assert all(write.FIGURE_FILE.fullmatch(f"{name}.png") for name in figures)
     (axes,) = figures["underestimation"].axes
     # Rings are the attached model, two for each alpha.
@@ -489,7 +490,7 @@ def test_nothing_is_left_when_writing_stops(
 
     monkeypatch.setattr("seismass.report.figures.save_figure", failing)
     with pytest.raises(type(error)):
-        write.write_study(small, tmp_path / "out")
+        write.write_study(study_tables(small), tmp_path / "out", png=True)
     assert list((tmp_path / "out").iterdir()) == []
 
 
@@ -498,7 +499,7 @@ def test_no_file_is_changed_where_one_cannot_be(small: StudyResult, tmp_path: Pa
     (tmp_path / "drift_R2.svg").write_text("earlier")
     (tmp_path / "drift_R4.svg").mkdir()
     with pytest.raises(IsADirectoryError, match=r"drift_R4\.svg"):
-        write.write_study(small, tmp_path)
+        write.write_study(study_tables(small), tmp_path, png=True)
     assert {file.name for file in tmp_path.iterdir()} == {"summary.csv", "drift_R2.svg", "drift_R4.svg"}
     assert (tmp_path / "summary.csv").read_text() == "earlier"
 

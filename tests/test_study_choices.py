@@ -13,11 +13,13 @@ from seismass import cli
 from seismass.report.findings import findings, findings_text
 from seismass.report.sensitivity import sensitivity_markdown, sensitivity_text
 from seismass.report.study_figures import study_figures
+from seismass.report.study_tables import OPTIONAL_TABLES, study_tables
 from seismass.report.write import write_study
 from seismass.study import MODELS, StudyParameters, StudyResult, run_study, study_sensitivity
 from seismass.study.columns import TABLES
 from seismass.study.tables import quantile
 from seismass.units import STANDARD_GRAVITY
+from seismass.validation import validate
 
 TARGET = sm.TargetSpectrum.asce7()
 SMALL = StudyParameters(buildings=((2, 0.38), (3, 0.47)), response_modification=(1.0, 4.0), mass_ratios=(1.0,))
@@ -60,7 +62,10 @@ def test_friction_is_an_axis_whose_parts_are_studies_of_their_own(small: StudyRe
 
 def test_figures_of_several_frictions_are_named_after_them() -> None:
     result = run_study(sm.builtin_suite("seven"), TARGET, replace(ONE, mu=(0.4, 0.2)))
-    names = ["spectrum", *(f"{name}_mu{mu}" for mu in (0.2, 0.4) for name in ("underestimation", "drift_R4"))]
+    names = [
+        "spectrum",
+        *(f"{name}_mu{mu}" for mu in (0.2, 0.4) for name in ("underestimation", "heat", "slip", "drift_R4")),
+    ]
     figures = study_figures(result)
     assert list(figures) == names
     assert "\u00b5 = 0.2;" in figures["drift_R4_mu0.2"].get_supxlabel()
@@ -244,7 +249,8 @@ def test_any_code_takes_the_place_of_asce() -> None:
 
 def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: Path) -> None:
     sensitivity = study_sensitivity(quickly_matched(), TARGET, ONE)
-    files = write_study(small, tmp_path, figures=False, sensitivity=sensitivity)
+    validation = validate(study=small, sensitivity=sensitivity)
+    files = write_study(study_tables(small, sensitivity=sensitivity, validation=validation), tmp_path, figures=False)
     tables = sorted(file for file in files if file.suffix == ".parquet")
     assert [file.stem for file in tables] == sorted(TABLES)
     document = json.loads((tmp_path / "tables.json").read_text())
@@ -271,8 +277,8 @@ def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: 
     assert json.loads(pl.read_parquet_metadata(tmp_path / "responses.parquet")["seismass.units"])["peak_drift"] == "m"
     assert document["parameters"]["second_slope"] == 0.05
     # A study without it leaves no table of another one behind.
-    write_study(small, tmp_path, figures=False)
-    assert not list(tmp_path.glob("sensitivity.*"))
+    write_study(study_tables(small), tmp_path, figures=False)
+    assert {file.stem for file in tmp_path.glob("*.parquet")} == {*TABLES} - {*OPTIONAL_TABLES}
 
 
 def test_remarks_on_inputs_are_kept_and_printed_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -16,10 +16,12 @@ PAGE: Final = Path(__file__).parents[1] / "docs" / "study_schema.md"
 
 HEAD: Final = f"""# Files of a study
 
-`seismass study --out DIR` writes tables, each as Parquet and as CSV, `tables.json`, `study.json`, and figures as
-PNG and SVG. Schema version {SCHEMA_VERSION}. SI units unless the name says otherwise; storeys, floors, buildings,
-motions and runs count from 1. The same inputs give the same bytes, whatever the number of threads, with the same
-instruction set; two instruction sets may differ in last digits. This page is written by `tools/study_schema.py`.
+`seismass study --out DIR` writes tables, each as Parquet and as CSV, `tables.json`, `study.json`, `animation.json`,
+figures as SVG (with `--png` as PNG too) and the page `report.html`, which [report.md](report.md) describes.
+`seismass report DIR` makes the page again from these files alone. Schema version {SCHEMA_VERSION}. SI units unless the
+name says otherwise; storeys, floors, buildings, motions and runs count from 1. The same inputs give the same bytes,
+whatever the number of threads, with the same instruction set; two instruction sets may differ in last digits. This
+page is written by `tools/study_schema.py`.
 
 Every Parquet file carries in its metadata (`polars.read_parquet_metadata`, keys `seismass.schema_version`,
 `package_version`, `instructions`, `inputs_sha256`, `parameters`, `code`, `target`, `table`, `units`; each a JSON
@@ -56,16 +58,20 @@ analyses, distinct, completed, collapsed, failed), `scaling`, and `findings` per
 the largest and the smallest underestimation with their place, their parts, their scatter over the motions and their
 value without the most influential motion; the number of storeys in which the code model drifts more; the number of
 single steps of alpha and of R, with a result at both ends, in which the underestimation grows by more than rounding;
-and means over first storeys. `suite` has the number of synthetic motions and the remarks on each motion. There is no
-date, so equal studies with the same instruction set give equal files.
+and means over first storeys. `suite` has the number of synthetic motions and the remarks on each motion, `validation`
+the motions of the validations. There is no date, so equal studies with the same instruction set give equal files.
+`animation.json` has what the animation of the page shows.
 
 ## Figures
 
 `drift_R1` ... `drift_R6` correspond to Figs. 6 to 9 of the paper, `spectrum` to Fig. 1; `underestimation` shows all
 of them at once: the storey with the largest underestimation, what the attached model gives there, and the range
 over the storeys of each building. With several friction coefficients there is one of each, with `_mu...` behind its
-name. `effective` (with `--effective`) shows the effective fractions against eta. Figures that an earlier study left
-in the folder and that are not written again are removed.
+name. `heat` has the number of every storey, `slip` the slip of the goods. `effective` (with `--effective`) shows the
+effective fractions against eta, `sensitivity` (with `--sensitivity`) the largest underestimation under each choice.
+`section4_...` corresponds to Fig. 5 and `platform_...` to Fig. 4, each with the component of its record;
+`section4_sliding` shows where goods slide most. Figures that an earlier study left in the folder and that are not
+written again are removed.
 """
 
 
@@ -73,9 +79,10 @@ def page() -> str:
     """The page."""
     parts = [HEAD, _table(KEY_COLUMNS), "\n"]
     for name, (rows, columns) in TABLES.items():
-        own = {column: text for column, text in columns.items() if column not in KEY_COLUMNS or name == "sensitivity"}
+        of_buildings = set(KEY_COLUMNS) <= set(columns)
+        own = {column: text for column, text in columns.items() if not (of_buildings and column in KEY_COLUMNS)}
         parts += [f"## {name}: {rows}\n\n"]
-        if set(KEY_COLUMNS) <= set(columns):
+        if of_buildings:
             parts += ["Beside the columns above:\n\n"]
         parts += [_table(own), "\n"]
     return "".join([*parts, TAIL])

@@ -17,6 +17,7 @@ from seismass.commands import (
     match,
     pulse,
     records,
+    report,
     run,
     scale,
     spectrum,
@@ -25,7 +26,7 @@ from seismass.commands import (
 )
 from seismass.errors import SeismassError
 
-COMMANDS = (building, effective_map, study, run, animate, records, spectrum, scale, match, pulse, validate)
+COMMANDS = (building, effective_map, study, run, animate, records, spectrum, scale, match, pulse, validate, report)
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""

@@ -36,25 +36,40 @@ def fragment(animation: Animation) -> Markup:
 
 
 def _element(animation: Animation, *, autoplay: bool) -> Markup:
-    data = json.dumps(_data(animation), separators=(",", ":")).replace("<", "\\u003c")
+    return element_html(element_content(animation), autoplay=autoplay)
+
+
+def element_content(animation: Animation) -> dict[str, Any]:
+    """Return all that the element shows, as values that JSON has: what is drawn, and the words around it."""
     shown = animation.shown
+    return {
+        "data": _data(animation),
+        "alt": description(animation),
+        "caption": caption(animation),
+        "blocks": bool(animation.scene.blocks),
+        "building": bool(animation.scene.storeys),
+        "attached": any(run.attached for run in shown.runs),
+        "factor": shown.factor,
+        "last": (shown.rows - 1) * shown.step,
+        "step": shown.step,
+    }
+
+
+def element_html(content: dict[str, Any], *, autoplay: bool = False) -> Markup:
+    """Return the element of what `element_content` gives."""
+    data = json.dumps(content["data"], separators=(",", ":")).replace("<", "\\u003c")
     html: str = (
         templates()
         .get_template("animation.html.jinja")
         .render(
+            **{name: value for name, value in content.items() if name != "data"},
             identifier="animation-" + hashlib.sha256(data.encode()).hexdigest()[:10],
             data=Markup(data),
             autoplay=autoplay,
-            alt=description(animation),
-            caption=caption(animation),
-            blocks=bool(animation.scene.blocks),
-            building=bool(animation.scene.storeys),
-            attached=any(run.attached for run in shown.runs),
             speeds=[(speed, f"{speed:g} \N{MULTIPLICATION SIGN}") for speed in SPEEDS],
-            factors=[(factor, f"{factor:g} \N{MULTIPLICATION SIGN}") for factor in sorted({shown.factor, *FACTORS})],
-            factor=shown.factor,
-            last=(shown.rows - 1) * shown.step,
-            step=shown.step,
+            factors=[
+                (factor, f"{factor:g} \N{MULTIPLICATION SIGN}") for factor in sorted({content["factor"], *FACTORS})
+            ],
         )
     )
     return Markup(html)
@@ -89,7 +104,7 @@ def _data(animation: Animation) -> dict[str, Any]:
         "known": known,
         "factor": shown.factor,
         "storey": shown.storey,
-        "kinds": EVENT_KINDS,
+        "kinds": list(EVENT_KINDS),
         "ground": {"peak": peak, "low": _packed(shown.ground_low, peak), "high": _packed(shown.ground_high, peak)},
         "blocks": [
             {"floor": block.floor, "size": round(float(np.sqrt(one / mass.max())), 3)}

@@ -8,7 +8,7 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 from seismass.commands.options import (
     SPRING_OPTIONS,
@@ -24,13 +24,6 @@ from seismass.commands.options import (
 
 if TYPE_CHECKING:
     from seismass.records import Suite
-
-DAMPING_TEXTS: Final = {
-    "bare": "in the modes of the bare building, one matrix for all models",
-    "loaded": "in the modes of the building with all its goods, one matrix for all models",
-    "own": "in the modes of each model's own masses",
-}
-"""Damping bases as they are printed."""
 
 _EPILOG = """examples:
   seismass study
@@ -48,7 +41,8 @@ def add_parser(subparsers: Any) -> None:
         "study",
         help="the parametric study: drift with sliding live load against a code's rule",
         description="Run the parametric study of the paper: 72 buildings, each with sliding blocks, by a code's rule "
-        "and with all of the blocks attached, under motions scaled to a target spectrum. Writes tables and figures.",
+        "and with all of the blocks attached, under motions scaled to a target spectrum. Writes tables, figures and "
+        "a page.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -72,7 +66,7 @@ def add_parser(subparsers: Any) -> None:
     add_spring_options(building)
     building.add_argument(
         "--damping-base",
-        choices=tuple(DAMPING_TEXTS),
+        choices=("bare", "loaded", "own"),
         default="bare",
         help="modes that are damped by 5 %%: of the bare building or of the building with all its goods, one matrix C "
         "for all models, or each model's own (bare)",
@@ -99,7 +93,8 @@ def add_parser(subparsers: Any) -> None:
     )
     output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
     output.add_argument("--json", action="store_true", help="print the metadata and findings as JSON")
-    output.add_argument("--no-figures", action="store_true", help="write tables only")
+    output.add_argument("--no-figures", action="store_true", help="write tables only, no figures and no page")
+    output.add_argument("--png", action="store_true", help="write the figures as PNG, too")
     parser.set_defaults(run=run)
 
 
@@ -108,8 +103,11 @@ def run(args: argparse.Namespace) -> int:
     from seismass.report.findings import findings_text
     from seismass.report.folder import check_out
     from seismass.report.sensitivity import sensitivity_text
-    from seismass.report.write import study_metadata, write_study
+    from seismass.report.study_tables import study_tables
+    from seismass.report.write import PAGE, write_study
     from seismass.study import StudyParameters, run_study, study_sensitivity
+    from seismass.study.example import study_example
+    from seismass.validation import validate
 
     started = time.perf_counter()
     check_out(args.out, "study")
@@ -134,8 +132,15 @@ def run(args: argparse.Namespace) -> int:
         if args.sensitivity
         else None
     )
-    files = write_study(result, args.out, figures=not args.no_figures, sensitivity=sensitivity)
-    metadata = study_metadata(result)
+    tables = study_tables(
+        result,
+        sensitivity=sensitivity,
+        validation=validate(suite, study=result, sensitivity=sensitivity, threads=args.jobs),
+        example=study_example(suite, parameters, result),
+    )
+    files = write_study(tables, args.out, figures=not args.no_figures, png=args.png)
+    metadata = tables.metadata
+    page = "" if args.no_figures else f", the page is {args.out / PAGE}"
     if args.json:
         warn_left_out(suite)
         for remark in metadata["remarks"]:
@@ -147,12 +152,13 @@ def run(args: argparse.Namespace) -> int:
         print(findings_text(metadata["findings"]))
         if sensitivity is not None:
             print(f"\nOne choice changed at a time\n{sensitivity_text(sensitivity.table)}")
-        print(f"\n{len(files)} files in {args.out}, {time.perf_counter() - started:.1f} s")
+        print(f"\n{len(files)} files in {args.out}{page}, {time.perf_counter() - started:.1f} s")
     return 1 if metadata["counts"]["failed"] else 0
 
 
 def _print_inputs(suite: Suite, metadata: dict[str, Any]) -> None:
     """Print the motions and what the numbers depend on."""
+    from seismass.report.study_words import DAMPING_TEXTS
     from seismass.study import motions_text
 
     counts, chosen = metadata["counts"], metadata["parameters"]

@@ -129,9 +129,13 @@ def inline_svg(figure: Figure | str, title: str, description: str = "", *, name:
     return ET.tostring(root, encoding="unicode")
 
 
-def short_svg(figure: Figure) -> str:
-    """Return a figure as an `<svg>` element of its size that has no title yet, shortened as `inline_svg` does."""
-    return ET.tostring(_element(figure_svg(figure), "f"), encoding="unicode")
+def short_svg(figure: Figure | str) -> str:
+    """Return a figure, or the text of `figure_svg`, as an `<svg>` element of its size, as short as `inline_svg` has it.
+
+    It has no title yet.
+    """
+    text = figure if isinstance(figure, str) else figure_svg(figure)
+    return ET.tostring(_element(text, "f"), encoding="unicode")
 
 
 def _element(text: str, name: str) -> ET.Element:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from seismass.plots.style import ALPHA, BLUE, GREEN, GREY, LAMBDA, MU, VERMILION, plain
-from seismass.report.figures import LEAST_WIDTH, labels_of, occupancy_title, suite_caption
-from seismass.study import Model, StudyResult
+from seismass.report.figures import LEAST_WIDTH, StudyFrames, labels_of, occupancy_title, suite_caption
+from seismass.study import Model
 
 LOOKS: Final[dict[Model, dict[str, Any]]] = {
     "code": {
@@ -35,7 +36,7 @@ LOOKS: Final[dict[Model, dict[str, Any]]] = {
 """How each model is drawn, in the order of drawing."""
 
 
-def drift_figure(result: StudyResult, factor: float, mu: float) -> Figure:
+def drift_figure(result: StudyFrames, factor: float, mu: float) -> Figure:
     """Mean peak drift of each storey for one R and mu: occupancies and alpha in columns, buildings in rows."""
     label = labels_of(result.summary["R"])[factor]
     summary = result.summary.filter(R=factor, mu=mu)
@@ -52,7 +53,7 @@ def drift_figure(result: StudyResult, factor: float, mu: float) -> Figure:
         for axes, (occupancy, _, _, alpha) in zip(axes_row, columns, strict=True):
             here = summary.filter(same & (pl.col("occupancy") == occupancy) & (pl.col("alpha") == alpha))
             _drift_profile(axes, here.sort("storey"))
-        largest = summary.filter(same).select(pl.max_horizontal("^mean_peak_drift_.*$").max()).item() or 1.0
+        largest = _largest(summary.filter(same))
         axes_row[0].set_xlim(0.0, 1.42e3 * largest)
         axes_row[0].set_ylim(0.5, storeys + 0.6)
         axes_row[0].set_yticks(range(1, storeys + 1))
@@ -69,6 +70,9 @@ def drift_figure(result: StudyResult, factor: float, mu: float) -> Figure:
         "code": f"code, {code}: {LAMBDA} of the block mass attached",
     }
     handles = [Line2D([], [], label=text, **LOOKS[model]) for model, text in texts.items()]
+    handles.append(
+        Line2D([], [], color=LOOKS["real"]["color"], linewidth=4.5, alpha=0.25, label="real: 16 to 84 % of the motions")
+    )
     handles.append(Line2D([], [], linestyle="", label="numbers: underestimation (real \N{EN DASH} code) / code, %"))
     friction = f", {MU} = {mu:g}" if result.summary["mu"].n_unique() > 1 else ""
     title = f"R = {label}{behaviour}{friction}"
@@ -78,8 +82,18 @@ def drift_figure(result: StudyResult, factor: float, mu: float) -> Figure:
     return figure
 
 
+def _largest(rows: pl.DataFrame) -> float:
+    """Largest drift (m) that is drawn of these rows; 1 where there is none."""
+    drawn = rows.select(r"^mean_peak_drift_(real|code|attached)$", "p84_peak_drift_real").to_numpy()
+    finite = drawn[np.isfinite(drawn)]
+    return float(finite.max()) if finite.size and finite.max() > 0.0 else 1.0
+
+
 def _drift_profile(axes: Axes, storeys: pl.DataFrame) -> None:
     level = storeys["storey"].to_numpy()
+    low, high = (1e3 * storeys[f"{name}_peak_drift_real"].cast(pl.Float64).to_numpy() for name in ("p16", "p84"))
+    known = np.isfinite(low) & np.isfinite(high)
+    axes.hlines(level[known], low[known], high[known], color=LOOKS["real"]["color"], linewidth=4.5, alpha=0.25)
     for model, look in LOOKS.items():
         axes.plot(1e3 * storeys[f"mean_peak_drift_{model}"].to_numpy(), level, **look)
     for height, percent in zip(level, storeys["underestimation_percent"], strict=True):

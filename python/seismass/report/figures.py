@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, Protocol
 
 import matplotlib as mpl
 import polars as pl
@@ -13,13 +13,37 @@ from matplotlib.lines import Line2D
 
 from seismass.plots.style import BLUE, GREY, LAMBDA, PERIOD_TICKS, STYLE, VERMILION, lay_out, plain
 from seismass.plots.svg import figure_svg
-from seismass.study import StudyResult, motions_text
+from seismass.study import motions_text
 from seismass.units import STANDARD_GRAVITY
 
 LEAST_WIDTH: Final = 7.0
 """Least width of a figure with a legend of two columns (inches)."""
 CAPTION_CHARACTERS: Final = 15
 """Characters of a caption per inch of a figure's width, in 7.5 points."""
+
+
+class StudyFrames(Protocol):
+    """What figures of a study are drawn from: a `StudyResult`, or the tables of a folder."""
+
+    @property
+    def metadata(self) -> dict[str, Any]:
+        """Metadata, as `StudyResult.metadata`."""
+
+    @property
+    def responses(self) -> pl.DataFrame:
+        """One row per building, model, motion and storey."""
+
+    @property
+    def summary(self) -> pl.DataFrame:
+        """One row per building and storey."""
+
+    @property
+    def fractions(self) -> pl.DataFrame:
+        """One row per building."""
+
+    @property
+    def spectrum(self) -> pl.DataFrame:
+        """One row per period."""
 
 
 def save_figure(figure: Figure, kind: Literal["png", "svg"], path: Path) -> None:
@@ -35,12 +59,12 @@ def save_figure(figure: Figure, kind: Literal["png", "svg"], path: Path) -> None
             )
 
 
-def suite_caption(result: StudyResult, mu: float | None = None, *, inches: float = 9.0) -> str:
+def suite_caption(result: StudyFrames, mu: float | None = None, *, inches: float = 9.0) -> str:
     """Return a few lines on the motions, on the parameters that decide the result, and on the target spectrum.
 
     Parameters
     ----------
-    result : StudyResult
+    result : StudyFrames
         The study.
     mu : float, optional
         Friction coefficient of what is shown; all of the study by default.
@@ -79,9 +103,9 @@ def occupancy_title(occupancy: str, design: float, analysis: float) -> str:
     return f"{plain(occupancy)}, {LAMBDA} = {shares}"
 
 
-def spectrum_figure(result: StudyResult) -> Figure:
+def spectrum_figure(result: StudyFrames) -> Figure:
     """Target, mean scaled and scaled spectra, with the range in which the mean must not be below the target."""
-    table, scaling = result.spectrum, result.scaling
+    table = result.spectrum
     figure = Figure(figsize=(6.4, 4.4), layout="constrained")
     axes = figure.add_subplot()
     periods = table["period"].to_numpy()
@@ -90,7 +114,7 @@ def spectrum_figure(result: StudyResult) -> Figure:
         axes.plot(periods, table[name] / STANDARD_GRAVITY, color=GREY, linewidth=0.7, alpha=0.7)
     axes.plot(periods, table["mean"] / STANDARD_GRAVITY, color=BLUE, linewidth=2.0)
     axes.plot(periods, table["target"] / STANDARD_GRAVITY, color=VERMILION, linewidth=1.8, linestyle=(0, (5, 2)))
-    shortest, longest = scaling.periods[0], scaling.periods[-1]
+    shortest, longest, _ = result.metadata["scaling"]["periods"]
     axes.axvspan(shortest, longest, color=BLUE, alpha=0.07, linewidth=0.0)
     axes.set_xscale("log")
     axes.set_xlim(periods[0], periods[-1])

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import polars as pl
 
@@ -38,9 +38,10 @@ def write_folder(
     tables: Mapping[str, pl.DataFrame],
     documents: Mapping[str, str],
     figures: Mapping[str, Figure] | None = None,
+    kinds: Sequence[Literal["png", "svg"]] = ("png", "svg"),
     metadata: Mapping[str, dict[str, str]] | None = None,
 ) -> list[Path]:
-    """Write tables (Parquet and CSV), documents and figures (PNG and SVG) to a folder, which is made if it is missing.
+    """Write tables (Parquet and CSV), documents and figures to a folder, which is made if it is missing.
 
     Parameters
     ----------
@@ -50,6 +51,8 @@ def write_folder(
         By name without suffix.
     documents : mapping of str to str
         Text by file name.
+    kinds : sequence of {"png", "svg"}
+        Formats of the figures.
     metadata : mapping of str to dict, optional
         Key-value metadata of the Parquet file of each table that has any.
 
@@ -74,8 +77,8 @@ def write_folder(
         from seismass.report.figures import save_figure  # matplotlib, which tables do not need
 
         for name, figure in figures.items():
-            writers[f"{name}.png"] = partial(save_figure, figure, "png")
-            writers[f"{name}.svg"] = partial(save_figure, figure, "svg")
+            for kind in kinds:
+                writers[f"{name}.{kind}"] = partial(save_figure, figure, kind)
     out.mkdir(parents=True, exist_ok=True)
     with ExitStack() as stack:
         for name, write in writers.items():

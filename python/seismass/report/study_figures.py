@@ -8,18 +8,23 @@ from matplotlib.figure import Figure
 
 from seismass.plots.style import BLUE, ETA, GREEN, GREY, INK, ORANGE, PURPLE, SKY, STYLE, VERMILION, lay_out, plain
 from seismass.report.drift_figures import drift_figure
-from seismass.report.figures import labels_of, spectrum_figure, suite_caption
+from seismass.report.figures import StudyFrames, labels_of, spectrum_figure, suite_caption
+from seismass.report.heat_figure import heat_figure
+from seismass.report.sensitivity_figure import sensitivity_figure
+from seismass.report.slip_figure import slip_figure
+from seismass.report.study_tables import StudyTables
 from seismass.report.underestimation_figure import underestimation_figure
-from seismass.study import StudyResult
+from seismass.report.validation_figures import platform_figure, section4_figure, sliding_figure
+from seismass.validation.three_storeys import COMPARED_SLOPES
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X")
 
 
-def study_figures(result: StudyResult) -> dict[str, Figure]:
+def study_figures(result: StudyFrames) -> dict[str, Figure]:
     """Return the figures of a study by name.
 
-    `spectrum`; `underestimation` and `drift_R...` for each R, with several friction coefficients for each of them with
-    `_mu...` behind the name; `effective` where the effective fractions were computed.
+    `spectrum`; `underestimation`, `heat`, `slip` and `drift_R...` for each R, with several friction coefficients for
+    each of them with `_mu...` behind the name; `effective` where the effective fractions were computed.
     """
     frictions, factors = labels_of(result.summary["mu"]), labels_of(result.summary["R"])
     with mpl.rc_context(STYLE):
@@ -29,6 +34,9 @@ def study_figures(result: StudyResult) -> dict[str, Figure]:
         for mu, name in frictions.items():
             behind = f"_mu{name}" if len(frictions) > 1 else ""
             figures[f"underestimation{behind}"] = underestimation_figure(result, mu)
+            figures[f"heat{behind}"] = heat_figure(result, mu)
+            if _has_goods(result):
+                figures[f"slip{behind}"] = slip_figure(result, mu)
             first = None
             for factor, label in factors.items():
                 figure = drift_figure(result, factor, mu)
@@ -39,7 +47,29 @@ def study_figures(result: StudyResult) -> dict[str, Figure]:
     return figures
 
 
-def effective_figure(result: StudyResult) -> Figure:
+def _has_goods(result: StudyFrames) -> bool:
+    """Whether goods stand on a floor; a building of one storey has a bare roof alone."""
+    return result.responses["peak_slip"].null_count() < result.responses.height
+
+
+def page_figures(result: StudyTables) -> dict[str, Figure]:
+    """Return the figures of the page of a study by name: those of the study, its sensitivity and its validations."""
+    figures = study_figures(result)
+    with mpl.rc_context(STYLE):
+        if result.sensitivity is not None:
+            figures["sensitivity"] = sensitivity_figure(result.sensitivity)
+        if result.section4 is not None:
+            components = result.section4.runs["component"].unique(maintain_order=True)
+            slope = COMPARED_SLOPES[0]
+            figures |= {f"section4_{name}": section4_figure(result.section4, name, slope) for name in components}
+            figures["section4_sliding"] = sliding_figure(result.section4)
+        if result.platform is not None:
+            components = result.platform.runs["component"].unique(maintain_order=True)
+            figures |= {f"platform_{name}": platform_figure(result.platform, name) for name in components}
+    return figures
+
+
+def effective_figure(result: StudyFrames) -> Figure:
     """Effective fraction of each building against eta, with its interval, both estimates and the shares of the code."""
     table = result.fractions.drop_nulls("effective")
     figure = Figure(figsize=(6.4, 4.6), layout="constrained")

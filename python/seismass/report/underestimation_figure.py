@@ -14,8 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from seismass.plots.style import ALPHA, GREY, INK, MU, plain
-from seismass.report.figures import LEAST_WIDTH, labels_of, occupancy_title, suite_caption
-from seismass.study import StudyResult
+from seismass.report.figures import LEAST_WIDTH, StudyFrames, labels_of, occupancy_title, suite_caption
 
 ALPHA_COLOURS: Final = ("#56B4E9", "#0072B2", "#002B4D")
 ALPHA_MARKERS: Final = ("o", "s", "D", "^", "v", "P", "X")
@@ -27,7 +26,7 @@ RING: Final[Any] = {"marker": "o", "markersize": 9.0, "markerfacecolor": "none",
 """The fully attached model."""
 
 
-def underestimation_figure(result: StudyResult, mu: float) -> Figure:
+def underestimation_figure(result: StudyFrames, mu: float) -> Figure:
     """Underestimation (%) against R by alpha for one mu: the worst storey, and the range over those of each building.
 
     A ring shows in the worst storey what the fully attached model gives over the code model: where it lies on the
@@ -37,7 +36,7 @@ def underestimation_figure(result: StudyResult, mu: float) -> Figure:
     occupancies = summary.select("occupancy", "lambda_design", "lambda_analysis").unique(maintain_order=True).rows()
     buildings = summary.select("storeys", "period").unique(maintain_order=True).rows()
     factors, alphas = labels_of(summary["R"]), labels_of(summary["alpha"])
-    looks = _looks(len(alphas))
+    looks = looks_of(len(alphas))
     width = max(1.2 + 3.1 * len(buildings), LEAST_WIDTH)
     figure = Figure(figsize=(width, 1.7 + 2.6 * len(occupancies)), layout="constrained")
     grid = figure.subplots(len(occupancies), len(buildings), squeeze=False, sharex=True, sharey=True)
@@ -87,7 +86,7 @@ def _alpha_handle(look: tuple[str, str], label: str) -> Line2D:
     return Line2D([], [], color=colour, marker=marker, markersize=5.0, linewidth=1.0, label=f"{ALPHA} = {label}")
 
 
-def _looks(count: int) -> list[tuple[str, str]]:
+def looks_of(count: int) -> list[tuple[str, str]]:
     """Return colour and marker of each alpha, no two the same: those of three, or shades from the first to the last."""
     shades = LinearSegmentedColormap.from_list("alpha", ALPHA_COLOURS)
     colours = (

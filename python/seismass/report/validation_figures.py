@@ -11,8 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seismass.plots.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.report.validation_tables import stiffest
 from seismass.validation.shaking_table import CENTRAL, DAMPINGS, FRICTIONS, MASS_RATIOS, Platform
-from seismass.validation.three_storeys import EXACT, FRICTION_SPRINGS, OPENSEES, PEAK_G, STOREYS, Histories, Section4
+from seismass.validation.three_storeys import EXACT, OPENSEES, PEAK_G, STOREYS, Section4
 
 _LINES: Final = {
     EXACT: {"color": BLUE, "linewidth": 3.0, "alpha": 0.4},
@@ -35,7 +36,7 @@ def section4_figure(result: Section4, component: str, second_slope: float) -> Fi
     second_slope : float
         Second slope, one of those compared.
     """
-    drawn = _stiffest(result.of(component, second_slope))
+    drawn = stiffest(result.of(component, second_slope))
     exact = drawn[0]
     moving = np.flatnonzero((np.abs(exact.drift) > _STILL * np.abs(exact.drift).max()).any(axis=1))
     start = max(0.0, float(exact.time[moving[0]]) - 0.5) if moving.size else 0.0
@@ -60,12 +61,6 @@ def section4_figure(result: Section4, component: str, second_slope: float) -> Fi
         figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
         figure.supxlabel(f"component {component}, peak {PEAK_G:g} g, r2 = {second_slope:g}", fontsize=7.5)
     return figure
-
-
-def _stiffest(histories: tuple[Histories, ...]) -> list[Histories]:
-    """The exact kernel, OpenSees and friction springs, of which a later line leaves the earlier visible."""
-    last = {item.program: item for item in histories}
-    return [last[name] for name in (EXACT, OPENSEES, FRICTION_SPRINGS) if name in last]
 
 
 def sliding_figure(result: Section4) -> Figure:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, Final
 import polars as pl
 
 from seismass.report.folder import write_folder
+from seismass.report.validation_tables import platform_tables, section4_tables
 from seismass.validation import Claim, Platform, Section4, Validation, claims_table
-from seismass.validation.three_storeys import COMPARED_SLOPES, STOREYS
+from seismass.validation.three_storeys import COMPARED_SLOPES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -84,14 +85,10 @@ def validation_document(result: Validation) -> dict[str, Any]:
 
 def validation_tables(result: Validation) -> dict[str, pl.DataFrame]:
     """Return the tables by name, without lists in their cells."""
-    runs = result.section4.runs
-    lists = [name for name, kind in runs.schema.items() if isinstance(kind, pl.List)]
-    flat = [pl.col(name).list.get(i).alias(f"{name}_{i + 1}") for name in lists for i in range(STOREYS)]
     return {
         "claims": claims_table(result.claims),
-        "section4_runs": runs.with_columns(flat).drop(lists),
-        "section4_differences": result.section4.differences,
-        "platform_runs": result.platform.runs,
+        **section4_tables(result.section4),
+        **platform_tables(result.platform),
     }
 
 

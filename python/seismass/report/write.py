@@ -9,43 +9,37 @@ from typing import Any, Final
 
 import polars as pl
 
-from seismass.report.findings import findings
+from seismass.files import written_whole
 from seismass.report.folder import write_folder
-from seismass.study import Sensitivity, StudyResult
+from seismass.report.study_tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, StudyTables, read_study_tables
 from seismass.study.columns import TABLES, units_of
 
 _NUMBER: Final = r"[\d.]+(?:e[+-]\d+)?"
 FIGURE_FILE: Final = re.compile(
-    rf"(?:spectrum|effective|underestimation(?:_mu{_NUMBER})?|drift_R{_NUMBER}(?:_mu{_NUMBER})?)\.(?:png|svg)"
+    rf"(?:spectrum|effective|sensitivity|(?:underestimation|heat|slip)(?:_mu{_NUMBER})?|drift_R{_NUMBER}(?:_mu{_NUMBER})?"
+    r"|section4_[\w.-]+|platform_[\w.-]+)\.(?:png|svg)"
 )
 """Names of the files of a study's figures; another file of a folder is not touched."""
-
-_METHODS: Final = {"ASCE 7-10": "ASCE/SEI 7-10, 16.1.3.1, two-step factors in the logarithm"}
-"""Methods of scaling as study.json names them; others by their own name."""
-
-
-def study_metadata(result: StudyResult) -> dict[str, Any]:
-    """Return the metadata with scaling and findings, as study.json holds them and `--json` prints them."""
-    scaling = result.scaling
-    return {
-        **result.metadata,
-        "scaling": {
-            "method": _METHODS.get(scaling.method, scaling.method),
-            "common_factor": scaling.common,
-            "periods": [scaling.periods[0], scaling.periods[-1], len(scaling.periods)],
-            "governing_period": scaling.governing_period,
-        },
-        "findings": findings(result.summary, result.fractions, result.metadata["code"]["name"]),
-    }
+PAGE: Final = "report.html"
+"""File of the page."""
 
 
-def write_study(
-    result: StudyResult, out: Path, *, figures: bool = True, sensitivity: Sensitivity | None = None
-) -> list[Path]:
-    """Write tables (Parquet and CSV), metadata (JSON) and figures (PNG and SVG) of a study to a folder.
+def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bool = False) -> list[Path]:
+    """Write tables (Parquet and CSV), documents (JSON), figures (SVG) and the page of a study to a folder.
 
     Every Parquet file carries what the numbers depend on, and the unit of each column; tables.json says the same of the
-    CSV files. Figures and a sensitivity table of an earlier study that are not written again are removed.
+    CSV files. Figures and tables of an earlier study that are not written again are removed.
+
+    Parameters
+    ----------
+    result : StudyTables
+        What `study_tables` gives.
+    out : Path
+        The folder.
+    figures : bool
+        Write figures and page, too.
+    png : bool
+        Write figures as PNG, too.
 
     Returns
     -------
@@ -57,39 +51,59 @@ def write_study(
     OSError
         A file cannot be written; then none is changed.
     """
-    tables = {
-        "responses": result.responses,
-        "summary": result.summary,
-        "fractions": result.fractions,
-        "designs": result.designs,
-        "spectrum": result.spectrum,
-        "scaling": result.scaling.table(),
-        **({} if sensitivity is None else {"sensitivity": sensitivity.table}),
-    }
-    drawn = None
+    tables = result.tables()
+    documents = {"tables.json": _json(_tables_document(result.metadata, tables)), DOCUMENT: _json(result.metadata)}
+    if result.animation is not None:
+        documents[ANIMATION] = _json(result.animation, indent=None)
+    drawn = {}
     if figures:
-        from seismass.report.study_figures import study_figures
+        from seismass.plots.svg import figure_svg
+        from seismass.report.study_figures import page_figures
+        from seismass.report.study_page import study_page
 
-        drawn = study_figures(result)
+        drawn = page_figures(result)
+        drawings = {name: figure_svg(figure) for name, figure in drawn.items()}
+        documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
+        documents[PAGE] = study_page(result, drawings)
     files = write_folder(
         out,
         tables=tables,
-        documents={
-            file: json.dumps(document, indent=2, allow_nan=False) + "\n"
-            for file, document in (
-                ("tables.json", _tables_document(result.metadata, tables)),
-                ("study.json", study_metadata(result)),
-            )
-        },
-        figures=drawn,
+        documents=documents,
+        figures=drawn if png else None,
+        kinds=("png",),
         metadata={name: table_metadata(result.metadata, name, table) for name, table in tables.items()},
     )
     written = {path.name for path in files}
+    ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in OPTIONAL_TABLES for kind in ("parquet", "csv")}
     for path in list(out.iterdir()):
-        ours = FIGURE_FILE.fullmatch(path.name) or path.name in ("sensitivity.parquet", "sensitivity.csv")
-        if ours and path.name not in written and path.is_file():
+        earlier = FIGURE_FILE.fullmatch(path.name) or path.name in ours
+        if earlier and path.name not in written and path.is_file():
             path.unlink()
     return files
+
+
+def write_study_page(folder: Path, target: Path) -> None:
+    """Write the page of a study from the tables of its folder alone.
+
+    Raises
+    ------
+    InvalidOption
+        As for `read_study_tables`.
+    OSError
+        The file cannot be written.
+    """
+    from seismass.plots.svg import figure_svg
+    from seismass.report.study_figures import page_figures
+    from seismass.report.study_page import study_page
+
+    result = read_study_tables(folder)
+    drawings = {name: figure_svg(figure) for name, figure in page_figures(result).items()}
+    with written_whole(target) as temporary:
+        temporary.write_text(study_page(result, drawings), encoding="utf-8")
+
+
+def _json(document: dict[str, Any], indent: int | None = 2) -> str:
+    return json.dumps(document, indent=indent, allow_nan=False) + "\n"
 
 
 def made_from(metadata: dict[str, Any]) -> dict[str, Any]:

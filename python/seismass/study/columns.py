@@ -127,6 +127,78 @@ SENSITIVITY_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     "collapses": ("", "collapsed runs of all models; a number that needs one of them is null"),
 }
 
+CLAIM_COLUMNS: Final[dict[str, tuple[str, str]]] = {
+    "number": ("", "place in the table, from 1"),
+    "source": ("", "where the paper makes the claim"),
+    "claim": ("", "what it says"),
+    "verdict": ("", "reproduced, depends, not reproduced or not tested"),
+    "numbers": ("", "our numbers"),
+    "depends_on": ("", "what the verdict depends on"),
+}
+
+_COMPONENT: Final = {"component": ("", "component of the record, or the built-in motion in its place")}
+_SLOPE: Final = {"second_slope": ("1", "second slope r2 of the storeys over the first")}
+
+
+def _of_storeys(name: str, unit: str, meaning: str) -> dict[str, tuple[str, str]]:
+    return {f"{name}_{storey}": (unit, meaning.format(storey)) for storey in (1, 2, 3)}
+
+
+SECTION4_RUN_COLUMNS: Final[dict[str, tuple[str, str]]] = {
+    **_COMPONENT,
+    **_SLOPE,
+    "peak_g": ("g", "peak to which the record is scaled"),
+    "all_yield": ("", "whether all storeys yield"),
+    "slides_most": ("", "floor whose block slides most; null where none slides"),
+    **_of_storeys("yields", "", "times that storey {} yields"),
+    **_of_storeys("peak_drift", "m", "peak drift of storey {}"),
+    **_of_storeys("peak_slip", "m", "peak slip of the block of floor {}"),
+}
+
+SECTION4_DIFFERENCE_COLUMNS: Final[dict[str, tuple[str, str]]] = {
+    **_COMPONENT,
+    **_SLOPE,
+    "program": ("", "OpenSees, or friction springs"),
+    "setting": ("", "stiffness of its friction springs over that of storey 1, and its step"),
+    "drift_mm": ("mm", "largest difference of drift from the exact kernel; null where it did not converge"),
+    "drift_percent": ("%", "that over the largest drift"),
+    "slip_mm": ("mm", "largest difference of slip"),
+    "slip_percent": ("%", "that over the largest slip; null where no block slides"),
+}
+
+SECTION4_HISTORY_COLUMNS: Final[dict[str, tuple[str, str]]] = {
+    **_COMPONENT,
+    **_SLOPE,
+    "program": ("", "exact kernel, OpenSees, or friction springs"),
+    "setting": SECTION4_DIFFERENCE_COLUMNS["setting"],
+    "every": ("", "sample intervals of the record between instants that were compared"),
+    "time": ("s", "time; as many instants as figures need"),
+    **_of_storeys("drift", "m", "drift of storey {}"),
+    **_of_storeys("slip", "m", "slip of the block of floor {}"),
+}
+
+PLATFORM_RUN_COLUMNS: Final[dict[str, tuple[str, str]]] = {
+    **_COMPONENT,
+    "mass_ratio": ("1", "mass of the block over that of the platform"),
+    "period": ("s", "period of the platform alone"),
+    "mu": KEY_COLUMNS["mu"],
+    "damping": ("1", "damping ratio of the platform alone"),
+    "amplitude": ("1", "factor of the accelerations"),
+    "peak_drift": ("m", "peak drift"),
+    "peak_slip": ("m", "peak slip of the block"),
+    "attached_drift": ("m", "peak drift with the block attached"),
+}
+
+PLATFORM_BAND_COLUMNS: Final[dict[str, tuple[str, str]]] = {
+    **_COMPONENT,
+    "mass_ratio": PLATFORM_RUN_COLUMNS["mass_ratio"],
+    "time": ("s", "time of the model, start of a window as long as figures need"),
+    "low": ("m", "least drift in the window over all friction coefficients and damping ratios"),
+    "high": ("m", "largest drift in the window"),
+    "central": ("m", "drift with the central values, at the time"),
+    "attached": ("m", "drift with the block attached, at the time"),
+}
+
 TABLES: Final[dict[str, tuple[str, dict[str, tuple[str, str]]]]] = {
     "responses": ("one row per building, model, motion and storey", RESPONSE_COLUMNS),
     "summary": ("one row per building and storey", SUMMARY_COLUMNS),
@@ -138,6 +210,25 @@ TABLES: Final[dict[str, tuple[str, dict[str, tuple[str, str]]]]] = {
         "one row per setting, occupancy and friction coefficient; written by `--sensitivity`",
         SENSITIVITY_COLUMNS,
     ),
+    "claims": ("one row per claim of the paper", CLAIM_COLUMNS),
+    "section4_runs": (
+        "the paper's section 4: one row per component, second slope and peak of the record",
+        SECTION4_RUN_COLUMNS,
+    ),
+    "section4_differences": (
+        "one row per component, second slope, program and setting",
+        SECTION4_DIFFERENCE_COLUMNS,
+    ),
+    "section4_histories": (
+        "one row per component, second slope, program and instant",
+        SECTION4_HISTORY_COLUMNS,
+    ),
+    "platform_runs": (
+        "the paper's shaking table: one row per component, mass ratio, period, friction coefficient, damping ratio and "
+        "amplitude",
+        PLATFORM_RUN_COLUMNS,
+    ),
+    "platform_bands": ("one row per component, mass ratio and window of time", PLATFORM_BAND_COLUMNS),
 }
 """What a row of each table is, and its columns with unit ("" where there is none, "1" for ratios) and meaning."""
 

@@ -35,6 +35,9 @@ SPECTRUM_RANGE: Final = (0.05, 3.0)
 SPECTRUM_POINTS: Final = 200
 """Periods (s) at which the spectra are tabulated for the figure, and those of the scaling; nothing is interpolated."""
 
+_METHODS: Final = {"ASCE 7-10": "ASCE/SEI 7-10, 16.1.3.1, two-step factors in the logarithm"}
+"""Methods of scaling as the metadata name them; others by their own name."""
+
 
 @dataclass(frozen=True, eq=False)
 class StudyResult:
@@ -145,6 +148,7 @@ def run_study(
             "code": _code_metadata(chosen),
             "target": {"label": target.label, **target.parameters},
             "suite": _suite_metadata(suite, names, scaling),
+            "scaling": _scaling_metadata(scaling),
             "remarks": _remarks(buildings, motions, target, scaling),
             "counts": {
                 "buildings": len(buildings),
@@ -223,6 +227,15 @@ def _suite_metadata(suite: Suite, names: list[str], scaling: ScalingResult) -> d
             }
             for number, (record, name, factor) in enumerate(zip(suite, names, scaling.factors, strict=True), start=1)
         ],
+    }
+
+
+def _scaling_metadata(scaling: ScalingResult) -> dict[str, Any]:
+    return {
+        "method": _METHODS.get(scaling.method, scaling.method),
+        "common_factor": float(scaling.common),
+        "periods": [float(scaling.periods[0]), float(scaling.periods[-1]), len(scaling.periods)],
+        "governing_period": float(scaling.governing_period),
     }
 
 

@@ -1,0 +1,230 @@
+"""The page of a study: made of the tables alone, with nothing from outside, and what it says is what they say."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+
+import seismass as sm
+from seismass.cli import main
+from seismass.report.slip_figure import slip_demand
+from seismass.report.study_answer import answer, compared_rules, percent
+from seismass.report.study_tables import StudyTables, read_study_tables, study_tables
+from seismass.report.study_words import assumptions
+from seismass.report.write import write_study, write_study_page
+from seismass.study import StudyParameters, StudyResult, run_study
+from seismass.study.example import study_example
+from seismass.validation import validate
+
+CHOSEN = StudyParameters(
+    buildings=((2, 0.38), (3, 0.47)), response_modification=(1.0, 2.0, 6.0), mass_ratios=(0.5, 1.5)
+)
+SUITE = sm.builtin_suite("seven")
+
+
+@pytest.fixture(scope="module")
+def result() -> StudyResult:
+    return run_study(SUITE, sm.TargetSpectrum.asce7(), CHOSEN, effective=True)
+
+
+@pytest.fixture(scope="module")
+def tables(result: StudyResult) -> StudyTables:
+    return study_tables(result, validation=validate(SUITE, study=result), example=study_example(SUITE, CHOSEN, result))
+
+
+@pytest.fixture(scope="module")
+def folder(tables: StudyTables, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("study")
+    write_study(tables, out)
+    return out
+
+
+def text_of(page: str) -> str:
+    """What a reader sees, on one line."""
+    body = re.sub(r"<(style|script|svg)\b.*?</\1>", " ", page, flags=re.DOTALL)
+    return " ".join(html.unescape(re.sub(r"<[^>]*>", " ", body)).split())
+
+
+def test_page_is_made_again_from_the_tables_alone(folder: Path, tmp_path: Path) -> None:
+    """A folder that holds only Parquet and JSON gives the same bytes."""
+    for file in folder.iterdir():
+        if file.suffix in (".parquet", ".json"):
+            shutil.copy(file, tmp_path / file.name)
+    assert main(["report", str(tmp_path)]) == 0
+    assert (tmp_path / "report.html").read_bytes() == (folder / "report.html").read_bytes()
+
+
+def test_page_needs_nothing_but_itself(folder: Path) -> None:
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert len(page.encode()) < 3_000_000
+    assert "default-src 'none'" in page
+    references = re.findall(r"""(?:src|href)\s*=\s*["']([^"']*)["']""", page)
+    assert references
+    assert all(reference.startswith(("#", "data:")) for reference in references)
+
+
+def test_page_has_every_part(folder: Path) -> None:
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    titles = re.findall(r"<h[23][^>]*>([^<]*)</h[23]>", page)
+    assert titles == [
+        "Contents",
+        "Ground motions",
+        "Validation",
+        "Three storeys",
+        "Shaking table",
+        "Drift demands",
+        "R = 1",
+        "R = 2",
+        "R = 6",
+        "Underestimation",
+        "Effective fraction",
+        "Slip of the goods",
+        "Example",
+        "Claims of the paper",
+        "Tables",
+        "Drift of every storey",
+        "Fractions of every building",
+        "Slip of every building",
+        "Assumptions",
+        "Provenance",
+    ]
+    # Fig. 1; Fig. 5 and the sliding by slope, Fig. 4; drifts; underestimation and heat map; fractions; slip.
+    assert page.count("<figure") - page.count('class="animation') == 1 + 2 + 1 + 3 + 2 + 1 + 1
+    assert page.count("<figure") == len(list(folder.glob("*.svg"))) + 1
+
+
+def test_page_says_what_the_tables_say(folder: Path, result: StudyResult) -> None:
+    text = text_of((folder / "report.html").read_text(encoding="utf-8"))
+    worst = (
+        result.summary.filter(pl.col("R") > 1.0, occupancy="storage")
+        .sort("underestimation_percent")
+        .row(-1, named=True)
+    )
+    assert (
+        f"The largest underestimation of any storey is {' '.join(percent(worst['underestimation_percent']).split())}"
+        in text
+    )
+    assert result.metadata["inputs_sha256"] in text
+    for sentence in assumptions(result.metadata):
+        assert sentence in text
+    for motion in result.metadata["suite"]["motions"]:
+        assert f"{motion['factor']:.4f}" in text
+
+
+def test_answer_counts_first_storeys(result: StudyResult) -> None:
+    first = result.summary.filter(pl.col("R") > 1.0, storey=1, occupancy="commercial")
+    missed = first["underestimation_percent"].to_numpy()
+    said = str(answer(result)[1])
+    assert f"in {int((missed > 0.0).sum())} of {len(missed)}: by {percent(float(missed.mean()))} on average" in said
+    assert f"{percent(float(missed.min()))} to {percent(float(missed.max()))} in single buildings" in said
+
+
+def frame(**columns: list[float]) -> pl.DataFrame:
+    return pl.DataFrame({"lambda_analysis": [0.25] * len(columns["effective"]), **columns})
+
+
+def test_rules_are_counted_by_hand() -> None:
+    rules = {
+        rule.name: rule
+        for rule in compared_rules(
+            frame(effective=[0.2, 0.5, 0.9, 1.0], estimate=[0.25, 0.36, 0.64, 1.0], conservative=[0.5, 0.6, 0.8, 1.0])
+        )
+    }
+    # Short by more than 0.1: of the code 0.25, 0.65, 0.75; of eta squared 0.14 and 0.26; of eta 0.1 once, which is not.
+    assert [rules[name].short for name in ("code", "min(1, eta\u00b2)", "min(1, eta)", "all, 1")] == [3, 2, 0, 0]
+    assert rules["min(1, eta\u00b2)"].most == pytest.approx(0.26, abs=1e-12)
+    assert rules["min(1, eta)"].most == pytest.approx(0.1, abs=1e-12)
+    assert rules["all, 1"].mean == 1.0
+    assert [rule.serves for rule in rules.values()] == [False, False, True, True]
+
+
+def test_advice_is_the_least_rule_that_seldom_falls_short(result: StudyResult) -> None:
+    fractions = result.fractions.with_columns(effective=pl.lit(0.0))
+    said = str(answer(replace(result, fractions=fractions))[-1])
+    assert "Attach <strong>min(1, eta\u00b2)</strong>" in said
+    fractions = result.fractions.with_columns(effective=pl.lit(1.0), estimate=pl.lit(0.1), conservative=pl.lit(0.5))
+    said = str(answer(replace(result, fractions=fractions))[-1])
+    assert "Attach <strong>all, 1</strong>" in said
+    count = result.fractions.height
+    assert f"min(1, eta): {count} of {count}" in said
+
+
+def test_slip_of_a_building_is_that_of_its_worst_floor(result: StudyResult) -> None:
+    demand = slip_demand(result.responses)
+    assert demand.height == result.metadata["counts"]["buildings"]
+    row = demand.filter(occupancy="storage", storeys=3, R=1.0, alpha=1.5).row(0, named=True)
+    rows = result.responses.filter(
+        pl.col("storey") < 3, model="real", occupancy="storage", storeys=3, R=1.0, alpha=1.5
+    ).sort("motion", "storey")
+    slip = rows["peak_slip"].to_numpy().reshape(7, 2)
+    left = np.abs(rows["residual_slip"].to_numpy().reshape(7, 2))
+    worst = slip.argmax(axis=1)
+    assert row["mean"] == pytest.approx(slip.max(axis=1).mean(), rel=1e-14)
+    assert row["largest"] == slip.max()
+    assert row["residual"] == pytest.approx(left[np.arange(7), worst].mean(), rel=1e-14)
+    assert (row["p16"], row["p84"]) == pytest.approx(np.quantile(slip.max(axis=1), (0.16, 0.84)), rel=1e-12)
+    assert row["slides"] == 7
+
+
+def test_example_is_the_building_of_the_table_under_its_motion(result: StudyResult) -> None:
+    example = study_example(SUITE, CHOSEN, result)
+    assert example is not None
+    number = example.labels["building"]
+    rows = result.responses.filter(building=number, model="real", record=example.name).sort("storey")
+    run = sm.simulate(example.scene, example.record)
+    np.testing.assert_array_equal(run.peak_drift, rows["peak_drift"].to_numpy())
+    row = result.summary.filter(building=number, storey=1).row(0, named=True)
+    assert row["R"] > 1.0
+    assert row["mean_peak_slip"] >= 0.01
+
+
+def test_tables_of_a_folder_are_those_of_the_study(folder: Path, tables: StudyTables) -> None:
+    read = read_study_tables(folder)
+    assert read.metadata == json.loads(json.dumps(tables.metadata))
+    assert read.animation == tables.animation
+    for name, table in tables.tables().items():
+        assert read.tables()[name].equals(table), name
+
+
+def test_page_of_a_study_of_several_frictions_without_validation(tmp_path: Path) -> None:
+    chosen = StudyParameters(buildings=((1, 0.3),), response_modification=(1.0,), mass_ratios=(1.0,), mu=(0.2, 0.4))
+    made = study_tables(run_study(SUITE, sm.TargetSpectrum.asce7(), chosen))
+    write_study(made, tmp_path)
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "Claims of the paper" not in page
+    write_study_page(tmp_path, tmp_path / "again.html")
+    assert (tmp_path / "again.html").read_text(encoding="utf-8") == page
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            lambda out: (out / "summary.parquet").unlink(),
+            r"summary.parquet of folder .* must be there beside study.json",
+        ),
+        (lambda out: (out / "summary.parquet").write_bytes(b"x"), "content of summary.parquet must be a Parquet table"),
+        (lambda out: (out / "study.json").write_text("{"), "content of study.json must be JSON"),
+        (lambda out: (out / "study.json").write_text("[]"), "content of study.json must be a JSON object; got list"),
+        (lambda out: (out / "study.json").write_text("{}"), "schema_version of study.json must be 2; got None"),
+        (lambda out: (out / "study.json").unlink(), "No such file"),
+    ],
+)
+def test_folder_that_is_no_study_is_refused(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], change: object, message: str
+) -> None:
+    out = tmp_path / "copy"
+    shutil.copytree(folder, out)
+    (out / "report.html").unlink()
+    change(out)  # type: ignore[operator]
+    assert main(["report", str(out)]) == 2
+    assert re.search(message, capsys.readouterr().err)
+    assert not (out / "report.html").exists()
