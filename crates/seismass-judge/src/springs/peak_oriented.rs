@@ -131,15 +131,18 @@ impl<R: Real> PeakOriented<R> {
         }
     }
 
-    /// k (d_y / d_max)^a, of a largest drift and the force there; at least F_max / d_max, the slope with which the force
-    /// left zero, and, where strength can be lost, that of the backbone after first yield.
+    /// k (d_y / d_max)^a, of a largest drift and the force there; at least F_max / d_max, and, where strength can be lost,
+    /// the slope with which the force left zero and that of the backbone after first yield.
     fn unloading_stiffness(&self, drift: R, force: R) -> R {
         if self.exponent == R::zero() || drift <= self.yield_drift {
             return self.stiffness;
         }
         let takeda = self.stiffness * (self.yield_drift / drift).power(self.exponent);
-        let hardening = if self.capacity.is_some() { self.branches[0].slope } else { R::zero() };
-        takeda.max(force / drift).max(self.from_zero).max(hardening)
+        let softest = takeda.max(force / drift);
+        if self.capacity.is_none() {
+            return softest;
+        }
+        softest.max(self.from_zero).max(self.branches[0].slope)
     }
 
     /// The unloading stiffness of a side by its peak.

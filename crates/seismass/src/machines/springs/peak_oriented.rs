@@ -25,8 +25,8 @@ struct Shape {
     exponent: f64,
     /// Energy that can be dissipated (J).
     capacity: f64,
-    /// Where strength can be lost, the slope of the first branch: unloading is not softer.
-    least_unloading: f64,
+    /// Slope of the first branch, not below zero.
+    hardening: f64,
 }
 
 impl Shape {
@@ -45,7 +45,7 @@ impl Shape {
             residual: law.residual_strength * yield_shear,
             exponent: law.unloading_exponent,
             capacity: law.energy_capacity * yield_shear * yield_drift,
-            least_unloading: if law.energy_capacity.is_finite() { first_slope.max(0.0) * stiffness } else { 0.0 },
+            hardening: first_slope.max(0.0) * stiffness,
         }
     }
 
@@ -63,14 +63,15 @@ impl Shape {
     }
 
     /// Stiffness of unloading from the side whose largest drift is `drift`, with `force` there, after the force went up
-    /// from zero with the slope `reload_slope`. Not below that of the line from the origin, nor below that slope: what is
-    /// stored is not more than the work since the force was zero.
+    /// from zero with the slope `reload_slope`. Not below that of the line from the origin; where strength can be lost, nor
+    /// below that slope and the hardening one: what is stored is not more than the work since the force was zero.
     fn unloading(&self, drift: f64, force: f64, reload_slope: f64) -> f64 {
         if self.exponent == 0.0 || drift <= self.yield_drift {
             return self.stiffness;
         }
         let by_drift = self.stiffness * libm::pow(self.yield_drift / drift, self.exponent);
-        by_drift.max(force / drift).max(reload_slope).max(self.least_unloading)
+        let least = if self.capacity.is_finite() { reload_slope.max(self.hardening) } else { 0.0 };
+        by_drift.max(force / drift).max(least)
     }
 
     /// How many segments have been left on a branch.
