@@ -4,7 +4,10 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene, Status};
+use seismass::{
+    Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene, SpringLaw, Status,
+    Storey,
+};
 
 use super::pairs;
 use super::verdict::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
@@ -174,7 +177,7 @@ fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(S
     let mut changed = Scene::new(building, scene.blocks().iter().map(block).collect()).ok()?;
     if scene.initial_drift().iter().chain(scene.initial_velocity()).any(|&value| value != 0.0) {
         let drift = scene.initial_drift().iter().zip(limits).map(|(d, storey)| {
-            let limit = storey.yield_shear / storey.stiffness;
+            let limit = storey.elastic_drift();
             (d * start).clamp(-limit, limit)
         });
         changed = changed.with_initial(drift.collect(), scaled(scene.initial_velocity(), start)).ok()?;
@@ -189,8 +192,13 @@ fn changed_building(building: &Building, mass: f64, stiffness: f64, strength: f6
     let masses = building.mass().iter().map(|m| m * mass).collect();
     let mut storeys = building.storeys().to_vec();
     for storey in &mut storeys {
-        storey.stiffness *= stiffness;
-        storey.yield_shear *= strength;
+        if let SpringLaw::Multilinear { backbone } = &storey.law {
+            let points: Vec<_> = backbone.iter().map(|[d, f]| [d * strength / stiffness, f * strength]).collect();
+            *storey = Storey::multilinear(points);
+        } else {
+            storey.stiffness *= stiffness;
+            storey.yield_shear *= strength;
+        }
     }
     let damping = match building.damping() {
         Damping::Matrix(c) => Damping::Matrix(c * stiffness),
