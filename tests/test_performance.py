@@ -28,8 +28,8 @@ TIMINGS = {
 ANNOTATED = """\
 Ir                 file:function
 --------------------------------------------------------------------------------
-1,000 (50.00%)  crates/seismass/src/taylor.rs:seismass::simulate::run [/somewhere/count]
-  600 (30.00%)  /rustc/59807/library/core/src/num/f64.rs:seismass::simulate::run
+1,000 (50.00%)  crates/seismass/src/step/series.rs:seismass::run::simulate::run [/somewhere/count]
+  600 (30.00%)  /rustc/59807/library/core/src/num/f64.rs:seismass::run::simulate::run
   300 (15.00%)  ./malloc/./malloc/malloc.c:_int_free [/usr/lib/libc.so.6]
   100 ( 5.00%)  ???:std::time::now [/usr/lib/libc.so.6]
 2,000 (100.0%)  PROGRAM TOTALS
@@ -80,12 +80,12 @@ def test_targets_within_scatter_are_marked_and_those_added_later_counted_apart(m
 def test_instructions_by_module_and_by_function(module: Any) -> None:
     modules, functions = module("targets.profile").shares(ANNOTATED)
     assert modules == {
-        "taylor": 1000,
-        "simulate": 600,
+        "step/series": 1000,
+        "run": 600,
         "memory: allocated, copied, cleared": 300,
         "other libraries": 100,
     }
-    assert functions["seismass::simulate::run"] == 1600
+    assert functions["seismass::run::simulate::run"] == 1600
 
 
 def test_instruction_counts_are_appended_under_new_labels(

@@ -18,6 +18,8 @@ K, V_Y = 1e6, 1e4
 POINTS = [(0.01, 60e3), (0.03, 90e3), (0.08, 100e3)]
 PEAK: dict[str, Any] = {"yield_shear": V_Y, "overstrength": 1.0, "second_slope": 0.0, "hysteresis": "peak-oriented"}
 
+FLAG: dict[str, Any] = {"yield_shear": V_Y, "second_slope": 0.1, "hysteresis": "flag-shaped"}
+
 
 def storey(**arguments: Any) -> sm.Building:
     """A building of one storey."""
@@ -57,6 +59,7 @@ VALUES = [
     storey(stiffness=None, backbone=POINTS[:2]),
     storey(**PEAK),
     storey(**PEAK, energy_capacity=20.0),
+    storey(**FLAG, flag_height=0.5),
     storey(clearance=0.01, stop_stiffness=2e6),
     sm.Building([1e3, 1e3], K, yield_shear=V_Y, hysteresis=["masing", "peak-oriented"], residual_strength=0.1),
     sm.Block(1, mass=2.0, mu=0.3, wear=[(0.1, 0.25, 0.2)]),
@@ -108,7 +111,7 @@ BUILDINGS: list[tuple[dict[str, Any], str]] = [
         {"backbone": [(0.02, 1e4), (0.03, 3e4)]},
         "slope of the segment of backbone point 2 of storey 1 must be not",
     ),
-    ({"backbone": POINTS, "overstrength": 3.0}, "overstrength of building must be left out where every storey has a"),
+    ({"backbone": POINTS, "overstrength": 3.0}, "overstrength of building must be left out where no storey has a tri"),
     (
         {"backbone": POINTS, "clearance": 0.1, "stop_stiffness": K},
         "clearance of building must be left out where",
@@ -117,7 +120,7 @@ BUILDINGS: list[tuple[dict[str, Any], str]] = [
         {"backbone": POINTS, "hysteresis": "peak-oriented"},
         "hysteresis of building must be left out where",
     ),
-    ({"hysteresis": "takeda"}, "hysteresis of building must be masing or peak-oriented; got 'takeda'"),
+    ({"hysteresis": "takeda"}, "hysteresis of building must be masing or peak-oriented or flag-shaped; got"),
     ({"hysteresis": ["masing"] * 2, "mass": [1.0] * 3}, "hysteresis of building must be one name or a list of 3"),
     ({"third_slope": -0.1}, "third_slope of storey 1 must be between 0 and the second slope 0.05; got -0.1"),
     ({**PEAK, "third_slope": -1.1}, "third_slope of storey 1 must be between -1 and the second slope 0; got -1.1"),
@@ -125,6 +128,16 @@ BUILDINGS: list[tuple[dict[str, Any], str]] = [
     ({**PEAK, "energy_capacity": 0.0}, "energy_capacity of storey 1 must be positive"),
     ({**PEAK, "residual_strength": 1.1}, "residual_strength of storey 1 must be between 0 and 1; got 1.1"),
     ({**PEAK, "clearance": 0.1, "stop_stiffness": K}, "clearance of building must be left out where storey 1 is peak-"),
+    ({**FLAG, "flag_height": 1.1}, "flag_height of storey 1 must be between 0 and 1; got 1.1"),
+    (
+        {**FLAG, "backbone": POINTS},
+        "hysteresis of building must be left out where storey 1 has a backbone; got f",
+    ),
+    (
+        {**FLAG, "third_slope": 0.01},
+        "third_slope of building must be left out where no storey has a tri",
+    ),
+    ({"flag_height": 0.5}, "flag_height of building must be left out where no storey has flag-shaped hysteresis"),
     ({"unloading_exponent": 0.5}, "unloading_exponent of building must be left out where no storey has peak-oriented"),
     ({"stop_stiffness": 1.0}, "stop_stiffness of building must be left out where no storey has a clearance"),
     ({"clearance": 0.1}, "stop_stiffness of storey 1 must be a positive number; got 0"),
@@ -160,12 +173,13 @@ def test_scene_files_have_laws_and_wear(tmp_path: Path) -> None:
         "mass": 1e3,
         "stiffness": K,
         "yield_shear": V_Y,
-        "backbone": [None, POINTS, None],
-        "hysteresis": ["peak-oriented", "masing", "masing"],
-        "third_slope": [-0.1, 0.0, 0.0],
-        "energy_capacity": [None, None, None],
-        "clearance": [None, None, 0.05],
+        "backbone": [None, POINTS, None, None],
+        "hysteresis": ["peak-oriented", "masing", "masing", "flag-shaped"],
+        "third_slope": [-0.1, 0.0, 0.0, 0.0],
+        "energy_capacity": [None, None, None, None],
+        "clearance": [None, None, 0.05, None],
         "stop_stiffness": 2e6,
+        "flag_height": 0.7,
     }
     blocks = [{"floor": 1, "mass": 10.0, "mu": 0.3, "wear": [[0.1, 0.25, 0.2]]}]
     path.write_text(json.dumps({"building": building, "blocks": blocks, "motion": motion}))
@@ -173,11 +187,12 @@ def test_scene_files_have_laws_and_wear(tmp_path: Path) -> None:
         1e3,
         K,
         yield_shear=V_Y,
-        backbone=[None, POINTS, None],
-        hysteresis=["peak-oriented", "masing", "masing"],
-        third_slope=[-0.1, 0.0, 0.0],
-        clearance=[math.inf, math.inf, 0.05],
+        backbone=[None, POINTS, None, None],
+        hysteresis=["peak-oriented", "masing", "masing", "flag-shaped"],
+        third_slope=[-0.1, 0.0, 0.0, 0.0],
+        clearance=[math.inf, math.inf, 0.05, math.inf],
         stop_stiffness=2e6,
+        flag_height=0.7,
     )
     block = sm.Block(1, mass=10.0, mu=0.3, wear=[(0.1, 0.25, 0.2)])
     assert sm.read_scene(path).scene == sm.Scene(expected, [block])

@@ -102,6 +102,23 @@ def test_strength_is_lost_by_the_energy_of_half_cycles() -> None:
     assert found.force[2] == pytest.approx(-7.5e3 * 0.02 / 0.03, rel=1e-12)
 
 
+def test_flag_shaped_loop_comes_back_to_the_origin() -> None:
+    # Slopes k and 0.1 k; unloading falls by 0.6 V_y and 0.6 d_y to the line through (0.004, 4e3).
+    building = storey(yield_shear=V_Y, second_slope=0.1, hysteresis="flag-shaped", flag_height=0.6)
+    path = sm.spring_forces(building, 1, [0.01, 0.03, 0.024, 0.014, 0.017, 0.024, 0.0, -0.03, 0.0])
+    assert path.force.tolist() == pytest.approx([1e4, 12e3, 6e3, 5e3, 8e3, 11.4e3, 0.0, -12e3, 0.0], abs=1e-8)
+    kinds = ["yield", "unload", "yield", "reload", "yield", "unload", "yield", "unload"]
+    assert path.events["kind"].to_list() == [*kinds, "yield", "unload", "yield", "unload"]
+    assert path.events["element"].to_list()[:8] == [1, None, 2, None, 1, None, 2, None]
+    # The lines are beta (1 - r2) V_y apart: 5.4 kN over 0.02, 0.004 and 0.02 m of the upper ones.
+    assert path.dissipated[-1] == pytest.approx(5.4e3 * 0.044, rel=1e-12)
+    assert path.stored[-1] == pytest.approx(0.0, abs=1e-9)
+    # With beta = 0 there is one line, and nothing is lost.
+    line = sm.spring_forces(building.replace(flag_height=0.0), 1, [0.03, 0.02, 0.03, -0.03])
+    assert line.force.tolist() == pytest.approx([12e3, 11e3, 12e3, -12e3], rel=1e-12)
+    assert line.dissipated[-1] == 0.0
+
+
 def test_friction_changes_with_the_slip_path() -> None:
     """A block on ground of constant acceleration: its relative acceleration is constant in each stage."""
     acceleration, g = 5.0, sm.STANDARD_GRAVITY

@@ -64,26 +64,36 @@ By function, inlined code counted in the function that it was inlined into:
 
 MEMORY: Final = "memory: allocated, copied, cleared"
 ACTIVITIES: Final = (
-    ("take plain steps and prove them clear", ("plain_run", "closer_look", "sliding")),
-    ("form the series of intervals in which something may happen", ("taylor",)),
-    ("bound quantities over them, look at guards and locate their roots", ("state", "bounds", "events", "bernstein")),
-    ("go from event to event and follow springs, blocks and peaks", ("simulate", "observe", "storey", "friction")),
-    ("form regimes with their steps and tables", ("regime", "regime_bounds", "propagator", "few_storeys")),
+    ("take plain steps and prove them clear", ("plain",)),
+    (
+        "form the series of intervals in which something may happen",
+        ("step/drive", "step/polynomials", "step/series", "step/stop"),
+    ),
+    ("bound quantities over them, look at guards and locate their roots", ("state", "events", "polynomial")),
+    ("go from event to event and follow springs, blocks and peaks", ("run", "record", "machines")),
+    (
+        "form regimes with their steps and tables",
+        ("regime", "step/banded", "step/cache", "step/dense", "step/few", "step/full", "step/steps", "step/table"),
+    ),
     ("allocate, copy and clear memory", (MEMORY,)),
 )
 """What modules do, as a sentence tells it."""
 
 _LINE: Final = re.compile(r"^\s*([\d,]+) \(\s*[\d.]+%\)\s+([^:]+):(.+?)(?: \[.*\])?$")
-_KERNEL: Final = re.compile(r"crates/seismass/src/(\w+)")
-_FUNCTION: Final = re.compile(r"seismass::(\w+)::")
+_KERNEL: Final = re.compile(r"crates/seismass/src/([\w/]+)\.rs")
+_FUNCTION: Final = re.compile(r"seismass::((?:[a-z_]+::)+)")
 _MEMORY: Final = re.compile(r"malloc|free|calloc|alloc::|mem(cpy|move|set)|_int_")
 
 
 def module_of(file: str, function: str) -> str:
-    """Return the module of the kernel that a line belongs to: by its file, or by its function where that is inlined."""
+    """Return the layer of the kernel that a line belongs to, of steps the module too.
+
+    It is told by the file, or by the function where that is inlined.
+    """
     found = _KERNEL.search(file) or _FUNCTION.search(function)
     if found:
-        return found.group(1)
+        parts = [part for part in re.split("/|::", found.group(1)) if part and part != "mod"]
+        return "/".join(parts[:2]) if parts[0] == "step" else parts[0]
     if _MEMORY.search(function):
         return MEMORY
     return "other libraries"

@@ -196,7 +196,7 @@ class Building:
         springs: dict[str, NDArray[float64]],
         *,
         backbones: SupportsGetItem[int, NDArray[float64] | None] | None = None,
-        peak_oriented: SupportsGetItem[int, bool] | None = None,
+        hysteresis: SupportsGetItem[int, str] | None = None,
         damping_ratio: SupportsFloat | SupportsIndex | None = None,
         rayleigh_modes: tuple[SupportsIndex, SupportsIndex] | None = None,
         damping_matrix: NDArray[float64] | None = None,
@@ -206,7 +206,8 @@ class Building:
     ) -> Building:
         """
         Lists have one value per storey; `springs` has one by the name of each of a spring's numbers that is not the
-        default. A backbone is a table of drift (m) and force (N); a storey without one is trilinear. Damping is
+        default. A backbone is a table of drift (m) and force (N); a storey without one is trilinear. `hysteresis` names
+        that of each storey, Masing's without it. Damping is
         `damping_ratio` in every mode, or in two modes, or a matrix.
         """
     @property

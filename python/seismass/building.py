@@ -15,7 +15,6 @@ from seismass.errors import InvalidScene
 from seismass.spring_laws import (
     Backbone,
     BackboneLike,
-    Hysteresis,
     check_parts,
     listed_storeys,
     of_first_segment,
@@ -27,6 +26,7 @@ from seismass.spring_laws import (
 from seismass.springs import (
     SHAPE_FIELDS,
     SPRING_FIELDS,
+    Hysteresis,
     SpringArguments,
     SpringShape,
     checked_names,
@@ -57,8 +57,9 @@ class Building(Value):
         Drifts (m) and forces (N) of a polygon from the origin, of slopes that do not increase, with Masing unloading; a
         list has one per storey, None where a storey is trilinear. The stiffness and the yield shear of a storey with a
         backbone are those of its first segment; one number for either of them is for the other storeys.
-    hysteresis : {"masing", "peak-oriented"} or list of them, default "masing"
-        How storeys unload and reload. Peak-oriented ones reload straight to their largest drift so far.
+    hysteresis : {"masing", "peak-oriented", "flag-shaped"} or list of them, default "masing"
+        How storeys unload and reload. Peak-oriented ones reload straight to their largest drift so far. Flag-shaped
+        ones, of slopes k and r2 k, come back to zero drift at zero force.
     damping : float, Rayleigh or array_like of shape (storeys, storeys), default 0.05
         A ratio in every vibration mode of the bare building, from 0 to 1 (0.05 for 5 %), Rayleigh damping, or the
         matrix C (N s/m).
@@ -133,6 +134,7 @@ class Building(Value):
     unloading_exponent: FloatArray
     energy_capacity: FloatArray
     residual_strength: FloatArray
+    flag_height: FloatArray
     backbone: tuple[Backbone | None, ...] | None
     hysteresis: tuple[Hysteresis, ...]
     damping: float | Rayleigh | FloatArray
@@ -358,17 +360,16 @@ class Building(Value):
         return {"V_y/W": self.yield_shear / self.weight, **listed}
 
     def springs_in_use(self) -> dict[str, FloatArray]:
-        """Return `springs` without the numbers of what no storey has, such as stops or peak-oriented hysteresis."""
+        """Return `springs` without the numbers that do not matter, such as those of stops where no storey has one."""
         has = parts(self.springs, self.backbone, self.hysteresis)
-        of_part = {name: SPRING_FIELDS[name].part for name in SPRING_FIELDS}
-        unused = {name for name, part in of_part.items() if part is not None and part not in has}
+        unused = {name for name, field in SPRING_FIELDS.items() if not field.matters(has)}
         if "stop" not in has:
             unused.add("clearance")
         return {name: values for name, values in self.springs.items() if name not in unused}
 
     @property
     def laws(self) -> tuple[str, ...]:
-        """What springs have beside trilinear backbones with Masing unloading: "backbone", "stop", "peak-oriented"."""
+        """What springs have beside trilinear backbones with Masing unloading: "backbone", "stop", or a hysteresis."""
         backbones = () if self.backbone is None else ("backbone",)
         return (*backbones, *sorted(parts(self.springs, self.backbone, self.hysteresis) - {"trilinear"}, reverse=True))
 
@@ -444,8 +445,8 @@ def _law_arguments(building: Building) -> dict[str, Any]:
     found: dict[str, Any] = {}
     if building.backbone is not None:
         found["backbones"] = [None if points is None else np.array(points) for points in building.backbone]
-    if "peak-oriented" in building.hysteresis:
-        found["peak_oriented"] = [name == "peak-oriented" for name in building.hysteresis]
+    if any(name != "masing" for name in building.hysteresis):
+        found["hysteresis"] = list(building.hysteresis)
     return found
 
 

@@ -3,29 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, Final, Literal, TypeAlias, get_args
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass._values import FloatArray, as_array, brief, frozen, refusal
 from seismass.errors import InvalidScene
-from seismass.springs import SPRING_FIELDS, Part
-
-Hysteresis: TypeAlias = Literal["masing", "peak-oriented"]
-"""Masing unloading and reloading, or straight to the largest drift so far (Clough and Johnston 1966)."""
-HYSTERESES: Final[tuple[Hysteresis, ...]] = get_args(Hysteresis)
+from seismass.springs import HYSTERESES, SPRING_FIELDS, TRILINEAR, Hysteresis, Part
 
 Backbone: TypeAlias = tuple[tuple[float, float], ...]
 """Points of drift (m) and force (N) beyond the origin, in order."""
 BackboneLike: TypeAlias = ArrayLike | Sequence[ArrayLike | None]
 """Points for every storey, or a list with those of each storey, None where it has none."""
 
-_ABSENT: Final[dict[Part, str]] = {
-    "trilinear": "left out where every storey has a backbone",
-    "stop": "left out where no storey has a clearance",
-    "peak-oriented": "left out where no storey has peak-oriented hysteresis",
-}
+_NAMES: Final[dict[Part, str]] = {"trilinear": "a trilinear backbone", "stop": "a clearance"}
+"""What errors call a part that is no hysteresis."""
 _SAME: Final = 1e-9
 """Relative difference up to which a stiffness or strength is that of a backbone."""
 
@@ -122,10 +115,11 @@ def check_parts(
     has = parts(springs, backbones, hysteresis)
     for name, values in springs.items():
         field = SPRING_FIELDS.get(name)
-        if field is None or field.part is None or field.part in has:
+        if field is None or field.matters(has) or (values == field.default).all():
             continue
-        if (values != field.default).any():
-            raise refusal(InvalidScene, name, "building", _ABSENT[field.part], brief(values.tolist()))
+        missing = " or ".join(_NAMES.get(part, f"{part} hysteresis") for part in field.parts)
+        requirement = f"left out where no storey has {missing}"
+        raise refusal(InvalidScene, name, "building", requirement, brief(values.tolist()))
 
 
 def parts(
@@ -134,13 +128,12 @@ def parts(
     hysteresis: tuple[Hysteresis, ...],
 ) -> set[Part]:
     """Return what the springs of a building have of what may be absent."""
-    found: set[Part] = set()
-    if backbones is None or None in backbones:
+    found: set[Part] = {name for name in hysteresis if name != "masing"}
+    listed = backbones or [None] * len(hysteresis)
+    if any(points is None and name in TRILINEAR for points, name in zip(listed, hysteresis, strict=True)):
         found.add("trilinear")
     if "clearance" in springs and (springs["clearance"] < np.inf).any():
         found.add("stop")
-    if "peak-oriented" in hysteresis:
-        found.add("peak-oriented")
     return found
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Annotated, Any, Final, Literal, TypeAlias, TypedDict, TypeGuard, TypeVar, get_args, get_type_hints
@@ -28,7 +29,15 @@ DEFAULT_THIRD_SLOPE: Final = _kernel.DEFAULT_THIRD_SLOPE
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
-Part: TypeAlias = Literal["trilinear", "stop", "peak-oriented"]
+Hysteresis: TypeAlias = Literal["masing", "peak-oriented", "flag-shaped"]
+"""Masing's rules, straight to the largest drift so far (Clough and Johnston 1966), or self-centring (Christopoulos,
+Filiatrault and Folz 2002)."""
+HYSTERESES: Final[tuple[Hysteresis, ...]] = get_args(Hysteresis)
+
+Part: TypeAlias = Literal["trilinear", "stop", Hysteresis]
+"""What a storey's spring may have: a trilinear backbone, a stop on each side, a hysteresis."""
+TRILINEAR: Final[frozenset[Hysteresis]] = frozenset({"masing", "peak-oriented"})
+"""The hystereses that have a trilinear backbone where no other is given."""
 
 
 @dataclass(frozen=True)
@@ -49,9 +58,9 @@ class SpringField:
         Its range, as errors have it.
     low, high : float
         The range, both ends included.
-    part : {"trilinear", "stop", "peak-oriented"}, optional
-        What of a spring it belongs to, where that may be absent: a trilinear backbone, stops, or peak-oriented
-        hysteresis.
+    parts : tuple of str
+        What a spring must have for it to matter, one of these: a trilinear backbone, a stop, a hysteresis. Empty:
+        nothing.
     """
 
     default: float
@@ -61,11 +70,15 @@ class SpringField:
     requirement: str
     low: float
     high: float
-    part: Part | None = None
+    parts: tuple[Part, ...] = ()
 
     def accepts(self, values: FloatArray | float) -> NDArray[np.bool_]:
         """Return which values are in the range."""
         return np.asarray((self.low <= values) & (values <= self.high))
+
+    def matters(self, present: AbstractSet[Part]) -> bool:
+        """Return whether it matters for springs that have these parts."""
+        return not self.parts or any(part in present for part in self.parts)
 
 
 _TINY: Final = float(np.nextafter(0.0, 1.0))
@@ -86,7 +99,7 @@ class SpringShape(TypedDict, total=False):
             "finite and at least 1",
             1.0,
             _HUGE,
-            "trilinear",
+            ("trilinear",),
         ),
     ]
     second_slope: Annotated[
@@ -99,7 +112,7 @@ class SpringShape(TypedDict, total=False):
             "between 0 and 1",
             0.0,
             1.0,
-            "trilinear",
+            ("trilinear", "flag-shaped"),
         ),
     ]
     third_slope: Annotated[
@@ -112,7 +125,7 @@ class SpringShape(TypedDict, total=False):
             "between -1 and 1",
             -1.0,
             1.0,
-            "trilinear",
+            ("trilinear",),
         ),
     ]
     clearance: Annotated[
@@ -137,7 +150,7 @@ class SpringShape(TypedDict, total=False):
             "finite and not negative",
             0.0,
             _HUGE,
-            "stop",
+            ("stop",),
         ),
     ]
     unloading_exponent: Annotated[
@@ -150,7 +163,7 @@ class SpringShape(TypedDict, total=False):
             "at least 0 and below 1",
             0.0,
             _BELOW_ONE,
-            "peak-oriented",
+            ("peak-oriented",),
         ),
     ]
     energy_capacity: Annotated[
@@ -163,7 +176,7 @@ class SpringShape(TypedDict, total=False):
             "positive (infinite: no cyclic loss)",
             _TINY,
             np.inf,
-            "peak-oriented",
+            ("peak-oriented",),
         ),
     ]
     residual_strength: Annotated[
@@ -176,7 +189,20 @@ class SpringShape(TypedDict, total=False):
             "between 0 and 1",
             0.0,
             1.0,
-            "peak-oriented",
+            ("peak-oriented",),
+        ),
+    ]
+    flag_height: Annotated[
+        ArrayLike,
+        SpringField(
+            1.0,
+            "",
+            "beta",
+            "Height beta of flag-shaped hysteresis over V_y, 0 to 1: how far unloading falls with slope k; 0: no loss.",
+            "between 0 and 1",
+            0.0,
+            1.0,
+            ("flag-shaped",),
         ),
     ]
 

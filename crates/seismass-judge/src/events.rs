@@ -12,6 +12,8 @@ use crate::state::{BlockState, Contact, Drive, State};
 
 /// Rounding of a guard, in units of the number type's epsilon times the size of its terms.
 const ROUNDING: f64 = 64.0;
+/// Places of roots at one drift differ by at most so much rounding: what it is over the drift that is left.
+const SAME_PLACE: f64 = 1024.0;
 
 /// A state machine's condition for staying as it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,9 +68,17 @@ impl<R: Real> Machines<'_, R> {
         let mut consider = |guard: Guard, polynomial: Polynomial<R>, size: R| {
             let rounding = R::of(ROUNDING) * R::epsilon();
             let Some(place) = polynomial.first_fall(rounding * size) else { return };
-            // At A = 0 a stuck block's limit and the contact force vanish together: contact comes first.
+            // At A = 0 a stuck block's limit and the contact force vanish together: contact comes first. A backbone may
+            // end where the storey collapses: collapse comes first.
             let earlier = |(other, before): (R, Guard)| {
-                place < if before == Guard::Contact { other - rounding * other } else { other }
+                place
+                    < match (guard, before) {
+                        (_, Guard::Contact) => other - rounding * other,
+                        (Guard::Collapse { storey }, Guard::Spring { storey: ends, .. }) if storey == ends => {
+                            other + R::of(SAME_PLACE) * rounding
+                        }
+                        _ => other,
+                    }
             };
             if first.is_none_or(earlier) {
                 first = Some((place, guard));
@@ -159,16 +169,23 @@ impl<R: Real> Machines<'_, R> {
         }
     }
 
-    /// The block has come to its next stage of wear: it slides on, and its floor decides about the others.
+    /// The block, and those on its floor that do so at this instant, have come to their next stage of wear: they slide
+    /// on, and the floor decides about the others.
     fn wear(&mut self, block: usize, tau: R) {
-        let data = &self.model.blocks[block];
-        let state = &mut self.state.blocks[block];
-        state.stage += 1;
-        let Stage { path, mu_s, mu_k } = data.stages[state.stage];
-        (state.path, state.mu_s, state.mu_k) = (path, mu_s, mu_k);
-        let (sign, stage) = (state.velocity_sign(), state.stage);
-        self.note(tau, EventKind::Wear, block, sign, stage as u8);
-        self.settle(data.floor, tau, Cause::Wear(block));
+        let floor = self.model.blocks[block].floor;
+        for j in self.on_floor(floor) {
+            let (data, state) = (&self.model.blocks[j], &mut self.state.blocks[j]);
+            let Some(&Stage { path, mu_s, mu_k }) = data.stages.get(state.stage + 1) else { continue };
+            let slides = matches!(state.contact, Contact::Sliding(_));
+            let comes = slides && path - state.path <= R::of(ROUNDING) * R::epsilon() * path;
+            if j == block || comes {
+                state.stage += 1;
+                (state.path, state.mu_s, state.mu_k) = (path, mu_s, mu_k);
+                let (sign, stage) = (state.velocity_sign(), state.stage);
+                self.note(tau, EventKind::Wear, j, sign, stage as u8);
+            }
+        }
+        self.settle(floor, tau, Cause::Wear(block));
     }
 
     /// Sets the relative velocity to exactly zero: of `block`, and of all on its floor that arrive at this instant.

@@ -14,7 +14,7 @@ use crate::random_scene::{Draw, blocks, mass_above, samples_of, spring};
 ///
 /// 1 to 4 storeys, each with a law of its own or all with one: backbones of 1 to 6 points, some of them on a line or flat
 /// at the end; gaps before and after yield; peak-oriented springs with and without Takeda's exponent, cyclic loss, softening
-/// and residual strength; P-Delta; initial drifts and velocities; no blocks, or up to three per floor and on the ground, whose
+/// and residual strength; flags of any height; P-Delta; initial drifts and velocities; no blocks, or up to three per floor and on the ground, whose
 /// friction falls or grows with the path they slip; sines, noise and steps, with and without vertical motion.
 ///
 /// # Errors
@@ -43,6 +43,22 @@ pub fn law_scene(seed: u64) -> Result<(Scene, Motion)> {
         samples_of(draw, samples, dt, peak).into()
     });
     Ok((scene, Motion::new(acceleration, dt, vertical)?))
+}
+
+/// In one scene of three, gives about half of the storeys that yield a further law, and every block wear.
+pub(crate) fn draw_laws(seed: u64, storeys: &mut [Storey], blocks: &mut [Block]) {
+    let mut draw = Draw(seed ^ 0x6c61_7773);
+    let draw = &mut draw;
+    if !draw.one_in(3) {
+        return;
+    }
+    for storey in storeys.iter_mut().filter(|storey| storey.yield_shear.is_finite()) {
+        if draw.one_in(2) {
+            let law = draw.bits() % LAWS.len() as u64;
+            *storey = LAWS[law as usize](draw, storey.clone());
+        }
+    }
+    blocks.iter_mut().for_each(|block| block.wear = wear(draw, block));
 }
 
 /// Up to three changes of friction, by paths of the order of those that blocks slip.
@@ -87,32 +103,45 @@ fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Bui
     Building::new(mass, storeys, damping)?.with_gravity(gravity)
 }
 
+/// The laws of a random storey, those drawn more often several times: what they make of a trilinear one.
+const LAWS: [fn(&mut Draw, Storey) -> Storey; 7] =
+    [multilinear, gap, peak_oriented, peak_oriented, peak_oriented, flag_shaped, flag_shaped];
+
 fn storey(draw: &mut Draw, law: u64, stiffness: f64, yield_shear: f64) -> Storey {
     let (overstrength, second_slope, third_slope) = spring(draw);
     let trilinear = Storey { overstrength, second_slope, third_slope, ..Storey::yielding(stiffness, yield_shear) };
-    match law % 5 {
-        0 => Storey::multilinear(backbone(draw, stiffness, yield_shear)),
-        1 => {
-            let clearance = yield_shear / stiffness * draw.scale(0.3, 4.0);
-            let stop_stiffness = stiffness * draw.scale(0.1, 10.0);
-            let elastic = draw.one_in(5);
-            let yield_shear = if elastic { f64::INFINITY } else { yield_shear };
-            Storey { yield_shear, law: SpringLaw::Gap { clearance, stop_stiffness }, ..trilinear }
-        }
-        _ => {
-            let takeda = draw.one_in(2);
-            let third_slope = match draw.one_in(2) {
-                true => -draw.scale(0.01, 0.5),
-                false => third_slope,
-            };
-            let law = SpringLaw::PeakOriented(PeakOriented {
-                unloading_exponent: if takeda { draw.between(0.1, 0.95) } else { 0.0 },
-                energy_capacity: if draw.one_in(2) { f64::INFINITY } else { draw.scale(2.0, 200.0) },
-                residual_strength: if draw.one_in(2) { 0.0 } else { draw.between(0.05, 1.0) },
-            });
-            Storey { third_slope, law, ..trilinear }
-        }
-    }
+    LAWS[(law % LAWS.len() as u64) as usize](draw, trilinear)
+}
+
+fn multilinear(draw: &mut Draw, trilinear: Storey) -> Storey {
+    Storey::multilinear(backbone(draw, trilinear.stiffness, trilinear.yield_shear))
+}
+
+fn gap(draw: &mut Draw, trilinear: Storey) -> Storey {
+    let clearance = trilinear.yield_shear / trilinear.stiffness * draw.scale(0.3, 4.0);
+    let stop_stiffness = trilinear.stiffness * draw.scale(0.1, 10.0);
+    let yield_shear = if draw.one_in(5) { f64::INFINITY } else { trilinear.yield_shear };
+    Storey { yield_shear, law: SpringLaw::Gap { clearance, stop_stiffness }, ..trilinear }
+}
+
+fn peak_oriented(draw: &mut Draw, trilinear: Storey) -> Storey {
+    let takeda = draw.one_in(2);
+    let third_slope = match draw.one_in(2) {
+        true => -draw.scale(0.01, 0.5),
+        false => trilinear.third_slope,
+    };
+    let law = SpringLaw::PeakOriented(PeakOriented {
+        unloading_exponent: if takeda { draw.between(0.1, 0.95) } else { 0.0 },
+        energy_capacity: if draw.one_in(2) { f64::INFINITY } else { draw.scale(2.0, 200.0) },
+        residual_strength: if draw.one_in(2) { 0.0 } else { draw.between(0.05, 1.0) },
+    });
+    Storey { third_slope, law, ..trilinear }
+}
+
+fn flag_shaped(draw: &mut Draw, trilinear: Storey) -> Storey {
+    let between = draw.between(0.02, 0.98);
+    let flag_height = draw.one_of(&[0.0, 1.0, between, between, between]);
+    Storey { law: SpringLaw::FlagShaped { flag_height }, ..trilinear }
 }
 
 fn backbone(draw: &mut Draw, stiffness: f64, yield_shear: f64) -> Vec<[f64; 2]> {

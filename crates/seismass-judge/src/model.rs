@@ -1,6 +1,6 @@
 //! The constant data of a scene in the number type of the run (`numerics`, sections 1 to 3).
 
-use seismass::damping::StoreyDamping;
+use seismass::scene::StoreyDamping;
 use seismass::{STANDARD_GRAVITY, Scene, Storey};
 
 use crate::real::Real;

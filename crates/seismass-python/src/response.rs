@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 
 use pyo3::prelude::*;
-use seismass::simulate::simulate_until;
+use seismass::simulate_until;
 use seismass::{EventKind, InstructionSet, Options, Peak, Status};
 
 use crate::arrays::{Kept, Named, Output};

@@ -30,10 +30,11 @@ pub(crate) struct Building(pub(crate) Arc<seismass::Building>);
 #[pymethods]
 impl Building {
     /// Lists have one value per storey; `springs` has one by the name of each of a spring's numbers that is not the
-    /// default. A backbone is a table of drift (m) and force (N); a storey without one is trilinear. Damping is
+    /// default. A backbone is a table of drift (m) and force (N); a storey without one is trilinear. `hysteresis` names
+    /// that of each storey, Masing's without it. Damping is
     /// `damping_ratio` in every mode, or in two modes, or a matrix.
     #[new]
-    #[pyo3(signature = (mass, springs, *, backbones=None, peak_oriented=None, damping_ratio=None, rayleigh_modes=None, damping_matrix=None, heights=None,
+    #[pyo3(signature = (mass, springs, *, backbones=None, hysteresis=None, damping_ratio=None, rayleigh_modes=None, damping_matrix=None, heights=None,
         gravity_load=None, geometric_stiffness=None))]
     #[allow(clippy::too_many_arguments)]
     fn new(
@@ -41,7 +42,7 @@ impl Building {
         mass: Values<f64>,
         springs: BTreeMap<String, Values<f64>>,
         backbones: Option<Vec<Option<Table<f64>>>>,
-        peak_oriented: Option<Vec<bool>>,
+        hysteresis: Option<Vec<String>>,
         damping_ratio: Option<f64>,
         rayleigh_modes: Option<(usize, usize)>,
         damping_matrix: Option<Table<f64>>,
@@ -62,7 +63,7 @@ impl Building {
             _ => Err(refuse("P-Delta", "geometric_stiffness, or heights and gravity_load", "another combination")),
         };
         let count = mass.0.len();
-        let storeys = springs::storeys(count, &springs, backbones.as_deref(), peak_oriented.as_deref());
+        let storeys = springs::storeys(count, &springs, backbones.as_deref(), hysteresis.as_deref());
         find_frequencies(py, count, move || seismass::Building::new(mass.0, storeys?, damping?)?.with_gravity(gravity?))
             .map(|building| Self(Arc::new(building)))
     }

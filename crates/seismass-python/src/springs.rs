@@ -14,12 +14,13 @@ struct Spring {
     clearance: f64,
     stop_stiffness: f64,
     peak_oriented: PeakOriented,
+    flag_height: f64,
 }
 
 /// A number of a storey's spring: its name and its place.
 type SpringField = (&'static str, fn(&mut Spring) -> &mut f64);
 
-const SPRING_FIELDS: [SpringField; 10] = [
+const SPRING_FIELDS: &[SpringField] = &[
     ("stiffness", |spring| &mut spring.storey.stiffness),
     ("yield_shear", |spring| &mut spring.storey.yield_shear),
     ("overstrength", |spring| &mut spring.storey.overstrength),
@@ -30,14 +31,35 @@ const SPRING_FIELDS: [SpringField; 10] = [
     ("unloading_exponent", |spring| &mut spring.peak_oriented.unloading_exponent),
     ("energy_capacity", |spring| &mut spring.peak_oriented.energy_capacity),
     ("residual_strength", |spring| &mut spring.peak_oriented.residual_strength),
+    ("flag_height", |spring| &mut spring.flag_height),
 ];
+
+/// A hysteresis: its name, and the law that it makes of a spring's numbers.
+type Hysteresis = (&'static str, fn(&Spring) -> SpringLaw);
+
+/// Masing unloading, that of a storey without a name of its own.
+const MASING: Hysteresis = ("masing", |spring| match spring.clearance {
+    f64::INFINITY => SpringLaw::Trilinear,
+    clearance => SpringLaw::Gap { clearance, stop_stiffness: spring.stop_stiffness },
+});
+
+const HYSTERESES: &[Hysteresis] = &[
+    MASING,
+    ("peak-oriented", |spring| SpringLaw::PeakOriented(spring.peak_oriented)),
+    ("flag-shaped", |spring| SpringLaw::FlagShaped { flag_height: spring.flag_height }),
+];
+
+fn hysteresis(name: &str) -> seismass::Result<&'static Hysteresis> {
+    let found = HYSTERESES.iter().find(|(known, _)| *known == name);
+    found.ok_or_else(|| refuse("hysteresis", "one that springs have", name))
+}
 
 /// The storeys, from lists that must be as long as the list of masses; a number without a list has its default.
 pub(crate) fn storeys(
     count: usize,
     springs: &BTreeMap<String, Values<f64>>,
     backbones: Option<&[Option<Table<f64>>]>,
-    peak_oriented: Option<&[bool]>,
+    hystereses: Option<&[String]>,
 ) -> seismass::Result<Vec<Storey>> {
     let one_per_storey = |name: &str, length: usize| {
         let requirement = format!("one number or a list of {count} values, one per storey");
@@ -49,9 +71,10 @@ pub(crate) fn storeys(
             clearance: f64::INFINITY,
             stop_stiffness: 0.0,
             peak_oriented: PeakOriented::default(),
+            flag_height: 1.0,
         })
         .collect();
-    for (name, place) in SPRING_FIELDS {
+    for &(name, place) in SPRING_FIELDS {
         let Some(Values(list)) = springs.get(name) else {
             continue;
         };
@@ -64,29 +87,35 @@ pub(crate) fn storeys(
         return Err(refuse(name, "a number that springs have", "another name"));
     }
     one_per_storey("backbone", backbones.map_or(count, <[_]>::len))?;
-    one_per_storey("hysteresis", peak_oriented.map_or(count, <[_]>::len))?;
+    one_per_storey("hysteresis", hystereses.map_or(count, <[_]>::len))?;
     given
         .into_iter()
         .enumerate()
         .map(|(i, spring)| {
             let backbone = backbones.and_then(|listed| listed[i].as_ref());
-            let law = law(i, &spring, backbone, peak_oriented.is_some_and(|listed| listed[i]))?;
+            let hysteresis = hystereses.map_or(Ok(&MASING), |listed| hysteresis(&listed[i]))?;
+            let law = law(i, &spring, backbone, hysteresis)?;
             Ok(Storey { law, ..spring.storey })
         })
         .collect()
 }
 
 /// The law of storey `i`; two at once are refused.
-fn law(i: usize, spring: &Spring, backbone: Option<&Table<f64>>, peak_oriented: bool) -> seismass::Result<SpringLaw> {
+fn law(
+    i: usize,
+    spring: &Spring,
+    backbone: Option<&Table<f64>>,
+    &(name, of_spring): &Hysteresis,
+) -> seismass::Result<SpringLaw> {
     let alone = |parameter: &str, other: &str, got: String| {
         let requirement = format!("left out where storey {} {other}", i + 1);
         Err(refuse(parameter, &requirement, &got))
     };
-    let has_stop = spring.clearance != f64::INFINITY;
+    let (is_masing, has_stop) = (name == MASING.0, spring.clearance != f64::INFINITY);
     match backbone {
-        Some(_) if peak_oriented => alone("hysteresis", "has a backbone", "peak-oriented".into()),
+        Some(_) if !is_masing => alone("hysteresis", "has a backbone", name.into()),
         Some(_) if has_stop => alone("clearance", "has a backbone", format!("{} m", spring.clearance)),
-        None if peak_oriented && has_stop => alone("clearance", "is peak-oriented", format!("{} m", spring.clearance)),
+        None if !is_masing && has_stop => alone("clearance", &format!("is {name}"), format!("{} m", spring.clearance)),
         Some(points) if points.columns != 2 => {
             Err(refuse("backbone", "pairs of drift and force", &format!("{} columns", points.columns)))
         }
@@ -94,9 +123,7 @@ fn law(i: usize, spring: &Spring, backbone: Option<&Table<f64>>, peak_oriented: 
             let backbone = points.values.chunks_exact(2).map(|point| [point[0], point[1]]).collect();
             Ok(SpringLaw::Multilinear { backbone })
         }
-        None if peak_oriented => Ok(SpringLaw::PeakOriented(spring.peak_oriented)),
-        None if has_stop => Ok(SpringLaw::Gap { clearance: spring.clearance, stop_stiffness: spring.stop_stiffness }),
-        None => Ok(SpringLaw::Trilinear),
+        None => Ok(of_spring(spring)),
     }
 }
 

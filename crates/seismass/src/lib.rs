@@ -49,64 +49,39 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
-mod banded_step;
-pub mod batch;
-mod bernstein;
-mod bounds;
-mod closer_look;
-pub mod columns;
-pub mod damping;
+mod batch;
+mod classes;
 pub mod error;
 mod events;
-mod few_storeys;
-mod friction;
-mod full_step;
-mod histories;
 mod lanes;
-mod model;
-mod observe;
-mod padded;
-mod plain_run;
-mod plan;
-mod propagator;
+mod machines;
+mod memory;
+mod plain;
+mod polynomial;
+mod record;
 pub mod reference;
 mod regime;
-mod regime_bounds;
 pub mod response;
+mod run;
 pub mod scene;
-mod schedule;
-mod segment;
-mod sign;
-pub mod simulate;
-mod sliding;
 pub mod spectrum;
-mod spring_path;
-mod springs;
 mod state;
-mod storey;
-mod symmetric;
-mod tall_bounds;
-mod tall_look;
-mod tall_norms;
-mod tall_operator;
-mod tall_run;
-mod tall_series;
-mod tall_step;
-mod taylor;
+mod step;
+mod threads;
+mod tolerances;
+mod units;
 
-pub use batch::{Control, Run, simulate_each, simulate_many};
-pub use columns::SceneColumns;
+pub use batch::{Run, simulate_each, simulate_many};
 pub use error::{Domain, Error, Result};
 pub use lanes::InstructionSet;
+pub use machines::spring_path::{SpringEvent, SpringPath, spring_path};
 pub use response::{
     Energy, Event, EventCounts, EventKind, Histories, Peak, Peaks, Response, Skipped, Statistics, Status,
 };
+pub use run::{simulate, simulate_until};
 pub use scene::{
-    Block, Building, Damping, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion, Options, PeakOriented, Scene, SpringLaw,
-    Storey, Wear,
+    Block, Building, Damping, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion, Options, PeakOriented, Scene,
+    SceneColumns, SpringLaw, Storey, Wear,
 };
-pub use simulate::{simulate, simulate_until};
-pub use spring_path::{SpringEvent, SpringPath, spring_path};
-
-/// Standard gravity (m/s2), the g of every number in this crate.
-pub const STANDARD_GRAVITY: f64 = 9.806_65;
+pub use threads::Control;
+pub use units::STANDARD_GRAVITY;

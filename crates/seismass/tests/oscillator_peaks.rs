@@ -5,7 +5,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::Ordering;
 
-use seismass::batch::Control;
+use seismass::Control;
 use seismass::spectrum::{OscillatorPeak, oscillator_peaks, response_spectra};
 use seismass::{Error, Motion};
 

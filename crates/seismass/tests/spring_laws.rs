@@ -166,6 +166,38 @@ fn a_side_without_strength_has_no_force() {
     assert_eq!(kinds(&path)[3..5], [(EventKind::Unload, 1, 0), (EventKind::Reload, -1, 0)]);
 }
 
+/// Slopes 100 and 10 N/m; with beta = 0.8 unloading falls by 8 N to the line through (0.02, 2).
+#[test]
+fn flag_shaped() {
+    let flag = |flag_height: f64| storey(0.02, SpringLaw::FlagShaped { flag_height });
+    let drifts = [0.6, 0.52, 0.32, 0.4, 0.5, 0.45, 0.55, 0.0, -0.6, -0.52, -0.02, 0.0];
+    let expected = [15.0, 7.0, 5.0, 13.0, 14.0, 9.0, 14.5, 0.0, -15.0, -7.0, -2.0, 0.0];
+    let path = forces(&flag(0.8), &drifts, &expected);
+    use EventKind::{Reload, Unload, Yield};
+    let log = [
+        (Yield, 1, 1),
+        (Unload, 1, 0),
+        (Yield, 1, 2),
+        (Reload, 1, 0),
+        (Yield, 1, 1),
+        (Unload, 1, 0),
+        (Yield, 1, 1),
+        (Unload, 1, 0),
+        (Yield, 1, 2),
+        (Unload, 1, 0),
+        (Yield, -1, 1),
+        (Unload, -1, 0),
+        (Yield, -1, 2),
+        (Unload, -1, 0),
+    ];
+    assert_eq!(kinds(&path), log);
+    // 7.2 N between the lines at one drift, over all ways along an upper line.
+    close(path.dissipated[11], 7.2 * (0.5 + 0.1 + 0.05 + 0.5), 1e-13, "dissipated");
+    // Up and down one line; and down to the origin.
+    forces(&flag(0.0), &[0.6, 0.3, 0.6, 0.1, -0.6, -0.3, 0.0], &[15.0, 12.0, 15.0, 10.0, -15.0, -12.0, 0.0]);
+    forces(&flag(1.0), &[0.6, 0.5, 0.25, 0.0, -0.1], &[15.0, 5.0, 2.5, 0.0, -10.0]);
+}
+
 fn oscillator(storey: Storey, mass: f64) -> Building {
     Building::new(vec![mass], vec![storey], Damping::Modal { ratio: 0.0 }).unwrap()
 }
@@ -205,6 +237,54 @@ fn period_of_an_oscillator_with_a_gap() {
     assert!(response.energy.unwrap().relative_residual.abs() < 1e-12);
 }
 
+/// Free vibration of an oscillator with a flat flag, from v0 at zero drift. Of the energy m v0^2 / 2 that above V_y d_y / 2
+/// takes the storey beyond yield, and 1 - beta of it comes back in each half cycle. The force is k d, V_y, k d and
+/// (1 - beta) V_y in turn.
+#[test]
+fn free_vibration_of_a_flag() {
+    let (k, vy, mass, beta, v0) = (100.0_f64, 10.0, 4.0, 0.3, 3.0_f64);
+    let law = SpringLaw::FlagShaped { flag_height: beta };
+    let building = oscillator(Storey { law, second_slope: 0.0, third_slope: 0.0, ..Storey::yielding(k, vy) }, mass);
+    let scene = Scene::new(Some(Arc::new(building)), Vec::new()).unwrap();
+    let scene = scene.with_initial(vec![0.0], vec![v0]).unwrap();
+    // It ends on the way to the sixth yield.
+    let response = run(&scene, 970, 0.01);
+    let (w, dy, low) = ((k / mass).sqrt(), vy / k, (1.0 - beta) * vy);
+    let mut excess = 0.5 * mass * v0 * v0 - 0.5 * vy * dy;
+    close(response.peaks.drift[0].value, dy + excess / vy, 1e-13, "largest drift");
+    // Speeds on the way of a half cycle: at zero drift, at yield, when the lower line is met, when it is left.
+    let mut start = 0.0;
+    let mut expected = Vec::new();
+    for sign in [1, -1, 1, -1, 1] {
+        let speed = |energy: f64| (2.0 * energy / mass).sqrt();
+        let (at_yield, at_lower) = (speed(excess), w * dy * (1.0 - (1.0 - beta).powi(2)).sqrt());
+        let at_zero = speed(excess + 0.5 * vy * dy);
+        let at_corner = speed(0.5 * mass * at_lower * at_lower + (1.0 - beta) * excess);
+        let yields = start + (w * dy / at_zero).asin() / w;
+        let turns = yields + at_yield * mass / vy;
+        let meets = turns + (1.0 - beta).acos() / w;
+        let leaves = meets + (at_corner - at_lower) * mass / low;
+        excess *= 1.0 - beta;
+        start = leaves + (w * (1.0 - beta) * dy / speed(excess + 0.5 * vy * dy)).asin() / w;
+        let kinds = [(EventKind::Yield, 1), (EventKind::Unload, 0), (EventKind::Yield, 2), (EventKind::Unload, 0)];
+        expected.extend(
+            kinds.map(|(kind, element)| (kind, 1, sign, element)).into_iter().zip([yields, turns, meets, leaves]),
+        );
+    }
+    let events = response.events.as_ref().unwrap();
+    for ((found, event), (expected, time)) in counts(&response).into_iter().zip(events).zip(&expected) {
+        assert_eq!(found, *expected);
+        close(event.time, *time, 1e-12, "event");
+    }
+    let half_cycles =
+        i32::try_from(events.iter().filter(|e| (e.kind, e.element) == (EventKind::Yield, 2)).count()).unwrap();
+    assert_eq!(half_cycles, 5);
+    let first = 0.5 * mass * v0 * v0 - 0.5 * vy * dy;
+    let energy = response.energy.unwrap();
+    close(energy.hysteretic, first * (1.0 - (1.0 - beta).powi(half_cycles)), 1e-12, "dissipated");
+    assert!(energy.relative_residual.abs() < 1e-12);
+}
+
 /// A storey pushed by its velocity into softening collapses when its energy exceeds the area under the backbone.
 #[test]
 fn softening_to_collapse() {
@@ -234,8 +314,12 @@ fn softening_to_collapse() {
 #[test]
 fn forces_in_motion_are_those_of_the_path() {
     let law = PeakOriented { unloading_exponent: 0.4, energy_capacity: 60.0, residual_strength: 0.2 };
-    let laws =
-        [SpringLaw::PeakOriented(law), SpringLaw::Gap { clearance: 0.25, stop_stiffness: 80.0 }, SpringLaw::Trilinear];
+    let laws = [
+        SpringLaw::PeakOriented(law),
+        SpringLaw::Gap { clearance: 0.25, stop_stiffness: 80.0 },
+        SpringLaw::FlagShaped { flag_height: 0.7 },
+        SpringLaw::Trilinear,
+    ];
     for law in laws {
         let softening = if matches!(law, SpringLaw::PeakOriented(_)) { -0.05 } else { 0.02 };
         let storey = storey(softening, law);
@@ -281,6 +365,10 @@ fn what_is_no_law_is_refused() {
         storey(0.0, SpringLaw::Gap { clearance: 0.0, stop_stiffness: 1.0 }),
         "clearance of storey 1 must be a positive number",
     );
+    refused(
+        storey(0.0, SpringLaw::FlagShaped { flag_height: 1.1 }),
+        "flag_height of storey 1 must be between 0 and 1; got 1.1",
+    );
     let law = PeakOriented { residual_strength: 1.5, ..PeakOriented::default() };
     refused(
         storey(0.0, SpringLaw::PeakOriented(law)),
@@ -290,6 +378,10 @@ fn what_is_no_law_is_refused() {
 
 /// Uniform numbers in [0, 1) of a linear congruential generator (Knuth's MMIX constants).
 struct Draw(u64);
+
+/// The laws of a random storey, each of which is as likely: what they make of a trilinear one.
+const LAWS: [fn(&mut Draw, Storey) -> Storey; 5] =
+    [Draw::multilinear, Draw::gap, Draw::peak_oriented, Draw::flag_shaped, |_, trilinear| trilinear];
 
 impl Draw {
     fn next(&mut self) -> f64 {
@@ -302,42 +394,48 @@ impl Draw {
     }
 
     fn law(&mut self, stiffness: f64, strength: f64) -> Storey {
-        let drift = strength / stiffness;
         let base = Storey {
             overstrength: if self.next() < 0.3 { 1.0 } else { self.between(1.05, 2.5) },
             second_slope: if self.next() < 0.2 { 0.0 } else { self.between(0.01, 0.4) },
             third_slope: 0.0,
             ..Storey::yielding(stiffness, strength)
         };
-        match (4.0 * self.next()) as usize {
-            0 => {
-                let mut point = [drift, strength];
-                let mut slope = stiffness;
-                let mut points = vec![point];
-                for _ in 0..(6.0 * self.next()) as usize {
-                    slope *= self.between(0.1, 0.9);
-                    let length = drift * self.between(0.2, 3.0);
-                    point = [point[0] + length, point[1] + slope * length];
-                    points.push(point);
-                }
-                Storey::multilinear(points)
-            }
-            1 => {
-                let clearance = drift * self.between(0.3, 4.0);
-                let law = SpringLaw::Gap { clearance, stop_stiffness: stiffness * self.between(0.1, 10.0) };
-                Storey { law, ..base }
-            }
-            2 => {
-                let law = PeakOriented {
-                    unloading_exponent: if self.next() < 0.5 { 0.0 } else { self.between(0.1, 0.8) },
-                    energy_capacity: if self.next() < 0.4 { f64::INFINITY } else { self.between(20.0, 400.0) },
-                    residual_strength: self.between(0.05, 0.8),
-                };
-                let third_slope = if self.next() < 0.5 { 0.0 } else { -self.between(0.01, 0.2) };
-                Storey { third_slope, law: SpringLaw::PeakOriented(law), ..base }
-            }
-            _ => base,
+        LAWS[(LAWS.len() as f64 * self.next()) as usize](self, base)
+    }
+
+    fn multilinear(&mut self, base: Storey) -> Storey {
+        let (mut slope, strength) = (base.stiffness, base.yield_shear);
+        let drift = strength / slope;
+        let mut point = [drift, strength];
+        let mut points = vec![point];
+        for _ in 0..(6.0 * self.next()) as usize {
+            slope *= self.between(0.1, 0.9);
+            let length = drift * self.between(0.2, 3.0);
+            point = [point[0] + length, point[1] + slope * length];
+            points.push(point);
         }
+        Storey::multilinear(points)
+    }
+
+    fn gap(&mut self, base: Storey) -> Storey {
+        let clearance = base.elastic_drift() * self.between(0.3, 4.0);
+        let law = SpringLaw::Gap { clearance, stop_stiffness: base.stiffness * self.between(0.1, 10.0) };
+        Storey { law, ..base }
+    }
+
+    fn peak_oriented(&mut self, base: Storey) -> Storey {
+        let law = PeakOriented {
+            unloading_exponent: if self.next() < 0.5 { 0.0 } else { self.between(0.1, 0.8) },
+            energy_capacity: if self.next() < 0.4 { f64::INFINITY } else { self.between(20.0, 400.0) },
+            residual_strength: self.between(0.05, 0.8),
+        };
+        let third_slope = if self.next() < 0.5 { 0.0 } else { -self.between(0.01, 0.2) };
+        Storey { third_slope, law: SpringLaw::PeakOriented(law), ..base }
+    }
+
+    fn flag_shaped(&mut self, base: Storey) -> Storey {
+        let flag_height = if self.next() < 0.2 { 0.0 } else { self.between(0.05, 1.0) };
+        Storey { law: SpringLaw::FlagShaped { flag_height }, ..base }
     }
 
     fn block(&mut self, floor: usize, mass: f64) -> Block {

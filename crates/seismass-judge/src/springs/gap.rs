@@ -2,10 +2,10 @@
 
 use seismass::EventKind;
 
-use super::masing::Masing;
-use super::{Course, Crossing, Limit, Part, Slope, Spring, SpringGuard};
 use crate::real::Real;
 use crate::sign::Sign;
+use crate::springs::contract::{Course, Crossing, Limit, Part, Slope, Spring, SpringGuard};
+use crate::springs::masing::Masing;
 
 /// A spring and its stops. Both touch at a drift, so that they agree where; the stop's force is zero there.
 #[derive(Debug, Clone)]

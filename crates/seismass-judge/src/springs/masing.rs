@@ -2,9 +2,9 @@
 
 use seismass::EventKind;
 
-use super::{Course, Crossing, Limit, Part, Slope, Spring, SpringGuard};
 use crate::real::Real;
 use crate::sign::Sign;
+use crate::springs::contract::{Course, Crossing, Limit, Part, Slope, Spring, SpringGuard};
 
 /// An elastic-perfectly-plastic element.
 #[derive(Debug, Clone, Copy)]

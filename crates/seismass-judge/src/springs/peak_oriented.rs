@@ -3,9 +3,9 @@
 
 use seismass::{EventKind, Storey};
 
-use super::{Course, Crossing, Limit, Part, Slope, Spring, SpringGuard};
 use crate::real::Real;
 use crate::sign::Sign;
+use crate::springs::contract::{Course, Crossing, Limit, Part, Slope, Spring, SpringGuard};
 
 /// Where a branch of the backbone ends, in the direction in which it is followed.
 #[derive(Debug, Clone, Copy)]
@@ -78,6 +78,8 @@ pub(super) struct PeakOriented<R> {
     force: R,
     /// Of the positive and the negative side.
     peaks: [Peak<R>; 2],
+    /// The slope with which the force last left zero, none before it has come back there.
+    from_zero: R,
     /// Energy dissipated since the force was last zero, and before.
     half_cycle: R,
     before: R,
@@ -123,17 +125,24 @@ impl<R: Real> PeakOriented<R> {
             mode: Mode::Elastic,
             force: R::zero(),
             peaks: [Peak { drift: yield_drift, force: vy, branch: 0 }; 2],
+            from_zero: R::zero(),
             half_cycle: R::zero(),
             before: R::zero(),
         }
     }
 
-    /// k (d_y / d_max)^a, at least F_max / d_max, of a largest drift and the force there.
+    /// k (d_y / d_max)^a, of a largest drift and the force there; at least F_max / d_max, and, where strength can be lost,
+    /// the slope with which the force left zero and that of the backbone after first yield.
     fn unloading_stiffness(&self, drift: R, force: R) -> R {
         if self.exponent == R::zero() || drift <= self.yield_drift {
             return self.stiffness;
         }
-        (self.stiffness * (self.yield_drift / drift).power(self.exponent)).max(force / drift)
+        let takeda = self.stiffness * (self.yield_drift / drift).power(self.exponent);
+        let softest = takeda.max(force / drift);
+        if self.capacity.is_none() {
+            return softest;
+        }
+        softest.max(self.from_zero).max(self.branches[0].slope)
     }
 
     /// The unloading stiffness of a side by its peak.
@@ -181,6 +190,7 @@ impl<R: Real> PeakOriented<R> {
 
     /// The force is zero, and the spring goes on to the peak of this side, which the half cycle just ended has lowered.
     fn reload(&mut self, side: Sign, drift: R) -> Crossing {
+        self.half_cycle = self.half_cycle.max(R::zero());
         let loss = self.loss();
         self.before = self.before + self.half_cycle;
         self.half_cycle = R::zero();
@@ -194,6 +204,7 @@ impl<R: Real> PeakOriented<R> {
         let slope = if distance > R::zero() { peak.force / distance } else { R::zero() };
         self.mode = Mode::Reloading { side, slope };
         self.force = R::zero();
+        self.from_zero = slope;
         Crossing::new(EventKind::Reload, side, 0)
     }
 

@@ -3,7 +3,8 @@
 use std::num::NonZeroUsize;
 
 use seismass::{
-    Error, Event, EventKind, Histories, Motion, Options, Peaks, Response, STANDARD_GRAVITY, Scene, Status, simulate,
+    Error, Event, EventKind, Histories, Motion, Options, Peaks, Response, STANDARD_GRAVITY, Scene, SpringLaw, Status,
+    simulate,
 };
 
 use crate::larger;
@@ -134,24 +135,55 @@ fn order(log: &[Event], end: f64) -> Result<(), String> {
     Ok(())
 }
 
-/// Per storey: elastic, first yield, second yield with the same sign, and back to elastic.
+/// What an event log says about a storey.
+#[derive(Debug, Clone, Copy, Default)]
+struct Storey {
+    /// Elements that yield, or 1 on a branch of the backbone and on the way to it; 0 where the spring unloads.
+    loaded: u8,
+    /// Direction of loading.
+    sign: i8,
+    /// Direction of the stop that touches.
+    closed: i8,
+    /// Whether the spring has left the line through the origin.
+    has_yielded: bool,
+}
+
+/// Whether an event is of a storey, not of a block.
+fn is_of_storey(kind: EventKind) -> bool {
+    use EventKind::{Close, Open, Reload, Unload, Yield};
+    matches!(kind, Yield | Unload | Reload | Close | Open)
+}
+
+/// Per storey: elements yield one after the other with one sign, and unload together; stops touch and are left in turn;
+/// a peak-oriented spring unloads from where it is loaded, and reloads from where it unloads.
 fn springs(scene: &Scene, log: &[Event]) -> Result<(), String> {
-    let mut state = vec![(0u8, 0i8); scene.storeys()];
-    for event in log {
-        let i = event.number - 1;
-        let legal = match event.kind {
-            EventKind::Yield => {
-                let (count, sign) = state[i];
-                let legal = event.element == count + 1 && (count == 0 || event.sign == sign);
-                state[i] = (event.element, event.sign);
+    let Some(building) = scene.building() else { return Ok(()) };
+    let mut storeys = vec![Storey::default(); scene.storeys()];
+    for event in log.iter().filter(|event| is_of_storey(event.kind)) {
+        let (i, sign) = (event.number - 1, event.sign);
+        let storey = &mut storeys[i];
+        let law = &building.storeys()[i].law;
+        let legal = match (event.kind, law) {
+            (_, SpringLaw::FlagShaped { .. }) => sign != 0,
+            (EventKind::Close, SpringLaw::Gap { .. }) => std::mem::replace(&mut storey.closed, sign) == 0 && sign != 0,
+            (EventKind::Open, SpringLaw::Gap { .. }) => std::mem::replace(&mut storey.closed, 0) == sign && sign != 0,
+            (EventKind::Yield, SpringLaw::PeakOriented(_)) => {
+                let legal = !storey.has_yielded || storey.loaded > 0 && storey.sign == sign;
+                *storey = Storey { loaded: 1, sign, has_yielded: true, ..*storey };
                 legal
             }
-            EventKind::Unload => {
-                let legal = state[i].0 > 0 && state[i].1 == event.sign;
-                state[i] = (0, 0);
+            (EventKind::Reload, SpringLaw::PeakOriented(_)) => {
+                let legal = storey.has_yielded && storey.loaded == 0;
+                *storey = Storey { loaded: 1, sign, ..*storey };
                 legal
             }
-            _ => true,
+            (EventKind::Yield, _) => {
+                let follows = event.element == storey.loaded + 1 && (storey.loaded == 0 || storey.sign == sign);
+                *storey = Storey { loaded: event.element, sign, has_yielded: true, ..*storey };
+                follows
+            }
+            (EventKind::Unload, _) => std::mem::take(&mut storey.loaded) > 0 && storey.sign == sign,
+            _ => false,
         };
         if !legal {
             return Err(format!("storey machine: {event:?}"));
@@ -185,6 +217,7 @@ fn step(before: Contact, event: &Event) -> Option<Contact> {
         (EventKind::Lift, Contact::Sliding(old)) if sign == old || sign == 0 => Some(Contact::Airborne),
         (EventKind::Land, Contact::Airborne) if sign == 0 => Some(Contact::Landed),
         (EventKind::Land, Contact::Airborne) => Some(Contact::Sliding(sign)),
+        (EventKind::Wear, Contact::Sliding(old)) if old == sign => Some(before),
         _ => None,
     }
 }
@@ -195,8 +228,9 @@ fn blocks(scene: &Scene, motion: &Motion, response: &Response, log: &[Event]) ->
     let Some(h) = &response.histories else { return Ok(()) };
     let (n, m) = (scene.storeys(), scene.blocks().len());
     let fastest = h.block_velocity.iter().chain(&h.floor_velocity).fold(0.0, |most, v| larger(most, v.abs()));
-    let mut events = log.iter().filter(|e| !matches!(e.kind, EventKind::Yield | EventKind::Unload)).peekable();
+    let mut events = log.iter().filter(|event| !is_of_storey(event.kind)).peekable();
     let mut last_change = vec![f64::NEG_INFINITY; m];
+    let mut mu_s: Vec<f64> = scene.blocks().iter().map(|block| block.mu_s).collect();
     for row in 0..h.rows {
         let time = row as f64 * motion.dt();
         if time > response.end_time || row * h.every >= motion.acceleration().len() {
@@ -206,6 +240,9 @@ fn blocks(scene: &Scene, motion: &Motion, response: &Response, log: &[Event]) ->
             let j = event.number - 1;
             state[j] = step(state[j], event).ok_or_else(|| format!("block machine: {event:?} while {:?}", state[j]))?;
             last_change[j] = event.time;
+            if event.kind == EventKind::Wear {
+                mu_s[j] = scene.blocks()[j].wear[usize::from(event.element) - 1].mu_s;
+            }
         }
         for (j, block) in scene.blocks().iter().enumerate() {
             let (velocity, acceleration, largest) = if block.floor > 0 {
@@ -230,8 +267,8 @@ fn blocks(scene: &Scene, motion: &Motion, response: &Response, log: &[Event]) ->
                         }
                     }
                     let contact = STANDARD_GRAVITY + motion.vertical().map_or(0.0, |v| v[row]);
-                    let limit = block.mu_s * contact;
-                    if acceleration.abs() > limit + ROUNDING * (limit.abs() + block.mu_s * STANDARD_GRAVITY + largest) {
+                    let limit = mu_s[j] * contact;
+                    if acceleration.abs() > limit + ROUNDING * (limit.abs() + mu_s[j] * STANDARD_GRAVITY + largest) {
                         return sample(format!("stuck at {acceleration:e}, limit {limit:e} m/s2"));
                     }
                 }

@@ -4,12 +4,15 @@ use seismass::{Motion, Scene};
 
 use super::hard_scene::hard_scene;
 use super::tall_scene::tall_scene;
+use crate::law_scene::law_scene;
 use crate::random_scene::{Draw, random_scene};
 
 /// One scene in so many is of the hard family.
 const HARD: u64 = 8;
 /// One of the others in so many is of the tall family.
 const TALL: u64 = 200;
+/// One of the others in so many is of the family of laws.
+const LAWS: u64 = 4;
 
 /// What a random scene's numbers are drawn from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -21,11 +24,13 @@ pub enum Family {
     Hard,
     /// 13 to 64 storeys: [`tall_scene`].
     Tall,
+    /// Springs of the further laws, and blocks that wear: [`law_scene`].
+    Laws,
 }
 
 impl Family {
     /// All families, each at its place in the tally's arrays.
-    pub const ALL: [Self; 3] = [Self::Usual, Self::Hard, Self::Tall];
+    pub const ALL: [Self; 4] = [Self::Usual, Self::Hard, Self::Tall, Self::Laws];
 
     /// The family that the seed's scene is of.
     pub fn of(seed: u64) -> Self {
@@ -33,6 +38,8 @@ impl Family {
             Self::Hard
         } else if Draw(seed.rotate_left(32)).one_in(TALL) {
             Self::Tall
+        } else if Draw(seed.rotate_left(16)).one_in(LAWS) {
+            Self::Laws
         } else {
             Self::Usual
         }
@@ -44,6 +51,7 @@ impl Family {
             Self::Usual => "usual",
             Self::Hard => "hard",
             Self::Tall => "tall",
+            Self::Laws => "laws",
         }
     }
 
@@ -56,6 +64,7 @@ impl Family {
             Self::Usual => random_scene(seed),
             Self::Hard => hard_scene(seed),
             Self::Tall => tall_scene(seed),
+            Self::Laws => law_scene(seed),
         }
     }
 
@@ -63,6 +72,7 @@ impl Family {
     pub fn judged(self) -> f64 {
         match self {
             Self::Usual | Self::Hard => 1.0,
+            Self::Laws => 2.0,
             Self::Tall => 5.0,
         }
     }

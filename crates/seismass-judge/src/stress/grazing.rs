@@ -4,56 +4,22 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene, Status};
+use seismass::{
+    Block, Building, Damping, Event, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene, SpringLaw, Status,
+    Storey,
+};
 
 use super::pairs;
+use super::verdict::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
 use crate::compare::compare_endings;
 use crate::random_scene::Draw;
 use crate::{Comparison, DoubleDouble, Solution, compare, compare_events, larger, solve};
 
-/// Relative differences below this are agreement.
-pub const AGREEMENT: f64 = 1e-9;
-/// Changes of the input tried, in units of the last digit of a double (2^-52).
-pub(super) const LAST_DIGITS: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
-/// Different changes of each size.
-pub(super) const TRIALS: u64 = 6;
 /// Powers of ten by which a friction that takes the place of none may be less than the last digits.
 const POWERS: f64 = 40.0;
 /// With the same events, the kernel may be this many times as far from the judge as the judge is from itself under a
 /// change of its input in the last digits.
 const AMPLIFICATION: f64 = 100.0;
-
-/// What became of a scene on which two implementations were compared.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Verdict {
-    /// Same events at the same times, same numbers: how far apart.
-    Agrees(Comparison),
-    /// The judge, with its input changed in the last digits, comes to the kernel's events and numbers.
-    Grazing {
-        /// The change, in units of the last digit.
-        digits: f64,
-        /// How the two differed.
-        difference: String,
-    },
-    /// The judge, with its input changed in the last digits or not, has the kernel's events, and moves as far as the
-    /// kernel is from it with its input changed in the last digits once more, or by its own rounding in double precision.
-    Sensitive {
-        /// The change, in units of the last digit; 0 where it is the judge's own rounding.
-        digits: f64,
-        /// How the two differed.
-        difference: String,
-    },
-    /// The logs differ by pairs of events that begin and end at a graze, and nothing else differs: the judge, with its
-    /// state changed in the last digits, comes to have or to lack each of them (see [`pairs`]).
-    GrazingPairs {
-        /// The change, in units of the last digit.
-        digits: f64,
-        /// How the two differed.
-        difference: String,
-    },
-    /// None of these: a defect of one of them.
-    Unexplained(String),
-}
 
 /// Compares the kernel's response with the judge in double precision; if they part, with the judge in double-double;
 /// if they part still, looks for a grazing.
@@ -211,7 +177,7 @@ fn changed(scene: &Scene, motion: &Motion, digits: f64, trial: u64) -> Option<(S
     let mut changed = Scene::new(building, scene.blocks().iter().map(block).collect()).ok()?;
     if scene.initial_drift().iter().chain(scene.initial_velocity()).any(|&value| value != 0.0) {
         let drift = scene.initial_drift().iter().zip(limits).map(|(d, storey)| {
-            let limit = storey.yield_shear / storey.stiffness;
+            let limit = storey.elastic_drift();
             (d * start).clamp(-limit, limit)
         });
         changed = changed.with_initial(drift.collect(), scaled(scene.initial_velocity(), start)).ok()?;
@@ -226,8 +192,13 @@ fn changed_building(building: &Building, mass: f64, stiffness: f64, strength: f6
     let masses = building.mass().iter().map(|m| m * mass).collect();
     let mut storeys = building.storeys().to_vec();
     for storey in &mut storeys {
-        storey.stiffness *= stiffness;
-        storey.yield_shear *= strength;
+        if let SpringLaw::Multilinear { backbone } = &storey.law {
+            let points: Vec<_> = backbone.iter().map(|[d, f]| [d * strength / stiffness, f * strength]).collect();
+            *storey = Storey::multilinear(points);
+        } else {
+            storey.stiffness *= stiffness;
+            storey.yield_shear *= strength;
+        }
     }
     let damping = match building.damping() {
         Damping::Matrix(c) => Damping::Matrix(c * stiffness),
@@ -250,7 +221,7 @@ mod tests {
 
     use super::*;
     use crate::stress::random::{LARGEST_RESIDUAL, solve_checked};
-    use crate::stress::scene_of;
+    use crate::stress::{Family, scene_of};
 
     /// The kernel's response, as if its energies did not balance by this.
     fn with_residual(response: &Response, relative_residual: f64) -> Response {
@@ -280,7 +251,7 @@ mod tests {
     #[test]
     fn a_residual_of_an_ordinary_scene_is_not_explained() {
         for seed in 0..20 {
-            let (scene, motion) = scene_of(seed).unwrap();
+            let (scene, motion) = Family::Usual.scene(seed).unwrap();
             let response = solve_checked(&scene, &motion).unwrap();
             let planted = with_residual(&response, 2.0 * LARGEST_RESIDUAL);
             assert_eq!(explained_residual(&scene, &motion, &planted), None, "seed {seed}");

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use seismass::scene::uniform_stiffness;
 use seismass::{Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey};
 
+use crate::law_scene::draw_laws;
 use crate::random_scene::{Draw, mass_above, samples_of, spring};
 
 /// Largest product of the highest frequency and the time step: beyond, one interval has hundreds of vibrations.
@@ -27,15 +28,15 @@ pub fn hard_scene(seed: u64) -> Result<(Scene, Motion)> {
         Scene::new(None, blocks(draw, &[], pga))?
     } else {
         let mass: Vec<f64> = (0..storeys).map(|_| 1000.0 * draw.scale(0.01, 100.0)).collect();
-        let blocks = blocks(draw, &mass, pga);
-        let building = building(draw, mass, &blocks, pga)?;
+        let mut blocks = blocks(draw, &mass, pga);
+        let building = building(draw, seed, mass, &mut blocks, pga)?;
         let shortest = building.periods().into_iter().fold(f64::INFINITY, f64::min);
         let longest_step = LARGEST_PHASE * shortest / std::f64::consts::TAU;
         dt = f64::min(dt, longest_step * if draw.one_in(30) { 1.0 } else { 0.03 });
         Scene::new(Some(Arc::new(building)), blocks)?
     };
     if let Some(building) = scene.building().cloned().filter(|_| draw.one_in(5)) {
-        let limit = |storey: &Storey| (storey.yield_shear / storey.stiffness).min(1.0);
+        let limit = |storey: &Storey| storey.elastic_drift().min(1.0);
         let drift = building.storeys().iter().map(|s| draw.one_of(&[-1.0, -0.5, 0.0, 0.5, 1.0]) * limit(s)).collect();
         let velocity = (0..storeys).map(|_| draw.between(-1.0, 1.0) * pga * dt).collect();
         scene = scene.with_initial(drift, velocity)?;
@@ -48,7 +49,7 @@ pub fn hard_scene(seed: u64) -> Result<(Scene, Motion)> {
     Ok((scene, Motion::new(acceleration, dt, vertical)?))
 }
 
-fn building(draw: &mut Draw, mass: Vec<f64>, blocks: &[Block], pga: f64) -> Result<Building> {
+fn building(draw: &mut Draw, seed: u64, mass: Vec<f64>, blocks: &mut [Block], pga: f64) -> Result<Building> {
     let n = mass.len();
     let k = uniform_stiffness(n, draw.scale(1e-3, 100.0), 1000.0)?;
     let contrast = draw.one_of(&[1.0, 10.0, 1e3, 1e6f64]).sqrt();
@@ -61,6 +62,7 @@ fn building(draw: &mut Draw, mass: Vec<f64>, blocks: &[Block], pga: f64) -> Resu
         let yield_shear = if draw.one_in(4) { f64::INFINITY } else { strength * above * pga };
         storeys.push(Storey { overstrength, second_slope, third_slope, ..Storey::yielding(stiffness, yield_shear) });
     }
+    draw_laws(seed, &mut storeys, blocks);
     let ratio = draw.one_of(&[0.0, 1e-4, 0.05, 0.5, 2.0]);
     let damping =
         if n > 1 && draw.one_in(3) { Damping::Rayleigh { ratio, modes: [1, n] } } else { Damping::Modal { ratio } };

@@ -10,6 +10,7 @@ pub mod random;
 pub mod report;
 mod tall_scene;
 mod tally_file;
+mod verdict;
 
 pub use family::{Family, scene_of};
 pub use hard_scene::hard_scene;

@@ -21,7 +21,7 @@
 
 use seismass::{Event, EventKind, Motion, Response, Scene};
 
-use super::grazing::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
+use super::verdict::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
 use crate::compare::compare_endings;
 use crate::random_scene::Draw;
 use crate::solve::solve_disturbed;
@@ -211,7 +211,7 @@ mod tests {
     use seismass::{Building, Damping, Options, Storey, simulate};
 
     use super::*;
-    use crate::stress::scene_of;
+    use crate::stress::Family;
     use crate::{compare, solve};
 
     fn kernel(scene: &Scene, motion: &Motion) -> Response {
@@ -296,7 +296,7 @@ mod tests {
     /// event less beside them, nor with numbers that differ.
     #[test]
     fn a_defect_beside_grazes_is_reported() {
-        let (scene, motion) = scene_of(900_235).unwrap();
+        let (scene, motion) = Family::Usual.scene(900_235).unwrap();
         let exact = exact(&scene, &motion);
         let mut log = exact.events.clone();
         let opens_short = |w: &[Event]| w[0].kind == EventKind::Yield && w[1].time - w[0].time < 1e-10;

@@ -9,7 +9,8 @@ use seismass::{Error, EventCounts, EventKind, Motion, Options, Response, Scene, 
 
 use super::consistency;
 use super::family::Family;
-use super::grazing::{Verdict, explained_residual, judge};
+use super::grazing::{explained_residual, judge};
+use super::verdict::Verdict;
 use crate::JudgeError;
 use crate::random_scene::Draw;
 

@@ -6,8 +6,8 @@ use seismass::EventKind;
 
 use super::cases::Finding;
 use super::family::Family;
-use super::grazing::AGREEMENT;
 use super::random::{LARGEST_RESIDUAL, Tally};
+use super::verdict::AGREEMENT;
 
 /// The distribution of a random run, as Markdown.
 pub fn distribution(tally: &Tally) -> String {

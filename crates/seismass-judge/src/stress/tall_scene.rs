@@ -5,6 +5,7 @@ use std::sync::Arc;
 use seismass::scene::uniform_stiffness;
 use seismass::{Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey};
 
+use crate::law_scene::draw_laws;
 use crate::random_scene::{Draw, mass_above, samples_of, spring};
 
 /// Largest product of the highest frequency and the time step: beyond, the kernel has no step of a whole interval. One
@@ -26,15 +27,15 @@ pub fn tall_scene(seed: u64) -> Result<(Scene, Motion)> {
     let samples = 30 + (draw.bits() % 170) as usize;
     let pga = STANDARD_GRAVITY * draw.scale(0.03, 1.5);
     let mass = masses(draw, storeys);
-    let blocks = blocks(draw, &mass, pga);
-    let building = building(draw, mass, &blocks, pga)?;
+    let mut blocks = blocks(draw, &mass, pga);
+    let building = building(draw, seed, mass, &mut blocks, pga)?;
     let shortest = building.periods().into_iter().fold(f64::INFINITY, f64::min);
     let largest_phase = if draw.one_in(10) { 3.0 * LARGEST_PHASE } else { LARGEST_PHASE };
     let dt = draw.one_of(&[0.0025, 0.005, 0.01, 0.02, 0.05f64]).min(largest_phase * shortest / std::f64::consts::TAU);
     let shaken = draw.one_in(3);
     let ambient = draw.scale(1e-7, 1e-3);
     let mut at_storey = |storey: &Storey| {
-        let limit = (storey.yield_shear / storey.stiffness).min(0.02);
+        let limit = storey.elastic_drift().min(0.02);
         let drift = if shaken { draw.one_of(&[-1.0, 0.0, 0.0, 0.0, 0.5]) * limit } else { 0.0 };
         let velocity = if shaken { draw.one_of(&[0.0, 0.0, 0.0, 0.1, -0.3]) } else { 0.0 };
         (drift, velocity + draw.between(-ambient, ambient))
@@ -54,7 +55,7 @@ fn masses(draw: &mut Draw, storeys: usize) -> Vec<f64> {
     (0..storeys).map(|_| 1000.0 * draw.scale(1.0 / contrast, contrast)).collect()
 }
 
-fn building(draw: &mut Draw, mass: Vec<f64>, blocks: &[Block], pga: f64) -> Result<Building> {
+fn building(draw: &mut Draw, seed: u64, mass: Vec<f64>, blocks: &mut [Block], pga: f64) -> Result<Building> {
     let n = mass.len();
     let k = uniform_stiffness(n, draw.scale(0.3, 8.0), 1000.0)?;
     let contrast = draw.one_of(&[1.0, 1.0, 2.0, 100.0, 1e4f64]).sqrt();
@@ -73,6 +74,7 @@ fn building(draw: &mut Draw, mass: Vec<f64>, blocks: &[Block], pga: f64) -> Resu
         let yield_shear = if elastic || draw.one_in(3) { f64::INFINITY } else { strength * above * pga };
         storeys.push(Storey { overstrength, second_slope, third_slope, ..Storey::yielding(stiffness, yield_shear) });
     }
+    draw_laws(seed, &mut storeys, blocks);
     let ratio = draw.one_of(&[0.0, 0.01, 0.05, 0.05, 0.2]);
     let damping = match draw.bits() % 4 {
         0 => Damping::Modal { ratio },

@@ -8,11 +8,11 @@
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::history::{History, check_finite};
-use super::{Error, require};
-use crate::STANDARD_GRAVITY;
-use crate::model::Model;
+use super::method::{Error, require};
+use crate::machines::model::Model;
 use crate::response::Status;
 use crate::scene::{Motion, Scene};
+use crate::units::STANDARD_GRAVITY;
 
 /// Parameters of the method.
 pub(super) struct Newton {
@@ -28,7 +28,7 @@ pub(super) fn integrate(scene: &Scene, motion: &Motion, newton: &Newton) -> Resu
     let h = motion.dt() / newton.substeps as f64;
     let samples = motion.acceleration().len();
     let mut history = History::new(samples, scene.storeys(), scene.blocks().len());
-    let mut run = Run::new(scene, &model, newton, h)?;
+    let mut run = FrictionSpringRun::new(scene, &model, newton, h)?;
     let vertical = |i: usize| motion.vertical().map_or(0.0, |samples| samples[i]);
     run.start(motion.acceleration()[0], vertical(0) + STANDARD_GRAVITY);
     history.observe(run.drift.iter().copied(), run.slip.iter().copied());
@@ -77,7 +77,7 @@ impl Spring {
 }
 
 /// Degrees of freedom: floors, then blocks, relative to the ground.
-struct Run<'a> {
+struct FrictionSpringRun<'a> {
     model: &'a Model,
     newton: &'a Newton,
     h: f64,
@@ -100,7 +100,7 @@ struct Run<'a> {
     factors: Option<LU<f64, Dyn, Dyn>>,
 }
 
-impl<'a> Run<'a> {
+impl<'a> FrictionSpringRun<'a> {
     fn new(scene: &Scene, model: &'a Model, newton: &'a Newton, h: f64) -> Result<Self, Error> {
         let (n, blocks) = (model.storeys(), model.blocks.len());
         let mut friction = Vec::with_capacity(blocks);

@@ -5,7 +5,7 @@
 
 use nalgebra::DMatrix;
 
-use super::scheme::{Columns, Scheme, System};
+use super::scheme::{Columns, Scheme, SteppedSystem};
 
 /// sqrt(3)/6.
 const OFFSET: f64 = 0.288_675_134_594_812_9;
@@ -18,7 +18,7 @@ pub(super) struct Gauss;
 impl Scheme for Gauss {
     /// The stages' drift accelerations g_s solve g_s = L y_s + q(c_s h), with L the lower half of A and y_s the stage:
     /// v_s = v + h sum a_st g_t, x_s = x + h c_s v + h^2 sum (a a)_st g_t.
-    fn change(&self, system: &System, h: f64, columns: &Columns) -> Option<DMatrix<f64>> {
+    fn change(&self, system: &SteppedSystem, h: f64, columns: &Columns) -> Option<DMatrix<f64>> {
         let n = system.storeys();
         let width = columns.state.ncols();
         let stiffness = system.lower.columns(0, n);

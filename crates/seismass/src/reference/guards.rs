@@ -1,41 +1,41 @@
 //! The guards of all state machines as numbers, and how a stepping method carries out their events.
 
-use super::Events;
-use crate::events::{Guard, Outcome};
+use super::method::Events;
 use crate::lanes::by_width;
+use crate::machines::guard::{Guard, Outcome};
+use crate::machines::sign::Sign;
 use crate::response::Event;
-use crate::sign::Sign;
 use crate::state::State;
 
 /// Value of a guard `tau` after the last sample: it has fallen when this is negative.
 pub(super) fn value(state: &State, guard: Guard, tau: f64) -> f64 {
     match guard {
         Guard::SegmentEnd { storey, sign } => {
-            let (lower, upper) = state.segment_ends[storey];
+            let (lower, upper) = state.springs.segment_ends[storey];
             let bound = if sign == Sign::Positive { upper } else { lower };
-            sign.factor() * (bound - state.x[storey])
+            sign.factor() * (bound - state.kinematics.x[storey])
         }
         Guard::Collapse { storey } => {
-            let (lower, upper) = state.collapse_bounds[storey];
-            (upper - state.x[storey]).min(state.x[storey] - lower)
+            let (lower, upper) = state.springs.collapse_bounds[storey];
+            (upper - state.kinematics.x[storey]).min(state.kinematics.x[storey] - lower)
         }
-        Guard::Turn { storey } => {
-            state.springs[storey].rate_sign().map_or(f64::INFINITY, |sign| sign.factor() * state.v[storey])
-        }
+        Guard::Turn { storey } => state.springs.machines[storey]
+            .rate_sign()
+            .map_or(f64::INFINITY, |sign| sign.factor() * state.kinematics.v[storey]),
         Guard::Breakaway { floor, sign } => {
-            let acceleration = if floor > 0 { state.a[floor - 1] } else { state.interval.ground_at(tau) };
-            state.stuck_mu[floor] * state.contact_at(tau) - sign.factor() * acceleration
+            let acceleration = if floor > 0 { state.kinematics.a[floor - 1] } else { state.interval.ground_at(tau) };
+            state.blocks.stuck_mu[floor] * state.contact_at(tau) - sign.factor() * acceleration
         }
         Guard::Arrival { block } => {
-            let motion = &state.motions[block];
+            let motion = &state.blocks.motions[block];
             motion.sliding().map_or(f64::INFINITY, |sign| sign.factor() * motion.velocity)
         }
         Guard::Wear { block } => {
-            let motion = &state.motions[block];
+            let motion = &state.blocks.motions[block];
             if motion.sliding().is_some() { motion.path_to_wear() } else { f64::INFINITY }
         }
         Guard::Contact => {
-            let sign = if state.airborne { -1.0 } else { 1.0 };
+            let sign = if state.blocks.airborne { -1.0 } else { 1.0 };
             sign * state.interval.contact_at(tau)
         }
     }
@@ -59,12 +59,12 @@ pub(super) fn fallen(state: &State, tau: f64, known: Option<Guard>) -> Option<Gu
     if let Some(guard) = storeys.into_iter().find(fell) {
         return Some(guard);
     }
-    if state.airborne {
+    if state.blocks.airborne {
         return None;
     }
-    let floors = (0..state.stuck_mu.len()).filter(|&floor| state.stuck_mu[floor].is_finite());
+    let floors = (0..state.blocks.stuck_mu.len()).filter(|&floor| state.blocks.stuck_mu[floor].is_finite());
     let breakaway = floors.flat_map(|floor| both.map(|sign| Guard::Breakaway { floor, sign })).find(fell);
-    let of_blocks = (0..state.motions.len()).flat_map(|block| [Guard::Arrival { block }, Guard::Wear { block }]);
+    let of_blocks = (0..state.blocks.motions.len()).flat_map(|block| [Guard::Arrival { block }, Guard::Wear { block }]);
     breakaway.or_else(|| of_blocks.into_iter().find(fell))
 }
 
@@ -77,17 +77,17 @@ pub(super) fn carry_out(state: &mut State, guard: Guard, tau: f64, events: Event
         let floor = state.model.blocks[block].floor;
         for &j in &state.model.on_floor[floor] {
             if value(state, Guard::Arrival { block: j }, tau) <= 0.0 {
-                state.motions[j].velocity = 0.0;
+                state.blocks.motions[j].velocity = 0.0;
             }
         }
     }
     let overshoot = match (guard, events) {
-        (Guard::Turn { storey }, Events::AtStepEnds) => Some((storey, state.v[storey])),
+        (Guard::Turn { storey }, Events::AtStepEnds) => Some((storey, state.kinematics.v[storey])),
         _ => None,
     };
-    let outcome = by_width!(state.model.width, K => crate::events::carry_out::<K>(state, guard, tau, log));
+    let outcome = by_width!(state.model.width, K => crate::events::carry_out::carry_out::<K>(state, guard, tau, log));
     if let Some((storey, rate)) = overshoot {
-        state.v[storey] = rate;
+        state.kinematics.v[storey] = rate;
     }
     if outcome == Outcome::Continue {
         state.refresh_accelerations(tau);

@@ -11,15 +11,14 @@
 
 use nalgebra::DMatrix;
 
-use super::Error;
 use super::clipping::{Breakpoint, Contact, clip_several};
 use super::history::{History, check_finite};
-use crate::STANDARD_GRAVITY;
-use crate::damping::{StoreyDamping, natural_frequencies};
+use super::method::Error;
 use crate::lanes::{Vector, for_each_path};
-use crate::model::Model;
+use crate::machines::model::Model;
 use crate::response::Status;
-use crate::scene::{Motion, Scene};
+use crate::scene::{Motion, Scene, StoreyDamping, natural_frequencies};
+use crate::units::STANDARD_GRAVITY;
 
 for_each_path! {
     /// Integrates a scene. Paths give the same bits: they have the same operations, on wider vectors.
@@ -79,7 +78,7 @@ fn check_stability(model: &Model, dt: f64, substeps: usize) -> Result<(), Error>
     }
     let least = least(damping.symmetric_eigenvalues().iter().copied().fold(0.0, f64::max));
     let requirement = format!("above {least}, for steps below {} s", dt / least);
-    super::require(substeps as f64 > least, "substeps", &requirement, substeps)
+    super::method::require(substeps as f64 > least, "substeps", &requirement, substeps)
 }
 
 /// A storey and the floor above it.

@@ -4,7 +4,7 @@
 
 use nalgebra::DMatrix;
 
-use super::scheme::{Columns, Scheme, System};
+use super::scheme::{Columns, Scheme, SteppedSystem};
 
 /// The method.
 pub(super) struct Newmark;
@@ -12,7 +12,7 @@ pub(super) struct Newmark;
 impl Scheme for Newmark {
     /// The drift accelerations g_1 at the end solve g_1 = L y_1 + q_1 with v_1 = v + h/2 (g_0 + g_1) and
     /// x_1 = x + h v + h^2/4 (g_0 + g_1); g_0 is that of the equation of motion at the start.
-    fn change(&self, system: &System, h: f64, columns: &Columns) -> Option<DMatrix<f64>> {
+    fn change(&self, system: &SteppedSystem, h: f64, columns: &Columns) -> Option<DMatrix<f64>> {
         let n = system.storeys();
         let stiffness = system.lower.columns(0, n);
         let damping = system.lower.columns(n, n);

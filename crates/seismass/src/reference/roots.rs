@@ -1,6 +1,6 @@
 //! The root of a guard along the length of a step.
 
-use super::Error;
+use super::method::Error;
 
 /// How often a step is halved in search of a place before a fallen guard where it still stood.
 const MAX_HALVINGS: usize = 12;

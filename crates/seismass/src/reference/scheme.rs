@@ -7,12 +7,12 @@ use crate::regime::{Regime, Row};
 use crate::state::State;
 
 /// The linear system of a regime.
-pub(super) struct System {
+pub(super) struct SteppedSystem {
     /// Drift accelerations from drifts and drift rates: the lower half of A.
     pub(super) lower: DMatrix<f64>,
 }
 
-impl System {
+impl SteppedSystem {
     pub(super) fn new(state: &State) -> Self {
         let n = state.storeys();
         let regime = &state.regime;
@@ -60,7 +60,7 @@ impl Columns {
 /// An implicit one-step method.
 pub(super) trait Scheme {
     /// Change of drifts and drift rates over a step of length `h`, 2 n rows; none where the equations are singular.
-    fn change(&self, system: &System, h: f64, columns: &Columns) -> Option<DMatrix<f64>>;
+    fn change(&self, system: &SteppedSystem, h: f64, columns: &Columns) -> Option<DMatrix<f64>>;
 
     /// Weights of a block's acceleration at both ends in its displacement: h w + h^2 (first b_0 + second b_1).
     fn displacement_weights(&self) -> [f64; 2];
@@ -74,7 +74,7 @@ pub(super) struct StepMap {
 }
 
 impl StepMap {
-    pub(super) fn new(scheme: &impl Scheme, system: &System, regime: &Regime, h: f64) -> Option<Self> {
+    pub(super) fn new(scheme: &impl Scheme, system: &SteppedSystem, regime: &Regime, h: f64) -> Option<Self> {
         let columns = scheme.change(system, h, &Columns::units(system.storeys()))?;
         let columns = columns.as_slice().to_vec();
         Some(Self { columns, tangent: regime.row(Row::Tangent).to_vec(), mass: regime.row(Row::Mass).to_vec() })

@@ -8,17 +8,18 @@ use nalgebra::DMatrix;
 
 use super::guards::{carry_out, fallen, value};
 use super::history::{History, check_finite};
+use super::method::{Error, Events};
 use super::roots::first_fall;
-use super::scheme::{Columns, Scheme, StepMap, System};
-use super::{Error, Events};
-use crate::events::{Guard, Outcome};
-use crate::friction::{BlockMotion, BlockState};
-use crate::model::Model;
-use crate::propagator::RegimeCache;
+use super::scheme::{Columns, Scheme, StepMap, SteppedSystem};
+use crate::events::carry_out::settle_all;
+use crate::machines::block::{BlockMotion, BlockState};
+use crate::machines::guard::{Guard, Outcome};
+use crate::machines::model::Model;
 use crate::regime::Row;
 use crate::response::{Event, Status};
 use crate::scene::{Motion, Scene};
 use crate::state::State;
+use crate::step::cache::RegimeCache;
 
 /// Events one step may have for each storey and block.
 const EVENTS_PER_MACHINE: usize = 64;
@@ -37,9 +38,9 @@ pub(super) fn integrate(
     let state = State::new(scene, &model, &mut cache, vertical);
     let samples = motion.acceleration().len();
     let (n, blocks) = (state.storeys(), scene.blocks().len());
-    let mut run = Run {
+    let mut run = SteppedRun {
         scheme,
-        start: Start { x: vec![0.0; n], v: vec![0.0; n], q: vec![0.0; n], motions: Vec::with_capacity(blocks) },
+        start: StageStart { x: vec![0.0; n], v: vec![0.0; n], q: vec![0.0; n], motions: Vec::with_capacity(blocks) },
         end_load: vec![0.0; n],
         change: vec![0.0; 2 * n],
         maps: Vec::new(),
@@ -67,17 +68,17 @@ pub(super) fn integrate(
 }
 
 /// The state at the start of a step.
-struct Start {
+struct StageStart {
     x: Vec<f64>,
     v: Vec<f64>,
     q: Vec<f64>,
     motions: Vec<BlockMotion>,
 }
 
-struct Run<'a, S> {
+struct SteppedRun<'a, S> {
     scheme: &'a S,
     state: State<'a>,
-    start: Start,
+    start: StageStart,
     end_load: Vec<f64>,
     change: Vec<f64>,
     /// Maps of a whole step, by the regime's index.
@@ -89,19 +90,19 @@ struct Run<'a, S> {
     step: f64,
 }
 
-impl<S: Scheme> Run<'_, S> {
+impl<S: Scheme> SteppedRun<'_, S> {
     /// Lets every floor decide at t = 0.
     fn begin(&mut self, motion: &Motion) {
         let state = &mut self.state;
         state.set_interval(motion, 0);
         let (contact, change) = (state.interval.contact, state.interval.contact_change);
         if state.vertical && (contact < 0.0 || contact == 0.0 && change <= 0.0) {
-            state.airborne = true;
-            state.motions.iter_mut().for_each(|m| m.state = BlockState::Airborne);
+            state.blocks.airborne = true;
+            state.blocks.motions.iter_mut().for_each(|m| m.state = BlockState::Airborne);
         }
         state.enter_regime();
-        if !state.airborne {
-            state.settle_all(0.0, &mut self.log);
+        if !state.blocks.airborne {
+            settle_all(state, 0.0, &mut self.log);
             state.enter_regime();
             self.history.events += self.log.len();
             self.log.clear();
@@ -109,12 +110,12 @@ impl<S: Scheme> Run<'_, S> {
         self.refresh(0.0);
         self.observe();
         let state = &self.state;
-        self.history.record(0, drifts(state), state.motions.iter().map(|m| m.slip));
+        self.history.record(0, drifts(state), state.blocks.motions.iter().map(|m| m.slip));
     }
 
     fn record(&mut self, row: usize) -> Result<(), Error> {
         let state = &self.state;
-        let slips = || state.motions.iter().map(|m| m.slip);
+        let slips = || state.blocks.motions.iter().map(|m| m.slip);
         check_finite(state.interval.start + state.interval.h, drifts(state), slips())?;
         self.history.record(row, drifts(state), slips());
         Ok(())
@@ -122,7 +123,7 @@ impl<S: Scheme> Run<'_, S> {
 
     fn observe(&mut self) {
         let state = &self.state;
-        self.history.observe(drifts(state), state.motions.iter().map(|m| m.slip));
+        self.history.observe(drifts(state), state.blocks.motions.iter().map(|m| m.slip));
     }
 
     /// Forms accelerations, and q for the step that starts at `tau`.
@@ -133,7 +134,7 @@ impl<S: Scheme> Run<'_, S> {
 
     /// One step from `tau` to `end`, events included; returns the storey that collapsed, and when.
     fn solve(&mut self, mut tau: f64, end: f64) -> Result<Option<(usize, f64)>, Error> {
-        let machines = self.state.storeys() + self.state.motions.len();
+        let machines = self.state.storeys() + self.state.blocks.motions.len();
         let limit = EVENTS_PER_MACHINE * (1 + machines);
         let mut whole = true;
         let mut count = 0;
@@ -187,9 +188,9 @@ impl<S: Scheme> Run<'_, S> {
 
     fn save(&mut self) {
         let n = self.start.x.len();
-        self.start.x.copy_from_slice(&self.state.x[..n]);
-        self.start.v.copy_from_slice(&self.state.v[..n]);
-        self.start.motions.clone_from(&self.state.motions);
+        self.start.x.copy_from_slice(&self.state.kinematics.x[..n]);
+        self.start.v.copy_from_slice(&self.state.kinematics.v[..n]);
+        self.start.motions.clone_from(&self.state.blocks.motions);
     }
 
     /// Takes the state from the start at `tau` over a step of length `h`.
@@ -203,12 +204,18 @@ impl<S: Scheme> Run<'_, S> {
         }
         let (dx, dv) = self.change.split_at(n);
         for i in 0..n {
-            self.state.x[i] = self.start.x[i] + dx[i];
-            self.state.v[i] = self.start.v[i] + dv[i];
+            self.state.kinematics.x[i] = self.start.x[i] + dx[i];
+            self.state.kinematics.v[i] = self.start.v[i] + dv[i];
         }
         self.advance_blocks(tau, h);
         let state = &mut self.state;
-        state.regime.accelerations(state.model, &state.x, &state.v, &state.drive.load, &mut state.a[..n]);
+        state.regime.accelerations(
+            state.model,
+            &state.kinematics.x,
+            &state.kinematics.v,
+            &state.step.drive.load,
+            &mut state.kinematics.a[..n],
+        );
         Ok(())
     }
 
@@ -218,13 +225,13 @@ impl<S: Scheme> Run<'_, S> {
         let singular = || Error::SingularStep { time };
         let start = &self.start;
         if whole {
-            let index = self.state.entry;
+            let index = self.state.key.entry;
             if self.maps.len() <= index {
                 self.maps.resize_with(index + 1, || None);
             }
             let regime = &self.state.regime;
             if !self.maps[index].as_ref().is_some_and(|map| map.belongs_to(regime)) {
-                let system = System::new(&self.state);
+                let system = SteppedSystem::new(&self.state);
                 self.maps[index] = Some(StepMap::new(self.scheme, &system, regime, self.step).ok_or_else(singular)?);
             }
             if let Some(map) = &self.maps[index] {
@@ -234,7 +241,7 @@ impl<S: Scheme> Run<'_, S> {
             let column = |values: &[f64]| DMatrix::from_column_slice(values.len(), 1, values);
             let state = DMatrix::from_iterator(2 * start.x.len(), 1, start.x.iter().chain(&start.v).copied());
             let columns = Columns { state, start: column(&start.q), end: column(&self.end_load) };
-            let change = self.scheme.change(&System::new(&self.state), h, &columns).ok_or_else(singular)?;
+            let change = self.scheme.change(&SteppedSystem::new(&self.state), h, &columns).ok_or_else(singular)?;
             self.change.copy_from_slice(change.as_slice());
         }
         Ok(())
@@ -255,7 +262,7 @@ impl<S: Scheme> Run<'_, S> {
             let [b0, b1] = [0, 1].map(|e| -friction * contact[e] - ground[e]);
             let sum = |values: &[f64]| values[..law.floor].iter().sum::<f64>();
             let velocity = before.velocity + sum(&self.start.v);
-            let motion = &mut state.motions[j];
+            let motion = &mut state.blocks.motions[j];
             motion.velocity = before.velocity + 0.5 * h * (b0 + b1) - sum(dv);
             motion.slip = before.slip + h * velocity + h * h * (first * b0 + second * b1) - sum(dx);
         }
@@ -275,16 +282,16 @@ impl<S: Scheme> Run<'_, S> {
 }
 
 fn drifts<'s>(state: &'s State) -> impl ExactSizeIterator<Item = f64> + 's {
-    state.springs.iter().zip(&state.x).map(|(spring, &x)| spring.drift(x))
+    state.springs.machines.iter().zip(&state.kinematics.x).map(|(spring, &x)| spring.drift(x))
 }
 
 /// q at `tau`: drift accelerations by the loads and the ground alone.
 fn load(state: &mut State, tau: f64, q: &mut [f64]) {
     state.set_drive(tau);
-    let mut below = state.drive.ground;
+    let mut below = state.step.drive.ground;
     let regime = &state.regime;
     for i in 0..q.len() {
-        let a = state.drive.load[i] * regime.row(Row::InverseMass)[i];
+        let a = state.step.drive.load[i] * regime.row(Row::InverseMass)[i];
         q[i] = a - below;
         below = a;
     }

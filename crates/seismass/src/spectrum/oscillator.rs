@@ -265,7 +265,7 @@ impl Oscillator {
         u.abs().max(self.free_extreme(u, v)[1].abs())
     }
 
-    /// Steps until the first extreme of the free vibration from a state, and u there, where u^2 + 2 zeta u v + v^2 (v in
+    /// OscillatorSteps until the first extreme of the free vibration from a state, and u there, where u^2 + 2 zeta u v + v^2 (v in
     /// units of w) has decayed at the rate 2 zeta w. A velocity upwards leads to a positive extreme.
     pub(super) fn free_extreme(&self, u: f64, v: f64) -> [f64; 2] {
         let v = v / self.s;

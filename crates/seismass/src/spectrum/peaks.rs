@@ -10,13 +10,13 @@ use std::sync::atomic::Ordering;
 
 use rayon::prelude::*;
 
-use super::oscillator::{Oscillator, Step};
-use super::{Load, validate};
-use crate::batch::{Control, in_pool};
 use crate::error::{Error, Result};
 use crate::scene::Motion;
+use crate::spectrum::load::{Load, validate};
+use crate::spectrum::oscillator::{Oscillator, Step};
+use crate::threads::{Control, in_pool};
 
-/// Steps between two looks whether the caller wants to stop.
+/// OscillatorSteps between two looks whether the caller wants to stop.
 const STEPS_PER_LOOK: usize = 4096;
 
 /// Largest values of one oscillator in continuous time.

@@ -1,0 +1,7 @@
+//! What is kept of a run: peaks in continuous time, histories, energies.
+
+pub(crate) mod energy;
+pub(crate) mod histories;
+pub(crate) mod observer;
+pub(crate) mod peaks;
+pub(crate) mod update;

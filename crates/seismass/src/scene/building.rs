@@ -1,0 +1,182 @@
+//! A shear building: floor masses, storey springs, damping, P-Delta.
+
+use nalgebra::DMatrix;
+
+use crate::error::{Domain, Error, Result};
+use crate::scene::check::{Nth, check, check_length};
+use crate::scene::damping::{Damping, StoreyDamping, natural_frequencies};
+use crate::scene::storey::Storey;
+
+/// Most storeys of a building: a full damping matrix takes 8 MB.
+pub const MAX_STOREYS: usize = 1000;
+
+/// Where the P-Delta effect comes from.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum GravityEffect {
+    /// No P-Delta.
+    #[default]
+    None,
+    /// P/h of each storey (N/m), finished.
+    GeometricStiffness(Vec<f64>),
+    /// P of a storey is the gravity load of all floors above it, the weight of their blocks included.
+    Loads {
+        /// Height of each storey (m).
+        heights: Vec<f64>,
+        /// Gravity load of each floor without blocks (N).
+        floor_loads: Vec<f64>,
+    },
+}
+
+/// A shear building: lumped floor masses, storey springs, damping.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Building {
+    mass: Vec<f64>,
+    storeys: Vec<Storey>,
+    damping: Damping,
+    gravity: GravityEffect,
+    storey_damping: StoreyDamping,
+}
+
+impl Building {
+    /// A building of `mass.len()` floors.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when a list has the wrong length or a number is out of its range.
+    pub fn new(mass: Vec<f64>, storeys: Vec<Storey>, damping: Damping) -> Result<Self> {
+        if mass.is_empty() {
+            return Err(Error::invalid(Domain::Scene, "mass", "building", "a list of at least one floor mass", "none"));
+        }
+        check_storeys(mass.len())?;
+        check_length("stiffness", "building", mass.len(), "storey", storeys.len())?;
+        for (i, (&m, storey)) in mass.iter().zip(&storeys).enumerate() {
+            check(m.is_finite() && m > 0.0, "mass", Nth("floor", i), "a positive number", m)?;
+            storey.validate(Nth("storey", i))?;
+        }
+        let stiffness: Vec<f64> = storeys.iter().map(|s| s.stiffness).collect();
+        let storey_damping = StoreyDamping::new(&mass, &stiffness, &damping)?;
+        Ok(Self { mass, storeys, damping, gravity: GravityEffect::None, storey_damping })
+    }
+
+    /// Equal floor masses and storey stiffnesses with the given first period (s):
+    /// w_1 = 2 sqrt(k/m) sin(pi / (2 (2 n + 1))).
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when a number is out of its range.
+    pub fn uniform(storeys: usize, period: f64, mass: f64, damping: Damping) -> Result<Self> {
+        let stiffness = uniform_stiffness(storeys, period, mass)?;
+        Self::new(vec![mass; storeys], vec![Storey::elastic(stiffness); storeys], damping)
+    }
+
+    /// The same building with other springs; its damping is made again from their initial stiffness.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] as for [`Building::new`].
+    pub fn with_storeys(self, storeys: Vec<Storey>) -> Result<Self> {
+        let gravity = self.gravity;
+        Self::new(self.mass, storeys, self.damping)?.with_gravity(gravity)
+    }
+
+    /// The same building with P-Delta.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when a list has the wrong length or a number is out of its range.
+    pub fn with_gravity(mut self, gravity: GravityEffect) -> Result<Self> {
+        let n = self.mass.len();
+        match &gravity {
+            GravityEffect::None => {}
+            GravityEffect::GeometricStiffness(values) => {
+                check_length("geometric_stiffness", "building", n, "storey", values.len())?;
+                for (i, &value) in values.iter().enumerate() {
+                    let owner = Nth("storey", i);
+                    check(value.is_finite() && value >= 0.0, "geometric_stiffness", owner, "zero or positive", value)?;
+                }
+            }
+            GravityEffect::Loads { heights, floor_loads } => {
+                check_length("heights", "building", n, "storey", heights.len())?;
+                check_length("gravity_load", "building", n, "floor", floor_loads.len())?;
+                for (i, (&height, &load)) in heights.iter().zip(floor_loads).enumerate() {
+                    let (storey, floor) = (Nth("storey", i), Nth("floor", i));
+                    check(height.is_finite() && height > 0.0, "heights", storey, "a positive number", height)?;
+                    check(load.is_finite() && load >= 0.0, "gravity_load", floor, "zero or positive", load)?;
+                }
+            }
+        }
+        self.gravity = gravity;
+        Ok(self)
+    }
+
+    /// Number of storeys.
+    pub fn len(&self) -> usize {
+        self.mass.len()
+    }
+
+    /// Whether the building has no storeys: never.
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// Floor masses (kg).
+    pub fn mass(&self) -> &[f64] {
+        &self.mass
+    }
+
+    /// Storey springs.
+    pub fn storeys(&self) -> &[Storey] {
+        &self.storeys
+    }
+
+    /// P-Delta as given.
+    pub fn gravity(&self) -> &GravityEffect {
+        &self.gravity
+    }
+
+    /// How damping was given.
+    pub fn damping(&self) -> &Damping {
+        &self.damping
+    }
+
+    /// The damping operator in storey coordinates.
+    pub fn storey_damping(&self) -> &StoreyDamping {
+        &self.storey_damping
+    }
+
+    /// Damping matrix C in floor coordinates (N s/m).
+    pub fn damping_matrix(&self) -> DMatrix<f64> {
+        self.storey_damping.floor_matrix(&self.mass, &self.stiffness())
+    }
+
+    /// No circular frequency of the bare building, elastic, is above this (rad/s).
+    pub fn frequency_bound(&self) -> f64 {
+        let stiffest = self.storeys.iter().map(Storey::largest_stiffness).fold(0.0, f64::max);
+        let lightest = self.mass.iter().copied().fold(f64::INFINITY, f64::min);
+        2.0 * (stiffest / lightest).sqrt()
+    }
+
+    /// Natural periods of the bare building (s), longest first, without P-Delta.
+    pub fn periods(&self) -> Vec<f64> {
+        let frequencies = natural_frequencies(&self.mass, &self.stiffness());
+        frequencies.iter().map(|w| 2.0 * std::f64::consts::PI / w).collect()
+    }
+
+    fn stiffness(&self) -> Vec<f64> {
+        self.storeys.iter().map(|s| s.stiffness).collect()
+    }
+}
+
+/// Storey stiffness (N/m) of a uniform building with the given first period (s) and floor mass (kg).
+///
+/// # Errors
+/// [`Error::Invalid`] when a number is out of its range.
+pub fn uniform_stiffness(storeys: usize, period: f64, mass: f64) -> Result<f64> {
+    check(storeys >= 1, "storeys", "building", "at least 1", storeys as f64)?;
+    check_storeys(storeys)?;
+    check(period.is_finite() && period > 0.0, "period", "building", "a positive number", period)?;
+    check(mass.is_finite() && mass > 0.0, "mass", "building", "a positive number", mass)?;
+    let angle = std::f64::consts::PI / (2.0 * (2 * storeys + 1) as f64);
+    let root = std::f64::consts::PI / (period * libm::sin(angle));
+    Ok(mass * root * root)
+}
+
+fn check_storeys(count: usize) -> Result<()> {
+    check(count <= MAX_STOREYS, "storeys", "building", format_args!("at most {MAX_STOREYS}"), count as f64)
+}
