@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass._elementary import power
 from seismass._values import FloatArray
-from seismass.matching.linear import product, solved
+from seismass.matching.linear import coarse, exact_product, solved
 from seismass.matching.oscillators import Extrema, Oscillators
 from seismass.matching.wavelets import Placed, half_width, place
 
@@ -46,8 +47,6 @@ PATIENCE: Final = 15
 """Passes without a better misfit after which the iteration ends."""
 GROUP: Final = 8
 """Wavelets whose effect is found together, over the samples that any of them covers."""
-DIGITS: Final = 2.0**-24
-"""Amplitudes are rounded to this share of the largest, so that they depend less on the linear algebra library."""
 
 
 @dataclass(frozen=True)
@@ -144,12 +143,12 @@ def adjust(
         influence = oscillators.influence(extrema, first, last)
         scale = np.sign(extrema.value) / displacement[extrema.oscillator]
         added = (acceleration - given)[first:last]
-        forget = FORGET[0] * FORGET[1] ** passes
+        forget = FORGET[0] * float(power(FORGET[1], passes))
         taken_back = forget * scale * np.einsum("es,s->e", influence, added)
         within = slice(wavelets.first - first, wavelets.last - first)
         effect = _effect(influence[:, within], wavelets) * scale[:, None]
-        weight = max(REGULARISATION[0] * REGULARISATION[1] ** passes, REGULARISATION[2])
-        ease = min(SECONDARY[0] * SECONDARY[1] ** passes, 1.0)
+        weight = max(REGULARISATION[0] * float(power(REGULARISATION[1], passes)), REGULARISATION[2])
+        ease = min(SECONDARY[0] * float(power(SECONDARY[1], passes)), 1.0)
         candidates = []
         for amplitudes in _amplitudes(effect, scale * extrema.value, taken_back, sought, weight, ease):
             change = -forget * added
@@ -194,12 +193,13 @@ def _delays(oscillators: Oscillators) -> FloatArray:
 
 
 def _effect(influence: FloatArray, wavelets: Placed) -> FloatArray:
-    """Displacement at each extremum by each wavelet of unit amplitude (m), shape (extrema, wavelets)."""
+    """Displacement at each extremum by each wavelet of unit amplitude (m), shape (extrema, wavelets), to seven digits."""
+    influence, samples = (coarse(matrix) for matrix in (influence, wavelets.samples))
     effect = np.empty((len(influence), len(wavelets.samples)))
     for start in range(0, effect.shape[1], GROUP):
         some = slice(start, start + GROUP)
         span = slice(wavelets.starts[some].min() - wavelets.first, wavelets.ends[some].max() - wavelets.first)
-        effect[:, some] = product(influence[:, span], wavelets.samples[some, span].T)
+        effect[:, some] = exact_product(influence[:, span], samples[some, span].T)
     return effect
 
 
@@ -235,22 +235,26 @@ def _amplitudes(
     own = largest[: len(size)]
     size = np.where(size > 0.0, size, 1.0)
     size = np.where(own, size, size / ease)
-    effect = effect / size
-    products = product(effect, effect.T)
+    effect = coarse(effect / size)
+    products, known = np.zeros((len(effect), len(effect))), np.zeros(len(effect), dtype=bool)
     miss = 1.0 - ratio + taken_back
     emphasis = np.minimum(1.0 + (EMPHASIS * (1.0 - ratio)) ** 2, 1e4)
     found = []
     for share in WEAKER:
-        regular = products + np.diag((share * weight) ** 2 / emphasis)
+        regular = (share * weight) ** 2 / emphasis
         held = largest.copy()
         for _ in range(HOLDS):
-            forces = solved(regular[np.ix_(held, held)], miss[held])
+            added = held & ~known
+            if added.any():
+                known |= added
+                some = exact_product(effect[added], effect[known].T)
+                products[np.ix_(added, known)] = some
+                products[np.ix_(known, added)] = some.T
+            forces = solved(products[np.ix_(held, held)] + np.diag(regular[held]), miss[held])
             amplitudes = np.einsum("h,hw->w", forces, effect[held])
             grown = ~held & (ratio - taken_back + np.einsum("ew,w->e", effect, amplitudes) > OVERSHOOT)
             if not grown.any():
                 break
             held |= grown
-        amplitudes = amplitudes / size
-        unit = DIGITS * float(np.max(np.abs(amplitudes)))
-        found.append(np.round(amplitudes / unit) * unit if unit > 0.0 else amplitudes)
+        found.append(amplitudes / size)
     return found
