@@ -65,7 +65,8 @@ def log(x: ArrayLike) -> FloatArray:
     """
     given = np.asarray(x, dtype=np.float64)
     if not ((given > 0.0) & np.isfinite(given)).all():
-        raise ValueError("x of log must be positive and finite")
+        wrong = given[~((given > 0.0) & np.isfinite(given))].flat[0]
+        raise ValueError(f"x of log must be positive and finite; got {wrong:g}")
     share, number = np.frexp(given)
     low = share < math.sqrt(0.5)
     share, number = np.where(low, 2.0 * share, share), np.where(low, number - 1, number).astype(np.float64)
@@ -128,7 +129,7 @@ def complex_sinh(x: ComplexArray) -> ComplexArray:
 
 
 def complex_series(start: ComplexArray, rate: ComplexArray, count: int) -> tuple[ComplexArray, ComplexArray]:
-    """Return factors of exp(start + rate k) for k = 0, 1, ... up to at least `count` - 1, for `series_real` and `series_imaginary`.
+    """Return factors of exp(start + rate k), k = 0, 1, ... up to at least `count` - 1, for the two functions below.
 
     Parameters
     ----------
@@ -170,7 +171,8 @@ def times(left: ComplexArray, right: ComplexArray) -> ComplexArray:
 
 def scaled(numbers: ComplexArray, factor: ArrayLike) -> ComplexArray:
     """Return complex numbers times real ones, of the shape that both broadcast to."""
-    return joined(numbers.real * factor, numbers.imag * factor)
+    by = np.asarray(factor, dtype=np.float64)
+    return joined(numbers.real * by, numbers.imag * by)
 
 
 def joined(real: ArrayLike, imaginary: ArrayLike) -> ComplexArray:

@@ -39,15 +39,23 @@ LOWER: Final = 1.5 * 2.0 ** (BITS - 1 - 48)
 """The same for the next 24 bits."""
 
 
-def coarse(matrix: FloatArray) -> FloatArray:
-    """Return a matrix, each row rounded to whole multiples of 2^-26 of the power of two above its Euclidean norm.
+def coarse(matrix: FloatArray, bits: int = BITS // 2) -> FloatArray:
+    """Return a matrix, each row rounded to `bits` bits: whole multiples of 2^-bits of a power of two above its norm.
 
-    By the inequality of Cauchy and Schwarz no sum of products of two such rows has more than 53 bits, in whatever order
-    it is taken.
+    By the inequality of Cauchy and Schwarz no sum of products of two such rows, in whatever order it is taken, needs
+    more than the 53 bits of a double, if their bits are 52 together.
     """
     _, exponent = np.frexp(np.sqrt(np.einsum("ij,ij->i", matrix, matrix)))
-    large = np.ldexp(1.5, exponent + (BITS - 1 - BITS // 2))[:, None]  # its last bit is that multiple
-    return np.asarray((matrix + large) - large)
+    large = np.ldexp(1.5, exponent + (BITS - 1 - bits))[:, None]  # its last bit is that multiple
+    rounded = matrix + large
+    rounded -= large
+    return np.asarray(rounded)
+
+
+def halves(matrix: FloatArray, bits: int = BITS // 2) -> Halves:
+    """Return two `coarse` matrices whose sum has twice as many bits of a matrix."""
+    upper = coarse(matrix, bits)
+    return upper, coarse(matrix - upper, bits)
 
 
 def exact_product(left: FloatArray, right: FloatArray) -> FloatArray:
@@ -64,15 +72,10 @@ def exact_product(left: FloatArray, right: FloatArray) -> FloatArray:
             tile = result[top : top + height, start : start + width]
             for first in range(0, inner, depth):
                 tile += (
-                    left[top : top + height, first : first + depth] @ right[first : first + depth, start : start + width]
+                    left[top : top + height, first : first + depth]
+                    @ right[first : first + depth, start : start + width]
                 )
     return result
-
-
-def halves(matrix: FloatArray) -> Halves:
-    """Return two `coarse` matrices whose sum is a matrix, but for what is below 2^-52 of the norm of a row."""
-    upper = coarse(matrix)
-    return upper, coarse(matrix - upper)
 
 
 def product(left: Halves, right: Halves) -> FloatArray:
