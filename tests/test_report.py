@@ -1,4 +1,4 @@
-"""The page of a study: made of the tables alone, with nothing from outside, and what it says is what they say."""
+"""The pages of a study and of a building: of the tables alone, without anything from outside, and true to them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import html
 import json
 import re
 import shutil
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import polars as pl
 import pytest
 
 import seismass as sm
+from seismass.building_file import example_file
 from seismass.cli import main
 from seismass.report.slip_figure import slip_demand
 from seismass.report.study_answer import answer, compared_rules, percent
@@ -228,3 +230,83 @@ def test_folder_that_is_no_study_is_refused(
     assert main(["report", str(out)]) == 2
     assert re.search(message, capsys.readouterr().err)
     assert not (out / "report.html").exists()
+
+
+@pytest.fixture(scope="module")
+def building(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("building")
+    assert main(["building", str(example_file()), "--out", str(out)]) == 0
+    return out
+
+
+def test_page_of_a_building_is_made_again_from_the_tables_alone(building: Path, tmp_path: Path) -> None:
+    for file in building.iterdir():
+        if file.suffix in (".parquet", ".json"):
+            shutil.copy(file, tmp_path / file.name)
+    assert main(["report", str(tmp_path)]) == 0
+    page = (tmp_path / "report.html").read_bytes()
+    assert page == (building / "report.html").read_bytes()
+    assert len(page) < 3_000_000
+
+
+def test_page_of_a_building_has_every_part_and_the_numbers_of_the_assessment(building: Path) -> None:
+    page = (building / "report.html").read_text(encoding="utf-8")
+    assert re.findall(r"<h2[^>]*>([^<]*)</h2>", page) == [
+        "Contents",
+        "Input as understood",
+        "Checks",
+        "Effective fraction",
+        "Drifts",
+        "Slip of the goods",
+        "In an analysis",
+        "Remarks",
+        "Assumptions",
+        "Limits of this page",
+        "Provenance",
+    ]
+    text = text_of(page)
+    document = json.loads((building / "assessment.json").read_text())
+    for part in (*document["advice"], *document["assumptions"], document["metadata"]["inputs_sha256"]):
+        assert part in text
+    # The answer that the README has for this building.
+    assert "Use lambda = 0.90 of the goods present, 0.72 of the design live load" in text
+    assert "the effective fraction is 0.50 (90 % interval 0.19 to 0.72)" in text
+
+
+def test_checks_are_those_of_the_storeys(building: Path) -> None:
+    checks = pl.read_parquet(building / "checks.parquet")
+    storeys = pl.read_parquet(building / "storeys.parquet")
+    for check, column in (("mean drift ratio", "mean"), ("stability coefficient", "theta")):
+        for row in checks.filter(check=check).iter_rows(named=True):
+            of = storeys.filter(model=row["model"])
+            assert row["value"] == of[column].max()
+            assert row["met"] == (row["value"] <= row["limit"])
+    assert set(checks["model"]) == {"real", "real_mu_low", "real_mu_high", "advised"}
+    assert "table 12.12-1" in checks.filter(check="mean drift ratio")["source"][0]
+
+
+def test_checks_that_fail_are_said_first(tmp_path: Path) -> None:
+    given = tomllib.loads(example_file().read_text(encoding="utf-8"))
+    given["building"]["drift_limit"] = 0.005
+    sm.assess(given, resamples=100).write(tmp_path)
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    failed = pl.read_parquet(tmp_path / "checks.parquet").filter(met=False)
+    assert failed.height > 0
+    assert f"{failed.height} of " in text_of(page)
+    assert "checks are not met." in text_of(page)
+
+
+def test_page_of_a_building_without_heights_and_goods(tmp_path: Path) -> None:
+    given = {
+        "site": {"sds_g": 1.0, "sd1_g": 0.6},
+        "building": {"period_s": 0.4, "area_m2": 500.0, "dead_load_kpa": 5.0, "design": True, "R": 3.0},
+        "goods": {"live_load_kpa": 0.0},
+        "storeys": [{}, {}],
+    }
+    sm.assess(given, resamples=100).write(tmp_path)
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "no live load could act as mass" in page
+    assert "Slip of the goods" not in page
+    again = tmp_path / "again.html"
+    assert main(["report", str(tmp_path), "--out", str(again)]) == 0
+    assert again.read_text(encoding="utf-8") == page

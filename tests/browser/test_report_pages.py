@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 import seismass as sm
+from seismass.building_file import example_file
 from seismass.cli import main
 
 
@@ -38,3 +39,8 @@ def test_claims_are_filtered_and_storeys_sorted(study: str, open_page: Any) -> N
         assert "commercial" in first
         assert "+102" in first
         assert sm.__version__ in page.locator(".subtitle").inner_text()
+
+
+def test_page_of_a_building_is_as_every_page_must_be(tmp_path: Path, look: Any) -> None:
+    assert main(["building", str(example_file()), "--out", str(tmp_path)]) == 0
+    look(Path(tmp_path, "report.html").read_text(encoding="utf-8"), "building")

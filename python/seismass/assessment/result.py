@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
+from seismass.assessment.checks import checks_table, input_document
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.result import finite_values
 from seismass.own_building import OwnBuilding
@@ -19,7 +20,7 @@ from seismass.spectra import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 1
+SCHEMA_VERSION: Final = 2
 """Version of the tables and of the JSON of an assessment."""
 
 
@@ -88,8 +89,13 @@ class Assessment:
         return assessment_text(self)
 
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Return the tables by name: storeys, slip, runs, and curve of the effective fraction, scaling if there are."""
-        tables = {"storeys": self.storeys, "slip": self.slip, "runs": self.runs}
+        """Return the tables by name: storeys, slip, runs, checks; curve of the fraction and scaling where known."""
+        tables = {
+            "storeys": self.storeys,
+            "slip": self.slip,
+            "runs": self.runs,
+            "checks": checks_table(self.building, self.storeys, self.collapses),
+        }
         curves = [
             result.curve.select(pl.lit(model).alias("model"), pl.all()) for model, result in self.effective.items()
         ]
@@ -102,8 +108,9 @@ class Assessment:
     def figures(self) -> dict[str, Figure]:
         """Return the figures by name: effective_fraction, drift and slip; without goods the drift alone."""
         from seismass.report.assess_figures import assessment_figures
+        from seismass.report.assess_tables import assessment_tables
 
-        return assessment_figures(self)
+        return assessment_figures(assessment_tables(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the runs as plain values in SI units; null for what is no finite number."""
@@ -112,12 +119,12 @@ class Assessment:
             "schema_version": SCHEMA_VERSION,
             "name": building.name,
             "note": building.note,
+            "input": input_document(building, self.target),
             "answer": {
                 "advised_share_of_goods_present": self.advised,
                 "advised_share_of_design_live_load": self.advised_of_live_load,
                 "goods_present_over_design_live_load": building.present_share,
-                "code": {"id": code.code_id, "use": code.use, "fraction": code.fraction, "clause": code.clause}
-                | {"low": code.low, "high": code.high, "status": code.status, "note": code.note},
+                "code": asdict(code) | {"id": code.code_id},
             },
             "effective": {model: result.to_dict() for model, result in self.effective.items()},
             "storeys": self.storeys.to_dicts(),
@@ -139,7 +146,7 @@ class Assessment:
         return json.dumps(self.to_dict(), indent=2, allow_nan=False)
 
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-        """Write text, tables (Parquet and CSV), assessment.json and figures (PNG and SVG) to a folder.
+        """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder.
 
         Returns
         -------

@@ -43,8 +43,8 @@ def add_parser(subparsers: Any) -> None:
         "building",
         help="your own building: how much of its live load to count as mass",
         description="Assess the building of a file (TOML or JSON): the share of its live load that acts as mass, with "
-        "goods that slide, the code's share attached, all attached and none. Prints a page and writes tables and "
-        "figures.",
+        "goods that slide, the code's share attached, all attached and none. Prints the answer and writes tables, "
+        "figures and a page for the calculation folder.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -81,7 +81,7 @@ def add_parser(subparsers: Any) -> None:
     )
     output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
     output.add_argument("--json", action="store_true", help="print the assessment as JSON")
-    output.add_argument("--no-figures", action="store_true", help="write tables only")
+    output.add_argument("--no-figures", action="store_true", help="write tables only, no figures and no page")
     parser.set_defaults(run=run)
 
 
@@ -93,7 +93,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment import assess
     from seismass.building_file import read_building
     from seismass.errors import SimulationError
-    from seismass.report.folder import check_out
+    from seismass.report.folder import PAGE, check_out
 
     started = time.perf_counter()
     check_out(args.out, "assessment")
@@ -122,7 +122,8 @@ def run(args: argparse.Namespace) -> int:
     print(result.text())
     for line in left_out(suite):
         print(f"\n{line}")
-    print(f"\n{len(files)} files in {args.out}, {time.perf_counter() - started:.1f} s")
+    page = "" if args.no_figures else f", the page is {args.out / PAGE}"
+    print(f"\n{len(files)} files in {args.out}{page}, {time.perf_counter() - started:.1f} s")
     return 0
 
 

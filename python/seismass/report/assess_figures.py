@@ -15,9 +15,8 @@ from matplotlib.lines import Line2D
 from seismass._values import FloatArray
 from seismass.assessment.advice import NAMES
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
-from seismass.assessment.result import Assessment
-from seismass.effective_mass import EffectiveMass
 from seismass.plots.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.report.assess_tables import AssessmentTables, Fraction
 from seismass.report.effective_figures import STORAGE_CODES
 
 PURPLE: Final = "#CC79A7"
@@ -41,7 +40,7 @@ MODEL_LOOKS: Final[dict[str, tuple[str, Any, str]]] = {
 """Colour, line and marker of each model."""
 
 
-def assessment_figures(result: Assessment) -> dict[str, Figure]:
+def assessment_figures(result: AssessmentTables) -> dict[str, Figure]:
     """Return the figures of an assessment by name: effective_fraction and slip where there are goods, and drift."""
     with mpl.rc_context(STYLE):
         figures = {"drift": drift_figure(result)}
@@ -54,11 +53,11 @@ def assessment_figures(result: Assessment) -> dict[str, Figure]:
     return figures
 
 
-def fraction_figure(result: Assessment) -> Figure:
+def fraction_figure(result: AssessmentTables) -> Figure:
     """Mean largest drift with sliding goods over that of the model, against the share attached."""
     figure = Figure(figsize=(6.8, 5.9), layout="constrained")
     axes = figure.add_subplot()
-    low, high = result.building.mu_factors
+    low, high = result.mu_factors
     factors = {REAL: "", REAL_HIGH: rf", {high:g} $\mu$", REAL_LOW: rf", {low:g} $\mu$"}
     for model, effective in result.effective.items():
         colour, line, marker, name = FRICTION_LOOKS[model]
@@ -88,22 +87,22 @@ def fraction_figure(result: Assessment) -> Figure:
     return figure
 
 
-def _value(effective: EffectiveMass) -> str:
+def _value(effective: Fraction) -> str:
     if effective.interval is None or not np.isfinite(effective.interval).all():
         return f"{effective.value:.2f}"
     return f"{effective.value:.2f} [{effective.interval[0]:.2f}, {effective.interval[1]:.2f}]"
 
 
-def _mark_shares(axes: Axes, result: Assessment) -> None:
+def _mark_shares(axes: Axes, result: AssessmentTables) -> None:
     """Mark the advised share and the code's, and name those of other codes at the upper edge."""
-    code, present = result.building.code, result.building.present_share
+    code, present = result.code, result.present_share
     if result.advised is not None:
         label = f"advised: {result.advised:.2f} of the goods present"
         axes.axvline(result.advised, color=INK, linestyle=DASH, linewidth=1.2, label=label)
-    if code.fraction <= present:
-        label = f"{_plain(code.code)}: {code.fraction:g} of the design live load"
-        axes.axvline(code.fraction / present, color=PURPLE, linestyle=DASH_DOT, linewidth=1.4, label=label)
-    if code.use != "storage":
+    if code["fraction"] <= present:
+        label = f"{_plain(code['code'])}: {code['fraction']:g} of the design live load"
+        axes.axvline(code["fraction"] / present, color=PURPLE, linestyle=DASH_DOT, linewidth=1.4, label=label)
+    if code["use"] != "storage":
         return
     marks = {name: share / present for name, share in STORAGE_CODES.items() if share <= present}
     upper = axes.secondary_xaxis("top")
@@ -111,12 +110,12 @@ def _mark_shares(axes: Axes, result: Assessment) -> None:
     upper.set_xticks(list(marks.values()), names, rotation=35.0, ha="left", fontsize=7.0)
 
 
-def drift_figure(result: Assessment) -> Figure:
+def drift_figure(result: AssessmentTables) -> Figure:
     """Mean peak drift of each storey by model, with 16 and 84 % over the motions, beside the limit."""
-    building, storeys = result.building, result.storeys
-    scale = 1e3 if building.heights is None else 1e2
+    storeys, limit, names = result.storeys, result.drift_limit, result.storey_names
+    scale = 1e3 if limit is None else 1e2
     models = [model for model in MODEL_LOOKS if model in set(storeys["model"])]
-    figure = Figure(figsize=(6.8, 2.2 + 0.85 * building.storeys), layout="constrained")
+    figure = Figure(figsize=(6.8, 2.2 + 0.85 * len(names)), layout="constrained")
     axes = figure.add_subplot()
     spacing = 0.15
     handles = []
@@ -151,25 +150,25 @@ def drift_figure(result: Assessment) -> Figure:
                 label=_model_label(result, model),
             )
         )
-    if building.heights is not None:
-        axes.axvline(scale * building.drift_limit, color=INK, linewidth=1.4)
-        handles.append(Line2D([], [], color=INK, linewidth=1.4, label=f"limit, {scale * building.drift_limit:g} %"))
+    if limit is not None:
+        axes.axvline(scale * limit, color=INK, linewidth=1.4)
+        handles.append(Line2D([], [], color=INK, linewidth=1.4, label=f"limit, {scale * limit:g} %"))
     axes.set_xlim(0.0, None)
-    axes.set_ylim(0.5, building.storeys + 0.5)
-    labels = [f"{number} {name}".strip() for number, name in enumerate(building.storey_names, start=1)]
-    axes.set_yticks(range(1, building.storeys + 1), [_plain(label) for label in labels])
+    axes.set_ylim(0.5, len(names) + 0.5)
+    labels = [f"{number} {name}".strip() for number, name in enumerate(names, start=1)]
+    axes.set_yticks(range(1, len(names) + 1), [_plain(label) for label in labels])
     axes.set_ylabel("storey")
-    unit = "mm" if building.heights is None else "% of the height"
+    unit = "mm" if limit is None else "% of the height"
     axes.set_xlabel(f"peak storey drift, {unit}: mean over the motions, and from 16 to 84 % of them")
     axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
-    for edge in np.arange(1.5, building.storeys):
+    for edge in np.arange(1.5, len(names)):
         axes.axhline(edge, color=GREY, alpha=0.35, linewidth=0.6)
     figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
     figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
 
 
-def slip_figure(result: Assessment) -> Figure:
+def slip_figure(result: AssessmentTables) -> Figure:
     """Peak and residual slip of the goods of each floor, by friction, with their scatter over the motions."""
     slip = result.slip
     floors = slip["floor"].unique().sort().to_list()
@@ -210,7 +209,7 @@ def slip_figure(result: Assessment) -> Figure:
         Line2D([], [], color=GREY, linestyle="", marker="x", markersize=4.5, label="peak: largest"),
         Line2D([], [], color=GREY, linestyle="", marker="o", markerfacecolor="white", label="residual: mean"),
     ]
-    names = result.building.storey_names
+    names = result.storey_names
     axes.set_yticks(range(1, len(floors) + 1), [_plain(f"{floor} {names[floor - 1]}".strip()) for floor in floors])
     axes.set_ylim(0.5, len(floors) + 0.5)
     axes.set_xlim(left=0.0)
@@ -228,23 +227,24 @@ def slip_figure(result: Assessment) -> Figure:
     return figure
 
 
-def _model_label(result: Assessment, model: str) -> str:
+def _model_label(result: AssessmentTables, model: str) -> str:
     if model == ADVISED and result.advised is not None:
         return rf"advised, $\lambda$ = {result.advised:.2f} of the goods"
     if model == CODE:
-        code = result.building.code
-        return f"{_plain(code.code)}, {code.fraction:g} of the live load"
+        code = result.code
+        return f"{_plain(code['code'])}, {code['fraction']:g} of the live load"
     return {REAL: "goods slide, friction as stated", ATTACHED: "all goods attached", BARE: "no goods attached"}.get(
         model, NAMES[model]
     )
 
 
-def _caption(result: Assessment) -> str:
-    suite = result.suite
+def _caption(result: AssessmentTables) -> str:
+    document = result.document
+    suite = document["suite"]
     kind = " (synthetic, none recorded)" if suite["synthetic"] == len(suite["motions"]) else ""
-    lines = [f"{result.building.name};  {len(suite['motions'])} motions{kind}"]
-    if result.target is not None and result.scaling is not None:
-        lines.append(f"scaled to {result.target.label}")
+    lines = [f"{document['name']};  {len(suite['motions'])} motions{kind}"]
+    if document["target"] is not None and result.scaling is not None:
+        lines.append(f"scaled to {document['target']['label']}")
     return _plain("\n".join(textwrap.fill(line, 110) for line in lines))
 
 

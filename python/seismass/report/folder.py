@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 import polars as pl
 
@@ -17,6 +17,10 @@ from seismass.files import write_table, written_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+PAGE: Final = "report.html"
+"""File of the page of a folder."""
 
 
 def check_out(out: Path, owner: str) -> None:

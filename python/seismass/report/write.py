@@ -5,14 +5,17 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
 from seismass.files import written_whole
-from seismass.report.folder import write_folder
+from seismass.report.folder import PAGE, write_folder
 from seismass.report.study_tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, StudyTables, read_study_tables
 from seismass.study.columns import TABLES, units_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _NUMBER: Final = r"[\d.]+(?:e[+-]\d+)?"
 FIGURE_FILE: Final = re.compile(
@@ -20,8 +23,6 @@ FIGURE_FILE: Final = re.compile(
     r"|section4_[\w.-]+|platform_[\w.-]+)\.(?:png|svg)"
 )
 """Names of the files of a study's figures; another file of a folder is not touched."""
-PAGE: Final = "report.html"
-"""File of the page."""
 
 
 def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bool = False) -> list[Path]:
@@ -55,14 +56,11 @@ def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bo
     documents = {"tables.json": _json(_tables_document(result.metadata, tables)), DOCUMENT: _json(result.metadata)}
     if result.animation is not None:
         documents[ANIMATION] = _json(result.animation, indent=None)
-    drawn = {}
+    drawn: dict[str, Figure] = {}
     if figures:
-        from seismass.plots.svg import figure_svg
-        from seismass.report.study_figures import page_figures
         from seismass.report.study_page import study_page
 
-        drawn = page_figures(result)
-        drawings = {name: figure_svg(figure) for name, figure in drawn.items()}
+        drawn, drawings = _drawn(result)
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
         documents[PAGE] = study_page(result, drawings)
     files = write_folder(
@@ -92,14 +90,23 @@ def write_study_page(folder: Path, target: Path) -> None:
     OSError
         The file cannot be written.
     """
-    from seismass.plots.svg import figure_svg
-    from seismass.report.study_figures import page_figures
     from seismass.report.study_page import study_page
 
     result = read_study_tables(folder)
-    drawings = {name: figure_svg(figure) for name, figure in page_figures(result).items()}
+    _, drawings = _drawn(result)
     with written_whole(target) as temporary:
         temporary.write_text(study_page(result, drawings), encoding="utf-8")
+
+
+def _drawn(result: StudyTables) -> tuple[dict[str, Figure], dict[str, str]]:
+    """Figures and their SVG texts, each drawn once for its file and for the page."""
+    from seismass.plots.style import fewer_collections
+    from seismass.plots.svg import figure_svg
+    from seismass.report.study_figures import page_figures
+
+    with fewer_collections():
+        figures = page_figures(result)
+        return figures, {name: figure_svg(figure) for name, figure in figures.items()}
 
 
 def _json(document: dict[str, Any], indent: int | None = 2) -> str:

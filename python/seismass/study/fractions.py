@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 import numpy as np
 import polars as pl
@@ -18,6 +18,10 @@ from seismass.study.columns import FRACTION_COLUMNS
 from seismass.study.parameters import StudyParameters
 from seismass.study.tables import key_columns, typed
 from seismass.units import STANDARD_GRAVITY
+
+SHARES: Final = np.linspace(0.0, 1.0, 41)
+"""Shares at which models are solved before roots are refined: fewer than `effective_mass` takes by itself, as a study
+has dozens of buildings. Refined roots are the same."""
 
 
 def fractions_table(
@@ -78,7 +82,7 @@ def effective_fractions(
     damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
     found = {}
     for number, scene in enumerate(scenes, start=1):
-        found[scene] = effective_mass(scene, records, damping=damping, threads=threads)
+        found[scene] = effective_mass(scene, records, damping=damping, fractions=SHARES, threads=threads)
         if progress is not None:
             progress(number, len(scenes))
     return found

@@ -32,8 +32,9 @@ TILTS: Final = (-0.3, 0.3)
 SCALING_PERIODS: Final = (0.5, 1.5)
 MATCHED_RANGE: Final = (0.2, 1.5)
 """Range of periods that motions are matched in, as multiples of the period of scaling."""
-MATCHED_TOLERANCE: Final = 0.05
-"""Largest misfit of their spectra: what records of practice are matched to, in a few passes."""
+MATCHED_TOLERANCE: Final = 0.10
+"""Largest misfit of their spectra, reached in a few passes. A closer match of single records takes up to thirty, whose
+last digits decide about the next pass; the mean of the suite is closer to the target than its records."""
 MOTIONS: Final = "motions"
 """The choice how motions are brought to the target."""
 
@@ -71,6 +72,7 @@ def study_sensitivity(
     target: TargetSpectrum,
     parameters: StudyParameters | None = None,
     *,
+    as_is: StudyResult | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Sensitivity:
@@ -83,6 +85,8 @@ def study_sensitivity(
     ----------
     suite, target, parameters, threads
         As for `run_study`.
+    as_is : StudyResult, optional
+        The study of these, where it has been run.
     progress : callable, optional
         Called with (studies done, studies in all).
 
@@ -93,7 +97,8 @@ def study_sensitivity(
     """
     chosen = StudyParameters() if parameters is None else parameters
     changes = [*_changes(chosen, target, suite), *_motion_changes(chosen, target, suite, threads)]
-    as_is = run_study(suite, target, chosen, threads=threads)
+    if as_is is None:
+        as_is = run_study(suite, target, chosen, threads=threads)
     own = drifts_of(as_is.responses, len(suite))
     rows = _rows(AS_IS, "", as_is, own, np.mean)
     of_base: dict[str, Drifts] = {chosen.damping_base: own}

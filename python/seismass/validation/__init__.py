@@ -6,7 +6,7 @@ package; without them built-in motions stand in, and results say so.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +18,7 @@ from seismass.study import Sensitivity, StudyResult, run_study
 from seismass.validation.paper_claims import Claim, Verdict, claims, claims_table
 from seismass.validation.recordings import STAND_INS, Station, components
 from seismass.validation.shaking_table import Band, Platform, platform, platform_scene
-from seismass.validation.three_storeys import Histories, Section4, section4, section4_scene
+from seismass.validation.three_storeys import SPRINGS, Histories, Section4, section4, section4_scene
 
 __all__ = [
     "STAND_INS",
@@ -33,6 +33,7 @@ __all__ = [
     "claims",
     "claims_table",
     "components",
+    "paper_scenes",
     "platform",
     "platform_scene",
     "section4",
@@ -78,12 +79,33 @@ def _motion_text(station: Station, synthetic: bool) -> str:
     return f"recording of {station}"
 
 
+def paper_scenes(
+    suite: Suite | None = None, *, springs: Sequence[tuple[float, int]] = SPRINGS
+) -> tuple[Section4, Platform]:
+    """Solve the scenes of the paper's section 4: the three-storey building and the platform.
+
+    Parameters
+    ----------
+    suite : Suite, optional
+        As for `validate`.
+    springs : sequence of (float, int)
+        As for `section4`.
+
+    Raises
+    ------
+    RecordFormatError
+        As for `validate`.
+    """
+    return section4(components("Brawley Airport", suite), springs=springs), platform(components("Erzincan", suite))
+
+
 def validate(
     suite: Suite | None = None,
     target: TargetSpectrum | None = None,
     *,
     study: StudyResult | None = None,
     sensitivity: Sensitivity | None = None,
+    scenes: tuple[Section4, Platform] | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Validation:
@@ -101,6 +123,8 @@ def validate(
         A study of the suite that has been run.
     sensitivity : Sensitivity, optional
         Its sensitivity, for the claims.
+    scenes : tuple of Section4 and Platform, optional
+        What `paper_scenes` gave.
     threads : int, optional
         Number of threads; default all cores.
     progress : callable, optional
@@ -130,6 +154,5 @@ def validate(
     if study is None:
         chosen = builtin_suite("seven") if suite is None else suite
         study = run_study(chosen, target or TargetSpectrum.asce7(), threads=threads, progress=progress)
-    building = section4(components("Brawley Airport", suite))
-    table = platform(components("Erzincan", suite))
+    building, table = paper_scenes(suite) if scenes is None else scenes
     return Validation(study, building, table, claims(study, building, table, sensitivity=sensitivity))

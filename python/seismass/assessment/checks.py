@@ -1,0 +1,135 @@
+"""What an assessment checks, with the clause of each limit, and the input as it was understood."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import polars as pl
+
+from seismass.assessment.models import ADVISED, REALS
+from seismass.design import THETA_THRESHOLD, drift_limit
+from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.spectra import TargetSpectrum
+from seismass.units import STANDARD_GRAVITY
+
+
+def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[str, int]) -> pl.DataFrame:
+    """Return one row per check and model: goods that slide, at all frictions, and the advised share.
+
+    Parameters
+    ----------
+    building : OwnBuilding
+        The building.
+    storeys : polars.DataFrame
+        `Assessment.storeys`.
+    collapses : dict of str to int
+        Collapsed runs of each model.
+
+    Returns
+    -------
+    polars.DataFrame
+        check, model; storey with the largest value; value and limit; met, null where collapses leave no value; source,
+        the clause of the limit and how it was checked.
+    """
+    models = [model for model in (*REALS, ADVISED, "bare") if model in collapses]
+    if len(models) > 1:
+        models.remove("bare")
+    rows: list[dict[str, Any]] = [
+        {"check": "collapsed runs", "model": model, "value": float(collapses[model]), "limit": 0.0, "source": ""}
+        for model in models
+    ]
+    if building.heights is not None:
+        limits = {
+            "mean drift ratio": ("mean", building.drift_limit, _drift_source(building)),
+            "stability coefficient": ("theta", building.theta_limit, _theta_source(building)),
+        }
+        for check, (column, limit, source) in limits.items():
+            rows += [_largest(storeys, check, model, column, limit, source) for model in models]
+        elastic = _largest(storeys, "elastic stability coefficient", models[0], "theta_elastic", THETA_THRESHOLD, "")
+        elastic["source"] = "ASCE/SEI 7-10, 12.8.7 (verified): above it P-Delta must be considered"
+        if building.gravity_load is not None:
+            elastic["source"] += ", as it is here"
+            elastic["met"] = True
+        rows.append(elastic)
+    return pl.DataFrame(
+        [_judged(row) for row in rows],
+        schema={
+            "check": pl.String,
+            "model": pl.String,
+            "storey": pl.UInt32,
+            "value": pl.Float64,
+            "limit": pl.Float64,
+            "met": pl.Boolean,
+            "source": pl.String,
+        },
+    )
+
+
+def _largest(storeys: pl.DataFrame, check: str, model: str, column: str, limit: float, source: str) -> dict[str, Any]:
+    of = storeys.filter(model=model)
+    row: dict[str, Any] = {"check": check, "model": model, "limit": limit, "source": source}
+    if of[column].null_count():
+        return {**row, "storey": None, "value": None}
+    place = int(np.argmax(of[column].to_numpy()))
+    return {**row, "storey": int(of["storey"][place]), "value": float(of[column][place])}
+
+
+def _judged(row: dict[str, Any]) -> dict[str, Any]:
+    value = row["value"]
+    return {"storey": None, "met": None if value is None else value <= row["limit"], **row}
+
+
+def _drift_source(building: OwnBuilding) -> str:
+    if building.drift_limit != DEFAULT_DRIFT_LIMIT:
+        return "as stated"
+    row = drift_limit("asce7-10")
+    return f"{row.code}, {row.clause}, risk category I or II ({row.status}); it limits {row.of}, here nonlinear drift"
+
+
+def _theta_source(building: OwnBuilding) -> str:
+    if building.theta_limit != DEFAULT_THETA_LIMIT:
+        return "as stated"
+    return "ASCE/SEI 7-10, equation 12.8-17 (verified): 0.5/(beta C_d), at most 0.25"
+
+
+def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict[str, Any]:
+    """Return the input as it was understood, in SI units: values of the building, and a list of its storeys."""
+    structure = building.structure(target)
+    strength = np.where(np.isfinite(structure.yield_shear), structure.yield_shear, np.nan)
+    heights = [None] * building.storeys if building.heights is None else building.heights.tolist()
+    columns: dict[str, list[Any]] = {
+        "storey": list(range(1, building.storeys + 1)),
+        "name": list(building.storey_names),
+        "height": heights,
+        "mass": building.mass.tolist(),
+        "stiffness": building.stiffness.tolist(),
+        "yield_shear": [None if np.isnan(value) else float(value) for value in strength],
+        "overstrength": building.overstrength.tolist(),
+        "second_slope": building.second_slope.tolist(),
+        "third_slope": building.third_slope.tolist(),
+        "live_load": building.live_load.tolist(),
+        "occupied": building.occupied.tolist(),
+        "contact": list(building.friction),
+        "mu_s": building.mu_s.tolist(),
+        "mu_k": building.mu_k.tolist(),
+    }
+    names = list(columns)
+    rule = building.design
+    return {
+        "storeys": [dict(zip(names, row, strict=True)) for row in zip(*columns.values(), strict=True)],
+        "weight": building.weight,
+        "weight_of_goods": STANDARD_GRAVITY * float(building.goods.sum()),
+        "period_bare": building.period(),
+        "period_attached": building.period(building.goods),
+        "damping": building.damping,
+        "p_delta": building.gravity_load is not None,
+        "design": None
+        if rule is None
+        else {"R": rule.R, "fraction": building.design_fraction, "combination": rule.combination},
+        "mu_factors": list(building.mu_factors),
+        "drift_limit": building.drift_limit if building.heights is not None else None,
+        "theta_limit": building.theta_limit if building.heights is not None else None,
+        "collapse_drift_ratio": building.collapse_drift_ratio,
+        "file": None if building.path is None else building.path.name,
+    }
