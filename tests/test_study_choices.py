@@ -17,6 +17,8 @@ from seismass.report.study_tables import OPTIONAL_TABLES, study_tables
 from seismass.report.write import write_study
 from seismass.study import MODELS, StudyParameters, StudyResult, run_study, study_sensitivity
 from seismass.study.columns import TABLES
+from seismass.study.fractions import SHARES
+from seismass.study.sensitivity import MATCHED_TOLERANCE
 from seismass.study.tables import quantile
 from seismass.units import STANDARD_GRAVITY
 from seismass.validation import validate
@@ -157,7 +159,7 @@ def test_effective_fraction_is_that_of_the_scene_alone() -> None:
     building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=strength)
     scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], 0.2))
     records = [record.scaled(factor) for record, factor in zip(suite, result.scaling.factors, strict=True)]
-    alone = sm.effective_mass(scene, records)
+    alone = sm.effective_mass(scene, records, fractions=SHARES)
     # 0.664895716 by an independent leapfrog to its order: this building is a case of the definition's own table.
     assert row["effective"] == pytest.approx(alone.value, abs=1e-7)
     assert row["effective"] == pytest.approx(0.664895716, abs=1e-7)
@@ -328,10 +330,10 @@ def test_sensitivity_changes_one_choice_at_a_time() -> None:
     mps = sm.scale_modal_pushover(suite, TARGET, period=chosen.scaling_period, reduction=4.0)
     expected = headline(run_study(suite, TARGET, chosen, scaling=mps))
     assert row("motions", "modal pushover, R_y = 4")["most_R_percent"] == pytest.approx(expected, rel=1e-12)
-    matched = sm.match_suite(suite, TARGET, periods=(0.2, 1.5), tolerance=0.05)
+    matched = sm.match_suite(suite, TARGET, periods=(0.2, 1.5), tolerance=MATCHED_TOLERANCE)
     assert all(one.converged for one in matched)
     expected = headline(run_study(matched.suite, TARGET, chosen))
-    assert row("motions", "matched, 5 %, 0.2 to 1.5 s")["most_R_percent"] == pytest.approx(expected, rel=1e-12)
+    assert row("motions", "matched, 10 %, 0.2 to 1.5 s")["most_R_percent"] == pytest.approx(expected, rel=1e-12)
     medians = base.summary.filter(storey=1, occupancy="storage", R=4.0)
     ratio = medians["median_peak_drift_real"] / medians["median_peak_drift_code"]
     assert row("statistic", "median")["most_R_percent"] == pytest.approx(100.0 * (ratio.mean() - 1.0), rel=1e-12)

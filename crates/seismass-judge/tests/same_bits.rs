@@ -41,3 +41,16 @@ fn a_path_gives_the_same_bits_on_every_processor() {
         println!("{path}: the same bits on this processor and on {processor}, {SCENES} scenes");
     }
 }
+
+/// The path for AVX-512 has more registers and the same arithmetic.
+#[test]
+fn avx2_and_avx512_give_the_same_bits() {
+    let [narrow, wide] = ["avx2", "avx512"].map(|path| printed(path, None).unwrap());
+    if !wide.starts_with("avx512") {
+        println!("skipped: this machine does not have AVX-512");
+        return;
+    }
+    for (narrow, wide) in narrow.lines().zip(wide.lines()).skip(1) {
+        assert_eq!(narrow, wide, "seed, storeys, events, hash");
+    }
+}

@@ -72,6 +72,7 @@ def study_sensitivity(
     target: TargetSpectrum,
     parameters: StudyParameters | None = None,
     *,
+    as_is: StudyResult | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Sensitivity:
@@ -84,6 +85,8 @@ def study_sensitivity(
     ----------
     suite, target, parameters, threads
         As for `run_study`.
+    as_is : StudyResult, optional
+        The study of these, where it has been run.
     progress : callable, optional
         Called with (studies done, studies in all).
 
@@ -94,7 +97,8 @@ def study_sensitivity(
     """
     chosen = StudyParameters() if parameters is None else parameters
     changes = [*_changes(chosen, target, suite), *_motion_changes(chosen, target, suite, threads)]
-    as_is = run_study(suite, target, chosen, threads=threads)
+    if as_is is None:
+        as_is = run_study(suite, target, chosen, threads=threads)
     own = drifts_of(as_is.responses, len(suite))
     rows = _rows(AS_IS, "", as_is, own, np.mean)
     of_base: dict[str, Drifts] = {chosen.damping_base: own}

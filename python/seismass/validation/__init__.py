@@ -6,7 +6,7 @@ package; without them built-in motions stand in, and results say so.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +18,7 @@ from seismass.study import Sensitivity, StudyResult, run_study
 from seismass.validation.paper_claims import Claim, Verdict, claims, claims_table
 from seismass.validation.recordings import STAND_INS, Station, components
 from seismass.validation.shaking_table import Band, Platform, platform, platform_scene
-from seismass.validation.three_storeys import Histories, Section4, section4, section4_scene
+from seismass.validation.three_storeys import SPRINGS, Histories, Section4, section4, section4_scene
 
 __all__ = [
     "STAND_INS",
@@ -79,20 +79,24 @@ def _motion_text(station: Station, synthetic: bool) -> str:
     return f"recording of {station}"
 
 
-def paper_scenes(suite: Suite | None = None) -> tuple[Section4, Platform]:
+def paper_scenes(
+    suite: Suite | None = None, *, springs: Sequence[tuple[float, int]] = SPRINGS
+) -> tuple[Section4, Platform]:
     """Solve the scenes of the paper's section 4: the three-storey building and the platform.
 
     Parameters
     ----------
     suite : Suite, optional
         As for `validate`.
+    springs : sequence of (float, int)
+        As for `section4`.
 
     Raises
     ------
     RecordFormatError
         As for `validate`.
     """
-    return section4(components("Brawley Airport", suite)), platform(components("Erzincan", suite))
+    return section4(components("Brawley Airport", suite), springs=springs), platform(components("Erzincan", suite))
 
 
 def validate(

@@ -130,13 +130,16 @@ def samples_digest(record: Record) -> str:
     return hashlib.sha256(record.acceleration.tobytes() + np.float64(record.dt).tobytes()).hexdigest()
 
 
-def section4(components: Sequence[Record]) -> Section4:
+def section4(components: Sequence[Record], *, springs: Sequence[tuple[float, int]] = SPRINGS) -> Section4:
     """Solve the building of section 4 for all components, peaks and second slopes, and compare the programs.
 
     Parameters
     ----------
     components : sequence of Record
         Components of the Brawley record, unscaled, or a stand-in.
+    springs : sequence of (float, int)
+        Stiffness of friction springs over that of storey 1, and steps per sample interval; the stiffest takes most of
+        the time.
 
     Returns
     -------
@@ -149,7 +152,7 @@ def section4(components: Sequence[Record]) -> Section4:
     differences: list[dict[str, Any]] = []
     for record, slope in product(components, COMPARED_SLOPES):
         exact = _exact(record, slope)
-        others = [*_springs(record, slope), *_opensees(record, slope)]
+        others = [*_springs(record, slope, springs), *_opensees(record, slope)]
         histories += [exact, *(item for item in others if item.time.size)]
         differences += [_difference(item, exact) for item in others]
     return Section4(
@@ -206,11 +209,11 @@ def _exact(record: Record, second_slope: float) -> Histories:
     return Histories(EXACT, "", label(record), second_slope, 1, _times(motion), response.drift, response.slip)
 
 
-def _springs(record: Record, second_slope: float) -> Iterator[Histories]:
+def _springs(record: Record, second_slope: float, springs: Sequence[tuple[float, int]]) -> Iterator[Histories]:
     """Histories with friction springs, without an instant where Newton's method did not converge."""
     motion = _scaled(record)
     scene = section4_scene(second_slope)
-    for ratio, substeps in SPRINGS:
+    for ratio, substeps in springs:
         time, drift, slip = _times(motion), _NOTHING, _NOTHING
         try:
             found = _kernel.integrate_reference(
