@@ -38,7 +38,7 @@ if sys.argv[1] == "functions":
 else:
     record = sm.builtin_suite()[0]
     found = sm.match_spectrum(record, sm.TargetSpectrum.asce7().tilted(0.1), max_iterations=8)
-    parts = [found.record.acceleration, found.ratio_after, found.wide_after]
+    parts = [found.record.acceleration]
 digest = hashlib.sha256()
 for part in parts:
     digest.update(np.ascontiguousarray(part).tobytes())
@@ -72,7 +72,8 @@ def test_bits_do_not_depend_on_avx512(what: str) -> None:
     assert len(expected) == hashlib.sha256().digest_size * 2
     assert digest(what, NPY_DISABLE_CPU_FEATURES=" ".join(disabled)) == expected
     older = " ".join(disabled + present(*FUSED))
-    assert digest(what, NPY_DISABLE_CPU_FEATURES=older, OPENBLAS_CORETYPE="Nehalem") == expected
+    variables = {"OPENBLAS_CORETYPE": "Nehalem", "SEISMASS_INSTRUCTIONS": "baseline"}
+    assert digest(what, NPY_DISABLE_CPU_FEATURES=older, **variables) == expected
 
 
 def test_bits_do_not_depend_on_the_linear_algebra_library() -> None:
@@ -105,6 +106,7 @@ def test_elementary_functions_are_close_to_those_of_the_c_library() -> None:
     assert elementary.times(z, z[::-1]) == pytest.approx(z * z[::-1], rel=1e-14, abs=1e-15)
     assert elementary.geomspace(0.2, 1.5, 50) == pytest.approx(np.geomspace(0.2, 1.5, 50), rel=1e-14)
     assert elementary.geomspace(0.2, 1.5, 1).tolist() == [0.2]
+    assert elementary.rounded(np.array([0.0, 1.75, -23.0]), 2).tolist() == [0.0, 2.0, -24.0]
 
 
 def test_series_are_exponentials_of_equal_steps() -> None:

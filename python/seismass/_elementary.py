@@ -192,6 +192,12 @@ def geomspace(start: float, stop: float, count: int) -> FloatArray:
     return values
 
 
+def rounded(x: ArrayLike, bits: int) -> FloatArray:
+    """Return numbers rounded to so many significant bits, of the same shape."""
+    share, exponent = np.frexp(np.asarray(x, dtype=np.float64))
+    return np.asarray(np.ldexp(np.rint(np.ldexp(share, bits)), exponent - bits))
+
+
 def _reduced(x: ArrayLike) -> tuple[NDArray[np.int64], FloatArray, FloatArray]:
     """Multiples of pi/2, and the rest with its square before it."""
     given = np.asarray(x, dtype=np.float64)

@@ -9,7 +9,7 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seismass._elementary import exp, geomspace, log
+from seismass._elementary import exp, geomspace, log, rounded
 from seismass._values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption
 from seismass.matching.remarks import matching_remarks
@@ -44,6 +44,9 @@ WIDE: Final = (0.02, 10.0)
 """Range of periods (s) over which the spectra are given before and after, outside the range that is matched too."""
 AT_ONCE: Final = 2
 """Records of a suite that are matched at a time."""
+FACTOR_BITS, LIMIT_BITS = 41, 32
+"""Bits of the factor and of the limits outside the range, which come from spectra: the kernel's paths with and without
+fused multiply-add differ in the last ones."""
 _SHORTEST_RECORD: Final = 8
 
 
@@ -328,7 +331,7 @@ def _guards(
     beyond = np.arange(1.0, int(log(GUARDED) / log(GUARD_SPACING)) + 1.0)
     at.append(longest * exp(float(log(GUARD_SPACING)) * beyond))
     guarded = np.concatenate(at)
-    given = Ratios(guarded, np.ones(len(guarded)), damping, dt, threads)([motion])[0]
+    given = rounded(Ratios(guarded, np.ones(len(guarded)), damping, dt, threads)([motion])[0], LIMIT_BITS)
     short = target[0] * (0.4 + 0.6 * guarded / shortest)
     return guarded, np.maximum(GROWTH * given, np.where(guarded < shortest, short, target[-1] * longest / guarded))
 
@@ -340,7 +343,7 @@ def _factor(scale: Literal["least_squares", "none"] | float, ratios: FloatArray,
             raise refusal(InvalidOption, "scale", "matching", "least_squares, none or a factor", brief(scale))
         if scale == "none" or np.max(np.abs(ratios - 1.0)) <= tolerance:
             return 1.0
-        return float(exp(-np.mean(log(ratios))))
+        return float(rounded(exp(-np.mean(log(ratios))), FACTOR_BITS))
     factor = as_number(scale, "scale", "matching", InvalidOption)
     if not (np.isfinite(factor) and factor != 0.0):
         raise refusal(InvalidOption, "scale", "matching", "least_squares, none or a factor other than 0", f"{factor:g}")
