@@ -31,6 +31,8 @@ BLOCK: Final = 32
 """Rows of a block of a factorisation."""
 REFINED: Final = 2
 """Times that the factors are used, again on what is left: they have 48 bits."""
+HALVED: Final = 16
+"""Rows of a matrix that are split at a time."""
 BITS: Final = 53
 """Bits of a double."""
 UPPER: Final = 1.5 * 2.0 ** (BITS - 1 - 24)
@@ -54,8 +56,12 @@ def coarse(matrix: FloatArray, bits: int = BITS // 2) -> FloatArray:
 
 def halves(matrix: FloatArray, bits: int = BITS // 2) -> Halves:
     """Return two `coarse` matrices whose sum has twice as many bits of a matrix."""
-    upper = coarse(matrix, bits)
-    return upper, coarse(matrix - upper, bits)
+    upper, lower = np.empty_like(matrix), np.empty_like(matrix)
+    for start in range(0, len(matrix), HALVED):  # as many rows as a cache holds
+        rows = slice(start, start + HALVED)
+        upper[rows] = coarse(matrix[rows], bits)
+        lower[rows] = coarse(matrix[rows] - upper[rows], bits)
+    return upper, lower
 
 
 def exact_product(left: FloatArray, right: FloatArray) -> FloatArray:
@@ -154,7 +160,10 @@ def _subtract_square(matrix: FloatArray, parts: Halves) -> None:
 def _inverse_factor(matrix: FloatArray) -> FloatArray:
     """The inverse of Cholesky's lower factor of a small matrix, of which the part on and below the diagonal is read."""
     size = len(matrix)
-    rows = np.hstack([np.tril(matrix) + np.tril(matrix, -1).T, np.eye(size)])
+    rows = np.zeros((size, 2 * size))
+    lower = np.tri(size, dtype=bool)
+    rows[:, :size] = np.where(lower, matrix, matrix.T)
+    rows[:, size:].flat[:: size + 1] = 1.0
     for number in range(size):
         pivot = float(rows[number, number])
         if not 0.0 < pivot < math.inf:

@@ -45,7 +45,7 @@ EMPHASIS: Final = 50.0
 """A period off by 1/50 counts twice, by 2/50 five times in the sum of squares, so that no period stays behind."""
 PATIENCE: Final = 15
 """Passes without a better misfit after which the iteration ends."""
-GROUP: Final = 8
+GROUP: Final = 16
 """Wavelets whose effect is found together, over the samples that any of them covers."""
 WAVELET_BITS: Final = 30
 """Bits of a wavelet in its effect; the influence of a sample has twice what 52 leaves."""
