@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import runpy
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.matching.files import write_record
-from seismass.matching.linear import product, solved
+from seismass.matching.linear import coarse, exact_product, halves, product, solved
 from seismass.matching.oscillators import Oscillators
 from seismass.matching.wavelets import half_width, place
 
@@ -129,7 +130,13 @@ def test_products_and_systems_in_pieces_are_those_of_numpy() -> None:
     generator = np.random.default_rng(2)
     for rows, inner, columns in ((3, 5, 2), (130, 700, 9), (70, 1, 200), (0, 4, 3)):
         left, right = generator.standard_normal((rows, inner)), generator.standard_normal((inner, columns))
-        assert product(left, right) == pytest.approx(left @ right, abs=1e-11)
+        assert product(halves(left), halves(right.T)) == pytest.approx(left @ right, abs=1e-11)
+        few, others = coarse(left, 30), coarse(right.T, 22)
+        assert few == pytest.approx(left, abs=np.sqrt(inner) * 5.0 * 2.0**-29)
+        # Not one sum is rounded: in exact arithmetic they are the same.
+        for i, j in np.ndindex(min(rows, 3), min(columns, 2)):
+            exact = sum(Fraction(a) * Fraction(b) for a, b in zip(few[i], others[j], strict=True))
+            assert Fraction(exact_product(few, others.T)[i, j]) == exact
     half = generator.standard_normal((101, 150))
     matrix, wanted = half @ half.T, generator.standard_normal(101)
     assert solved(matrix, wanted) == pytest.approx(np.linalg.solve(matrix, wanted), rel=1e-6)

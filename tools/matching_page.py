@@ -81,7 +81,7 @@ def motion_row(matched: sm.MatchedRecord) -> tuple[str, ...]:
 
 def power(value: float) -> str:
     """Return a difference that is rounding as the power of ten that it is below."""
-    return "0" if value == 0.0 else f"< 1e{int(np.ceil(np.log10(value)))}" if value > 1e-12 else "< 1e-12"
+    return f"< 1e{int(np.ceil(np.log10(value)))}" if value > 1e-12 else "< 1e-12"
 
 
 def seven(shared: Path) -> str:

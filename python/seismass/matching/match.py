@@ -9,6 +9,7 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
+from seismass._elementary import exp, geomspace, log, rounded
 from seismass._values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption
 from seismass.matching.remarks import matching_remarks
@@ -43,6 +44,9 @@ WIDE: Final = (0.02, 10.0)
 """Range of periods (s) over which the spectra are given before and after, outside the range that is matched too."""
 AT_ONCE: Final = 2
 """Records of a suite that are matched at a time."""
+FACTOR_BITS, LIMIT_BITS = 41, 32
+"""Bits of the factor and of the limits outside the range, which come from spectra: the kernel's paths with and without
+fused multiply-add differ in the last ones."""
 _SHORTEST_RECORD: Final = 8
 
 
@@ -167,7 +171,7 @@ def match_spectrum(
             history=(*original.history, said),
             remarks=(*original.remarks, "matched to a spectrum: not as recorded"),
         )
-    wide = np.geomspace(max(WIDE[0], record.dt), max(WIDE[1], 2.0 * matched[-1]), 160)
+    wide = geomspace(max(WIDE[0], record.dt), max(WIDE[1], 2.0 * matched[-1]), 160)
     over = np.ones(len(wide))
     spectra = Ratios(wide, over, ratio, record.dt, workers)([start, result.acceleration])
     found = MatchedRecord(
@@ -277,19 +281,19 @@ def _periods(given: ArrayLike, points: int | None, damping: float, record: Recor
         if points is not None:
             raise refusal(InvalidOption, "points", "matching", "left out for a list of periods", brief(points))
         return at
-    span = float(np.log(at[1] / at[0]))
+    span = float(log(at[1] / at[0]))
     if points is None:
         count = max(int(np.ceil(span / max(SPACING * damping, CLOSEST))) + 1, 2)
     else:
         count = as_count(points, "points", "matching", InvalidOption, least=2)
-    return np.geomspace(at[0], at[1], count)
+    return geomspace(float(at[0]), float(at[1]), count)
 
 
 def _refined(periods: FloatArray, parts: int) -> FloatArray:
     """Return the periods with `parts` - 1 more between neighbours, in geometric spacing."""
     number = np.arange(len(periods))
     finer = np.arange(parts * (len(periods) - 1) + 1) / parts
-    refined = np.exp(np.interp(finer, number, np.log(periods)))
+    refined = exp(np.interp(finer, number, log(periods)))
     refined[::parts] = periods
     return np.asarray(refined)
 
@@ -322,12 +326,12 @@ def _guards(
     first = max(shortest / GUARDED, STEPS_PER_PERIOD * dt)
     at: list[FloatArray] = []
     if first < shortest / GUARD_SPACING:
-        count = int(np.log(shortest / GUARD_SPACING / first) / np.log(GUARD_SPACING)) + 1
-        at.append(np.array(np.geomspace(first, shortest / GUARD_SPACING, max(count, 1)), dtype=np.float64))
-    beyond = np.arange(1.0, int(np.log(GUARDED) / np.log(GUARD_SPACING)) + 1.0)
-    at.append(np.array(longest * GUARD_SPACING**beyond, dtype=np.float64))
+        count = int(log(shortest / GUARD_SPACING / first) / log(GUARD_SPACING)) + 1
+        at.append(geomspace(first, shortest / GUARD_SPACING, max(count, 1)))
+    beyond = np.arange(1.0, int(log(GUARDED) / log(GUARD_SPACING)) + 1.0)
+    at.append(longest * exp(float(log(GUARD_SPACING)) * beyond))
     guarded = np.concatenate(at)
-    given = Ratios(guarded, np.ones(len(guarded)), damping, dt, threads)([motion])[0]
+    given = rounded(Ratios(guarded, np.ones(len(guarded)), damping, dt, threads)([motion])[0], LIMIT_BITS)
     short = target[0] * (0.4 + 0.6 * guarded / shortest)
     return guarded, np.maximum(GROWTH * given, np.where(guarded < shortest, short, target[-1] * longest / guarded))
 
@@ -339,7 +343,7 @@ def _factor(scale: Literal["least_squares", "none"] | float, ratios: FloatArray,
             raise refusal(InvalidOption, "scale", "matching", "least_squares, none or a factor", brief(scale))
         if scale == "none" or np.max(np.abs(ratios - 1.0)) <= tolerance:
             return 1.0
-        return float(np.exp(-np.mean(np.log(ratios))))
+        return float(rounded(exp(-np.mean(log(ratios))), FACTOR_BITS))
     factor = as_number(scale, "scale", "matching", InvalidOption)
     if not (np.isfinite(factor) and factor != 0.0):
         raise refusal(InvalidOption, "scale", "matching", "least_squares, none or a factor other than 0", f"{factor:g}")

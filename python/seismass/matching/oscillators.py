@@ -12,6 +12,17 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from seismass._elementary import (
+    complex_exp,
+    complex_series,
+    complex_sinh,
+    exp,
+    joined,
+    scaled,
+    series_imaginary,
+    series_real,
+    times,
+)
 from seismass._values import FloatArray
 
 UNDERSHOOT: Final = 0.6
@@ -59,23 +70,27 @@ class Oscillators:
     def __init__(self, periods: FloatArray, damping: float, dt: float) -> None:
         self.periods, self.damping, self.dt = periods, damping, dt
         self.omega = omega = 2.0 * np.pi / periods
-        self.rate = rate = omega * complex(-damping, np.sqrt(1.0 - damping * damping))
+        self.rate = rate = joined(-damping * omega, np.sqrt(1.0 - damping * damping) * omega)
         # Displacement under a ramp of acceleration t from rest: -(t/w^2 - 2 z/w^3) - Re(free exp(rate t)).
-        self.free = 2.0 * damping / omega**3 + 1j * (1.0 - 2.0 * damping * damping) / (omega**2 * rate.imag)
+        self.free = joined(
+            2.0 * damping / (omega * omega * omega), (1.0 - 2.0 * damping * damping) / (omega**2 * rate.imag)
+        )
         # Amplitude of the free vibration after a sample of 1 m/s2: a second difference of exponentials in closed form.
-        self.weight = -self.free * 4.0 * np.sinh(0.5 * rate * dt) ** 2 / dt
-        pole = np.exp(rate * dt)
-        back, further = -2.0 * pole.real, np.abs(pole) ** 2
+        root = complex_sinh(scaled(rate, 0.5 * dt))
+        self.weight = times(scaled(self.free, -4.0 / dt), times(root, root))
+        pole = complex_exp(scaled(rate, dt))
+        back, further = -2.0 * pole.real, exp(2.0 * dt * rate.real)
         # Displacement at the instant of such a sample and at the two after it.
         at = self._ramp(np.arange(len(periods)), np.full(len(periods), dt)) / dt
-        after, later = (self.weight * pole).real, (self.weight * pole * pole).real
+        once = times(self.weight, pole)
+        after, later = once.real, times(once, pole).real
         self.numerator = np.array([at, after + back * at, later + back * after + further * at]).T
         self.denominator = np.array([np.ones(len(periods)), back, further]).T
         # Displacement at the end of a step: by what is there at its start, and by the acceleration at both ends.
-        step = -1.0 / omega**2 - (self.free * rate * pole).real  # by a constant acceleration of 1 m/s2
-        decay, angle = np.exp(rate.real * dt), rate.imag * dt
-        self.from_displacement = decay * (np.cos(angle) - rate.real / rate.imag * np.sin(angle))
-        self.from_velocity = decay * np.sin(angle) / rate.imag
+        # By a constant acceleration of 1 m/s2.
+        step = -1.0 / omega**2 - times(times(self.free, rate), pole).real
+        self.from_displacement = pole.real - rate.real / rate.imag * pole.imag
+        self.from_velocity = pole.imag / rate.imag
         self.from_start, self.from_end = step - at, at
 
     def response(self, index: int, acceleration: FloatArray) -> FloatArray:
@@ -140,17 +155,21 @@ class Oscillators:
         within = extrema.fraction * self.dt
         after = self._ramp(extrema.oscillator, within) / self.dt
         here = self._ramp(extrema.oscillator, within + self.dt) / self.dt - 2.0 * after
-        turn = np.exp(self.rate[extrema.oscillator] * within)
-        farthest = int(extrema.step.max()) - first + 1
-        lags = self.dt * np.arange(1, max(farthest, 1))
-        known, table = -1, np.empty(0, dtype=complex)
+        rate = self.rate[extrema.oscillator]
+        turn = complex_exp(scaled(rate, within))
+        # What a sample k + 1 steps before leaves, as an amplitude of the free vibration.
+        per_step = scaled(self.rate, self.dt)
+        far, near = complex_series(per_step, per_step, max(int(extrema.step.max()) - first, 1))
+        far = times(self.weight[:, None], far)
+        known, real, imag = -1, np.empty(0), np.empty(0)
         for number, (row, index, step) in enumerate(zip(rows, extrema.oscillator, extrema.step, strict=True)):
             if index != known:
-                known, table = int(index), self.weight[index] * np.exp(self.rate[index] * lags)
+                known = int(index)
+                real, imag = series_real(far[index], near[index]), series_imaginary(far[index], near[index])
             end = min(int(step), last)  # samples before the step are one step or more before the extremum
             if end > first:
-                before = table[step - end : step - first]
-                row[: end - first] = (before.real * turn[number].real - before.imag * turn[number].imag)[::-1]
+                before = slice(step - end, step - first)
+                row[: end - first] = (real[before] * turn[number].real - imag[before] * turn[number].imag)[::-1]
             if first <= step < last:
                 row[step - first] = here[number]
             if first <= step + 1 < last:
@@ -160,8 +179,9 @@ class Oscillators:
     def _ramp(self, index: NDArray[np.int64], time: FloatArray) -> FloatArray:
         """Displacement at times from 0 on under an acceleration of 1 m/s3 times the time."""
         omega = self.omega[index]
-        linear = time / omega**2 - 2.0 * self.damping / omega**3
-        return np.asarray(-linear - (self.free[index] * np.exp(self.rate[index] * time)).real)
+        linear = time / omega**2 - 2.0 * self.damping / (omega * omega * omega)
+        rate = self.rate[index]
+        return np.asarray(-linear - times(self.free[index], complex_exp(scaled(rate, time))).real)
 
     def _velocity(
         self, index: NDArray[np.int64], start: FloatArray, end: FloatArray, here: FloatArray, after: FloatArray
@@ -180,11 +200,13 @@ class Oscillators:
         level = -start / omega**2 - 2.0 * self.damping / omega * drift
         real = here - level
         velocity = self._velocity(index, start, end, here, after)
-        swing = real - 1j * (velocity - drift - rate.real * real) / rate.imag
+        swing = joined(real, -(velocity - drift - rate.real * real) / rate.imag)
+        swung = times(swing, rate)
         time = np.full(len(index), 0.5 * self.dt)
         for _ in range(6):  # Newton; a step is at most a quarter of a period
-            turning = swing * rate * np.exp(rate * time)
-            curvature = (turning * rate).real
+            turning = times(swung, complex_exp(scaled(rate, time)))
+            curvature = times(turning, rate).real
             curvature = np.where(curvature == 0.0, 1.0, curvature)
             time = np.clip(time - (drift + turning.real) / curvature, 0.0, self.dt)
-        return time / self.dt, level + drift * time + (swing * np.exp(rate * time)).real
+        vibration = times(swing, complex_exp(scaled(rate, time)))
+        return time / self.dt, level + drift * time + vibration.real

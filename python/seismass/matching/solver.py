@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass._elementary import power
 from seismass._values import FloatArray
-from seismass.matching.linear import product, solved
+from seismass.matching.linear import coarse, exact_product, halves, product, solved
 from seismass.matching.oscillators import Extrema, Oscillators
 from seismass.matching.wavelets import Placed, half_width, place
 
@@ -46,8 +47,8 @@ PATIENCE: Final = 15
 """Passes without a better misfit after which the iteration ends."""
 GROUP: Final = 8
 """Wavelets whose effect is found together, over the samples that any of them covers."""
-DIGITS: Final = 2.0**-24
-"""Amplitudes are rounded to this share of the largest, so that they depend less on the linear algebra library."""
+WAVELET_BITS: Final = 30
+"""Bits of a wavelet in its effect; the influence of a sample has twice what 52 leaves."""
 
 
 @dataclass(frozen=True)
@@ -144,12 +145,12 @@ def adjust(
         influence = oscillators.influence(extrema, first, last)
         scale = np.sign(extrema.value) / displacement[extrema.oscillator]
         added = (acceleration - given)[first:last]
-        forget = FORGET[0] * FORGET[1] ** passes
+        forget = FORGET[0] * float(power(FORGET[1], passes))
         taken_back = forget * scale * np.einsum("es,s->e", influence, added)
         within = slice(wavelets.first - first, wavelets.last - first)
-        effect = _effect(influence[:, within], wavelets) * scale[:, None]
-        weight = max(REGULARISATION[0] * REGULARISATION[1] ** passes, REGULARISATION[2])
-        ease = min(SECONDARY[0] * SECONDARY[1] ** passes, 1.0)
+        effect = _effect(influence[:, within], extrema.step, wavelets) * scale[:, None]
+        weight = max(REGULARISATION[0] * float(power(REGULARISATION[1], passes)), REGULARISATION[2])
+        ease = min(SECONDARY[0] * float(power(SECONDARY[1], passes)), 1.0)
         candidates = []
         for amplitudes in _amplitudes(effect, scale * extrema.value, taken_back, sought, weight, ease):
             change = -forget * added
@@ -193,13 +194,24 @@ def _delays(oscillators: Oscillators) -> FloatArray:
     return np.array(delays)
 
 
-def _effect(influence: FloatArray, wavelets: Placed) -> FloatArray:
-    """Displacement at each extremum by each wavelet of unit amplitude (m), shape (extrema, wavelets)."""
-    effect = np.empty((len(influence), len(wavelets.samples)))
-    for start in range(0, effect.shape[1], GROUP):
-        some = slice(start, start + GROUP)
-        span = slice(wavelets.starts[some].min() - wavelets.first, wavelets.ends[some].max() - wavelets.first)
-        effect[:, some] = product(influence[:, span], wavelets.samples[some, span].T)
+def _effect(influence: FloatArray, steps: NDArray[np.int64], wavelets: Placed) -> FloatArray:
+    """Displacement at each extremum by each wavelet of unit amplitude (m), shape (extrema, wavelets), to nine digits.
+
+    The influence is that of the samples from the first of the wavelets on; those later than `steps` + 1 have none.
+    """
+    latest, centred = np.argsort(-steps, kind="stable"), np.argsort(wavelets.starts + wavelets.ends, kind="stable")
+    upper, lower = halves(influence[latest], 52 - WAVELET_BITS)
+    samples = coarse(wavelets.samples, WAVELET_BITS)
+    effect = np.zeros((len(influence), len(samples)))
+    for start in range(0, len(samples), GROUP):
+        some = centred[start : start + GROUP]
+        first, last = int(wavelets.starts[some].min()), int(wavelets.ends[some].max())
+        reached = int(np.count_nonzero(steps + 1 >= first))
+        rows, span = slice(0, reached), slice(first - wavelets.first, last - wavelets.first)
+        right = samples[some, span].T
+        effect[np.ix_(latest[rows], some)] = exact_product(lower[rows, span], right) + exact_product(
+            upper[rows, span], right
+        )
     return effect
 
 
@@ -236,21 +248,26 @@ def _amplitudes(
     size = np.where(size > 0.0, size, 1.0)
     size = np.where(own, size, size / ease)
     effect = effect / size
-    products = product(effect, effect.T)
+    upper, lower = halves(effect)
+    products, known = np.zeros((len(effect), len(effect))), np.zeros(len(effect), dtype=bool)
     miss = 1.0 - ratio + taken_back
     emphasis = np.minimum(1.0 + (EMPHASIS * (1.0 - ratio)) ** 2, 1e4)
     found = []
     for share in WEAKER:
-        regular = products + np.diag((share * weight) ** 2 / emphasis)
+        regular = (share * weight) ** 2 / emphasis
         held = largest.copy()
         for _ in range(HOLDS):
-            forces = solved(regular[np.ix_(held, held)], miss[held])
+            added = held & ~known
+            if added.any():
+                known |= added
+                some = product((upper[added], lower[added]), (upper[known], lower[known]))
+                products[np.ix_(added, known)] = some
+                products[np.ix_(known, added)] = some.T
+            forces = solved(products[np.ix_(held, held)] + np.diag(regular[held]), miss[held])
             amplitudes = np.einsum("h,hw->w", forces, effect[held])
             grown = ~held & (ratio - taken_back + np.einsum("ew,w->e", effect, amplitudes) > OVERSHOOT)
             if not grown.any():
                 break
             held |= grown
-        amplitudes = amplitudes / size
-        unit = DIGITS * float(np.max(np.abs(amplitudes)))
-        found.append(np.round(amplitudes / unit) * unit if unit > 0.0 else amplitudes)
+        found.append(amplitudes / size)
     return found

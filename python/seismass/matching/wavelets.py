@@ -11,6 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from seismass._elementary import complex_series, joined, power, series_real
 from seismass._values import FloatArray
 
 WINDOW_POWER: Final = 6
@@ -25,7 +26,7 @@ def half_width(periods: FloatArray) -> FloatArray:
     Al Atik and Abrahamson (2010), equation 16: a Gaussian exp(-(t/gamma)^2) with gamma = 1.178 f^-0.93. The window
     (1 - x^2)^n that closes at x = 1 is close to it for a half-width of gamma sqrt(n).
     """
-    return np.asarray(1.178 * periods**0.93 * np.sqrt(WINDOW_POWER))
+    return np.asarray(1.178 * power(periods, 0.93) * np.sqrt(WINDOW_POWER))
 
 
 @dataclass(frozen=True)
@@ -83,12 +84,15 @@ def place(crest: FloatArray, periods: FloatArray, damping: float, dt: float, sam
     ends = np.minimum(np.floor((centre + half) / dt).astype(int) + 2, samples)
     first, last = int(starts.min()), int(ends.max())
     placed = np.zeros((len(periods), last - first))
-    for row, start, end, middle, width, phase, omega in zip(
-        placed, starts, ends, centre, half, crest, frequency, strict=True
+    angles = frequency * (dt * (starts - 1) - crest)
+    far, near = complex_series(joined(0.0, angles), joined(0.0, frequency * dt), int((ends - starts).max()) + 2)
+    for number, (row, start, end, middle, width, omega) in enumerate(
+        zip(placed, starts, ends, centre, half, frequency, strict=True)
     ):
         time = dt * np.arange(start - 1, end + 1)
         window = np.maximum(1.0 - ((time - middle) / width) ** 2, 0.0)
-        displacement = (window * window * window) ** 2 * np.cos(omega * (time - phase))
+        cosine = series_real(far[number], near[number])[: len(time)]
+        displacement = (window * window * window) ** 2 * cosine
         row[start - first : end - first] = -np.diff(displacement, n=2) / (omega * dt) ** 2
     moved = (half < half_width(periods) * (1.0 - 1e-9)) | (centre != crest)
     return Placed(placed, first, last, starts, ends, moved)

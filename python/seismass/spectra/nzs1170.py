@@ -11,6 +11,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from seismass._elementary import power
 from seismass._values import FloatArray, as_number, refusal
 from seismass.errors import InvalidOption
 from seismass.spectra.checks import OWNER, one_of, positive
@@ -80,7 +81,7 @@ class Nzs1170:
         """Return C_h(T)."""
         at_0, plateau, a, b, c = SOILS[self.site_class]
         t = np.maximum(periods, 0.1)
-        middle = np.minimum(a * (b / t) ** 0.75, plateau)
+        middle = np.minimum(a * power(b / t, 0.75), plateau)
         falling = np.where(t <= 1.5, middle, np.where(t <= 3.0, c / t, 3.0 * c / t**2))
         return np.where(periods < 0.1, at_0 + (plateau - at_0) * periods / 0.1, falling)
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from seismass._elementary import exp, log
 from seismass._values import FloatArray, as_path, frozen, printable, refusal
 from seismass.errors import RecordFormatError
 from seismass.spectra.checks import OWNER
@@ -31,8 +32,8 @@ class CsvTable(PeriodTable):
 
     def __call__(self, periods: FloatArray) -> FloatArray:
         """Return Sa (m/s2)."""
-        log_ordinates = np.interp(np.log(periods), np.log(self.periods), np.log(self.sa_g))
-        return STANDARD_GRAVITY * np.exp(log_ordinates)
+        log_ordinates = np.interp(log(periods), log(self.periods), log(self.sa_g))
+        return STANDARD_GRAVITY * exp(log_ordinates)
 
 
 def csv_shape(path: str | os.PathLike[str]) -> CsvTable:

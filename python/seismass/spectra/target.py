@@ -11,6 +11,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from seismass._elementary import geomspace, power
 from seismass._values import FloatArray, as_array, as_number, refusal
 from seismass.errors import InvalidOption
 from seismass.spectra.asce7 import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, multi_period_shape, two_period_shape
@@ -292,7 +293,7 @@ class TargetSpectrum:
         10 s as far as the spectrum goes; for the two-period shape of ASCE 7 it is T_S.
         """
         shortest, longest = max(self.shortest, 0.02), min(self.longest, 10.0)
-        periods = np.geomspace(shortest, longest, 400) if shortest < longest else np.array([self.shortest])
+        periods = geomspace(shortest, longest, 400) if shortest < longest else np.array([self.shortest])
         ordinates = self(np.clip(periods, self.shortest, self.longest))
         return float(np.max(ordinates * periods) / np.max(ordinates))
 
@@ -329,4 +330,4 @@ class TargetSpectrum:
             requirement = "positive where the spectrum is tilted by a negative power"
             raise refusal(InvalidOption, "period", "target spectrum", requirement, "0")
         ordinates = self.shape(at)
-        return ordinates if self.tilt == 0.0 else ordinates * at**self.tilt
+        return ordinates if self.tilt == 0.0 else ordinates * power(at, self.tilt)
