@@ -31,7 +31,7 @@ impl Ranges {
         Self { bounds, near_bound: [Set::MAX; 3], storeys, remainder: 0.0, chord: 0.0, are_known: false }
     }
 
-    /// Keeps what the bounds of higher derivatives are multiplied with over `h`, where they are as lively as that.
+    /// Keeps what the bounds of higher derivatives are multiplied with over `h`, from the norm of the derivatives.
     #[inline]
     pub(crate) fn set_margins(&mut self, derivative_norm: f64, h: f64) {
         (self.remainder, self.chord) = (derivative_norm * off_cubic(h), derivative_norm * (0.125 * h * h));

@@ -124,7 +124,7 @@ impl QuinticCheck<'_> {
         self.curvature.norms.values[k] * (h3 * h3 / 46080.0)
     }
 
-    /// Which peaks the suspect lanes of a vector of storeys and floors beat; nothing if a guard may fall inside the step.
+    /// Which peaks the lanes of a vector that are near their bounds beat; nothing if a guard may fall inside the step.
     #[inline(always)]
     pub(crate) fn look<V: Vector>(&self, near_bound: &NearBound) -> Option<NewPeaksOfVector> {
         let NearBound { vector, drifts, rates, accelerations } = *near_bound;
