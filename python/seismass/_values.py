@@ -122,6 +122,16 @@ def as_number(value: Any, parameter: str, owner: str, kind: type[SeismassError])
         raise refusal(kind, parameter, owner, "a number that a double can hold", brief(value)) from None
 
 
+def as_positive(
+    value: Any, parameter: str, owner: str, kind: type[SeismassError], *, or_infinite: bool = False
+) -> float:
+    """Return a positive number as a float; infinity only where `or_infinite` allows it."""
+    number = as_number(value, parameter, owner, kind)
+    if not 0.0 < number < np.inf and not (or_infinite and number == np.inf):
+        raise refusal(kind, parameter, owner, "a positive number", f"{number:g}")
+    return number
+
+
 def as_count(value: Any, parameter: str, owner: str, kind: type[SeismassError], *, least: int = 0) -> int:
     """Return an integer of at least `least`."""
     requirement = f"a whole number of at least {least}"

@@ -252,6 +252,8 @@ _ROWS: Final = (
 
 CODE_IDS: Final = tuple(dict.fromkeys(row.code_id for row in _ROWS))
 """Short names of all codes."""
+CODE_NAMES: Final = {row.code_id: row.code for row in _ROWS}
+"""Full name of each code by its short name."""
 
 
 def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:

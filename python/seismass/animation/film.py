@@ -7,12 +7,11 @@ import subprocess
 from collections.abc import Iterator
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
-import numpy as np
 from PIL import Image
 
-from seismass._values import as_number, refusal
+from seismass._values import as_positive, refusal
 from seismass.animation.picture import Picture
 from seismass.errors import InvalidOption, MissingPackage
 from seismass.files import written_whole
@@ -34,10 +33,11 @@ def write_film(animation: Animation, path: Path, frames_per_second: float | None
     """Write a GIF or an MP4, by the suffix of the path; see `Animation.write`."""
     gif = path.suffix.lower() == ".gif"
     default = GIF_FRAMES if gif else FILM_FRAMES
-    rate = _positive(default if frames_per_second is None else frames_per_second, "frames_per_second")
+    given = default if frames_per_second is None else frames_per_second
+    rate = as_positive(given, "frames_per_second", "animation", InvalidOption)
     if rate > MOST_FRAMES:
         raise refusal(InvalidOption, "frames_per_second", "animation", f"at most {MOST_FRAMES:g}", f"{rate:g}")
-    pace = _positive(speed, "speed")
+    pace = as_positive(speed, "speed", "animation", InvalidOption)
     ffmpeg = None if gif else shutil.which("ffmpeg")
     if not gif and ffmpeg is None:
         raise MissingPackage(
@@ -50,13 +50,6 @@ def write_film(animation: Animation, path: Path, frames_per_second: float | None
             _write_gif(picture, temporary, rate, pace)
         else:
             _write_mp4(picture, temporary, rate, pace, ffmpeg)
-
-
-def _positive(value: Any, parameter: str) -> float:
-    number = as_number(value, parameter, "animation", InvalidOption)
-    if not 0.0 < number < np.inf:
-        raise refusal(InvalidOption, parameter, "animation", "a positive number", f"{number:g}")
-    return number
 
 
 def _frames(picture: Picture, rate: float, speed: float) -> Iterator[Image.Image]:

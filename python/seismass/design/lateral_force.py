@@ -9,14 +9,17 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_number, frozen, known_id, refusal
-from seismass.codes import FROM_MEMORY, VERIFIED
+from seismass._values import FloatArray, as_positive, frozen, known_id
+from seismass.codes import CODE_NAMES, FROM_MEMORY, VERIFIED
 from seismass.design.modes import positive, positive_of_length
 from seismass.design.spectrum_analysis import moments
 from seismass.errors import InvalidOption
 
 Exponent: TypeAlias = Literal["period", "one", "two"]
 Top: TypeAlias = Literal["none", "period", "eight-percent"]
+
+
+_OWNER: Final = "lateral forces"
 
 
 @dataclass(frozen=True)
@@ -45,17 +48,21 @@ class DistributionRule:
     status: str
 
 
-_RULES: Final = (
-    DistributionRule("asce7-10", "ASCE/SEI 7-10", "period", "none", "12.8.3", VERIFIED),
-    DistributionRule("asce7-16", "ASCE/SEI 7-16", "period", "none", "12.8.3", FROM_MEMORY),
-    DistributionRule("asce7-22", "ASCE/SEI 7-22", "period", "none", "12.8.3", FROM_MEMORY),
-    DistributionRule("bnbc2017", "BNBC 2017, Bangladesh", "period", "none", "2.5.7.4", VERIFIED),
-    DistributionRule("ec8", "Eurocode 8, EN 1998-1", "one", "none", "4.3.3.2.3(3), linear shape", FROM_MEMORY),
-    DistributionRule("nbc", "NBC of Canada", "one", "period", "4.1.8.11", FROM_MEMORY),
-    DistributionRule("ubc-97", "UBC-97", "one", "period", "1630.5", FROM_MEMORY),
-    DistributionRule("nzs1170.5", "NZS 1170.5", "one", "eight-percent", "6.2.1.3", FROM_MEMORY),
-    DistributionRule("as1170.4", "AS 1170.4", "period", "none", "6.3", FROM_MEMORY),
-    DistributionRule("is1893", "IS 1893 (Part 1): 2016", "two", "none", "7.6.3", FROM_MEMORY),
+_ROWS: Final[tuple[tuple[str, Exponent, Top, str, str], ...]] = (
+    ("asce7-10", "period", "none", "12.8.3", VERIFIED),
+    ("asce7-16", "period", "none", "12.8.3", FROM_MEMORY),
+    ("asce7-22", "period", "none", "12.8.3", FROM_MEMORY),
+    ("bnbc2017", "period", "none", "2.5.7.4", VERIFIED),
+    ("ec8", "one", "none", "4.3.3.2.3(3), linear shape", FROM_MEMORY),
+    ("nbc", "one", "period", "4.1.8.11", FROM_MEMORY),
+    ("ubc-97", "one", "period", "1630.5", FROM_MEMORY),
+    ("nzs1170.5", "one", "eight-percent", "6.2.1.3", FROM_MEMORY),
+    ("as1170.4", "period", "none", "6.3", FROM_MEMORY),
+    ("is1893", "two", "none", "7.6.3", FROM_MEMORY),
+)
+_RULES: Final = tuple(
+    DistributionRule(code_id, CODE_NAMES[code_id], exponent, top, clause, status)
+    for code_id, exponent, top, clause, status in _ROWS
 )
 DISTRIBUTION_CODES: Final = tuple(rule.code_id for rule in _RULES)
 """Short names of the codes whose distribution is known here."""
@@ -171,7 +178,8 @@ def equivalent_lateral_forces(
     rule = next(row for row in _RULES if row.code_id == code)
     w = positive(weight, "weight")
     h = positive_of_length(heights, "heights", len(w))
-    total, seconds = _positive(base_shear, "base_shear"), _positive(period, "period")
+    total = as_positive(base_shear, "base_shear", _OWNER, InvalidOption)
+    seconds = as_positive(period, "period", _OWNER, InvalidOption)
     k = {"period": exponent_k(seconds), "one": 1.0, "two": 2.0}[rule.exponent]
     of_period = min(0.07 * seconds, 0.25) if seconds > 0.7 else 0.0
     top = {"none": 0.0, "period": of_period, "eight-percent": 0.08}[rule.top] * total
@@ -199,7 +207,8 @@ def exponent_k(period: float) -> float:
     -----
     ASCE/SEI 7-10, 12.8.3 (verified), which allows 2 between as well; BNBC 2017, 2.5.7.4.
     """
-    return float(np.clip(1.0 + (_positive(period, "period") - 0.5) / 2.0, 1.0, 2.0))
+    seconds = as_positive(period, "period", _OWNER, InvalidOption)
+    return float(np.clip(1.0 + (seconds - 0.5) / 2.0, 1.0, 2.0))
 
 
 def seismic_response_coefficient(
@@ -249,14 +258,17 @@ def seismic_response_coefficient(
     >>> sm.design.seismic_response_coefficient(1.0, 0.6, 1.0, 8.0)
     0.075
     """
-    short, second = _positive(s_ds, "s_ds"), _positive(s_d1, "s_d1")
-    t, longest = _positive(period, "period"), _positive(t_l, "t_l", or_infinite=True)
-    reduced = _positive(reduction, "reduction") / _positive(importance, "importance")
+    short = as_positive(s_ds, "s_ds", _OWNER, InvalidOption)
+    second = as_positive(s_d1, "s_d1", _OWNER, InvalidOption)
+    t = as_positive(period, "period", _OWNER, InvalidOption)
+    longest = as_positive(t_l, "t_l", _OWNER, InvalidOption, or_infinite=True)
+    factor = as_positive(importance, "importance", _OWNER, InvalidOption)
+    reduced = as_positive(reduction, "reduction", _OWNER, InvalidOption) / factor
     limit = second / t if t <= longest else second * longest / t**2
     found = min(short, limit) / reduced
     if minimum:
-        found = max(found, 0.044 * short * importance, 0.01)
-    if s_1 is not None and _positive(s_1, "s_1") >= 0.6:
+        found = max(found, 0.044 * short * factor, 0.01)
+    if s_1 is not None and as_positive(s_1, "s_1", _OWNER, InvalidOption) >= 0.6:
         found = max(found, 0.5 * s_1 / reduced)
     return found
 
@@ -270,10 +282,3 @@ def distribution_table() -> pl.DataFrame:
         Columns as `DistributionRule` has them.
     """
     return pl.DataFrame([asdict(rule) for rule in _RULES])
-
-
-def _positive(value: float, name: str, *, or_infinite: bool = False) -> float:
-    number = as_number(value, name, "lateral forces", InvalidOption)
-    if np.isnan(number) or number <= 0.0 or (np.isinf(number) and not or_infinite):
-        raise refusal(InvalidOption, name, "lateral forces", "a positive number", f"{number:g}")
-    return number

@@ -9,7 +9,7 @@ import numpy as np
 import polars as pl
 
 from seismass._values import as_count, as_number, brief, known_id, refusal
-from seismass.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
+from seismass.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
 from seismass.errors import InvalidOption
 
 Variable: TypeAlias = Literal["height", "storeys"]
@@ -53,17 +53,6 @@ class PeriodRule:
     note: str
 
 
-_NAMES: Final = {
-    "asce7-10": "ASCE/SEI 7-10",
-    "asce7-16": "ASCE/SEI 7-16",
-    "asce7-22": "ASCE/SEI 7-22",
-    "bnbc2017": "BNBC 2017, Bangladesh",
-    "ec8": "Eurocode 8, EN 1998-1",
-    "nbc": "NBC of Canada",
-    "ubc-97": "UBC-97",
-    "is1893": "IS 1893 (Part 1): 2016",
-    "as1170.4": "AS 1170.4",
-}
 _STEEL, _CONCRETE, _OTHER = "steel-moment-frame", "concrete-moment-frame", "other"
 _EBF, _BRB, _BRACED = "steel-eccentrically-braced-frame", "steel-buckling-restrained-frame", "braced-frame"
 _WALL, _BY_STOREYS = "shear-wall", "moment-frame-by-storeys"
@@ -153,7 +142,7 @@ _CODES: Final[tuple[tuple[str, str, str, tuple[_Row, ...]], ...]] = (
 
 _RULES: Final = tuple(
     PeriodRule(
-        code_id, _NAMES[code_id], system, c_t, x, "storeys" if system == _BY_STOREYS else "height", upper, clause,
+        code_id, CODE_NAMES[code_id], system, c_t, x, "storeys" if system == _BY_STOREYS else "height", upper, clause,
         status, note,
     )
     for code_id, clause, status, rows in _CODES

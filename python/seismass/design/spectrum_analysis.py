@@ -10,7 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_number, brief, frozen, refusal
+from seismass._values import FloatArray, as_array, as_positive, brief, frozen, refusal
 from seismass.design.modes import (
     Combination,
     Modes,
@@ -144,8 +144,7 @@ class SpectrumAnalysis:
         if base_shear is not None:
             factors["base_shear"] = base_shear
         for name, value in factors.items():
-            if not 0.0 < as_number(value, name, "design", InvalidOption) < np.inf:
-                raise refusal(InvalidOption, name, "design", "a positive number", f"{value:g}")
+            as_positive(value, name, "design", InvalidOption)
         factor = importance / reduction
         least = 0.0 if base_shear is None else share * base_shear
         scale = max(least / (factor * self.base_shear), 1.0) if self.base_shear > 0.0 else 1.0

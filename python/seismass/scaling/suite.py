@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from seismass._values import FloatArray, as_count, as_number, brief, frozen, refusal
+from seismass._values import FloatArray, as_count, as_number, as_positive, brief, frozen, refusal
 from seismass.errors import InvalidMotion, InvalidOption
 from seismass.motion import motion_names
 from seismass.scaling.result import ScalingResult
@@ -130,10 +130,7 @@ def positive_period(period: Any) -> float:
 
 def positive_number(value: Any, name: str) -> float:
     """Return a positive number."""
-    number = as_number(value, name, "scaling", InvalidOption)
-    if not (np.isfinite(number) and number > 0.0):
-        raise refusal(InvalidOption, name, "scaling", "a positive number", f"{number:g}")
-    return number
+    return as_positive(value, name, "scaling", InvalidOption)
 
 
 def checked_range(given: Any) -> tuple[float, float]:

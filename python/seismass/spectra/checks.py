@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from seismass._values import as_number, brief, refusal
+from seismass._values import as_positive, brief, refusal
 from seismass.errors import InvalidOption
 
 OWNER = "target spectrum"
@@ -14,10 +12,7 @@ OWNER = "target spectrum"
 
 def positive(value: Any, name: str) -> float:
     """Return a positive number."""
-    number = as_number(value, name, OWNER, InvalidOption)
-    if not (np.isfinite(number) and number > 0.0):
-        raise refusal(InvalidOption, name, OWNER, "a positive number", f"{number:g}")
-    return number
+    return as_positive(value, name, OWNER, InvalidOption)
 
 
 def one_of(value: Any, name: str, choices: tuple[Any, ...]) -> Any:
