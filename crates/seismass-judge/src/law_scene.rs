@@ -13,9 +13,10 @@ use crate::random_scene::{Draw, blocks, mass_above, samples_of, spring};
 /// A scene and a motion drawn from a seed.
 ///
 /// 1 to 4 storeys, each with a law of its own or all with one: backbones of 1 to 6 points, some of them on a line or flat
-/// at the end; gaps before and after yield; peak-oriented springs with and without Takeda's exponent, cyclic loss, softening
-/// and residual strength; flags of any height; P-Delta; initial drifts and velocities; no blocks, or up to three per floor and on the ground, whose
-/// friction falls or grows with the path they slip; sines, noise and steps, with and without vertical motion.
+/// at the end; gaps before and after yield; peak-oriented springs with and without Takeda's exponent, cyclic loss,
+/// softening and residual strength; flags of any height; P-Delta; initial drifts and velocities; no blocks, or up to three
+/// per floor and on the ground, whose friction falls or grows with the path they slip; sines, noise and steps, with and
+/// without vertical motion.
 ///
 /// # Errors
 /// None for any seed, as tests of this crate assert; validation is the scene's own.
@@ -54,8 +55,8 @@ pub(crate) fn draw_laws(seed: u64, storeys: &mut [Storey], blocks: &mut [Block])
     }
     for storey in storeys.iter_mut().filter(|storey| storey.yield_shear.is_finite()) {
         if draw.one_in(2) {
-            let law = draw.bits() % LAWS.len() as u64;
-            *storey = LAWS[law as usize](draw, storey.clone());
+            let law = draw.bits();
+            *storey = of_law(draw, law, storey.clone());
         }
     }
     blocks.iter_mut().for_each(|block| block.wear = wear(draw, block));
@@ -110,6 +111,11 @@ const LAWS: [fn(&mut Draw, Storey) -> Storey; 7] =
 fn storey(draw: &mut Draw, law: u64, stiffness: f64, yield_shear: f64) -> Storey {
     let (overstrength, second_slope, third_slope) = spring(draw);
     let trilinear = Storey { overstrength, second_slope, third_slope, ..Storey::yielding(stiffness, yield_shear) };
+    of_law(draw, law, trilinear)
+}
+
+/// What one of the laws, by a random number, makes of a trilinear storey.
+fn of_law(draw: &mut Draw, law: u64, trilinear: Storey) -> Storey {
     LAWS[(law % LAWS.len() as u64) as usize](draw, trilinear)
 }
 

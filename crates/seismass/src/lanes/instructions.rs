@@ -2,7 +2,8 @@
 
 use std::sync::OnceLock;
 
-/// Instructions the hot loops are compiled for. Paths agree to rounding; each gives the same bits on every machine.
+/// Instructions the hot loops are compiled for. Each gives the same bits on every machine; the baseline and the others agree
+/// to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InstructionSet {
     /// What every machine of the architecture has.

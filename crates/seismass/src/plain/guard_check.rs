@@ -1,4 +1,4 @@
-//! The check of the guards of a step that the loop of plain steps does not clear, and the peaks that its runs beat.
+//! The check of the guards of a step that the loop of plain steps does not clear.
 //!
 //! A step in which no guard falls is plain whatever peaks it beats: those at its end are kept, in vectors, until they are
 //! taken; where a drift or an acceleration turns beyond its peak inside the step, the step's series gives the extreme.

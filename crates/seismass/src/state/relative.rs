@@ -35,7 +35,8 @@ pub(crate) fn slip_change(state: &State, block: usize) -> Polynomial {
     Polynomial::new(std::iter::once(0.0).chain(terms))
 }
 
-/// Changes of relative velocity and slip of a block over the present series up to its place: integrals of its floor's absolute acceleration and its own, added term by term so that small ones keep their digits.
+/// Changes of relative velocity and slip of a block over the present series up to its place: integrals of its floor's
+/// absolute acceleration and its own, added term by term so that small ones keep their digits.
 #[inline(always)]
 pub(crate) fn block_change<const K: usize>(state: &State, block: usize) -> (f64, f64) {
     let (motion, law) = (&state.blocks.motions[block], &state.model.blocks[block]);

@@ -1,5 +1,4 @@
-//! The exact steps of a regime, formed once: over one whole sample interval, and as tables of its Taylor series; and the
-//! cache of regimes.
+//! The exact steps of a regime, formed once: over one whole sample interval, and as tables of its Taylor series.
 //!
 //! Within an interval, floor accelerations are linear in drifts and drift rates, and loads are linear in time; so from
 //! the second order on everything is linear in the drift accelerations q and their rates alone, which obey the
@@ -61,7 +60,8 @@ pub(crate) fn column_count(n: usize, with_ramps: bool) -> usize {
 
 for_each_path! {
     /// What a step of length `h` adds to (dx, dv, a, j) beyond the first order, of unit drift accelerations and of unit
-    /// rates of these: `sums` gets columns of four padded rows. `terms` gets those of a [`SeriesTable`](crate::step::table::SeriesTable), if it has room.
+    /// rates of these: `sums` gets columns of four padded rows. `terms` gets those of a
+    /// [`SeriesTable`](crate::step::table::SeriesTable), if it has room.
     pub(crate) fn form_remainders(model: &Model, regime: &Regime, h: f64, order: usize, sums: &mut [f64], terms: &mut [f64])
         = remainders_by_width
 }
