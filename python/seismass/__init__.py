@@ -10,6 +10,7 @@ from seismass.batch import simulate_many, stream_many, write_many
 from seismass.block import Block, blocks_on_floors
 from seismass.building import Building
 from seismass.building_file import read_building
+from seismass.campaign import Campaign, CampaignFolder, CampaignProgress, read_campaign
 from seismass.codes import CodeFraction, code_fraction, code_table
 from seismass.damping import Rayleigh
 from seismass.effective_mass import (
@@ -27,6 +28,7 @@ from seismass.effective_mass import (
 )
 from seismass.errors import (
     InvalidBuildingFile,
+    InvalidCampaignFile,
     InvalidMotion,
     InvalidOption,
     InvalidScene,
@@ -104,6 +106,9 @@ __all__ = [
     "Assessment",
     "Block",
     "Building",
+    "Campaign",
+    "CampaignFolder",
+    "CampaignProgress",
     "CodeFraction",
     "EffectiveMass",
     "EffectiveMassMap",
@@ -113,6 +118,7 @@ __all__ = [
     "Grid",
     "InelasticSpectrum",
     "InvalidBuildingFile",
+    "InvalidCampaignFile",
     "InvalidMotion",
     "InvalidOption",
     "InvalidScene",
@@ -177,6 +183,7 @@ __all__ = [
     "mean_spectrum",
     "plots",
     "read_building",
+    "read_campaign",
     "read_pair",
     "read_record",
     "read_records",

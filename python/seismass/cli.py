@@ -13,6 +13,7 @@ from seismass import __version__
 from seismass.commands import (
     animate,
     building,
+    campaign,
     effective_map,
     match,
     pulse,
@@ -26,7 +27,7 @@ from seismass.commands import (
 )
 from seismass.errors import SeismassError
 
-COMMANDS = (building, effective_map, study, run, animate, records, spectrum, scale, match, pulse, validate, report)
+COMMANDS = (building, effective_map, study, campaign, run, animate, records, spectrum, scale, match, pulse, validate, report)
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""

@@ -34,6 +34,10 @@ class InvalidBuildingFile(SeismassError, ValueError):
     """A building file with an unknown, missing or contradicting key, or that is not TOML or JSON."""
 
 
+class InvalidCampaignFile(SeismassError, ValueError):
+    """A campaign file with an unknown, missing or contradicting key, or that is not TOML or JSON."""
+
+
 class MissingPackage(SeismassError, ImportError):
     """A package that an optional part needs and that is not installed; the message says how to install it."""
 

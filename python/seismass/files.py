@@ -19,7 +19,7 @@ _OS_ERROR = re.compile(r"\(os error (\d+)\)")
 
 
 @contextmanager
-def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
+def written_whole(path: str | os.PathLike[str], *, durable: bool = False) -> Iterator[Path]:
     """Give a temporary path to write to, which replaces `path` at the end, or is removed when an error is raised.
 
     What killed runs have left in the folder is removed first.
@@ -28,6 +28,8 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     ----------
     path : path-like
         The file to write; its folder must exist.
+    durable : bool, default False
+        Wait until the system has the file, and then its name, on the disk: neither is lost with the power.
 
     Raises
     ------
@@ -56,10 +58,25 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     try:
         yield temporary
         with reported_as(target):
+            if durable:
+                _synchronise(temporary)
             temporary.replace(target)
+            if durable:
+                _synchronise(target.parent)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def _synchronise(path: Path) -> None:
+    """Wait until a file, or the names in a folder, are on the disk. Windows opens no folders."""
+    if path.is_dir() and os.name == "nt":
+        return
+    descriptor = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
 
 
 @contextmanager

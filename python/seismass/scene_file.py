@@ -140,7 +140,7 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     if "motion" not in top.values:
         top.refuse("motion", "given", "nothing")
     name, note = (top.text(key) for key in ("name", "note"))
-    building = _building(top.table("building")) if "building" in top.values else None
+    building = building_of_table(top.table("building")) if "building" in top.values else None
     initial = top.table("initial") if "initial" in top.values else None
     if initial is not None:
         initial.known(KEYS["initial"])
@@ -163,7 +163,16 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     return SceneFile(scene, motion, duration, name, note, source, records)
 
 
-def _building(table: Table) -> Building:
+def building_of_table(table: Table) -> Building:
+    """Return the building of a table with the keys that a scene file has for one.
+
+    Raises
+    ------
+    InvalidSceneFile
+        A key is unknown or missing, or contradicts another; the class is that of the table's errors.
+    InvalidScene
+        A value is not what it must be.
+    """
     table.known(KEYS["building"])
     table.excluded("yield_shear_over_weight", "yield_shear")
     table.excluded("geometric_stiffness", "gravity_load")

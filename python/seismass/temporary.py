@@ -32,8 +32,21 @@ _NAME = re.compile(
 def temporary_path(folder: Path) -> Path:
     """Return an unused path in a folder, named after this process; what killed processes have left there is removed."""
     remove_left_behind(folder)
+    return folder / temporary_name()
+
+
+def temporary_name() -> str:
+    """Return an unused name that tells which process it belongs to: this one."""
     process = os.getpid()
-    return folder / f"{PREFIX}{_machine()}-{_boot()}-{process}-{_started(process) or 0}-{uuid4().hex}.part"
+    return f"{PREFIX}{_machine()}-{_boot()}-{process}-{_started(process) or 0}-{uuid4().hex}.part"
+
+
+def is_left_behind(name: str) -> bool:
+    """Return whether a temporary name belongs to a process of this machine that has ended."""
+    named = _NAME.fullmatch(name)
+    return named is not None and _is_gone(
+        named["machine"], named["boot"], int(named["process"]), int(named["started"])
+    )
 
 
 @contextmanager
@@ -58,8 +71,7 @@ def remove_left_behind(folder: Path) -> None:
     """Remove what processes of this machine that are gone have left in a folder; what cannot be removed stays."""
     with contextlib.suppress(OSError):
         for path in [path for path in folder.iterdir() if path.name.startswith(PREFIX)]:
-            named = _NAME.fullmatch(path.name)
-            if named and _is_gone(named["machine"], named["boot"], int(named["process"]), int(named["started"])):
+            if is_left_behind(path.name):
                 if path.is_dir() and not path.is_symlink():
                     shutil.rmtree(path, ignore_errors=True)
                 else:

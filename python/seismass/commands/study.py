@@ -11,6 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from seismass import __version__
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_motion_options,
@@ -101,13 +102,16 @@ def add_parser(subparsers: Any) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
+    from seismass.kept import KeptResults, kept_folder
     from seismass.report.findings import findings_text
     from seismass.report.folder import PAGE, check_out
     from seismass.report.sensitivity import sensitivity_text
     from seismass.report.study_tables import study_tables
     from seismass.report.write import write_study
+    from seismass.simulate import instruction_set
     from seismass.study import StudyParameters, run_study, study_sensitivity
     from seismass.study.example import study_example
+    from seismass.study.run import inputs_digest
     from seismass.validation import paper_scenes, validate
     from seismass.validation.three_storeys import SPRINGS
 
@@ -130,26 +134,35 @@ def run(args: argparse.Namespace) -> int:
     suite = read_motions(args)
     # The scenes of section 4 keep one core busy, and what is solved meanwhile the others. The stiffest friction springs
     # are left to `seismass validate`: they take four times as long as all others.
-    with ThreadPoolExecutor(1) as pool:
+    args.out.mkdir(parents=True, exist_ok=True)
+    inputs = f"{inputs_digest(suite, target, parameters)} {__version__} {instruction_set()}"
+    with kept_folder(args.out, "study", inputs) as folder, ThreadPoolExecutor(1) as pool:
+        kept = KeptResults(folder)
         scenes = pool.submit(paper_scenes, suite, springs=SPRINGS[:-1])
         result = run_study(
-            suite, target, parameters, effective=args.effective, threads=args.jobs, progress=progress_bar()
+            suite, target, parameters, effective=args.effective, threads=args.jobs, progress=progress_bar(), kept=kept
         )
         sensitivity = (
             study_sensitivity(
-                suite, target, parameters, as_is=result, threads=args.jobs, progress=progress_bar(unit="studies")
+                suite,
+                target,
+                parameters,
+                as_is=result,
+                threads=args.jobs,
+                progress=progress_bar(unit="studies"),
+                kept=kept,
             )
             if args.sensitivity
             else None
         )
         validation = validate(suite, study=result, sensitivity=sensitivity, scenes=scenes.result())
-    tables = study_tables(
-        result,
-        sensitivity=sensitivity,
-        validation=validation,
-        example=study_example(suite, parameters, result),
-    )
-    files = write_study(tables, args.out, figures=not args.no_figures, png=args.png)
+        tables = study_tables(
+            result,
+            sensitivity=sensitivity,
+            validation=validation,
+            example=study_example(suite, parameters, result),
+        )
+        files = write_study(tables, args.out, figures=not args.no_figures, png=args.png)
     metadata = tables.metadata
     page = "" if args.no_figures else f", the page is {args.out / PAGE}"
     if args.json:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, Final, Literal
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from seismass._values import FloatArray
 from seismass.effective_mass import EffectiveMass, effective_mass
+from seismass.kept import NOTHING_KEPT, KeptResults
 from seismass.records import Record
 from seismass.scene import Scene
 from seismass.study.buildings import MODELS, StudyBuilding
@@ -72,6 +74,7 @@ def effective_fractions(
     *,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
+    kept: KeptResults = NOTHING_KEPT,
 ) -> dict[Scene, EffectiveMass]:
     """Return the effective fraction of each distinct building with its goods.
 
@@ -82,7 +85,10 @@ def effective_fractions(
     damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
     found = {}
     for number, scene in enumerate(scenes, start=1):
-        found[scene] = effective_mass(scene, records, damping=damping, fractions=SHARES, threads=threads)
+        found[scene] = kept.of(
+            f"effective-{number}",
+            partial(effective_mass, scene, records, damping=damping, fractions=SHARES, threads=threads),
+        )
         if progress is not None:
             progress(number, len(scenes))
     return found

@@ -17,6 +17,7 @@ from seismass import _kernel
 from seismass._values import FloatArray, brief, printable, refusal
 from seismass.batch import simulate_many
 from seismass.errors import InvalidMotion, InvalidOption
+from seismass.kept import NOTHING_KEPT, KeptResults
 from seismass.motion import Motion
 from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
 from seismass.records import Suite
@@ -80,6 +81,7 @@ def run_study(
     effective: bool = False,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
+    kept: KeptResults = NOTHING_KEPT,
 ) -> StudyResult:
     """Run the parametric study.
 
@@ -99,6 +101,8 @@ def run_study(
         Number of threads; default all cores. The tables do not depend on it.
     progress : callable, optional
         Called with (analyses done, distinct analyses), then, with `effective`, with (buildings done, distinct ones).
+    kept : KeptResults, optional
+        What an interrupted study of the same inputs has left, and where this one leaves what is done.
 
     Raises
     ------
@@ -124,11 +128,13 @@ def run_study(
     buildings = list(study_buildings(chosen, design_spectrum))
     records = [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)]
     motions = [record.motion for record in records]
-    distinct, run_of, table = _solve(buildings, motions, threads, progress)
+    distinct, run_of, table = _solve(buildings, motions, threads, progress, kept)
     names = display_names(suite)
     responses = responses_table(buildings, names, table, run_of)
     fractions = (
-        effective_fractions(buildings, records, chosen, threads=threads, progress=progress) if effective else None
+        effective_fractions(buildings, records, chosen, threads=threads, progress=progress, kept=kept)
+        if effective
+        else None
     )
     status = table["status"].value_counts()
     counts = dict(zip(status["status"], status["count"], strict=True))
@@ -143,7 +149,7 @@ def run_study(
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": _digest(suite, target, chosen, factors if given else None),
+            "inputs_sha256": inputs_digest(suite, target, chosen, factors if given else None),
             "parameters": chosen.content(),
             "code": _code_metadata(chosen),
             "target": {"label": target.label, **target.parameters},
@@ -174,6 +180,7 @@ def _solve(
     motions: list[Motion],
     threads: int | None,
     progress: Callable[[int, int], object] | None,
+    kept: KeptResults,
 ) -> tuple[int, NDArray[np.int64], pl.DataFrame]:
     """Number of distinct runs, the row of each analysis among them, and the rows."""
     scenes = [building.scenes[model] for building in buildings for model in MODELS]
@@ -181,7 +188,9 @@ def _solve(
     motion_numbers = {motion: number for number, motion in enumerate(dict.fromkeys(motions))}
     of_motion = np.array([motion_numbers[motion] for motion in motions])
     of_scene = np.array([scene_numbers[scene] for scene in scenes])
-    table = simulate_many(list(scene_numbers), list(motion_numbers), threads=threads, progress=progress)
+    table = kept.of(
+        "runs", lambda: simulate_many(list(scene_numbers), list(motion_numbers), threads=threads, progress=progress)
+    )
     run_of = (of_scene[:, None] * len(motion_numbers) + of_motion[None, :]).ravel()
     return len(table), run_of, table
 
@@ -274,8 +283,10 @@ def _spectrum(
     return pl.DataFrame({"period": periods, "target": target(periods), "mean": scaled.mean(axis=0), **motions})
 
 
-def _digest(suite: Suite, target: TargetSpectrum, parameters: StudyParameters, factors: FloatArray | None) -> str:
-    """SHA-256 of everything that the numbers depend on: samples, target, parameters, factors where they are given."""
+def inputs_digest(
+    suite: Suite, target: TargetSpectrum, parameters: StudyParameters, factors: FloatArray | None = None
+) -> str:
+    """Return the SHA-256 of all that the numbers depend on: samples, target, parameters, factors where they are given."""
     digest = hashlib.sha256()
     digest.update(json.dumps([SCHEMA_VERSION, target.parameters, parameters.content()], sort_keys=True).encode())
     for record in suite:

@@ -11,6 +11,7 @@ import numpy as np
 import polars as pl
 
 from seismass.design import Combination
+from seismass.kept import NOTHING_KEPT, KeptResults
 from seismass.matching import match_suite
 from seismass.records import Suite
 from seismass.scaling import ScalingResult, scale_modal_pushover
@@ -75,6 +76,7 @@ def study_sensitivity(
     as_is: StudyResult | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
+    kept: KeptResults = NOTHING_KEPT,
 ) -> Sensitivity:
     """Run the study again with each choice changed alone, from springs and damping to the statistic over records.
 
@@ -89,6 +91,8 @@ def study_sensitivity(
         The study of these, where it has been run.
     progress : callable, optional
         Called with (studies done, studies in all).
+    kept : KeptResults, optional
+        What an interrupted call of the same inputs has left, and where this one leaves what is done.
 
     Raises
     ------
@@ -105,8 +109,7 @@ def study_sensitivity(
     for number, change in enumerate(changes, start=1):
         if progress is not None:
             progress(number, len(changes) + 1)
-        changed_suite, scaling = change.motions()
-        result = run_study(changed_suite, change.target, change.parameters, scaling=scaling, threads=threads)
+        result = kept.of(f"changed-{number}", partial(_study_of, change, threads))
         drifts = drifts_of(result.responses, len(suite))
         rows += _rows(change.choice, change.setting, result, drifts, np.mean)
         if change.choice == DAMPING_BASE:
@@ -126,6 +129,11 @@ def study_sensitivity(
         pl.col("collapses").cast(pl.UInt32)
     )
     return Sensitivity(table, as_is.metadata)
+
+
+def _study_of(change: _Change, threads: int | None) -> StudyResult:
+    suite, scaling = change.motions()
+    return run_study(suite, change.target, change.parameters, scaling=scaling, threads=threads)
 
 
 def _changes(chosen: StudyParameters, target: TargetSpectrum, suite: Suite) -> Iterator[_Change]:

@@ -1,0 +1,195 @@
+"""Campaign files: axes or samples, motions and what to keep, from TOML or JSON. Every key is known or refused."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from seismass._values import as_count, as_number, as_path, brief
+from seismass.campaign.campaign import Campaign
+from seismass.campaign.values import axis_values
+from seismass.errors import InvalidCampaignFile
+from seismass.grid import Grid
+from seismass.input_table import Table, load_table
+from seismass.records import Record, Suite, builtin_suite, read_suite
+from seismass.records.builtin import data_directory
+from seismass.scene_file import building_of_table
+from seismass.spectra import TargetSpectrum
+from seismass.springs import SHAPE_FIELDS
+
+SCALINGS: Final = ("none", "asce7-10", "asce7-16")
+"""How a campaign file may scale its motions."""
+
+_AXES: Final = (
+    "storeys",
+    "period",
+    "strength",
+    "R",
+    "yield_shear_over_weight",
+    *SHAPE_FIELDS,
+    "mass_ratio",
+    "occupancy",
+    "attached",
+    "sliding",
+    "mu",
+    "mu_s",
+    "mu_k",
+    "scale",
+)
+_SETTINGS: Final = ("floors", "roof", "damping", "attached_of", "collapse_drift")
+KEYS: Final = {
+    "": ("name", "note", "part_runs", "peaks_only", "columns", "single", "motions", "building", "grid", "sample"),
+    "motions": ("builtin", "records", "scaling", "target", "period"),
+    "grid": (*_AXES, *_SETTINGS, "design"),
+    "grid.design": ("target", "share", "elastic_at_one", "combination"),
+    "sample": ("samples", "method", "seed", "one_motion"),
+}
+"""Keys of each table of a campaign file, the file itself first; `building` has those of a scene file."""
+
+
+def example_description() -> Path:
+    """Return the campaign file that ships with the package: friction, goods and intensity of a warehouse."""
+    return data_directory() / "examples" / "campaign.toml"
+
+
+def read_campaign(source: str | os.PathLike[str] | Mapping[str, Any]) -> Campaign:
+    """Read a campaign file.
+
+    Parameters
+    ----------
+    source : path-like or mapping
+        A .toml or .json file with the keys of docs/campaign.md, or its tables as a dict. Paths in it are relative to
+        its folder.
+
+    Raises
+    ------
+    InvalidCampaignFile
+        The file cannot be read, or has an unknown, missing or contradicting key.
+    InvalidScene, InvalidMotion, InvalidOption
+        A value is not what it must be.
+    RecordFormatError
+        Motions that it names cannot be read.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> campaign = sm.read_campaign({
+    ...     "motions": {"builtin": "seven"},
+    ...     "building": {"storeys": 2, "period": 0.3, "yield_shear_over_weight": [0.2, 0.12]},
+    ...     "grid": {"mass_ratio": [0.5, 1.0], "mu": {"from": 0.1, "to": 0.5, "count": 5}, "scale": [0.5, 1.0]},
+    ... })
+    >>> campaign.total
+    140
+    """
+    if isinstance(source, Mapping):
+        folder, top = Path(), Table(dict(source), "", "campaign", InvalidCampaignFile)
+    else:
+        path = as_path(source, "campaign file", InvalidCampaignFile)
+        folder, top = path.parent, load_table(path, "campaign file", InvalidCampaignFile)
+    top.known(KEYS[""])
+    top.text("note")
+    top.needed("grid")
+    suite = _suite(top.table("motions") if "motions" in top.values else None, folder, top)
+    flags = {name: _flag(top, name) for name in ("peaks_only", "single") if name in top.values}
+    columns = top.values.get("columns")
+    if columns is not None and not (isinstance(columns, list) and all(isinstance(name, str) for name in columns)):
+        top.refuse("columns", "a list of names", brief(columns))
+    sizes = {"part_runs": _count(top, "part_runs")} if "part_runs" in top.values else {}
+    grid = _grid(top, folder, len(suite))
+    return Campaign(grid, suite, name=top.text("name"), columns=columns, **flags, **sizes)
+
+
+def _flag(table: Table, key: str) -> bool:
+    value = table.values[key]
+    if not isinstance(value, bool):
+        table.refuse(key, "true or false", brief(value))
+    return value
+
+
+def _count(table: Table, key: str) -> int:
+    return as_count(table.values[key], table.key(key), table.file, InvalidCampaignFile)
+
+
+def _suite(table: Table | None, folder: Path, top: Table) -> list[Record]:
+    """The motions, scaled."""
+    from seismass.scaling import scale_asce7_10, scale_asce7_16
+
+    if table is None:
+        top.refuse("motions", "given, with builtin or records", "nothing")
+    table.known(KEYS["motions"])
+    table.needed("builtin", "records")
+    table.excluded("records", "builtin")
+    suite: Suite
+    if "builtin" in table.values:
+        name = table.text("builtin")
+        if name not in ("seven", "eleven"):
+            table.refuse("builtin", "seven or eleven", brief(name))
+        suite = builtin_suite("seven" if name == "seven" else "eleven")
+    else:
+        suite = read_suite(folder / table.text("records"))
+    scaling = table.text("scaling") or SCALINGS[0]
+    if scaling not in SCALINGS:
+        table.refuse("scaling", f"one of {', '.join(SCALINGS)}", brief(scaling))
+    if scaling == "none":
+        for key in ("target", "period"):
+            if key in table.values:
+                table.refuse(key, f"left out where {table.key('scaling')} is none", brief(table.values[key]))
+        return list(suite)
+    target = _target(table, folder) if "target" in table.values else TargetSpectrum.asce7()
+    scale = scale_asce7_10 if scaling == "asce7-10" else scale_asce7_16
+    factors = scale(suite, target, table.number("period", 1.0)).factors
+    return [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+
+
+def _target(table: Table, folder: Path) -> TargetSpectrum:
+    from seismass.commands.targets import target_of
+
+    text = table.text("target")
+    file = folder / text
+    return TargetSpectrum.from_csv(file) if file.is_file() else target_of(text)
+
+
+def _grid(top: Table, folder: Path, motions: int) -> Grid:
+    table = top.table("grid")
+    table.known(KEYS["grid"])
+    building = None
+    if "building" in top.values:
+        table.excluded("storeys", "building")
+        if "storeys" in table.values:
+            table.refuse("storeys", "left out where building is given", "both")
+        building = building_of_table(top.table("building"))
+    elif "storeys" not in table.values:
+        table.refuse("storeys", "given, or building", "nothing")
+    sampled = "sample" in top.values
+    given: dict[str, Any] = {
+        key: axis_values(table, key, sampled=sampled) for key in _AXES if key in table.values
+    }
+    given |= {key: table.values[key] for key in _SETTINGS if key in table.values}
+    if "design" in table.values:
+        given["design"] = _design(table.table("design"), folder)
+    if not sampled:
+        return Grid.product(building, **given)
+    sample = top.table("sample")
+    sample.known(KEYS["sample"])
+    sample.needed("samples")
+    options: dict[str, Any] = {"samples": _count(sample, "samples")}
+    if "method" in sample.values:
+        options["method"] = sample.text("method")
+    if "seed" in sample.values:
+        options["seed"] = _count(sample, "seed")
+    if "one_motion" in sample.values and _flag(sample, "one_motion"):
+        options["motions"] = motions
+    return Grid.sample(building, **options, **given)
+
+
+def _design(table: Table, folder: Path) -> Any:
+    from seismass.grid_design import StrengthDesign
+
+    table.known(KEYS["grid.design"])
+    table.needed("target")
+    given: dict[str, Any] = {key: table.values[key] for key in KEYS["grid.design"][1:] if key in table.values}
+    return StrengthDesign(_target(table, folder), **given)

@@ -1,0 +1,96 @@
+"""The motions of a campaign as a table, from which workers and later sessions take the same samples."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import polars as pl
+
+from seismass._values import printable
+from seismass.motion import Motion
+
+
+@dataclass(frozen=True)
+class NamedMotion:
+    """A motion with a name and its origin.
+
+    Attributes
+    ----------
+    name : str
+        Its name in tables.
+    motion : Motion
+        The samples.
+    file : str or None
+        File that it was read from.
+    synthetic : bool or None
+        Whether it was computed and not recorded; None where that is not known.
+    """
+
+    name: str
+    motion: Motion
+    file: str | None = None
+    synthetic: bool | None = None
+
+    @property
+    def sha256(self) -> str:
+        """Digest of the time step and the samples."""
+        digest = hashlib.sha256(np.float64(self.motion.dt).tobytes())
+        for samples in (self.motion.acceleration, self.motion.vertical):
+            digest.update(b"none" if samples is None else np.ascontiguousarray(samples, dtype="<f8").tobytes())
+        return digest.hexdigest()
+
+
+def named_motions(given: list[Any], motions: list[Motion], names: list[str]) -> tuple[NamedMotion, ...]:
+    """Return motions with the names and the origin that what was given has."""
+    found = []
+    for item, motion, name in zip(given, motions, names, strict=True):
+        source = getattr(item, "source", None)
+        file = None if source is None else printable(source.name)
+        found.append(NamedMotion(name, motion, file, getattr(item, "synthetic", None)))
+    return tuple(found)
+
+
+def motions_table(motions: tuple[NamedMotion, ...]) -> pl.DataFrame:
+    """Return one row per motion: number, name, origin, time step, peak, digest, samples (m/s2)."""
+    return pl.DataFrame(
+        {
+            "motion": np.arange(1, len(motions) + 1, dtype=np.uint32),
+            "record": [item.name for item in motions],
+            "file": [item.file for item in motions],
+            "synthetic": [item.synthetic for item in motions],
+            "samples": [item.motion.samples for item in motions],
+            "dt": [item.motion.dt for item in motions],
+            "pga_g": [item.motion.pga_g for item in motions],
+            "sha256": [item.sha256 for item in motions],
+            "acceleration": [item.motion.acceleration for item in motions],
+            "vertical": [item.motion.vertical for item in motions],
+        },
+        schema={
+            "motion": pl.UInt32,
+            "record": pl.String,
+            "file": pl.String,
+            "synthetic": pl.Boolean,
+            "samples": pl.UInt32,
+            "dt": pl.Float64,
+            "pga_g": pl.Float64,
+            "sha256": pl.String,
+            "acceleration": pl.List(pl.Float64),
+            "vertical": pl.List(pl.Float64),
+        },
+    )
+
+
+def motions_of(table: pl.DataFrame) -> tuple[NamedMotion, ...]:
+    """Return the motions of a table."""
+    return tuple(
+        NamedMotion(
+            row["record"],
+            Motion(np.array(row["acceleration"]), row["dt"], None if row["vertical"] is None else np.array(row["vertical"])),
+            row["file"],
+            row["synthetic"],
+        )
+        for row in table.iter_rows(named=True)
+    )

@@ -1,0 +1,87 @@
+"""The work on one part: what a task of an executor does, wherever it runs.
+
+A task is the name of a folder and the number of a part. A process reads the inputs from the folder once and keeps them.
+"""
+
+from __future__ import annotations
+
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import polars as pl
+
+from seismass._values import refusal
+from seismass.campaign.campaign import Campaign
+from seismass.campaign.folder import CampaignFolder, part_path
+from seismass.errors import InvalidOption
+from seismass.files import polars_writing, written_whole
+from seismass.forks import require_polars
+
+if TYPE_CHECKING:
+    from seismass.batch import Progress
+
+_lock = threading.Lock()
+_last: tuple[str, str, Campaign] | None = None
+
+
+class Done(NamedTuple):
+    """What a task gives back: the number of its part and its runs."""
+
+    part: int
+    runs: int
+
+
+def solve_part(folder: str, sha256: str, part: int, threads: int | None) -> Done:
+    """Solve a part and write it, as a task.
+
+    Parameters
+    ----------
+    folder : str
+        Folder of the campaign, as the worker reaches it.
+    sha256 : str
+        Digest of the inputs, as the one who gives the task has it.
+    part : int
+        Number of the part, from 1.
+    threads : int or None
+        Threads of the kernel.
+
+    Raises
+    ------
+    InvalidOption
+        The folder cannot be reached by the worker, or has other inputs, or the worker another version or instruction
+        set.
+    OSError
+        The part cannot be written.
+    """
+    require_polars("campaign")
+    campaign = _campaign(folder, sha256)
+    frame = campaign.solve(part, threads=threads)
+    write_part(frame, Path(folder), sha256, part)
+    return Done(part, frame.height)
+
+
+def write_part(frame: pl.DataFrame, folder: Path, sha256: str, part: int) -> None:
+    """Write the rows of a part under its name, whole and on the disk.
+
+    Raises
+    ------
+    OSError
+        The file cannot be written, or the disk is full.
+    """
+    path = part_path(folder, part)
+    with written_whole(path, durable=True) as temporary, polars_writing(path):
+        frame.write_parquet(temporary, compression="zstd", metadata={"campaign": sha256, "part": str(part)})
+
+
+def _campaign(folder: str, sha256: str) -> Campaign:
+    """The campaign of a folder, read by this process once."""
+    global _last
+    with _lock:
+        if _last is None or _last[:2] != (folder, sha256):
+            campaign = CampaignFolder(Path(folder)).campaign
+            if campaign.sha256 != sha256:
+                requirement = "that of the one who gives the work, under the same name on each machine"
+                raise refusal(InvalidOption, f"folder {folder}", "worker", requirement, "one of other inputs")
+            _last = (folder, sha256, campaign)
+        return _last[2]

@@ -1,0 +1,166 @@
+"""`seismass campaign`: studies of any size in a folder, on this machine, on workers, or as jobs of an array."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seismass.commands.options import threads_option
+
+if TYPE_CHECKING:
+    from seismass.campaign import CampaignFolder, CampaignProgress
+    from seismass.campaign.progress import Report
+
+_EPILOG = """examples:
+  seismass campaign --example > campaign.toml
+  seismass campaign campaign.toml --out results         threads of this process
+  seismass campaign results                             go on after an interruption
+  seismass campaign results --status
+  seismass campaign campaign.toml --out results --workers 4
+  seismass campaign campaign.toml --out /shared/results --scheduler tcp://head:8786
+  seismass campaign campaign.toml --out /shared/results --shard 3/20
+
+Results are read by seismass.CampaignFolder("results").scan(), or any reader of Parquet.
+docs/campaign.md explains every key of a campaign file.
+
+exit codes: 0 done, 1 a run failed (its rows say why) or a part is damaged, 2 bad input, 130 interrupted"""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the subcommand to those of the `seismass` command."""
+    parser = subparsers.add_parser(
+        "campaign",
+        help="a study of any size: axes or samples times motions, into a folder that resumes",
+        description="Solve the runs that a campaign file (TOML or JSON) describes, into a folder of Parquet files. The "
+        "same command goes on where it was stopped, and ends in the same bytes.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("source", type=Path, nargs="?", metavar="FILE", help="campaign file, or folder of a campaign")
+    what.add_argument("--example", action="store_true", help="print a campaign file to start from, and stop")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder to write to, where FILE is a campaign file")
+    engine = parser.add_argument_group("where runs are solved").add_mutually_exclusive_group()
+    engine.add_argument("--workers", type=threads_option, metavar="N", help="N worker processes of this machine, by dask")
+    engine.add_argument("--scheduler", metavar="ADDRESS", help="workers of a running dask scheduler, as tcp://host:8786")
+    engine.add_argument("--shard", type=shard_option, metavar="I/N", help="part I, I + N, I + 2 N, ... alone: job I of N")
+    parser.add_argument(
+        "--jobs", type=threads_option, metavar="N", help="threads of the process, or of each task (all cores, or one)"
+    )
+    look = parser.add_argument_group("looking at a folder").add_mutually_exclusive_group()
+    look.add_argument("--status", action="store_true", help="print what is there and what is missing, and stop")
+    look.add_argument("--verify", action="store_true", help="read every part and compare it with its runs, and stop")
+    parser.add_argument("--json", action="store_true", help="print the state of the folder as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the campaign, or say how far it is; return the exit code."""
+    from seismass._values import refusal
+    from seismass.campaign import CampaignFolder, example_description, read_campaign
+    from seismass.errors import InvalidOption
+
+    if args.example:
+        print(example_description().read_text(encoding="utf-8"), end="")
+        return 0
+    looks = args.status or args.verify
+    if args.source.is_dir():
+        if args.out is not None and args.out.resolve() != args.source.resolve():
+            raise refusal(InvalidOption, "--out", "command", "left out where a folder goes on", str(args.out))
+        folder = CampaignFolder(args.source)
+        campaign, place = (None, folder.path) if looks else (folder.campaign, folder.path)
+    else:
+        if args.out is None:
+            raise refusal(InvalidOption, "--out", "command", "given with a campaign file", "none")
+        campaign, place = (None, args.out) if looks else (read_campaign(args.source), args.out)
+    if campaign is not None:
+        started = time.perf_counter()
+        if not args.json:
+            print(f"{campaign.total} runs in {campaign.parts} parts of {campaign.part_runs}")
+        campaign.run(
+            place,
+            workers=args.workers,
+            scheduler=args.scheduler,
+            shard=args.shard,
+            threads=args.jobs,
+            progress=progress_line(),
+        )
+        seconds = time.perf_counter() - started
+    folder = CampaignFolder(place)
+    problems = _problems(folder) if args.verify else []
+    state = _state(folder, problems if args.verify else None)
+    if args.json:
+        print(json.dumps(state, indent=2))
+    else:
+        print(_text(folder, state))
+        if campaign is not None:
+            print(f"time     {seconds:.1f} s")
+        for part, problem in problems:
+            print(f"part {part}: {problem}")
+    return 1 if state["failed"] or problems else 0
+
+
+def _state(folder: CampaignFolder, problems: list[tuple[int, str]] | None) -> dict[str, Any]:
+    """How far a folder is, for JSON."""
+    present, runs = len(folder.present()), folder.runs_present
+    failed = 0
+    if present:
+        import polars as pl
+
+        failed = folder.scan_parts().filter(pl.col("status") == "failed").select(pl.len()).collect().item()
+    state = {
+        "folder": str(folder.path),
+        "name": folder.manifest["name"],
+        "inputs_sha256": folder.manifest["inputs_sha256"],
+        "runs": folder.manifest["runs"],
+        "runs_present": runs,
+        "parts": folder.parts,
+        "parts_present": present,
+        "bytes": folder.bytes,
+        "failed": failed,
+        "complete": present == folder.parts,
+    }
+    return state if problems is None else {**state, "problems": dict(problems)}
+
+
+def _text(folder: CampaignFolder, state: dict[str, Any]) -> str:
+    runs, missing = state["runs_present"], state["parts"] - state["parts_present"]
+    lines = [
+        f"folder   {folder.path}",
+        f"runs     {runs} of {state['runs']}, {state['failed']} failed",
+        f"parts    {state['parts_present']} of {state['parts']}" + (f", {missing} missing" if missing else ""),
+        f"size     {state['bytes'] / 1e6:.1f} MB" + (f", {state['bytes'] / runs:.1f} bytes a run" if runs else ""),
+    ]
+    return "\n".join(lines)
+
+
+def _problems(folder: CampaignFolder) -> list[tuple[int, str]]:
+    import polars as pl
+
+    rows = folder.verify().filter(pl.col("problem").is_not_null())
+    return [(row["part"], row["problem"]) for row in rows.iter_rows(named=True)]
+
+
+def shard_option(text: str) -> tuple[int, int]:
+    """Return job i of n."""
+    first, slash, jobs = text.partition("/")
+    if not slash or not first.isdecimal() or not jobs.isdecimal() or not 1 <= int(first) <= int(jobs):
+        raise argparse.ArgumentTypeError(f"must be I/N with I from 1 to N; got {text!r}")
+    return int(first), int(jobs)
+
+
+def progress_line() -> Report | None:
+    """Return a callable that draws one line on standard error, or None where that is no terminal."""
+    if not sys.stderr.isatty():
+        return None
+
+    def draw(progress: CampaignProgress) -> None:
+        end = "\n" if progress.parts_done == progress.parts else ""
+        sys.stderr.write(f"\r\033[K{progress.text}{end}")
+        sys.stderr.flush()
+
+    return draw

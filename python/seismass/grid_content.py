@@ -1,0 +1,121 @@
+"""A grid as data: a table of its axes and a document for JSON, from which an equal grid is made again.
+
+The table has one row per value of an axis, so that a product of any size has a short one.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import polars as pl
+
+from seismass._values import FloatArray
+from seismass.building import Building
+from seismass.damping import Rayleigh
+from seismass.grid import Grid, GridAxis
+from seismass.grid_columns import Column
+from seismass.springs import SPRING_FIELDS, is_default
+
+_INDICES = ("building", "motion")
+"""Columns of numbers counted from 1."""
+
+
+def axes_table(axes: list[GridAxis]) -> pl.DataFrame:
+    """Return the values of all axes: columns `axis`, `number` (from 1 within the axis), and one per column of the grid.
+
+    Columns of other axes are null in a row. What blocks or storeys have is a list.
+    """
+    frames = []
+    for axis in axes:
+        columns = {name: _series(values) for name, values in axis.columns.items()}
+        number = pl.Series(np.arange(1, axis.length + 1, dtype=np.uint64))
+        frames.append(pl.DataFrame({"axis": [axis.name] * axis.length, "number": number, **columns}))
+    return pl.concat(frames, how="diagonal")
+
+
+def _series(values: np.ndarray[Any, Any]) -> pl.Series:
+    if values.dtype.kind in "iu":
+        return pl.Series(values.astype(np.uint32))
+    if values.ndim == 1:
+        return pl.Series(values)
+    return pl.Series(values, dtype=pl.Array(pl.Float64, values.shape[1])).arr.to_list()
+
+
+def grid_document(grid: Grid) -> dict[str, Any]:
+    """Return what the table of axes does not hold, for JSON: buildings, axes, and how columns are read."""
+    return {
+        "scenes": len(grid),
+        "buildings": [building_document(building) for building in grid.buildings],
+        "axes": [
+            {"name": axis.name, "each": axis.each, "length": axis.length, "columns": list(axis.columns)}
+            for axis in grid.axes()
+        ],
+        **grid._content(),
+    }
+
+
+def grid_of(document: dict[str, Any], axes: pl.DataFrame) -> Grid:
+    """Return the grid that the document and the table of axes describe."""
+    columns: dict[str, Column[Any]] = {}
+    for axis in document["axes"]:
+        rows = axes.filter(pl.col("axis") == axis["name"])
+        for name in axis["columns"]:
+            columns[name] = Column(_values(rows[name], name), axis["each"])
+    buildings = [building_of(item) for item in document["buildings"]]
+    return Grid._of_content(document, buildings, columns)
+
+
+def _values(series: pl.Series, name: str) -> np.ndarray[Any, Any]:
+    if name in _INDICES:
+        values: np.ndarray[Any, Any] = series.to_numpy().astype(np.int64) - 1
+    elif isinstance(series.dtype, pl.List):
+        values = np.ascontiguousarray(series.list.to_array(series.list.len()[0]).to_numpy())
+    else:
+        values = series.to_numpy().astype(np.float64)
+    values.setflags(write=False)
+    return values
+
+
+def building_document(building: Building) -> dict[str, Any]:
+    """Return the arguments of a building for JSON; springs with the defaults are left out, infinity is "inf"."""
+    arguments = building._arguments()
+    backbone = arguments["backbone"]
+    found: dict[str, Any] = {}
+    for name, value in arguments.items():
+        if value is None or is_default(value, name):
+            continue
+        if isinstance(value, Rayleigh):
+            found[name] = {"ratio": value.ratio, "modes": list(value.modes)}
+        elif name == "backbone":
+            found[name] = [None if points is None else _listed(np.array(points)) for points in backbone]
+        elif isinstance(value, np.ndarray):
+            found[name] = _listed(value)
+        else:
+            found[name] = list(value) if isinstance(value, tuple) else value
+    return found
+
+
+def building_of(document: dict[str, Any]) -> Building:
+    """Return the building of a document."""
+    arguments: dict[str, Any] = dict(document)
+    for name in ("mass", "stiffness", "heights", "gravity_load", "geometric_stiffness", *SPRING_FIELDS):
+        if name in arguments:
+            arguments[name] = _array(arguments[name])
+    damping = arguments.get("damping")
+    if isinstance(damping, dict):
+        arguments["damping"] = Rayleigh(damping["ratio"], tuple(damping["modes"]))
+    elif isinstance(damping, list):
+        arguments["damping"] = _array(damping)
+    return Building(**arguments)
+
+
+def _listed(values: FloatArray) -> Any:
+    """Numbers as nested lists whose infinities JSON can hold."""
+    if np.isfinite(values).all():
+        return values.tolist()
+    return [_listed(row) if np.ndim(row) else (float(row) if np.isfinite(row) else str(float(row))) for row in values]
+
+
+def _array(values: Any) -> FloatArray:
+    return np.array(values, dtype=np.float64)
