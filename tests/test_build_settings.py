@@ -1,5 +1,6 @@
-"""Cargo's profiles: no setting under which the kernel is slow without a word."""
+"""Cargo's profiles: no setting under which the kernel is slow without a word. What environments need is listed."""
 
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -60,3 +61,11 @@ def test_wheels_that_are_given_away_are_built_by_the_profile_dist() -> None:
     manifest = tomllib.loads((ROOT / "Cargo.toml").read_text())
     assert resolved(manifest["profile"], "dist")["strip"] is True
     assert "--profile dist" in (ROOT / "tools" / "make-wheels").read_text()
+
+
+def test_the_environment_of_the_benchmarks_has_what_the_package_needs() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    needed = {re.split(r"[<>=]", text)[0].lower() for text in project["dependencies"]}
+    listed = (ROOT / "benchmarks" / "requirements.txt").read_text(encoding="utf-8").splitlines()
+    found = {re.split(r"[<>=;]", line)[0].strip().lower() for line in listed if not line.lstrip().startswith("#")}
+    assert needed <= found
