@@ -186,7 +186,9 @@ def test_lost_workers_are_an_error_that_says_how_to_go_on(tmp_path: Path) -> Non
     assert campaign().run(tmp_path / "a").complete
 
 
-def test_an_interrupt_leaves_whole_parts(undisturbed: Path, tmp_path: Path) -> None:
+def test_an_interrupt_leaves_whole_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("seismass.campaign.engine.SECONDS_BETWEEN_REPORTS", 0.0)
+
     def interrupt(progress: sm.CampaignProgress) -> None:
         if progress.parts_done:
             raise KeyboardInterrupt

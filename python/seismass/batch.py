@@ -25,8 +25,8 @@ from seismass.temporary import temporary_folder
 
 DEFAULT_CHUNK: Final = 8192
 """Runs solved at once: enough to share propagators and to keep threads busy, in some tens of megabytes."""
-MAX_RUNS: Final = 2**32 - 1
-"""Most runs of a batch."""
+MAX_RUNS: Final = 2**53
+"""Most runs of a batch: beyond, doubles in which numbers of runs may be read skip some."""
 MAX_THREADS: Final = _kernel.MAX_THREADS
 """Most threads of a batch, as the kernel has it: more than any machine has cores for."""
 
@@ -39,6 +39,7 @@ def simulate_many(
     motions: MotionLike | Iterable[MotionLike],
     *,
     pairs: ArrayLike | None = None,
+    runs: range | None = None,
     peaks_only: bool = False,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -55,12 +56,15 @@ def simulate_many(
         Rows of (number of scene, number of motion), both counted from 1, as the table counts them. By default every
         scene under every motion, the motion changing fastest. Equal runs are solved once. A grid has a column of
         motions instead.
+    runs : range, optional
+        Numbers of the runs to solve, counted from 1 in the order of the whole table, as `range(1001, 2001)`; by default
+        all. The rows are those of the whole table. A stretch of a grid costs no more than its runs.
     peaks_only : bool, default False
         A run may end once no peak can be beaten any more, with the same peaks; residuals are then null.
     threads : int, optional
         Number of threads, up to 1024; by default all cores.
     progress : callable, optional
-        Called with (runs done, runs in all) about twenty times a second, and at the end.
+        Called with (runs done, runs to solve) about twenty times a second, and at the end.
 
     Returns
     -------
@@ -97,8 +101,9 @@ def simulate_many(
     """
     batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
     # Objects are there already, so that all runs may look for equal ones; those of a grid exist a chunk at a time.
-    chunk = DEFAULT_CHUNK if isinstance(scenes, Grid) else max(batch.total, 1)
-    return pl.concat(list(_frames(batch, chunk, options, _checked_progress(progress))))
+    stretch = _stretch(runs, batch.total)
+    chunk = DEFAULT_CHUNK if isinstance(scenes, Grid) else max(len(stretch), 1)
+    return pl.concat(list(_frames(batch, stretch, chunk, options, _checked_progress(progress))))
 
 
 def stream_many(
@@ -106,6 +111,7 @@ def stream_many(
     motions: MotionLike | Iterable[MotionLike],
     *,
     pairs: ArrayLike | None = None,
+    runs: range | None = None,
     chunk: int = DEFAULT_CHUNK,
     peaks_only: bool = False,
     threads: int | None = None,
@@ -118,12 +124,12 @@ def stream_many(
 
     Parameters
     ----------
-    scenes, motions, pairs, peaks_only, threads
+    scenes, motions, pairs, runs, peaks_only, threads
         As for `simulate_many`.
     chunk : int, default 8192
         Runs per frame. Equal runs of a chunk are solved once, and those of equal structure share propagators.
     progress : callable, optional
-        Called with (runs done, runs in all) about twenty times a second while a chunk is solved, and at its end.
+        Called with (runs done, runs to solve) about twenty times a second while a chunk is solved, and at its end.
 
     Yields
     ------
@@ -150,7 +156,8 @@ def stream_many(
     [40, 40, 20]
     """
     size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
-    return _frames(_batch(scenes, motions, pairs), size, _options(peaks_only, threads), _checked_progress(progress))
+    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
+    return _frames(batch, _stretch(runs, batch.total), size, options, _checked_progress(progress))
 
 
 def write_many(
@@ -236,10 +243,11 @@ class _Batch(Protocol):
     def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame: ...
 
 
-def _frames(batch: _Batch, chunk: int, options: _Options, progress: Progress | None) -> Iterator[pl.DataFrame]:
-    total = batch.total
-    for first in range(0, max(total, 1), chunk):
-        yield batch.solve(range(first, min(first + chunk, total)), options, _since(first, total, progress))
+def _frames(
+    batch: _Batch, stretch: range, chunk: int, options: _Options, progress: Progress | None
+) -> Iterator[pl.DataFrame]:
+    for done in range(0, max(len(stretch), 1), chunk):
+        yield batch.solve(stretch[done : done + chunk], options, _since(done, len(stretch), progress))
 
 
 def _since(first: int, total: int, progress: Progress | None) -> Progress | None:
@@ -247,20 +255,44 @@ def _since(first: int, total: int, progress: Progress | None) -> Progress | None
     return None if progress is None else lambda done, _: progress(first + done, total)
 
 
+def _stretch(runs: Any, total: int) -> range:
+    """Runs as indices from 0, all by default."""
+    if runs is None:
+        return range(total)
+    limits = f"a range of numbers of runs, from 1 to {total}, without steps"
+    if not isinstance(runs, range) or (len(runs) > 1 and runs.step != 1):
+        raise refusal(InvalidOption, "runs", "batch", limits, brief(runs))
+    if len(runs) and not (runs[0] >= 1 and runs[-1] <= total):
+        raise refusal(InvalidOption, "runs", "batch", limits, brief(runs))
+    return range(runs[0] - 1, runs[-1]) if len(runs) else range(0)
+
+
+def checked_motions(motions: Any) -> tuple[list[Any], list[Motion], list[str]]:
+    """Return motions as they were given, as the kernel takes them, and their names.
+
+    Raises
+    ------
+    InvalidMotion
+        One is neither a Motion nor a Record.
+    """
+    given = [motions] if isinstance(motions, Motion | HasMotion) else list(_iterated(motions))
+    return given, _motions(given), motion_names(given)
+
+
 def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
     require_polars("simulate")
-    given = [motions] if isinstance(motions, Motion | HasMotion) else list(_iterated(motions))
     if isinstance(scenes, Grid):
         if pairs is not None:
             requirement = "left out with a Grid, which has a column of motions"
             raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs))
-        batch: _Batch = _GridBatch(scenes, _motions(given), motion_names(given))
-        scenes._check_motions(len(given))
+        _, chosen, names = checked_motions(motions)
+        batch: _Batch = _GridBatch(scenes, chosen, names)
+        scenes._check_motions(len(chosen))
     else:
         listed = _listed_scenes(scenes)
-        chosen = _motions(given)
+        _, chosen, names = checked_motions(motions)
         wanted = None if pairs is None else _pairs(pairs, len(listed), len(chosen))
-        batch = _SceneBatch(listed, chosen, motion_names(given), wanted)
+        batch = _SceneBatch(listed, chosen, names, wanted)
     if batch.total > MAX_RUNS:
         raise refusal(InvalidOption, "runs", "batch", f"at most {MAX_RUNS}", str(batch.total))
     return batch
@@ -394,7 +426,7 @@ def _table(
         pl.DataFrame(
             {
                 "run": np.arange(len(scene), dtype=np.uint32),
-                "scene": (scene + 1).astype(np.uint32),
+                "scene": (scene + 1).astype(np.uint64),
                 "motion": (motion + 1).astype(np.uint32),
                 "record": pl.Series(names, dtype=pl.String).gather(motion),
                 "status": pl.Series(_kernel.Batch.status_names(), dtype=pl.String).gather(batch.status),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any, Final, Literal, Self, TypeAlias, Unpack, get_args
 
 import numpy as np
@@ -39,11 +40,37 @@ from seismass.springs import SHAPE_FIELDS, SpringShape, checked_names, takes_spr
 Roof: TypeAlias = Literal["loaded", "bare"]
 """Whether the uppermost floor of a building carries blocks."""
 
-MAX_SCENES: Final = 2**32 - 1
-"""Most scenes of a grid: results number them by 32 bits."""
+AXIS_OF: Final = {name: axis for axis, names in AXES.items() for name in names} | {
+    name: "building" for name in ("building", "storeys", "period")
+}
+"""Axis of each column of a product."""
+MAX_SCENES: Final = 2**53
+"""Most scenes of a grid: beyond, doubles in which numbers of scenes may be read skip some."""
 _CHECKED_AT_ONCE: Final = 2**16
 GRID_COLUMNS: Final = (*CHANGING, "mass_ratio", "attached", "sliding", "mu_s", "mu_k", "scale")
 """Columns that a grid may have beside its building and its motion, in the order of its table."""
+
+
+@dataclass(frozen=True, eq=False)
+class GridAxis:
+    """What varies together over the scenes of a grid.
+
+    Attributes
+    ----------
+    name : str
+        "constant" for what all scenes share, "scene" where each scene has a value of its own, else the axis of
+        `Grid.product`.
+    each, length : int
+        Scene s, from 1, has row (s - 1) // each % length, from 0.
+    columns : dict of str to ndarray
+        Values by the names of `Grid.table`, one row each; shape (length, blocks) or (length, storeys) where blocks or
+        storeys differ, filled up with NaN.
+    """
+
+    name: str
+    each: int
+    length: int
+    columns: dict[str, np.ndarray[Any, Any]]
 
 
 class Grid:
@@ -375,7 +402,7 @@ class Grid:
         index = self._building_of(scenes)
         storeys = np.array([building.storeys for building in self.buildings])[index]
         found: dict[str, pl.Series] = {
-            "scene": pl.Series((scenes + 1).astype(np.uint32)),
+            "scene": pl.Series((scenes + 1).astype(np.uint64)),
             "building": pl.Series((index + 1).astype(np.uint32)),
             "storeys": pl.Series(storeys.astype(np.uint32)),
             "period": pl.Series(self._formed.periods_of(scenes, index)),
@@ -393,6 +420,80 @@ class Grid:
         if "motion" in self._indices:
             found["motion"] = pl.Series((self._indices["motion"].of(scenes) + 1).astype(np.uint32))
         return pl.DataFrame(found)
+
+    def axes(self) -> list[GridAxis]:
+        """Return what varies, each axis with its values: a product of any size has short ones.
+
+        Examples
+        --------
+        >>> import seismass as sm
+        >>> grid = sm.Grid.product(sm.Building.uniform(2, 0.3), mass_ratio=[0.5, 1.0], mu=[0.2, 0.3, 0.4])
+        >>> [(axis.name, axis.each, axis.length) for axis in grid.axes()]
+        [('constant', 1, 1), ('mass_ratio', 3, 2), ('friction', 1, 3)]
+        """
+        found: dict[tuple[int, int], GridAxis] = {}
+        for name, column in self._described().items():
+            length = len(column.values)
+            key = (1, 1) if length == 1 else (column.each, length)
+            if key not in found:
+                own = "constant" if length == 1 else "scene" if key == (1, self._length) else AXIS_OF[name]
+                found[key] = GridAxis(own, *key, {})
+            found[key].columns[name] = column.values
+        return sorted(found.values(), key=lambda axis: (axis.length > 1, -axis.each))
+
+    def _content(self) -> dict[str, Any]:
+        """What `axes` does not tell, for JSON; see `_of_content`."""
+        return {
+            "floors": list(self.floors),
+            "everywhere": self._everywhere,
+            "roof_is_bare": self._roof_is_bare,
+            "collapse_drift": self.collapse_drift,
+            "damping": self._formed.damping,
+            "periods": self._formed.periods.tolist(),
+        }
+
+    @classmethod
+    def _of_content(
+        cls, scenes: int, buildings: tuple[Building, ...], content: dict[str, Any], columns: dict[str, Column[Any]]
+    ) -> Self:
+        """Return the grid of so many scenes that has these contents and the columns of `axes`."""
+        grid = cls.__new__(cls)
+        grid.buildings, grid.floors = buildings, tuple(content["floors"])
+        grid._everywhere, grid._roof_is_bare = content["everywhere"], content["roof_is_bare"]
+        grid.collapse_drift = content["collapse_drift"]
+        grid._length = scenes
+        grid._indices = {
+            name: Column(columns[name].values - 1, columns[name].each)
+            for name in ("building", "motion")
+            if name in columns
+        }
+        tables = {"mass_ratio", "mu_s", "mu_k", "yield_shear_over_weight"}
+        grid._columns = {
+            name: Column(column.values.reshape(-1, 1), column.each)
+            if name in tables and column.values.ndim == 1
+            else column
+            for name, column in columns.items()
+            if name in GRID_COLUMNS
+        }
+        grid._set_formed(np.array(content["periods"]), content["damping"])
+        return grid
+
+    def _described(self) -> dict[str, Column[Any]]:
+        """Columns by the names of `table`, with numbers from 1."""
+        index = self._indices["building"]
+        storeys = np.array([building.storeys for building in self.buildings])[index.values]
+        found: dict[str, Column[Any]] = {
+            "building": Column(index.values + 1, index.each),
+            "storeys": Column(storeys, index.each),
+        }
+        if "period" not in self._columns:
+            found["period"] = Column(self._formed.periods[index.values], index.each)
+        for name, column in self._columns.items():
+            narrow = column.values.ndim == 2 and column.values.shape[1] == 1
+            found[name] = Column(column.values.reshape(-1) if narrow else column.values, column.each)
+        if "motion" in self._indices:
+            found["motion"] = Column(self._indices["motion"].values + 1)
+        return found
 
     def __repr__(self) -> str:
         def counted(number: int, noun: str) -> str:

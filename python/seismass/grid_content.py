@@ -17,9 +17,6 @@ from seismass.grid import Grid, GridAxis
 from seismass.grid_columns import Column
 from seismass.springs import SPRING_FIELDS, is_default
 
-_INDICES = ("building", "motion")
-"""Columns of numbers counted from 1."""
-
 
 def axes_table(axes: list[GridAxis]) -> pl.DataFrame:
     """Return the values of all axes: columns `axis`, `number` (from 1 within the axis), and one per column of the grid.
@@ -61,18 +58,16 @@ def grid_of(document: dict[str, Any], axes: pl.DataFrame) -> Grid:
     for axis in document["axes"]:
         rows = axes.filter(pl.col("axis") == axis["name"])
         for name in axis["columns"]:
-            columns[name] = Column(_values(rows[name], name), axis["each"])
-    buildings = [building_of(item) for item in document["buildings"]]
-    return Grid._of_content(document, buildings, columns)
+            columns[name] = Column(_values(rows[name]), axis["each"])
+    buildings = tuple(building_of(item) for item in document["buildings"])
+    return Grid._of_content(document["scenes"], buildings, document, columns)
 
 
-def _values(series: pl.Series, name: str) -> np.ndarray[Any, Any]:
-    if name in _INDICES:
-        values: np.ndarray[Any, Any] = series.to_numpy().astype(np.int64) - 1
-    elif isinstance(series.dtype, pl.List):
-        values = np.ascontiguousarray(series.list.to_array(series.list.len()[0]).to_numpy())
+def _values(series: pl.Series) -> np.ndarray[Any, Any]:
+    if isinstance(series.dtype, pl.List):
+        values: np.ndarray[Any, Any] = np.ascontiguousarray(series.list.to_array(series.list.len()[0]).to_numpy())
     else:
-        values = series.to_numpy().astype(np.float64)
+        values = series.to_numpy().astype(np.int64 if series.dtype.is_integer() else np.float64)
     values.setflags(write=False)
     return values
 

@@ -44,9 +44,7 @@ def temporary_name() -> str:
 def is_left_behind(name: str) -> bool:
     """Return whether a temporary name belongs to a process of this machine that has ended."""
     named = _NAME.fullmatch(name)
-    return named is not None and _is_gone(
-        named["machine"], named["boot"], int(named["process"]), int(named["started"])
-    )
+    return named is not None and _is_gone(named["machine"], named["boot"], int(named["process"]), int(named["started"]))
 
 
 @contextmanager

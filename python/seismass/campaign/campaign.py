@@ -266,7 +266,7 @@ class Campaign:
             Ctrl-C was pressed. The same call goes on where it stopped.
         """
         from seismass.campaign.engine import run_campaign
-        from seismass.campaign.folder import prepared
+        from seismass.campaign.prepare import prepared
 
         place = prepared(self, as_path(folder, "campaign", InvalidOption))
         run_campaign(

@@ -165,9 +165,7 @@ def _grid(top: Table, folder: Path, motions: int) -> Grid:
     elif "storeys" not in table.values:
         table.refuse("storeys", "given, or building", "nothing")
     sampled = "sample" in top.values
-    given: dict[str, Any] = {
-        key: axis_values(table, key, sampled=sampled) for key in _AXES if key in table.values
-    }
+    given: dict[str, Any] = {key: axis_values(table, key, sampled=sampled) for key in _AXES if key in table.values}
     given |= {key: table.values[key] for key in _SETTINGS if key in table.values}
     if "design" in table.values:
         given["design"] = _design(table.table("design"), folder)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ThreadPoolExecutor, wait
@@ -20,7 +21,8 @@ from seismass.errors import InvalidOption, SeismassError, SimulationError
 
 IN_FLIGHT: Final = 1024
 """Most tasks that an executor is given at once: enough for as many workers, and few to take back."""
-_SECONDS_BETWEEN_REPORTS: Final = 0.2
+SECONDS_BETWEEN_REPORTS: Final = 0.2
+"""Least time between two calls of a report (s)."""
 
 
 def run_campaign(
@@ -85,7 +87,7 @@ class _Clock:
         self._solved = self._before
         self._total = self._all_runs()
         self._started = time.monotonic()
-        self._last = -_SECONDS_BETWEEN_REPORTS
+        self._last = -math.inf
 
     def _runs(self, parts: list[int]) -> int:
         return sum(len(self._campaign.runs_of(part)) for part in parts)
@@ -105,16 +107,14 @@ class _Clock:
     def report(self, *, of_part: int = 0, force: bool = False) -> None:
         """Report, `of_part` runs of the part in hand included."""
         now = time.monotonic() - self._started
-        if self._report is None or (not force and now - self._last < _SECONDS_BETWEEN_REPORTS):
+        if self._report is None or (not force and now - self._last < SECONDS_BETWEEN_REPORTS):
             return
         self._last = now
         runs = min(self._solved + of_part, self._total)
         self._report(CampaignProgress(self.done, len(self._parts), runs, self._total, self._before, now))
 
 
-def _by_threads(
-    campaign: Campaign, folder: Path, missing: Iterator[int], threads: int | None, clock: _Clock
-) -> None:
+def _by_threads(campaign: Campaign, folder: Path, missing: Iterator[int], threads: int | None, clock: _Clock) -> None:
     """Solve part after part; a part is written while the next one is solved."""
     writing: tuple[int, Future[None]] | None = None
     with ThreadPoolExecutor(1) as writer:

@@ -65,8 +65,8 @@ def motions_table(motions: tuple[NamedMotion, ...]) -> pl.DataFrame:
             "dt": [item.motion.dt for item in motions],
             "pga_g": [item.motion.pga_g for item in motions],
             "sha256": [item.sha256 for item in motions],
-            "acceleration": [item.motion.acceleration for item in motions],
-            "vertical": [item.motion.vertical for item in motions],
+            "acceleration": [item.motion.acceleration.tolist() for item in motions],
+            "vertical": [None if item.motion.vertical is None else item.motion.vertical.tolist() for item in motions],
         },
         schema={
             "motion": pl.UInt32,
@@ -88,7 +88,9 @@ def motions_of(table: pl.DataFrame) -> tuple[NamedMotion, ...]:
     return tuple(
         NamedMotion(
             row["record"],
-            Motion(np.array(row["acceleration"]), row["dt"], None if row["vertical"] is None else np.array(row["vertical"])),
+            Motion(
+                np.array(row["acceleration"]), row["dt"], None if row["vertical"] is None else np.array(row["vertical"])
+            ),
             row["file"],
             row["synthetic"],
         )
