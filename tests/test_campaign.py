@@ -181,7 +181,9 @@ class Lost(Executor):
 
 
 def test_lost_workers_are_an_error_that_says_how_to_go_on(tmp_path: Path) -> None:
-    with pytest.raises(sm.SimulationError, match="able to keep its workers .*the same call goes on.*BrokenProcessPool"):
+    with pytest.raises(
+        sm.SimulationError, match=r"able to keep its workers .*the same call goes on.*BrokenProcessPool"
+    ):
         campaign().run(tmp_path / "a", executor=Lost())
     assert campaign().run(tmp_path / "a").complete
 

@@ -25,7 +25,8 @@ PROGRAM = """
 
     def campaign():
         building = sm.Building.uniform(2, 0.3, yield_shear_over_weight=[0.3, 0.18])
-        grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=np.linspace(0.1, 0.5, 40), scale=np.linspace(0.5, 2, 25))
+        mu, scale = np.linspace(0.1, 0.5, 40), np.linspace(0.5, 2, 25)
+        grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=mu, scale=scale)
         return sm.Campaign(grid, sm.builtin_suite("seven")[4].with_duration(9.0), part_runs=20)
 """
 RUN = textwrap.dedent(PROGRAM) + "\ncampaign().run(sys.argv[1], threads=1)\n"
@@ -110,7 +111,8 @@ def test_a_full_disk_is_an_error_and_nothing_is_lost(undisturbed: Path, tmp_path
     program = RUN.replace(
         "\ncampaign()",
         f"\nimport resource\nresource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))\n"
-        "try:\n    campaign().run(sys.argv[1])\nexcept OSError as error:\n    print(error.errno, error)\n    sys.exit()\n"
+        "try:\n    campaign().run(sys.argv[1])\n"
+        "except OSError as error:\n    print(error.errno, error)\n    sys.exit()\n"
         "campaign()",
     )
     child = subprocess.run([sys.executable, "-c", program, str(place)], capture_output=True, text=True, timeout=120)

@@ -18,10 +18,10 @@ from seismass.files import polars_writing, written_whole
 from seismass.forks import require_polars
 from seismass.grid import Grid
 from seismass.grid_columns import IndexArray
+from seismass.kept import digest_of, kept_folder
 from seismass.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
 from seismass.scene import Scene
 from seismass.simulate import instruction_set
-from seismass.temporary import temporary_folder
 
 DEFAULT_CHUNK: Final = 8192
 """Runs solved at once: enough to share propagators and to keep threads busy, in some tens of megabytes."""
@@ -166,6 +166,7 @@ def write_many(
     motions: MotionLike | Iterable[MotionLike],
     *,
     pairs: ArrayLike | None = None,
+    runs: range | None = None,
     chunk: int = DEFAULT_CHUNK,
     peaks_only: bool = False,
     threads: int | None = None,
@@ -173,14 +174,15 @@ def write_many(
 ) -> None:
     """Solve many scenes under many motions and write the rows of `simulate_many` to a Parquet file as they come.
 
-    The file appears whole or not at all; chunks are kept in a folder beside it until then. Its metadata name the
-    version of seismass and the instruction set.
+    The file appears whole or not at all; chunks are kept in a hidden folder beside it until then. The same call after
+    an interruption takes those that are there; other inputs, another version or another size of chunks start anew. The
+    metadata of the file name the version of seismass and the instruction set.
 
     Parameters
     ----------
     path : path-like
         The file to write, with the suffix .parquet; its folder must exist.
-    scenes, motions, pairs, chunk, peaks_only, threads, progress
+    scenes, motions, pairs, runs, chunk, peaks_only, threads, progress
         As for `stream_many`.
 
     Raises
@@ -197,15 +199,22 @@ def write_many(
     if target.name and not target.is_dir() and target.suffix.lower() != ".parquet":
         requirement = "one with the suffix .parquet, as lists per storey fit no CSV (see long_table)"
         raise refusal(InvalidOption, "path", "batch", requirement, brief(str(target)))
-    frames = stream_many(
-        scenes, motions, pairs=pairs, chunk=chunk, peaks_only=peaks_only, threads=threads, progress=progress
-    )
-    with written_whole(target) as temporary, temporary_folder(target.parent) as folder:
+    size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
+    batch, options, report = _batch(scenes, motions, pairs), _options(peaks_only, threads), _checked_progress(progress)
+    stretch = _stretch(runs, batch.total)
+    solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], stretch)
+    with (
+        written_whole(target) as temporary,
+        kept_folder(target.parent, target.name, digest_of(batch, solved_by)) as folder,
+    ):
         parts = []
-        for number, frame in enumerate(frames):
-            parts.append(folder / f"{number}.parquet")
-            with polars_writing(target):
-                frame.write_parquet(parts[-1])
+        for done in range(0, max(len(stretch), 1), size):
+            parts.append(folder / f"{done // size}.parquet")
+            if parts[-1].is_file():
+                continue
+            frame = batch.solve(stretch[done : done + size], options, _since(done, len(stretch), report))
+            with written_whole(parts[-1]) as part, polars_writing(target):
+                frame.write_parquet(part)
         # Small row groups, as each is held while it is copied.
         with polars_writing(target):
             pl.scan_parquet(parts, glob=False).sink_parquet(

@@ -40,8 +40,9 @@ from seismass.springs import SHAPE_FIELDS, SpringShape, checked_names, takes_spr
 Roof: TypeAlias = Literal["loaded", "bare"]
 """Whether the uppermost floor of a building carries blocks."""
 
-AXIS_OF: Final = {name: axis for axis, names in AXES.items() for name in names} | {
-    name: "building" for name in ("building", "storeys", "period")
+AXIS_OF: Final = {
+    **{name: axis for axis, names in AXES.items() for name in names},
+    **dict.fromkeys(("building", "storeys", "period"), "building"),
 }
 """Axis of each column of a product."""
 MAX_SCENES: Final = 2**53

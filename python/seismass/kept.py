@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, TypeVar
+from typing import Any, Final, TypeVar
 
 from seismass.files import written_whole
 from seismass.temporary import PREFIX, is_left_behind, reported_as, temporary_folder, temporary_name
@@ -91,6 +91,11 @@ def _clear_unless_of(folder: Path, sha256: str) -> None:
             path.unlink()
     with written_whole(inputs) as temporary:
         temporary.write_text(sha256, encoding="ascii")
+
+
+def digest_of(*inputs: Any) -> str:
+    """Return a digest of objects that can be pickled: equal ones made in the same way have the same."""
+    return hashlib.sha256(pickle.dumps(inputs, protocol=5)).hexdigest()
 
 
 @dataclass(frozen=True)

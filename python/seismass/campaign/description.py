@@ -7,9 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
-import numpy as np
-
-from seismass._values import as_count, as_number, as_path, brief
+from seismass._values import as_count, as_path, brief
 from seismass.campaign.campaign import Campaign
 from seismass.campaign.values import axis_values
 from seismass.errors import InvalidCampaignFile

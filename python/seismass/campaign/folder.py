@@ -1,4 +1,4 @@
-"""The folder of a campaign: made before the first part, read by workers, by those who go on, and by those who analyse."""
+"""The folder of a campaign: read by workers, by those who go on where it stopped, and by those who analyse it."""
 
 from __future__ import annotations
 

@@ -85,14 +85,9 @@ def motions_table(motions: tuple[NamedMotion, ...]) -> pl.DataFrame:
 
 def motions_of(table: pl.DataFrame) -> tuple[NamedMotion, ...]:
     """Return the motions of a table."""
-    return tuple(
-        NamedMotion(
-            row["record"],
-            Motion(
-                np.array(row["acceleration"]), row["dt"], None if row["vertical"] is None else np.array(row["vertical"])
-            ),
-            row["file"],
-            row["synthetic"],
-        )
-        for row in table.iter_rows(named=True)
-    )
+    found = []
+    for row in table.iter_rows(named=True):
+        vertical = None if row["vertical"] is None else np.array(row["vertical"])
+        motion = Motion(np.array(row["acceleration"]), row["dt"], vertical)
+        found.append(NamedMotion(row["record"], motion, row["file"], row["synthetic"]))
+    return tuple(found)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import polars as pl
 
@@ -17,9 +17,6 @@ from seismass.campaign.folder import CampaignFolder, part_path
 from seismass.errors import InvalidOption
 from seismass.files import polars_writing, written_whole
 from seismass.forks import require_polars
-
-if TYPE_CHECKING:
-    from seismass.batch import Progress
 
 _lock = threading.Lock()
 _last: tuple[str, str, Campaign] | None = None

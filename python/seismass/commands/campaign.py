@@ -45,15 +45,9 @@ def add_parser(subparsers: Any) -> None:
     what.add_argument("--example", action="store_true", help="print a campaign file to start from, and stop")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder to write to, where FILE is a campaign file")
     engine = parser.add_argument_group("where runs are solved").add_mutually_exclusive_group()
-    engine.add_argument(
-        "--workers", type=threads_option, metavar="N", help="N worker processes of this machine, by dask"
-    )
-    engine.add_argument(
-        "--scheduler", metavar="ADDRESS", help="workers of a running dask scheduler, as tcp://host:8786"
-    )
-    engine.add_argument(
-        "--shard", type=shard_option, metavar="I/N", help="part I, I + N, I + 2 N, ... alone: job I of N"
-    )
+    engine.add_argument("--workers", type=threads_option, metavar="N", help="N worker processes here, by dask")
+    engine.add_argument("--scheduler", metavar="ADDRESS", help="running dask scheduler, as tcp://host:8786")
+    engine.add_argument("--shard", type=shard_option, metavar="I/N", help="parts I, I + N, ... alone: job I of N")
     parser.add_argument(
         "--jobs", type=threads_option, metavar="N", help="threads of the process, or of each task (all cores, or one)"
     )

@@ -286,7 +286,7 @@ def _spectrum(
 def inputs_digest(
     suite: Suite, target: TargetSpectrum, parameters: StudyParameters, factors: FloatArray | None = None
 ) -> str:
-    """Return the SHA-256 of all that the numbers depend on: samples, target, parameters, factors where they are given."""
+    """Return the SHA-256 of all that the numbers depend on: samples, target, parameters, factors where given."""
     digest = hashlib.sha256()
     digest.update(json.dumps([SCHEMA_VERSION, target.parameters, parameters.content()], sort_keys=True).encode())
     for record in suite:
