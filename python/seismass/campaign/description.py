@@ -92,13 +92,14 @@ def read_campaign(source: str | os.PathLike[str] | Mapping[str, Any]) -> Campaig
     top.text("note")
     top.needed("grid")
     suite = _suite(top.table("motions") if "motions" in top.values else None, folder, top)
-    flags = {name: _flag(top, name) for name in ("peaks_only", "single") if name in top.values}
+    options: dict[str, Any] = {name: _flag(top, name) for name in ("peaks_only", "single") if name in top.values}
     columns = top.values.get("columns")
     if columns is not None and not (isinstance(columns, list) and all(isinstance(name, str) for name in columns)):
         top.refuse("columns", "a list of names", brief(columns))
-    sizes = {"part_runs": _count(top, "part_runs")} if "part_runs" in top.values else {}
+    if "part_runs" in top.values:
+        options["part_runs"] = _count(top, "part_runs")
     grid = _grid(top, folder, len(suite))
-    return Campaign(grid, suite, name=top.text("name"), columns=columns, **flags, **sizes)
+    return Campaign(grid, suite, name=top.text("name"), columns=columns, **options)
 
 
 def _flag(table: Table, key: str) -> bool:

@@ -216,7 +216,8 @@ class CampaignFolder:
         polars.DataFrame
             One row per part: `part`, `present`, `rows`, `bytes`, `problem` (null where there is none).
         """
-        campaign, rows = self.campaign, []
+        campaign = self.campaign
+        rows: list[tuple[int, bool, int | None, int | None, str | None]] = []
         present = self.present()
         for part in range(1, self.parts + 1):
             path = part_path(self.path, part)

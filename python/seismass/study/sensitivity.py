@@ -121,8 +121,8 @@ def study_sensitivity(
     rows += _rows("statistic", "geometric mean", as_is, own, _geometric_mean)
     for left_out in _heaviest(as_is):
         name = as_is.metadata["suite"]["motions"][left_out]["record"]
-        kept: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in own.items()}
-        rows += _rows("one record left out", name, as_is, kept, np.mean)
+        others: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in own.items()}
+        rows += _rows("one record left out", name, as_is, others, np.mean)
     if progress is not None:
         progress(len(changes) + 1, len(changes) + 1)
     table = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
