@@ -1,9 +1,9 @@
 """The benchmark of campaigns: runs into a folder beside runs streamed, and workers beside threads.
 
 Usage: python benchmarks/campaign.py [--runs N] [--rounds N] [--workers N] [--write PAGE]. The scene is that of
-million.py: two storeys, peaks only, four seconds of a built-in motion. First, rounds of the same runs, streamed and into
-a folder, one after the other, whose medians give the ratio. Then the runs of `--runs` into a folder, in a process of
-its own, whose peak of resident memory is kept. Last, rounds of threads in one process and of local dask workers, at
+million.py: two storeys, peaks only, four seconds of a built-in motion. First, rounds of the same runs, streamed and
+into a folder, one after the other, whose medians give the ratio. Then the runs of `--runs` into a folder, in a process
+of its own, whose peak of resident memory is kept. Last, rounds of threads in one process and of local dask workers, at
 parts of at least two seconds, and once with a worker killed on the way.
 """
 
@@ -26,6 +26,7 @@ from typing import Any, Final
 import million
 import seismass as sm
 from environment import summary
+from scale_page import page
 
 LARGE: Final = 10_000_000
 SMALL: Final = 1_000_000
@@ -160,25 +161,6 @@ def measure(options: argparse.Namespace) -> dict[str, Any]:
     return found
 
 
-def text_of(found: dict[str, Any]) -> str:
-    """Return the measurements in lines."""
-    files, large, engine = found["files"], found["large"], found["engines"]
-    lines = [
-        found["machine"],
-        f"two storeys, peaks only, {million.motion().samples} samples, {found['threads']} threads",
-        f"streamed      {files['runs']} runs   {files['streamed_s']:8.2f} s   {files['runs'] / files['streamed_s']:8.0f} runs/s",
-        f"into a folder {files['runs']} runs   {files['folder_s']:8.2f} s   ratio {files['ratio']:.3f} "
-        f"({files['least']:.3f} to {files['most']:.3f})",
-        f"into a folder {large['runs']} runs   {large['wall_s']:8.1f} s   {large['runs'] / large['wall_s']:8.0f} runs/s   "
-        f"{large['parts']} parts, {large['bytes'] / large['runs']:.1f} bytes a run, peak memory {large['peak_mib']:.0f} MiB",
-        *(f"{size:6.1f} bytes a run: {name}" for name, size in found["sizes"].items()),
-        f"{engine['parts']} parts of {engine['part_s']:.1f} s: threads {engine['threads_s']:.2f} s, {engine['workers']} "
-        f"workers {engine['workers_s']:.2f} s, ratio {engine['ratio']:.3f} ({engine['least']:.3f} to "
-        f"{engine['most']:.3f}), with a worker killed {engine['killed_s']:.2f} s",
-    ]
-    return "\n".join(lines)
-
-
 def main() -> int:
     """Print the measurements; write the page of scale with them."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -191,12 +173,10 @@ def main() -> int:
     if options.here:
         print(json.dumps(large_here(options.runs, million.THREADS)))
         return 0
-    found = measure(options)
-    print(text_of(found))
+    text = page(measure(options))
+    print(text, end="")
     if options.write is not None:
-        from scale_page import page
-
-        options.write.write_text(page(found), encoding="utf-8")
+        options.write.write_text(text, encoding="utf-8")
     return 0
 
 
