@@ -28,6 +28,7 @@ ifeq ($(filter-out --quick,$(BENCH_OPTIONS)),)
 	$(BENCH_VENV)/bin/python benchmarks/study.py $(BENCH_OPTIONS)
 	$(BENCH_VENV)/bin/python benchmarks/performance.py $(BENCH_OPTIONS)
 	$(PYTHON) benchmarks/effective_mass.py --map
+	$(BENCH_VENV)/bin/python benchmarks/campaign.py --write docs/scale.md
 	$(BENCH_VENV)/bin/python benchmarks/spring_loops.py
 	$(PYTHON) tools/spring_loops_page.py
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/ground_motions.py $(BENCH_OPTIONS)

@@ -67,6 +67,8 @@ def run(args: argparse.Namespace) -> int:
     if args.example:
         print(example_description().read_text(encoding="utf-8"), end="")
         return 0
+    if not args.source.exists():
+        raise refusal(InvalidOption, "FILE", "command", "a campaign file or the folder of a campaign", str(args.source))
     looks = args.status or args.verify
     if args.source.is_dir():
         if args.out is not None and args.out.resolve() != args.source.resolve():
