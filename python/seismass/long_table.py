@@ -157,7 +157,7 @@ def _of_scenes(scenes: Any, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataF
     periods = [None if scene.building is None else float(scene.building.periods[0]) for scene in chosen]
     described = pl.DataFrame(
         {
-            "scene": used.astype(np.uint32),
+            "scene": used.astype(np.uint64),
             "storeys": pl.Series([scene.storeys for scene in chosen], dtype=pl.UInt32),
             "period": pl.Series(periods, dtype=pl.Float64),
         }
@@ -182,5 +182,5 @@ def _block_table(scene: NDArray[np.int64], floor: NDArray[np.int64]) -> pl.DataF
     _, first, count = np.unique(scene, return_index=True, return_counts=True)
     block = np.arange(len(scene)) - np.repeat(first, count) + 1
     columns = {"scene": scene, "block": block, "storey": floor}
-    blocks = pl.DataFrame({name: values.astype(np.uint32) for name, values in columns.items()})
+    blocks = pl.DataFrame(columns).cast({"scene": pl.UInt64, "block": pl.UInt32, "storey": pl.UInt32})
     return blocks.filter(pl.col("storey") > 0)
