@@ -27,7 +27,7 @@ RESAMPLES: Final = 1000
 
 _KIND_TEXTS: Final[dict[FragilityKind, str]] = {
     "fitted": "",
-    "step": "an intensity parts the runs that exceed the limit from the others: the dispersion cannot be told from zero",
+    "step": "an intensity parts the runs that exceed the limit from the others: the dispersion is not known",
     "never": "the limit is never exceeded: the median lies above the highest intensity",
     "always": "the limit is always exceeded: the median lies below the lowest intensity",
     "falling": "the limit is not exceeded more often at higher intensities: no lognormal curve fits",
@@ -142,8 +142,8 @@ class Fragility:
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the resamples as plain values."""
-        names = ("median", "dispersion", "kind", "method", "median_interval", "dispersion_interval", "confidence")
-        names += ("runs", "exceeding", "lowest", "highest", "remarks")
+        names = ["median", "dispersion", "kind", "method", "median_interval", "dispersion_interval", "confidence"]
+        names += ["runs", "exceeding", "lowest", "highest", "remarks"]
         return {**{name: getattr(self, name) for name in names}, "curve": self.curve.tolist()}
 
 
@@ -187,7 +187,7 @@ def fit_counts(
     ...     [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0], [0, 0, 0, 4, 6, 13, 12, 16], 40
     ... )
     >>> round(fit.median, 2), round(fit.dispersion, 2)
-    (1.07, 0.43)
+    (1.08, 0.43)
     """
     owner = "fragility fit"
     at = _positive(intensity, "intensity", owner)
@@ -356,7 +356,9 @@ def fit_cloud(
     if fell.shape != at.shape:
         raise refusal(InvalidOption, "collapsed", owner, f"a list of {len(at)} values", f"shape {fell.shape}")
     if not ((values >= 0.0) & (np.isfinite(values) | fell)).all():
-        raise refusal(InvalidOption, "demand", owner, "zero or positive, and finite without collapse", brief(values.tolist()))
+        raise refusal(
+            InvalidOption, "demand", owner, "zero or positive, and finite without collapse", brief(values.tolist())
+        )
     chosen = bootstrap_options(confidence, resamples, seed, owner)
     curves, kinds = cloud_fits(at, values, fell, bound, np.ones((1, len(at))))
     samples = np.empty((0, 4))
@@ -373,19 +375,25 @@ def fit_cloud(
         runs=len(at),
         exceeding=int((fell | (values > bound)).sum()),
         at=at,
-        remarks=cloud_remarks(values, fell),
+        remarks=cloud_remarks(values, fell, curves[0]),
     )
 
 
-def cloud_remarks(demand: FloatArray, collapsed: NDArray[np.bool_]) -> list[str]:
-    """Return what a user of a cloud must know: runs without any demand are no part of its line."""
+def cloud_remarks(demand: FloatArray, collapsed: NDArray[np.bool_], curve: FloatArray) -> list[str]:
+    """Return what a user of a cloud must know: runs without demand, and collapses that one intensity parts."""
+    remarks = []
     zero = int(((demand == 0.0) & ~collapsed).sum())
-    if not zero:
-        return []
-    return [
-        f"{counted(zero, 'run')} of {len(demand)} without any demand are no part of the line through the logarithms, so "
-        "that the curve is too high where such runs are frequent"
-    ]
+    if zero:
+        remarks.append(
+            f"{counted(zero, 'run')} of {len(demand)} without any demand are no part of the line through the "
+            "logarithms, so that the curve is too high where such runs are frequent"
+        )
+    if np.isfinite(curve[2]) and curve[3] == 0.0:
+        remarks.append(
+            f"all runs above intensity {curve[2]:.3g} collapse and none below it does: how collapse grows with the "
+            "intensity cannot be told"
+        )
+    return remarks
 
 
 def as_curves(fits: Fits) -> FloatArray:

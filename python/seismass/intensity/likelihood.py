@@ -20,8 +20,8 @@ NEVER: Final = 2
 ALWAYS: Final = 3
 FALLING: Final = 4
 NONE: Final = 5
-"""How a fit ended: with a maximum; a step at one intensity; never or always exceeded; falling with the intensity; too few
-data."""
+"""How a fit ended: with a maximum; a step at one intensity; never or always exceeded; falling with the intensity; too
+few data."""
 
 Loss: TypeAlias = Callable[[FloatArray], FloatArray]
 """Loss of each row of two parameters."""
@@ -107,9 +107,9 @@ def capacity_fits(capacity: FloatArray, exceeded: NDArray[np.bool_], weight: Flo
 
     Notes
     -----
-    Baker (2015), truncated incremental dynamic analysis, the limit up to which motions were scaled being one of each motion. In 1/beta and
-    ln(theta)/beta the likelihood is concave: Olsen (1978), Econometrica 46:1211-1215. Without censored motions it is
-    the mean and the standard deviation of ln(capacity), divided by n.
+    Baker (2015), truncated incremental dynamic analysis, each motion having its own intensity up to which it was
+    scaled. In 1/beta and ln(theta)/beta the likelihood is concave: Olsen (1978), Econometrica 46:1211-1215. Without
+    censored motions it is the mean and the standard deviation of ln(capacity), with divisor n.
     """
     log = np.log(capacity)
     samples = len(weight)
@@ -290,9 +290,7 @@ def _tobit(t: FloatArray, seen: FloatArray, censored: FloatArray) -> tuple[Float
         second = seen + censored * hazard * (hazard - residual)
         gradient = np.stack([first @ t - number / p[:, 0], -first.sum(axis=1)], axis=1)
         cross = -(second @ t)
-        curvature = np.stack(
-            [second @ (t * t) + number / p[:, 0] ** 2, cross, cross, second.sum(axis=1)], axis=1
-        )
+        curvature = np.stack([second @ (t * t) + number / p[:, 0] ** 2, cross, cross, second.sum(axis=1)], axis=1)
         return gradient, curvature.reshape(-1, 2, 2)
 
     spread = float(t.std()) or 1.0
@@ -335,4 +333,7 @@ def _solved(matrix: FloatArray, right: FloatArray) -> FloatArray:
     (a, b), (_, d) = np.moveaxis(matrix, 0, -1)
     determinant = a * d - b * b
     inverse = np.divide(1.0, determinant, out=np.zeros_like(determinant), where=determinant > 0.0)
-    return np.stack([d * right[:, 0] - b * right[:, 1], a * right[:, 1] - b * right[:, 0]], axis=1) * inverse[:, None]
+    solved: FloatArray = (
+        np.stack([d * right[:, 0] - b * right[:, 1], a * right[:, 1] - b * right[:, 0]], axis=1) * inverse[:, None]
+    )
+    return solved

@@ -70,10 +70,11 @@ def quantiles(curves: FloatArray, share: float) -> FloatArray:
     low = _parts_reach(curves, 0.5 * share)
     both = np.flatnonzero(np.isfinite(curves[:, 2]) & np.isfinite(high) & (low > 0.0))
     if len(both):
+        columns = [curves[both, place] for place in range(4)]
         ends = np.log(low[both]), np.log(high[both])
         for _ in range(_BISECTIONS):
             middle = 0.5 * (ends[0] + ends[1])
-            reached = _probability(*curves[both].T, np.exp(middle)) >= share
+            reached = _probability(columns[0], columns[1], columns[2], columns[3], np.exp(middle)) >= share
             ends = np.where(reached, ends[0], middle), np.where(reached, middle, ends[1])
         high[both] = np.exp(ends[1])
     return high
@@ -118,7 +119,8 @@ def interval_of(values: FloatArray, confidence: float) -> tuple[FloatArray, Floa
         place = share * last
         low = np.floor(place).astype(np.int64)
         below, above = (
-            np.take_along_axis(ordered, np.asarray(index)[None], axis=0)[0] for index in (low, np.minimum(low + 1, last))
+            np.take_along_axis(ordered, np.asarray(index)[None], axis=0)[0]
+            for index in (low, np.minimum(low + 1, last))
         )
         with np.errstate(invalid="ignore"):
             between = below + (place - low) * (above - below)
