@@ -276,7 +276,7 @@ class IntensityAnalysis:
         drawn: dict[str, Figure] = {}
         if figures:
             drawn["fragility"] = self.plot()
-            for limit in {each.column: each for each in self.limits}.values():
+            for limit in {each.column: each for each in self.limits if each.quantity != "collapse"}.values():
                 drawn[f"demand_{limit.column}"] = self.plot_ida(limit)
         return write_folder(
             as_path(folder, "intensity analysis", InvalidOption),

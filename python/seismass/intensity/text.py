@@ -87,8 +87,6 @@ def _exceedance(row: dict[str, Any], reference: str) -> str:
     if row["difference"] is not None:
         points = f"{100.0 * row['difference']:+.1f} points"
         difference = f"; {points}{_between(row['difference_low'], row['difference_high'], '+.1f', 100.0)}"
-    own = row["probability"]
-    said = "unknown" if own is None else f"{100.0 * own:.1f} %"
-    return (
-        f"  at {row['intensity']:.3g}: {row['model']} says {said}, {reference} has {percent('reference')}{difference}"
-    )
+    said = "unknown" if row["probability"] is None else f"{100.0 * row['probability']:.1f} %"
+    where = f"where {row['model']} says {said} (at {row['intensity']:.3g})"
+    return f"  {where}, {reference} has {percent('reference')}{difference}"

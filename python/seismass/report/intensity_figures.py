@@ -123,7 +123,7 @@ def demand_figure(result: IntensityAnalysis, limit: LimitState) -> Figure:
             for x, y in result.traces(model, column):
                 finite = np.isfinite(y)
                 if fractiles is None:
-                    axes.plot(scale * y[finite], x[finite], color=GREY, linestyle="", marker="o", markersize=3.0)
+                    axes.loglog(scale * y[finite], x[finite], color=INK, linestyle="", marker="o", markersize=3.0)
                     continue
                 points, values = np.append(0.0, x), np.append(0.0, np.where(finite, y, np.nan))
                 axes.plot(scale * values, points, color=GREY, linewidth=0.7, alpha=0.8, gid="motion")
@@ -137,7 +137,8 @@ def demand_figure(result: IntensityAnalysis, limit: LimitState) -> Figure:
                     shown = np.where(np.isfinite(value), scale * value, np.nan)
                     at = np.append(0.0, own["level"].to_numpy())
                     axes.plot(np.append(0.0, shown), at, color=SERIES[0]["color"], linestyle=style, linewidth=1.8)
-            axes.set_title(plain(model))
+            fallen = result.runs.filter(model=model, status="collapsed").height
+            axes.set_title(plain(model) if scaled or not fallen else f"{plain(model)}, {fallen} collapsed")
             axes.set_xlabel(limit.label)
             grid_lines(axes)
         if limit.quantity != "collapse":
@@ -145,19 +146,20 @@ def demand_figure(result: IntensityAnalysis, limit: LimitState) -> Figure:
             for axes in panels:
                 for bound in bounds:
                     axes.axvline(scale * bound, color=VERMILION, linestyle=(0, (8, 2)), linewidth=1.1)
-            panels[0].set_xlim(0.0, 2.0 * scale * max(bounds) if max(bounds) > 0.0 else None)
-            panels[0].set_ylim(0.0, _highest_shown(result, column, 2.0 * max(bounds)))
+            if scaled:
+                panels[0].set_xlim(0.0, 2.0 * scale * max(bounds) if max(bounds) > 0.0 else None)
+                panels[0].set_ylim(0.0, _highest_shown(result, column, 2.0 * max(bounds)))
         panels[0].set_ylabel(_intensity_label(result))
-        handles = [Line2D([], [], color=GREY, linewidth=0.8, label="each motion")]
-        if scaled:
+        handles = [Line2D([], [], color=VERMILION, linestyle=(0, (8, 2)), label="limit")]
+        if not scaled:
+            handles.append(Line2D([], [], color=INK, linestyle="", marker="o", markersize=3.0, label="each motion"))
+        else:
+            handles.append(Line2D([], [], color=GREY, linewidth=0.8, label="each motion"))
             handles += [
                 Line2D([], [], color=SERIES[0]["color"], linestyle=style, label=_FRACTILE_NAMES[name])
                 for name, style in _FRACTILE_LOOKS.items()
             ]
-        handles += [
-            Line2D([], [], color=VERMILION, linestyle=(0, (8, 2)), label="limit"),
-            Line2D([], [], color=INK, linestyle="", marker="x", markersize=4.5, label="last before collapse"),
-        ]
+            handles.append(Line2D([], [], color=INK, linestyle="", marker="x", markersize=4.5, label="before collapse"))
         figure.legend(handles=handles, loc="outside upper center", ncols=3, frameon=False)
         figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
