@@ -237,7 +237,7 @@ def test_capacities_and_comparison_of_the_models(analysis: IntensityAnalysis) ->
     assert (rows["difference_low"] <= rows["difference"]).all()
     assert (rows["difference"] <= rows["difference_high"]).all()
     assert analysis.fragilities.filter(limit=SLIP.name)["model"].to_list() == ["real"]
-    assert "code, attached has no goods that slide" in analysis.text
+    assert "code and attached have no goods that slide" in analysis.text
     assert "where code says 10.0 %" in analysis.text
 
 

@@ -207,7 +207,7 @@ def cloud_fits(
     curves[:, 2], curves[:, 3] = np.exp(collapse.median), collapse.dispersion
     own, x, y = weight[:, moves], log[moves], np.log(demand[moves])
     number = own.sum(axis=1)
-    with np.errstate(invalid="ignore", divide="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         middle_x, middle_y = own @ x / number, own @ y / number
         off = x - middle_x[:, None]
         across = (own * off * off).sum(axis=1)
