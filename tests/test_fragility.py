@@ -233,3 +233,10 @@ def test_what_no_fit_can_take_is_refused() -> None:
         fit_capacities([0.5, 1.0]).quantile(0.0)
     with pytest.raises(sm.InvalidOption, match="intensity of fragility must be zero or positive; got"):
         fit_capacities([0.5, 1.0]).probability(-1.0)
+
+
+def test_an_extrapolated_median_is_remarked() -> None:
+    """In the example of Baker fewer than half of the motions collapse at the highest intensity."""
+    fit = fit_counts(LEVELS, COLLAPSES, 40)
+    assert fit.remarks == ("the median is extrapolated: intensities were from 0.2 to 1",)
+    assert fit_counts(DAHAL_LEVELS, DAHAL_COLLAPSES, 45).remarks == ()

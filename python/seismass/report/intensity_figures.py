@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import Any, Final
 
 import matplotlib as mpl
@@ -36,7 +37,7 @@ def fragility_figure(result: IntensityAnalysis) -> Figure:
         figure = Figure(figsize=(max(4.4 * columns, 6.4), 0.9 + 3.3 * rows), layout="constrained")
         panels = figure.subplots(rows, columns, squeeze=False).ravel()
         for axes, limit in zip(panels, result.limits, strict=False):
-            for model, look, marker in zip(result.models, SERIES, _MARKERS, strict=False):
+            for model, look, marker in zip(result.models, cycle(SERIES), cycle(_MARKERS), strict=False):
                 if (model, limit.name) in result.fits:
                     _curve(axes, result, limit, model, look, marker)
             axes.set_title(plain(limit.text))
@@ -49,7 +50,7 @@ def fragility_figure(result: IntensityAnalysis) -> Figure:
             axes.set_axis_off()
         handles: list[Any] = [
             Line2D([], [], **look, marker=marker, markersize=4.0, label=plain(model))
-            for model, look, marker in zip(result.models, SERIES, _MARKERS, strict=False)
+            for model, look, marker in zip(result.models, cycle(SERIES), cycle(_MARKERS), strict=False)
         ]
         if any(len(fit.samples) for fit in result.fits.values()):
             share = f"{100.0 * result.metadata['confidence']:g} % interval"
