@@ -13,6 +13,13 @@ from seismass.intensity import fit_capacities, fit_cloud, fit_counts
 # The example that is distributed with Baker (2015), Earthquake Spectra 31:579-599: 40 motions at each intensity.
 LEVELS = np.array([0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0])
 COLLAPSES = np.array([0, 0, 0, 4, 6, 13, 12, 16])
+# Capacities of the other example distributed with it, an incremental dynamic analysis of 37 motions.
+# fmt: off
+CAPACITIES = np.array([
+    0.49, 0.62, 0.63, 0.63, 0.65, 0.70, 0.71, 0.72, 0.77, 0.79, 0.80, 0.84, 0.91, 0.92, 0.93, 0.97, 1.04, 1.04, 1.05,
+    1.08, 1.08, 1.09, 1.12, 1.13, 1.22, 1.32, 1.33, 1.34, 1.40, 1.40, 1.47, 1.72, 1.76, 2.15, 2.31, 2.42, 2.50,
+])
+# fmt: on
 # The example of Dahal, Burton and Onyambu (2022), Structural Safety 96:102185: 45 motions.
 DAHAL_LEVELS = np.array(
     [0.178, 0.274, 0.444, 0.56, 0.652, 0.79, 0.982, 1.246, 1.564, 2.014, 2.417, 3.021, 3.625, 4.028, 4.431, 5.035]
@@ -135,6 +142,30 @@ def test_censored_capacities_have_the_maximum_of_their_likelihood() -> None:
     # A capacity above its ceiling counts as larger than it, as an infinite one.
     assert fit_capacities([0.5, 0.8, 1.0, 1.3, 9.0, 9.0, 9.0], ceiling).median == fit.median
     assert fit_capacities([np.inf, np.inf], 2.0).kind == "never"
+
+
+def test_baker_example_of_truncated_incremental_dynamic_analysis() -> None:
+    """Equation 7 of Baker (2015), motions being scaled up to 1.3; without that the moments of equations 2 and 3."""
+    whole, truncated = fit_capacities(CAPACITIES), fit_capacities(CAPACITIES, 1.3)
+    log = np.log(CAPACITIES)
+    assert whole.median == pytest.approx(np.exp(log.mean()), rel=1e-12)
+    # Equation 3 has divisor n - 1, the maximum of the likelihood n.
+    assert whole.dispersion == pytest.approx(log.std(ddof=1) * np.sqrt(36.0 / 37.0), rel=1e-12)
+    assert fit_capacities(CAPACITIES, 4.0).median == pytest.approx(whole.median, rel=1e-12)
+    seen = log[CAPACITIES <= 1.3]
+
+    def loss(p: np.ndarray) -> float:
+        if p[1] <= 0.0:
+            return np.inf
+        above = (len(log) - len(seen)) * norm.logsf(np.log(1.3), p[0], p[1])
+        return -float(norm.logpdf(seen, p[0], p[1]).sum() + above)
+
+    median, dispersion = maximised(loss, (-0.2, 0.4))
+    assert truncated.median == pytest.approx(median, rel=1e-6)
+    assert truncated.dispersion == pytest.approx(dispersion, rel=1e-6)
+    assert (truncated.runs, truncated.exceeding) == (37, 25)
+    rounded = [round(value, 3) for fit in (whole, truncated) for value in (fit.median, fit.dispersion)]
+    assert rounded == [1.069, 0.403, 1.058, 0.382]  # as the page has them
 
 
 def test_cloud_is_the_line_through_the_logarithms() -> None:

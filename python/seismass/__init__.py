@@ -38,6 +38,7 @@ from seismass.errors import (
 )
 from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
+from seismass.intensity import IntensityAnalysis, LimitState, incremental_dynamic_analysis
 from seismass.long_table import long_table
 from seismass.matching import MatchedRecord, MatchedSuite, match_spectrum, match_suite
 from seismass.motion import Motion
@@ -112,11 +113,13 @@ __all__ = [
     "FrictionPair",
     "Grid",
     "InelasticSpectrum",
+    "IntensityAnalysis",
     "InvalidBuildingFile",
     "InvalidMotion",
     "InvalidOption",
     "InvalidScene",
     "InvalidSceneFile",
+    "LimitState",
     "LiveLoadUncertainty",
     "MatchedRecord",
     "MatchedSuite",
@@ -166,6 +169,7 @@ __all__ = [
     "first_mode_oscillator",
     "friction_pair",
     "friction_table",
+    "incremental_dynamic_analysis",
     "inelastic_spectrum",
     "instruction_set",
     "intensity",

@@ -248,7 +248,7 @@ def fit_capacities(
     Notes
     -----
     Maximum likelihood, with the motions that never exceed the limit as in the truncated incremental dynamic analysis of
-    Baker (2015). Without them the median is the geometric mean, and the dispersion the standard deviation of the
+    Baker (2015), eq. 7. Without them the median is the geometric mean, and the dispersion the standard deviation of the
     logarithm with divisor n.
 
     Examples

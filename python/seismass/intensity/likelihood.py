@@ -107,8 +107,8 @@ def capacity_fits(capacity: FloatArray, exceeded: NDArray[np.bool_], weight: Flo
 
     Notes
     -----
-    Baker (2015), truncated incremental dynamic analysis, each motion having its own intensity up to which it was
-    scaled. In 1/beta and ln(theta)/beta the likelihood is concave: Olsen (1978), Econometrica 46:1211-1215. Without
+    Baker (2015), eq. 7, of truncated incremental dynamic analysis, each motion having its own intensity up to which it
+    was scaled. In 1/beta and ln(theta)/beta the likelihood is concave: Olsen (1978), Econometrica 46:1211-1215. Without
     censored motions it is the mean and the standard deviation of ln(capacity), with divisor n.
     """
     log = np.log(capacity)

@@ -221,7 +221,9 @@ class IntensityAnalysis:
         """Return the tables by name, the fractiles among them where motions are scaled."""
         names = ("motions", "runs", "capacities", "fragilities", "curves", "comparison", "exceedance")
         found: dict[str, pl.DataFrame] = {name: getattr(self, name) for name in names}
-        if not self.capacities.is_empty():
+        if self.capacities.is_empty():
+            del found["capacities"]
+        else:
             found |= {f"fractiles_given_{given}": self.fractiles(given) for given in ("intensity", "demand")}
         return found
 
