@@ -22,7 +22,6 @@ from seismass.intensity.limits import LimitState
 from seismass.intensity.measures import IntensityMeasure
 from seismass.intensity.run import check_levels
 from seismass.intensity.trace import demand_at, intensity_at
-from seismass.study.tables import quantile
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -159,6 +158,8 @@ class IntensityAnalysis:
         -----
         Vamvatsikos and Cornell (2002), section 5. Between intensities that were solved curves are linear.
         """
+        from seismass.study.tables import quantile  # brings the whole study
+
         if given not in ("intensity", "demand"):
             raise refusal(InvalidOption, "given", "fractiles", "intensity or demand", brief(given))
         if self.capacities.is_empty():
