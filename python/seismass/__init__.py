@@ -3,7 +3,7 @@
 import importlib
 from typing import TYPE_CHECKING
 
-from seismass import _kernel, design
+from seismass import _kernel, design, intensity
 from seismass.animation import Animation, animate
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
@@ -40,6 +40,7 @@ from seismass.errors import (
 )
 from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
+from seismass.intensity import IntensityAnalysis, LimitState, incremental_dynamic_analysis
 from seismass.long_table import long_table
 from seismass.matching import MatchedRecord, MatchedSuite, match_spectrum, match_suite
 from seismass.motion import Motion
@@ -117,12 +118,14 @@ __all__ = [
     "FrictionPair",
     "Grid",
     "InelasticSpectrum",
+    "IntensityAnalysis",
     "InvalidBuildingFile",
     "InvalidCampaignFile",
     "InvalidMotion",
     "InvalidOption",
     "InvalidScene",
     "InvalidSceneFile",
+    "LimitState",
     "LiveLoadUncertainty",
     "MatchedRecord",
     "MatchedSuite",
@@ -172,8 +175,10 @@ __all__ = [
     "first_mode_oscillator",
     "friction_pair",
     "friction_table",
+    "incremental_dynamic_analysis",
     "inelastic_spectrum",
     "instruction_set",
+    "intensity",
     "intensity_table",
     "live_load_uncertainty",
     "lognormal",

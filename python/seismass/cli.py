@@ -15,6 +15,7 @@ from seismass.commands import (
     building,
     campaign,
     effective_map,
+    ida,
     match,
     pulse,
     records,
@@ -30,6 +31,7 @@ from seismass.errors import SeismassError
 COMMANDS = (
     building,
     effective_map,
+    ida,
     study,
     campaign,
     run,
