@@ -149,7 +149,8 @@ def _rate_of_core(found: dict[str, Any]) -> float:
 
 def _part_runs(rate: float, runs: int) -> int:
     """Runs of a part in projections: some seconds of a core, or as many as keep the number of files low."""
-    return min(MOST_PART_RUNS, 2 ** math.ceil(math.log2(max(rate * PART_SECONDS, runs / MOST_FILES))))
+    wanted = max(rate * PART_SECONDS, runs / MOST_FILES)
+    return min(MOST_PART_RUNS, 1 << math.ceil(math.log2(wanted)))
 
 
 def _bytes(size: float) -> str:

@@ -13,18 +13,17 @@ from seismass.building_file import read_building
 from seismass.campaign import Campaign, CampaignFolder, CampaignProgress, read_campaign
 from seismass.codes import CodeFraction, code_fraction, code_table
 from seismass.damping import Rayleigh
+from seismass.distributions import beta, lognormal
 from seismass.effective_mass import (
     EffectiveMass,
     EffectiveMassMap,
     EffectiveMassParameters,
     LiveLoadUncertainty,
     attached_scene,
-    beta,
     effective_mass,
     effective_mass_map,
     effective_mass_of_design,
     live_load_uncertainty,
-    lognormal,
 )
 from seismass.errors import (
     InvalidBuildingFile,
@@ -40,6 +39,8 @@ from seismass.errors import (
 )
 from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
+from seismass.grid_axes import GridAxis
+from seismass.grid_design import StrengthDesign
 from seismass.intensity import IntensityAnalysis, LimitState, incremental_dynamic_analysis
 from seismass.long_table import long_table
 from seismass.matching import MatchedRecord, MatchedSuite, match_spectrum, match_suite
@@ -117,6 +118,7 @@ __all__ = [
     "FirstModeOscillator",
     "FrictionPair",
     "Grid",
+    "GridAxis",
     "InelasticSpectrum",
     "IntensityAnalysis",
     "InvalidBuildingFile",
@@ -150,6 +152,7 @@ __all__ = [
     "Selection",
     "SimulationError",
     "SpringPath",
+    "StrengthDesign",
     "Suite",
     "SyntheticParameters",
     "TargetSpectrum",

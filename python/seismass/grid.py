@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any, Final, Literal, Self, TypeAlias, Unpack, get_args
 
 import numpy as np
@@ -16,10 +15,13 @@ from seismass.block import Block
 from seismass.building import Building
 from seismass.errors import InvalidOption, InvalidScene
 from seismass.forks import require_polars
+from seismass.grid_axes import GridAxis, axes_of
 from seismass.grid_buildings import (
     ATTACHED_DAMPING,
+    ATTACHED_OF,
     CHANGING,
     AttachedDamping,
+    AttachedOf,
     BuildingColumns,
     changing_values,
     given_buildings,
@@ -34,44 +36,19 @@ from seismass.grid_columns import (
     number_values,
     share_values,
 )
+from seismass.grid_design import StrengthDesign
+from seismass.grid_sample import SampleMethod, sampled_arguments
 from seismass.scene import Scene
 from seismass.springs import SHAPE_FIELDS, SpringShape, checked_names, takes_springs
 
 Roof: TypeAlias = Literal["loaded", "bare"]
 """Whether the uppermost floor of a building carries blocks."""
 
-AXIS_OF: Final = {
-    **{name: axis for axis, names in AXES.items() for name in names},
-    **dict.fromkeys(("building", "storeys", "period"), "building"),
-}
-"""Axis of each column of a product."""
 MAX_SCENES: Final = 2**53
 """Most scenes of a grid: beyond, doubles in which numbers of scenes may be read skip some."""
 _CHECKED_AT_ONCE: Final = 2**16
-GRID_COLUMNS: Final = (*CHANGING, "mass_ratio", "attached", "sliding", "mu_s", "mu_k", "scale")
+GRID_COLUMNS: Final = (*CHANGING, "mass_ratio", "occupancy", "attached", "sliding", "mu_s", "mu_k", "scale")
 """Columns that a grid may have beside its building and its motion, in the order of its table."""
-
-
-@dataclass(frozen=True, eq=False)
-class GridAxis:
-    """What varies together over the scenes of a grid.
-
-    Attributes
-    ----------
-    name : str
-        "constant" for what all scenes share, "scene" where each scene has a value of its own, else the axis of
-        `Grid.product`.
-    each, length : int
-        Scene s, from 1, has row (s - 1) // each % length, from 0.
-    columns : dict of str to ndarray
-        Values by the names of `Grid.table`, one row each; shape (length, blocks) or (length, storeys) where blocks or
-        storeys differ, filled up with NaN.
-    """
-
-    name: str
-    each: int
-    length: int
-    columns: dict[str, np.ndarray[Any, Any]]
 
 
 class Grid:
@@ -97,6 +74,10 @@ class Grid:
     yield_shear_over_weight : array_like, optional
         V_y of each scene over the weight of its building without live load, instead of `strength`: one value for all
         storeys, or a row per scene, whose length is its number of storeys.
+    R : array_like, optional
+        Response modification factor of each scene, instead of `strength`: V_y is V_e / R by `design`.
+    design : StrengthDesign, optional
+        Spectrum and share of the design live load that give V_e; needed where R is given.
     overstrength, second_slope, ... : array_like, optional
         What shapes the springs of all storeys of each scene: the arguments of `Building` beside stiffness and strength.
     floors : array_like of int, optional
@@ -104,12 +85,17 @@ class Grid:
     roof : {"loaded", "bare"}, default "loaded"
         "bare": no block on the uppermost floor of each scene's own building, which floors that are given cannot tell.
     mass_ratio : array_like, optional
-        Live load over floor mass; 0: the scene has no such block. No scene has blocks where it is left out.
+        Design live load over floor mass; 0: the scene has no such block. No scene has blocks where it is left out.
+    occupancy : array_like, optional
+        Share of the design live load that is present, 0 or more; 1 by default.
     attached : array_like, optional
         Share of the live load, 0 to 1, that is attached to its floor as mass; 0 by default.
+    attached_of : {"present", "design"}, default "present"
+        Of which live load that is a share: of what is present, as for goods that are tied down, or of the design live
+        load, as for the fraction of a code, which does not know the occupancy.
     sliding : array_like, optional
-        Share of the live load, 0 to 1, that is a block; what is not attached by default. A code's model, which counts a
-        quarter of the load and lets nothing slide, has `attached=0.25, sliding=0`.
+        Share of the live load that is present, 0 to 1, that is a block; what is not attached by default. A code's
+        model, which counts a quarter of the load and lets nothing slide, has `attached=0.25, sliding=0`.
     damping : {"same", "ratio"}, default "same"
         Where live load is attached: the damping matrix of the building without it, or that which the building's damping
         ratio gives with it.
@@ -143,8 +129,8 @@ class Grid:
 
     Notes
     -----
-    With P-Delta from gravity loads, the weight of the whole live load is there, whatever share of it counts as mass or
-    slides. A `geometric_stiffness` stays as given.
+    With P-Delta from gravity loads, the weight of the live load that is present is there, whatever share of it counts
+    as mass or slides. A `geometric_stiffness` stays as given.
 
     Examples
     --------
@@ -201,11 +187,15 @@ class Grid:
         period: ArrayLike | None = None,
         building_index: ArrayLike | None = None,
         strength: ArrayLike | None = None,
+        R: ArrayLike | None = None,  # noqa: N803 - the name that codes give it
+        design: StrengthDesign | None = None,
         yield_shear_over_weight: ArrayLike | None = None,
         floors: ArrayLike | None = None,
         roof: Roof = "loaded",
         mass_ratio: ArrayLike | None = None,
+        occupancy: ArrayLike | None = None,
         attached: ArrayLike | None = None,
+        attached_of: AttachedOf = "present",
         sliding: ArrayLike | None = None,
         damping: AttachedDamping = "same",
         mu: ArrayLike | None = None,
@@ -232,10 +222,13 @@ class Grid:
             self.buildings,
             period=period,
             strength=strength,
+            R=R,
             yield_shear_over_weight=yield_shear_over_weight,
             **shape,
         )
-        values |= share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
+        of_design = attached_of == "design"
+        values |= share_values(attached, sliding, occupancy, mass_ratio, of_design=of_design)
+        values |= number_values({"scale": scale})
         indices = {"building": index}
         if motion is not None:
             indices["motion"] = index_values(motion, "motion", InvalidOption)
@@ -248,7 +241,7 @@ class Grid:
                 raise refusal(InvalidScene, given, "grid", requirement, f"{length} values")
         self._columns = {name: Column(column) for name, column in values.items()}
         self._indices = {name: Column(column) for name, column in indices.items()}
-        self._set_formed(periods, damping)
+        self._set_formed(periods, damping, attached_of, design)
         self._check(range(self._length))
 
     @classmethod
@@ -260,11 +253,15 @@ class Grid:
         storeys: ArrayLike | None = None,
         period: ArrayLike | None = None,
         strength: ArrayLike | None = None,
+        R: ArrayLike | None = None,  # noqa: N803 - the name that codes give it
+        design: StrengthDesign | None = None,
         yield_shear_over_weight: ArrayLike | None = None,
         floors: ArrayLike | None = None,
         roof: Roof = "loaded",
         mass_ratio: ArrayLike | None = None,
+        occupancy: ArrayLike | None = None,
         attached: ArrayLike | None = None,
+        attached_of: AttachedOf = "present",
         sliding: ArrayLike | None = None,
         damping: AttachedDamping = "same",
         mu: ArrayLike | None = None,
@@ -276,9 +273,9 @@ class Grid:
     ) -> Self:
         """Return every combination of the values of each axis, of which only the axes are held.
 
-        The axes are building, period, strength, overstrength, slopes and what else shapes springs, mass ratio, attached
-        share, friction and scale, the last changing fastest: scenes that follow each other share propagators. Together
-        they are one axis: `storeys` with `period`, `attached` with `sliding`, `mu_s` with `mu_k`.
+        The axes are building, period, strength or R, overstrength, slopes and what else shapes springs, mass ratio,
+        occupancy, attached share, friction and scale, the last changing fastest: scenes that follow each other share
+        propagators. Together they are one axis: `storeys` with `period`, `attached` with `sliding`, `mu_s` with `mu_k`.
 
         Parameters
         ----------
@@ -286,17 +283,17 @@ class Grid:
             The buildings.
         storeys, period : array_like, optional
             Numbers of storeys with the first period of each (s); or periods for every building.
-        strength, overstrength, second_slope, ... : array_like, optional
+        strength, R, overstrength, second_slope, ... : array_like, optional
             Values, each for all storeys.
         yield_shear_over_weight : array_like, optional
             Values for all storeys, or rows with one value per storey.
         mass_ratio, mu, mu_s, mu_k : array_like, optional
             One value, a list of values that all blocks share, or a table of values by blocks.
-        attached, sliding : array_like, optional
+        occupancy, attached, sliding : array_like, optional
             Shares of the live load.
         scale : array_like, optional
             Factors of the motion.
-        floors, roof, damping, collapse_drift
+        design, floors, roof, attached_of, damping, collapse_drift
             As for `Grid`.
 
         Raises
@@ -325,10 +322,13 @@ class Grid:
             grid.buildings,
             period=None if storeys is not None else period,
             strength=strength,
+            R=R,
             yield_shear_over_weight=yield_shear_over_weight,
             **shape,
         )
-        values |= share_values(attached, sliding, mass_ratio) | number_values({"scale": scale})
+        of_design = attached_of == "design"
+        values |= share_values(attached, sliding, occupancy, mass_ratio, of_design=of_design)
+        values |= number_values({"scale": scale})
         lengths = {"building": len(index)}
         for axis, names in AXES.items():
             given = {name: len(values[name]) for name in names if name in values}
@@ -348,11 +348,90 @@ class Grid:
         axis_of = {name: axis for axis, names in AXES.items() for name in names}
         grid._columns = {name: Column(column, each[axis_of[name]]) for name, column in values.items()}
         grid._indices = {"building": Column(index, each["building"])}
-        grid._set_formed(periods, damping)
+        grid._set_formed(periods, damping, attached_of, design)
         # Friction is judged by itself, all else with the first value of friction and scale.
         grid._check(range(0, total, each["attached"]))
         grid._check(range(0, each["attached"], each["friction"]))
         return grid
+
+    @classmethod
+    def sample(
+        cls,
+        building: Building | Sequence[Building] | None = None,
+        *,
+        samples: int,
+        method: SampleMethod = "sobol",
+        seed: int = 0,
+        motions: int | None = None,
+        mu_k_over_mu_s: Any = None,
+        design: StrengthDesign | None = None,
+        floors: ArrayLike | None = None,
+        roof: Roof = "loaded",
+        attached_of: AttachedOf = "present",
+        damping: AttachedDamping = "same",
+        collapse_drift: float | None = None,
+        **axes: Any,
+    ) -> Self:
+        """Return a random sample of scenes.
+
+        Parameters
+        ----------
+        building : Building or sequence of Building, optional
+            The building, or several of which each is equally likely.
+        samples : int
+            Number of scenes.
+        method : {"sobol", "latin_hypercube", "random"}
+            Scrambled points of Sobol's sequence, balanced where their number is a power of 2; a Latin hypercube; or
+            independent points. One dimension for each axis that is drawn (`scipy.stats.qmc`).
+        seed : int
+            The same seed gives the same sample.
+        motions : int, optional
+            Number of the motions of which each scene has one, equally likely; by default each scene has every motion.
+        mu_k_over_mu_s : number, list of them or distribution, optional
+            Instead of `mu_k`: the kinetic coefficient over the static one, which is `mu` or `mu_s`.
+        design, floors, roof, attached_of, damping, collapse_drift
+            As for `Grid`.
+        **axes
+            Other arguments of `Grid`: `storeys`, `period`, `strength`, `R`, `yield_shear_over_weight`, what shapes the
+            springs, `mass_ratio`, `occupancy`, `attached`, `sliding`, `mu`, `mu_s`, `mu_k`, `scale`. Each is a number;
+            a list of values, or a table of rows, of which each is equally likely; or a distribution: anything with the
+            quantiles `ppf`, as scipy.stats freezes it. Lists of `storeys` and `period` of one length are drawn
+            together. A list with distributions draws one for each block.
+
+        Raises
+        ------
+        InvalidScene, InvalidMotion, InvalidOption
+            As for `Grid`; a value that was drawn may be out of its range, as from a normal distribution.
+
+        Examples
+        --------
+        >>> import seismass as sm
+        >>> building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
+        >>> grid = sm.Grid.sample(
+        ...     building,
+        ...     samples=256,
+        ...     seed=1,
+        ...     mass_ratio=1.0,
+        ...     occupancy=sm.beta(0.7, 0.15),
+        ...     mu=sm.lognormal(0.4, 0.25),
+        ...     scale=[0.5, 1.0, 2.0],
+        ... )
+        >>> grid.table()["mu_s"].median().__round__(2)
+        0.4
+        """
+        drawn = sampled_arguments(
+            building, axes, mu_k_over_mu_s, samples=samples, method=method, seed=seed, motions=motions
+        )
+        return cls(
+            building,
+            design=design,
+            floors=floors,
+            roof=roof,
+            attached_of=attached_of,
+            damping=damping,
+            collapse_drift=collapse_drift,
+            **drawn,
+        )
 
     def __len__(self) -> int:
         return self._length
@@ -385,9 +464,9 @@ class Grid:
         """Return the columns of the scenes from `first` to `last`, both included (default: all), as a frame.
 
         It has the number of the scene as `scene`, by which results are joined, the number of the `building`, its
-        `storeys` and `period` (s, without live load), and of `strength`, `yield_shear_over_weight`, what shapes the
-        springs, `mass_ratio`, `attached`, `sliding`, `mu_s`, `mu_k`, `scale` and `motion` those that were given;
-        lists where storeys or blocks differ.
+        `storeys` and `period` (s, without live load), and of `strength`, `R`, `yield_shear_over_weight`, what shapes
+        the springs, `mass_ratio`, `occupancy`, `attached`, `sliding`, `mu_s`, `mu_k`, `scale` and `motion` those that
+        were given; lists where storeys or blocks differ.
 
         Raises
         ------
@@ -432,52 +511,7 @@ class Grid:
         >>> [(axis.name, axis.each, axis.length) for axis in grid.axes()]
         [('constant', 1, 1), ('mass_ratio', 3, 2), ('friction', 1, 3)]
         """
-        found: dict[tuple[int, int], GridAxis] = {}
-        for name, column in self._described().items():
-            length = len(column.values)
-            key = (1, 1) if length == 1 else (column.each, length)
-            if key not in found:
-                own = "constant" if length == 1 else "scene" if key == (1, self._length) else AXIS_OF[name]
-                found[key] = GridAxis(own, *key, {})
-            found[key].columns[name] = column.values
-        return sorted(found.values(), key=lambda axis: (axis.length > 1, -axis.each))
-
-    def _content(self) -> dict[str, Any]:
-        """What `axes` does not tell, for JSON; see `_of_content`."""
-        return {
-            "floors": list(self.floors),
-            "everywhere": self._everywhere,
-            "roof_is_bare": self._roof_is_bare,
-            "collapse_drift": self.collapse_drift,
-            "damping": self._formed.damping,
-            "periods": self._formed.periods.tolist(),
-        }
-
-    @classmethod
-    def _of_content(
-        cls, scenes: int, buildings: tuple[Building, ...], content: dict[str, Any], columns: dict[str, Column[Any]]
-    ) -> Self:
-        """Return the grid of so many scenes that has these contents and the columns of `axes`."""
-        grid = cls.__new__(cls)
-        grid.buildings, grid.floors = buildings, tuple(content["floors"])
-        grid._everywhere, grid._roof_is_bare = content["everywhere"], content["roof_is_bare"]
-        grid.collapse_drift = content["collapse_drift"]
-        grid._length = scenes
-        grid._indices = {
-            name: Column(columns[name].values - 1, columns[name].each)
-            for name in ("building", "motion")
-            if name in columns
-        }
-        tables = {"mass_ratio", "mu_s", "mu_k", "yield_shear_over_weight"}
-        grid._columns = {
-            name: Column(column.values.reshape(-1, 1), column.each)
-            if name in tables and column.values.ndim == 1
-            else column
-            for name, column in columns.items()
-            if name in GRID_COLUMNS
-        }
-        grid._set_formed(np.array(content["periods"]), content["damping"])
-        return grid
+        return axes_of(self._described(), self._length)
 
     def _described(self) -> dict[str, Column[Any]]:
         """Columns by the names of `table`, with numbers from 1."""
@@ -528,13 +562,20 @@ class Grid:
             None if collapse_drift is None else as_number(collapse_drift, "collapse_drift", "grid", InvalidScene)
         )
 
-    def _set_formed(self, periods: FloatArray, damping: Any) -> None:
+    def _set_formed(self, periods: FloatArray, damping: Any, attached_of: Any, design: Any) -> None:
         """Keep what forms the buildings of scenes, of columns that are known by now."""
         if damping not in ATTACHED_DAMPING:
             raise refusal(InvalidScene, "damping", "grid", "same or ratio, of attached live load", brief(damping))
-        names = (*CHANGING, "attached", "sliding")
+        if attached_of not in ATTACHED_OF:
+            raise refusal(InvalidScene, "attached_of", "grid", "present or design", brief(attached_of))
+        if design is not None and not isinstance(design, StrengthDesign):
+            raise refusal(InvalidScene, "design", "grid", "a StrengthDesign", brief(design))
+        if (design is None) != ("R" not in self._columns):
+            requirement = "given where R is" if design is None else "left out where R is"
+            raise refusal(InvalidScene, "design", "grid", requirement, "none" if design is None else brief(design))
+        names = (*CHANGING, "occupancy", "attached", "sliding")
         columns = {name: column for name, column in self._columns.items() if name in names}
-        self._formed = BuildingColumns(self.buildings, periods, self.floors, columns, damping)
+        self._formed = BuildingColumns(self.buildings, periods, self.floors, columns, damping, attached_of, design)
 
     def _per_block(self, name: str, scenes: IndexArray) -> FloatArray:
         """A property of the blocks of scenes, shape (scenes, blocks)."""
@@ -551,9 +592,9 @@ class Grid:
 
     def _sliding(self, scenes: IndexArray) -> FloatArray:
         """Live load that slides over floor mass, shape (scenes, blocks); 0 where there is no block."""
-        live_load = self._per_block("mass_ratio", scenes)
+        present = self._formed.present_of(scenes, self._per_block("mass_ratio", scenes))
         _, sliding = self._formed.shares_of(scenes)
-        return live_load if sliding is None else live_load * sliding[:, None]
+        return present if sliding is None else present * sliding[:, None]
 
     def _kernel_columns(self, scenes: IndexArray) -> _kernel.Columns:
         """Scenes as the kernel takes them."""

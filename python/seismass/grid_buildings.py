@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal, NamedTuple, TypeAlias, get_args
 
@@ -12,6 +12,7 @@ from seismass._values import FloatArray, brief, refusal
 from seismass.building import Building, changed_building
 from seismass.errors import InvalidScene
 from seismass.grid_columns import Column, IndexArray, index_values, number_values, strength_table
+from seismass.grid_design import StrengthDesign
 from seismass.springs import SHAPE_FIELDS
 from seismass.units import STANDARD_GRAVITY
 
@@ -19,7 +20,11 @@ AttachedDamping: TypeAlias = Literal["same", "ratio"]
 """Damping of a building to which live load is attached: the matrix that it has without, or its ratio in new modes."""
 ATTACHED_DAMPING: Final = get_args(AttachedDamping)
 
-CHANGING: Final = ("period", "strength", "yield_shear_over_weight", *SHAPE_FIELDS)
+AttachedOf: TypeAlias = Literal["present", "design"]
+"""Live load of which a share is attached: what is present, or what the building was designed for."""
+ATTACHED_OF: Final = get_args(AttachedOf)
+
+CHANGING: Final = ("period", "strength", "R", "yield_shear_over_weight", *SHAPE_FIELDS)
 """Columns that change a building as it is given, beside the live load that is attached to it."""
 
 
@@ -47,6 +52,10 @@ class BuildingColumns:
         Those of `CHANGING`, `attached` and `sliding` that are given.
     damping : {"same", "ratio"}
         Damping where live load is attached.
+    attached_of : {"present", "design"}
+        Live load of which `attached` is a share.
+    design : StrengthDesign or None
+        What gives V_y by the column R.
     """
 
     given: tuple[Building, ...]
@@ -54,8 +63,10 @@ class BuildingColumns:
     floors: tuple[int, ...]
     columns: dict[str, Column[np.float64]]
     damping: AttachedDamping
+    attached_of: AttachedOf
+    design: StrengthDesign | None
 
-    def of(self, scenes: IndexArray, index: IndexArray, live_load: FloatArray) -> Formed:
+    def of(self, scenes: IndexArray, index: IndexArray, design_load: FloatArray) -> Formed:
         """Return the buildings of scenes that have these of the given ones.
 
         Parameters
@@ -64,23 +75,34 @@ class BuildingColumns:
             Numbers of the scenes, from 0.
         index : ndarray of int, shape (scenes,)
             Index of the building that each was given.
-        live_load : ndarray, shape (scenes, blocks)
-            Mass of the live load over that of its floor, attached or not.
+        design_load : ndarray, shape (scenes, blocks)
+            Mass of the design live load over that of its floor, present or not, attached or not.
         """
         attached, sliding = self.shares_of(scenes)
-        blocks = live_load if sliding is None else live_load * sliding[:, None]
+        present = self.present_of(scenes, design_load)
+        blocks = present if sliding is None else present * sliding[:, None]
         changing = [self.columns[name].of(scenes).reshape(len(scenes), -1) for name in CHANGING if name in self.columns]
         if attached is None and not changing:
             return Formed(list(self.given), index, blocks)
+        loads = np.zeros((len(scenes), 2, len(self.floors)))
         if attached is not None and sliding is not None:
-            changing += [attached[:, None] * live_load, (1.0 - sliding)[:, None] * live_load]
+            loads[:, 0] = attached[:, None] * (present if self.attached_of == "present" else design_load)
+            loads[:, 1] = (1.0 - sliding)[:, None] * present
+            changing.append(loads.reshape(len(scenes), -1))
+        if self.design is not None:
+            changing.append(design_load)
         keys = np.nan_to_num(np.column_stack([index, *changing]), nan=-1.0, posinf=np.inf)
         _, first, which = np.unique(keys, axis=0, return_index=True, return_inverse=True)
         which = which.reshape(-1)
         formed, added = [], []
+        designed: dict[Hashable, FloatArray] = {}
         for place in first.tolist():
+            scene = scenes[place : place + 1]
             try:
-                building, more = self._formed(scenes[place : place + 1], int(index[place]), live_load[place])
+                changed = self._changed(scene, int(index[place]), design_load[place], designed)
+                if attached is not None:
+                    self._on_floors(design_load[place], changed.storeys)  # of floors that are there
+                building, more = self._loaded(changed, *loads[place])
             except InvalidScene as error:
                 message = str(error).replace(" must be ", f" of scene {scenes[place] + 1} must be ", 1)
                 raise InvalidScene(message) from None
@@ -104,8 +126,16 @@ class BuildingColumns:
             return self.columns["period"].of(scenes)
         return self.periods[index]
 
-    def _formed(self, scene: IndexArray, index: int, live_load: FloatArray) -> tuple[Building, FloatArray]:
-        """The building of a scene, and the mass of each block's floor over that without attached live load."""
+    def present_of(self, scenes: IndexArray, design_load: FloatArray) -> FloatArray:
+        """Return the live load that is present over floor mass, shape (scenes, blocks)."""
+        if "occupancy" not in self.columns:
+            return design_load
+        return design_load * self.columns["occupancy"].of(scenes)[:, None]
+
+    def _changed(
+        self, scene: IndexArray, index: int, design_load: FloatArray, designed: dict[Hashable, FloatArray]
+    ) -> Building:
+        """The building of a scene without live load; V_e of each design is computed once."""
         building = self.given[index]
         value = {name: self.columns[name].of(scene)[0] for name in CHANGING if name in self.columns}
         changes: dict[str, Any] = {name: value[name] for name in SHAPE_FIELDS if name in value}
@@ -118,32 +148,48 @@ class BuildingColumns:
             changes["yield_shear"] = building.yield_shear * value["strength"]
         elif "yield_shear_over_weight" in value:
             changes["yield_shear"] = _strengths(value["yield_shear_over_weight"], building.storeys) * building.weight
-        if changes:
-            building = changed_building(building, **changes)
-        attached, sliding = self.shares_of(scene)
+        elif "R" in value and self.design is not None:
+            reduction = float(value["R"])
+            if reduction == 1.0 and self.design.elastic_at_one:
+                changes["yield_shear"] = np.full(building.storeys, np.inf)
+            else:
+                key = (index, value.get("period"), design_load.tobytes())
+                if key not in designed:
+                    stiffer = changed_building(building, **changes)
+                    designed[key] = self.design.elastic_shear(stiffer, self._on_floors(design_load, building.storeys))
+                changes["yield_shear"] = designed[key] / reduction
+        return changed_building(building, **changes) if changes else building
+
+    def _loaded(self, building: Building, attached: FloatArray, still: FloatArray) -> tuple[Building, FloatArray]:
+        """A building with live load attached as mass and some whose weight does not slide, both over floor mass.
+
+        The mass of each block's floor over that without attached live load is given beside it.
+        """
         more = np.ones(len(self.floors))
-        if attached is None or sliding is None:
-            return building, more
-        load = np.zeros(building.storeys)
-        on = [(floor - 1, ratio) for floor, ratio in zip(self.floors, live_load, strict=True) if ratio != 0.0]
-        for i, ratio in on:
-            if i >= building.storeys:
-                requirement = f"a floor of the building, 1 to {building.storeys}"
-                raise refusal(InvalidScene, "floor", "live load", requirement, str(i + 1))
-            load[i] += ratio
-        changes = {}
-        if attached[0] != 0.0:
-            changes["mass"] = building.mass + attached[0] * load * building.mass
+        changes: dict[str, Any] = {}
+        if attached.any():
+            changes["mass"] = building.mass + self._on_floors(attached, building.storeys) * building.mass
             if self.damping == "same":
                 changes["damping"] = building.damping_matrix
             for j, floor in enumerate(self.floors):
                 if floor <= building.storeys:
                     more[j] = changes["mass"][floor - 1] / building.mass[floor - 1]
-        if building.gravity_load is not None and sliding[0] != 1.0:
+        if building.gravity_load is not None and still.any():
             # The weight of what does not slide is there, however much of it is counted as mass.
-            still = (1.0 - sliding[0]) * load * building.mass * STANDARD_GRAVITY
-            changes["gravity_load"] = building.gravity_load + still
+            weight = self._on_floors(still, building.storeys) * building.mass * STANDARD_GRAVITY
+            changes["gravity_load"] = building.gravity_load + weight
         return (changed_building(building, **changes) if changes else building), more
+
+    def _on_floors(self, load: FloatArray, storeys: int) -> FloatArray:
+        """What blocks have, summed on their floors."""
+        found = np.zeros(storeys)
+        for floor, value in zip(self.floors, load.tolist(), strict=True):
+            if value != 0.0:
+                if floor > storeys:
+                    requirement = f"a floor of the building, 1 to {storeys}"
+                    raise refusal(InvalidScene, "floor", "live load", requirement, str(floor))
+                found[floor - 1] += value
+        return found
 
 
 def _strengths(over_weight: FloatArray, storeys: int) -> FloatArray:
@@ -188,6 +234,9 @@ def changing_values(
 ) -> dict[str, FloatArray]:
     """Return what changes buildings."""
     values = number_values(numbers)
+    if "R" in values and ("strength" in values or yield_shear_over_weight is not None):
+        other = "strength" if "strength" in values else "yield_shear_over_weight"
+        raise refusal(InvalidScene, "R", "grid", f"left out where {other} is given", "both")
     if yield_shear_over_weight is not None:
         if "strength" in values:
             raise refusal(InvalidScene, "strength", "grid", "left out where yield_shear_over_weight is given", "both")

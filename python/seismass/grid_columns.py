@@ -33,7 +33,9 @@ class Column(Generic[_T]):
 _RANGES: Final[dict[str, tuple[type[SeismassError], str, Callable[[FloatArray], NDArray[np.bool_]]]]] = {
     "period": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
     "strength": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
+    "R": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
     **{name: (InvalidScene, field.requirement, field.accepts) for name, field in SHAPE_FIELDS.items()},
+    "occupancy": (InvalidScene, "a number of at least 0", lambda v: np.isfinite(v) & (v >= 0.0)),
     "attached": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
     "sliding": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
     "scale": (InvalidMotion, "a finite number", np.isfinite),
@@ -41,9 +43,10 @@ _RANGES: Final[dict[str, tuple[type[SeismassError], str, Callable[[FloatArray], 
 
 AXES: Final = {
     "period": ("period",),
-    "strength": ("strength", "yield_shear_over_weight"),
+    "strength": ("strength", "yield_shear_over_weight", "R"),
     **{name: (name,) for name in SHAPE_FIELDS},
     "mass_ratio": ("mass_ratio",),
+    "occupancy": ("occupancy",),
     "attached": ("attached", "sliding"),
     "friction": ("mu_s", "mu_k"),
     "scale": ("scale",),
@@ -151,15 +154,17 @@ def block_values(blocks: int, mass_ratio: Any, mu: Any, mu_s: Any, mu_k: Any) ->
     return values
 
 
-def share_values(attached: Any, sliding: Any, mass_ratio: Any) -> dict[str, FloatArray]:
-    """Return shares of the live load, of which no more than all is there."""
-    for name, value in (("attached", attached), ("sliding", sliding)):
+def share_values(
+    attached: Any, sliding: Any, occupancy: Any, mass_ratio: Any, *, of_design: bool
+) -> dict[str, FloatArray]:
+    """Return shares of the live load; of what is present no more than all is attached or slides."""
+    for name, value in (("occupancy", occupancy), ("attached", attached), ("sliding", sliding)):
         if value is not None and mass_ratio is None:
             raise refusal(InvalidScene, name, "grid", "left out where mass_ratio is", brief(value))
-    values = number_values({"attached": attached, "sliding": sliding})
-    lengths = {len(column) for column in values.values()} - {1}
-    if len(values) == 2 and len(lengths) < 2:
-        both = values["attached"] + values["sliding"]
+    values = number_values({"occupancy": occupancy, "attached": attached, "sliding": sliding})
+    shares = [values[name] for name in ("attached", "sliding") if name in values]
+    if len(shares) == 2 and len({len(column) for column in shares} - {1}) < 2 and not of_design:
+        both = shares[0] + shares[1]
         wrong = np.flatnonzero(both > 1.0 + 1e-12)
         if len(wrong):
             got = f"{both[wrong[0]]:g} together as value {wrong[0] + 1}"

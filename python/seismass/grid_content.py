@@ -5,7 +5,7 @@ The table has one row per value of an axis, so that a product of any size has a 
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import polars as pl
@@ -13,9 +13,14 @@ import polars as pl
 from seismass._values import FloatArray
 from seismass.building import Building
 from seismass.damping import Rayleigh
-from seismass.grid import Grid, GridAxis
+from seismass.grid import Grid
+from seismass.grid_axes import GridAxis
 from seismass.grid_columns import Column
+from seismass.grid_design import StrengthDesign
 from seismass.springs import SPRING_FIELDS, is_default
+
+_TABLES: Final = ("mass_ratio", "mu_s", "mu_k", "yield_shear_over_weight")
+"""Columns whose values are rows of numbers per block or storey."""
 
 
 def axes_table(axes: list[GridAxis]) -> pl.DataFrame:
@@ -48,7 +53,15 @@ def grid_document(grid: Grid) -> dict[str, Any]:
             {"name": axis.name, "each": axis.each, "length": axis.length, "columns": list(axis.columns)}
             for axis in grid.axes()
         ],
-        **grid._content(),
+        "held": list(grid._columns),
+        "floors": list(grid.floors),
+        "everywhere": grid._everywhere,
+        "roof_is_bare": grid._roof_is_bare,
+        "collapse_drift": grid.collapse_drift,
+        "damping": grid._formed.damping,
+        "attached_of": grid._formed.attached_of,
+        "design": None if grid._formed.design is None else grid._formed.design.content(),
+        "periods": grid._formed.periods.tolist(),
     }
 
 
@@ -59,8 +72,25 @@ def grid_of(document: dict[str, Any], axes: pl.DataFrame) -> Grid:
         rows = axes.filter(pl.col("axis") == axis["name"])
         for name in axis["columns"]:
             columns[name] = Column(_values(rows[name]), axis["each"])
-    buildings = tuple(building_of(item) for item in document["buildings"])
-    return Grid._of_content(document["scenes"], buildings, document, columns)
+    grid = Grid.__new__(Grid)
+    grid.buildings = tuple(building_of(item) for item in document["buildings"])
+    grid.floors = tuple(document["floors"])
+    grid.collapse_drift = document["collapse_drift"]
+    grid._everywhere, grid._roof_is_bare = document["everywhere"], document["roof_is_bare"]
+    grid._length = document["scenes"]
+    numbers = {name: columns[name] for name in ("building", "motion") if name in columns}
+    grid._indices = {name: Column(column.values - 1, column.each) for name, column in numbers.items()}
+    grid._columns = {name: _as_held(name, columns[name]) for name in document["held"]}
+    design = None if document["design"] is None else StrengthDesign.of_content(document["design"])
+    grid._set_formed(np.array(document["periods"]), document["damping"], document["attached_of"], design)
+    return grid
+
+
+def _as_held(name: str, column: Column[Any]) -> Column[Any]:
+    """A column as a grid holds it: a table where blocks or storeys may differ."""
+    if name in _TABLES and column.values.ndim == 1:
+        return Column(column.values.reshape(-1, 1), column.each)
+    return column
 
 
 def _values(series: pl.Series) -> np.ndarray[Any, Any]:

@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from seismass._values import as_count, as_number, brief
+from seismass.distributions import beta, lognormal
 from seismass.errors import InvalidCampaignFile, InvalidOption
 from seismass.input_table import Table
 
@@ -67,8 +68,6 @@ def _range(table: Table) -> Any:
 def _distribution(table: Table) -> Any:
     """A frozen distribution, by the parameters that people state or by those of scipy.stats."""
     from scipy import stats  # slow to import
-
-    from seismass.effective_mass import beta, lognormal
 
     name = table.text("distribution")
     numbers = {key: table.number(key, 0.0) for key in table.values if key != "distribution"}

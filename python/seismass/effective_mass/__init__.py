@@ -2,7 +2,7 @@
 
 from seismass.effective_mass.answer import effective_mass, effective_mass_of_design
 from seismass.effective_mass.design_map import EffectiveMassMap, EffectiveMassParameters, effective_mass_map
-from seismass.effective_mass.live_load import LiveLoadUncertainty, beta, live_load_uncertainty, lognormal
+from seismass.effective_mass.live_load import LiveLoadUncertainty, live_load_uncertainty
 from seismass.effective_mass.models import attached_scene
 from seismass.effective_mass.result import EffectiveMass
 
@@ -12,10 +12,8 @@ __all__ = [
     "EffectiveMassParameters",
     "LiveLoadUncertainty",
     "attached_scene",
-    "beta",
     "effective_mass",
     "effective_mass_map",
     "effective_mass_of_design",
     "live_load_uncertainty",
-    "lognormal",
 ]

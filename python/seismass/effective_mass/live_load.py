@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 import polars as pl
@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass._values import FloatArray, as_count, as_number, as_path, brief, refusal
+from seismass.distributions import Distribution
 from seismass.effective_mass.curve import check_fractions, interpolated, over_records, resampled
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
 from seismass.effective_mass.result import finite_values
@@ -40,43 +41,6 @@ TORNADO_LEVELS: Final = (0.05, 0.95)
 """Probabilities to which one variable at a time is moved, the others at their medians."""
 RESAMPLES: Final = 2000
 """Bootstrap resamples over the records."""
-
-
-@runtime_checkable
-class Distribution(Protocol):
-    """A distribution as scipy.stats freezes it."""
-
-    def ppf(self, q: Any) -> Any:
-        """Return quantiles."""
-        ...
-
-
-def lognormal(median: float, sigma: float) -> Distribution:
-    """Return a lognormal distribution by its median and the standard deviation of its logarithm."""
-    centre, spread = (as_number(value, name, "lognormal", InvalidOption) for name, value in _pair(median, sigma))
-    if not (centre > 0.0 and spread > 0.0 and np.isfinite([centre, spread]).all()):
-        raise refusal(InvalidOption, "median and sigma", "lognormal", "positive", f"{centre:g} and {spread:g}")
-    from scipy import stats  # slow to import
-
-    frozen: Distribution = stats.lognorm(s=spread, scale=centre)
-    return frozen
-
-
-def beta(mean: float, deviation: float) -> Distribution:
-    """Return a beta distribution on [0, 1] by its mean and standard deviation."""
-    centre, spread = (as_number(value, name, "beta", InvalidOption) for name, value in _pair(mean, deviation))
-    if not (0.0 < centre < 1.0 and 0.0 < spread < np.sqrt(centre * (1.0 - centre))):
-        requirement = "between 0 and 1, and a standard deviation above 0 and below sqrt(mean (1 - mean))"
-        raise refusal(InvalidOption, "mean", "beta", requirement, f"{centre:g} and {spread:g}")
-    total = centre * (1.0 - centre) / spread**2 - 1.0
-    from scipy import stats  # slow to import
-
-    frozen: Distribution = stats.beta(centre * total, (1.0 - centre) * total)
-    return frozen
-
-
-def _pair(first: Any, second: Any) -> tuple[tuple[str, Any], tuple[str, Any]]:
-    return ("first argument", first), ("second argument", second)
 
 
 @dataclass(frozen=True, eq=False)
