@@ -109,11 +109,7 @@ def run(args: argparse.Namespace) -> int:
 def _state(folder: CampaignFolder, problems: list[tuple[int, str]] | None) -> dict[str, Any]:
     """How far a folder is, for JSON."""
     present, runs = len(folder.present()), folder.runs_present
-    failed = 0
-    if present:
-        import polars as pl
-
-        failed = folder.scan_parts().filter(pl.col("status") == "failed").select(pl.len()).collect().item()
+    failed = _failed(folder, {part for part, _ in problems or ()})
     state = {
         "folder": str(folder.path),
         "name": folder.manifest["name"],
@@ -127,6 +123,25 @@ def _state(folder: CampaignFolder, problems: list[tuple[int, str]] | None) -> di
         "complete": present == folder.parts,
     }
     return state if problems is None else {**state, "problems": dict(problems)}
+
+
+def _failed(folder: CampaignFolder, damaged: set[int]) -> int:
+    """Number of runs that failed, in the parts that can be read."""
+    import polars as pl
+
+    from seismass._values import refusal
+    from seismass.campaign.folder import part_path
+    from seismass.errors import InvalidOption
+
+    paths = [part_path(folder.path, part) for part in sorted(folder.present() - damaged)]
+    if not paths:
+        return 0
+    try:
+        status = pl.scan_parquet(paths, glob=False).select((pl.col("status") == "failed").sum())
+        return int(status.collect().item())
+    except pl.exceptions.PolarsError as error:
+        requirement = "whole (--verify names those that are not)"
+        raise refusal(InvalidOption, f"parts of {folder.path}", "campaign", requirement, str(error)) from error
 
 
 def _text(folder: CampaignFolder, state: dict[str, Any]) -> str:
