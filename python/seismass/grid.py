@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any, Final, Literal, Self, TypeAlias, Unpack, get_args
 
 import numpy as np
@@ -15,7 +15,7 @@ from seismass.block import Block
 from seismass.building import Building
 from seismass.errors import InvalidOption, InvalidScene
 from seismass.forks import require_polars
-from seismass.grid_axes import GridAxis, axes_of
+from seismass.grid_axes import AXIS_OF, GridAxis, axes_of, described, table_of
 from seismass.grid_buildings import (
     ATTACHED_DAMPING,
     ATTACHED_OF,
@@ -27,10 +27,10 @@ from seismass.grid_buildings import (
     given_buildings,
 )
 from seismass.grid_columns import (
-    AXES,
     Column,
     IndexArray,
     as_given,
+    axis_lengths,
     block_values,
     index_values,
     number_values,
@@ -47,8 +47,6 @@ Roof: TypeAlias = Literal["loaded", "bare"]
 MAX_SCENES: Final = 2**53
 """Most scenes of a grid: beyond, doubles in which numbers of scenes may be read skip some."""
 _CHECKED_AT_ONCE: Final = 2**16
-GRID_COLUMNS: Final = (*CHANGING, "mass_ratio", "occupancy", "attached", "sliding", "mu_s", "mu_k", "scale")
-"""Columns that a grid may have beside its building and its motion, in the order of its table."""
 
 
 class Grid:
@@ -329,15 +327,7 @@ class Grid:
         of_design = attached_of == "design"
         values |= share_values(attached, sliding, occupancy, mass_ratio, of_design=of_design)
         values |= number_values({"scale": scale})
-        lengths = {"building": len(index)}
-        for axis, names in AXES.items():
-            given = {name: len(values[name]) for name in names if name in values}
-            lengths[axis] = next((length for length in given.values() if length > 1), 1)
-            for name, length in given.items():
-                if length not in (1, lengths[axis]):
-                    other = next(other for other in names if other != name)
-                    requirement = f"one value, or as many as {other} has, {lengths[axis]}"
-                    raise refusal(InvalidScene, as_given(name, mu), "grid", requirement, f"{length} values")
+        lengths = {"building": len(index), **axis_lengths(values, mu)}
         each, total = {}, 1
         for axis in reversed(lengths):
             each[axis] = total
@@ -345,8 +335,7 @@ class Grid:
         if total > MAX_SCENES:
             raise refusal(InvalidOption, "scenes", "grid", f"at most {MAX_SCENES}", f"{total}")
         grid._length = total
-        axis_of = {name: axis for axis, names in AXES.items() for name in names}
-        grid._columns = {name: Column(column, each[axis_of[name]]) for name, column in values.items()}
+        grid._columns = {name: Column(column, each[AXIS_OF[name]]) for name, column in values.items()}
         grid._indices = {"building": Column(index, each["building"])}
         grid._set_formed(periods, damping, attached_of, design)
         # Friction is judged by itself, all else with the first value of friction and scale.
@@ -479,27 +468,7 @@ class Grid:
         end = self._length if last is None else as_count(last, "last", "grid", InvalidOption)
         begin = as_count(first, "first", "grid", InvalidOption, least=1) - 1
         scenes = np.arange(begin, max(begin, min(end, self._length)))
-        index = self._building_of(scenes)
-        storeys = np.array([building.storeys for building in self.buildings])[index]
-        found: dict[str, pl.Series] = {
-            "scene": pl.Series((scenes + 1).astype(np.uint64)),
-            "building": pl.Series((index + 1).astype(np.uint32)),
-            "storeys": pl.Series(storeys.astype(np.uint32)),
-            "period": pl.Series(self._formed.periods_of(scenes, index)),
-        }
-        for name in GRID_COLUMNS:
-            if name in found or name not in self._columns:
-                continue
-            values = self._columns[name].of(scenes)
-            if values.ndim == 1 or values.shape[1] == 1:
-                found[name] = pl.Series(values.reshape(-1))
-            else:
-                lists = pl.Series(values, dtype=pl.Array(pl.Float64, values.shape[1])).arr.to_list()
-                unused = np.isnan(values).any()
-                found[name] = lists.list.eval(pl.element().filter(pl.element().is_not_nan())) if unused else lists
-        if "motion" in self._indices:
-            found["motion"] = pl.Series((self._indices["motion"].of(scenes) + 1).astype(np.uint32))
-        return pl.DataFrame(found)
+        return table_of(self._described, scenes)
 
     def axes(self) -> list[GridAxis]:
         """Return what varies, each axis with its values: a product of any size has short ones.
@@ -511,24 +480,11 @@ class Grid:
         >>> [(axis.name, axis.each, axis.length) for axis in grid.axes()]
         [('constant', 1, 1), ('mass_ratio', 3, 2), ('friction', 1, 3)]
         """
-        return axes_of(self._described(), self._length)
+        return axes_of(self._described, self._length)
 
+    @property
     def _described(self) -> dict[str, Column[Any]]:
-        """Columns by the names of `table`, with numbers from 1."""
-        index = self._indices["building"]
-        storeys = np.array([building.storeys for building in self.buildings])[index.values]
-        found: dict[str, Column[Any]] = {
-            "building": Column(index.values + 1, index.each),
-            "storeys": Column(storeys, index.each),
-        }
-        if "period" not in self._columns:
-            found["period"] = Column(self._formed.periods[index.values], index.each)
-        for name, column in self._columns.items():
-            narrow = column.values.ndim == 2 and column.values.shape[1] == 1
-            found[name] = Column(column.values.reshape(-1) if narrow else column.values, column.each)
-        if "motion" in self._indices:
-            found["motion"] = Column(self._indices["motion"].values + 1)
-        return found
+        return described(self.buildings, self._formed.periods, self._columns, self._indices)
 
     def __repr__(self) -> str:
         def counted(number: int, noun: str) -> str:
@@ -644,11 +600,6 @@ class Grid:
             limits = f"the number of a building, counted from 1 to {len(self.buildings)}"
             got = f"{index.values[wrong[0]] + 1} as value {wrong[0] + 1}"
             raise refusal(InvalidScene, "building_index", "grid", limits, got)
-        for part in _parts(numbers):
-            scenes = np.arange(part.start, part.stop, part.step)
+        for first in range(0, len(numbers), _CHECKED_AT_ONCE):
+            scenes = np.array(numbers[first : first + _CHECKED_AT_ONCE])
             self._kernel_columns(scenes).check(scenes + 1)
-
-
-def _parts(numbers: range) -> Iterator[range]:
-    for first in range(0, len(numbers), _CHECKED_AT_ONCE):
-        yield numbers[first : first + _CHECKED_AT_ONCE]

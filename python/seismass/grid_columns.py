@@ -172,6 +172,20 @@ def share_values(
     return values
 
 
+def axis_lengths(values: dict[str, FloatArray], mu: Any) -> dict[str, int]:
+    """Return the number of values of each axis of a product; 1 where it has none."""
+    lengths = {}
+    for axis, names in AXES.items():
+        given = {name: len(values[name]) for name in names if name in values}
+        lengths[axis] = next((length for length in given.values() if length > 1), 1)
+        for name, length in given.items():
+            if length not in (1, lengths[axis]):
+                other = next(other for other in names if other != name)
+                requirement = f"one value, or as many as {other} has, {lengths[axis]}"
+                raise refusal(InvalidScene, as_given(name, mu), "grid", requirement, f"{length} values")
+    return lengths
+
+
 def as_given(name: str, mu: Any) -> str:
     """Return the name under which the user gave a column."""
     names = {"building": "building_index"}

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from seismass._values import brief, refusal
 from seismass.errors import InvalidOption, InvalidScene
 from seismass.forks import require_polars
-from seismass.grid import GRID_COLUMNS, Grid
+from seismass.grid import Grid
+from seismass.grid_axes import TABLE_COLUMNS
 from seismass.scene import Scene
 
 _PER_STOREY: Final = (
@@ -25,7 +26,6 @@ _PER_STOREY: Final = (
 )
 _PER_BLOCK: Final = ("peak_slip", "peak_slip_time", "residual_slip", "slip_path")
 _OF_RUN: Final = ("status", "reason", "end_time", "collapsed_storey", "peak_base_shear", "events", "yields", "slips")
-_ORDER: Final = ("building", "storeys", *GRID_COLUMNS)
 
 
 def long_table(table: pl.DataFrame, scenes: Scene | Iterable[Scene] | Grid) -> pl.DataFrame:
@@ -94,7 +94,7 @@ def long_table(table: pl.DataFrame, scenes: Scene | Iterable[Scene] | Grid) -> p
         joined = joined.with_columns(pl.col(strength).list.get(pl.col("storey").cast(pl.Int64) - 1, null_on_oob=True))
     by_floor = [name for name in blocks.columns if name not in ("scene", "storey", "block")]
     of_scene = [name for name in described.columns if name != "scene"]
-    varied = [name for name in _ORDER if name in of_scene or name in by_floor]
+    varied = [name for name in TABLE_COLUMNS if name in of_scene or name in by_floor]
     return joined.select(
         "run", "scene", "motion", "record", *varied, "storey", *_PER_STOREY, "block", *_PER_BLOCK, *_OF_RUN
     )
