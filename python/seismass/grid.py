@@ -155,17 +155,6 @@ class Grid:
     (18, 0, [1.375, 1.375, 1.375, 1.0])
     """
 
-    __slots__ = (
-        "_columns",
-        "_everywhere",
-        "_formed",
-        "_indices",
-        "_length",
-        "_roof_is_bare",
-        "buildings",
-        "collapse_drift",
-        "floors",
-    )
     buildings: tuple[Building, ...]
     floors: tuple[int, ...]
     collapse_drift: float | None
@@ -175,6 +164,7 @@ class Grid:
     _formed: BuildingColumns
     _everywhere: bool
     _roof_is_bare: bool
+    __slots__ = tuple(__annotations__)
 
     @takes_springs(SHAPE_FIELDS, default=None)
     def __init__(

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 _EPILOG = """examples:
   seismass campaign --example > campaign.toml
-  seismass campaign campaign.toml --out results         threads of this process
-  seismass campaign results                             go on after an interruption
+  seismass campaign campaign.toml --out results
+  seismass campaign results
   seismass campaign results --status
   seismass campaign campaign.toml --out results --workers 4
   seismass campaign campaign.toml --out /shared/results --scheduler tcp://head:8786
   seismass campaign campaign.toml --out /shared/results --shard 3/20
 
-Results are read by seismass.CampaignFolder("results").scan(), or any reader of Parquet.
+The second form goes on after an interruption. Results are read by seismass.CampaignFolder("results").scan(), or any reader of Parquet.
 docs/campaign.md explains every key of a campaign file.
 
 exit codes: 0 done, 1 a run failed (its rows say why) or a part is damaged, 2 bad input, 130 interrupted"""
