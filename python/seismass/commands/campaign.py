@@ -24,7 +24,8 @@ _EPILOG = """examples:
   seismass campaign campaign.toml --out /shared/results --scheduler tcp://head:8786
   seismass campaign campaign.toml --out /shared/results --shard 3/20
 
-The second form goes on after an interruption. Results are read by seismass.CampaignFolder("results").scan(), or any reader of Parquet.
+The third line goes on after an interruption. Results are read by
+seismass.CampaignFolder("results").scan() or by any reader of Parquet.
 docs/campaign.md explains every key of a campaign file.
 
 exit codes: 0 done, 1 a run failed (its rows say why) or a part is damaged, 2 bad input, 130 interrupted"""
