@@ -10,9 +10,6 @@ import os
 import re
 from pathlib import Path
 
-from seismass._values import refusal
-from seismass.errors import SimulationError
-
 _TASKS = Path("/proc/self/task")
 _OF_THE_POOL = re.compile(r"polars-\d")
 _started_before_fork = False
@@ -35,6 +32,9 @@ def require_polars(owner: str, instead: str = "") -> None:
         This process, or one that it was forked from, was forked from one in which Polars had threads.
     """
     if _is_lost:
+        from seismass._values import refusal  # needs NumPy, which a watch for forks does not
+        from seismass.errors import SimulationError
+
         alternative = f", or {instead} taken instead" if instead else ""
         raise refusal(
             SimulationError,
