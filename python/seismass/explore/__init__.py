@@ -6,7 +6,7 @@ which a wheel of a release carries and `make explorer` builds.
 
 from __future__ import annotations
 
-from seismass.explore.kernel_file import kernel_file
+from seismass.explore.compiled import kernel_file
 from seismass.explore.page import explorer_html
 
 __all__ = ["explorer_html", "kernel_file"]

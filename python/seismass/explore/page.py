@@ -19,7 +19,7 @@ from seismass.animation.shown import FACTORS
 from seismass.codes import code_fraction
 from seismass.effective_mass.curve import bootstrap_counts
 from seismass.explore.chart import BINS, CASES
-from seismass.explore.kernel_file import kernel_file
+from seismass.explore.compiled import kernel_file
 from seismass.records.builtin import builtin_suite
 from seismass.report.page import page_html, templates
 from seismass.scaling import scale_asce7_10

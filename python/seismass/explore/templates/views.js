@@ -145,7 +145,7 @@ function drawLoops(canvas, colours, { state, scene, real, code, beside }, at) {
   if (chart.width === 0) return;
   const n = scene.storeys;
   const weight = GRAVITY * n;
-  const columns = chart.width < 480 ? Math.min(n, 2) : n;
+  const columns = n === 4 && chart.width < 480 ? 2 : n;
   const lines = Math.ceil(n / columns);
   const other = beside === null ? null : beside.run;
   const spread = (list, by) => (list.length ? list.reduce((most, value) => Math.max(most, Math.abs(value)), 0) * by : 0);
@@ -163,7 +163,8 @@ function drawLoops(canvas, colours, { state, scene, real, code, beside }, at) {
     Object.assign(box, { right: box.left + wide, bottom: box.top + high - 12 });
     const last = i + columns >= n;
     const panel = chart.panel(box, [-drift, drift], [-force, force], {
-      title: `storey ${i + 1}`, xCount: wide < 150 ? 2 : 4, yCount: 4, xTitle: last ? "drift (mm)" : "",
+      title: `storey ${i + 1}`, xCount: wide < 170 ? 2 : 4, yCount: high < 140 ? 2 : 4, xTitle: last ? "drift (mm)" : "",
+      yTitle: column ? "" : "shear / W",
       yTicks: column ? [] : undefined, xTicks: last ? undefined : [],
     });
     for (const [run, colour, options] of [[other, colours.model, { width: 1, dash: [4, 2] }], [real, colours.real, { width: 1.2 }]]) {
@@ -174,7 +175,6 @@ function drawLoops(canvas, colours, { state, scene, real, code, beside }, at) {
     const row = Math.min(Math.round(at), real.rows - 1);
     panel.dot(1000 * real.drift[row * n + i], real.force[row * n + i] / weight, colours.yield);
   }
-  chart.text("shear / W", 4, keyEnd + 2, { size: 11, colour: colours.soft });
   const peaks = Array.from(real.peakShear, (shear, i) => `storey ${i + 1} up to ${general(shear / weight, 3)} of the weight at drifts up to ${fixed(1000 * real.peakDrift[i], 1)} mm`);
   canvas.setAttribute("aria-label", `Storey shear against drift: ${peaks.join(", ")}.`);
 }
