@@ -33,6 +33,7 @@
     kernel = openKernel(await WebAssembly.instantiate(module, {}));
     kernel.setSuite(suiteAt(1), new Float64Array(0)); // for the spectrum of the design
     open(location.hash);
+    requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("first picture")));
     window.addEventListener("hashchange", () => {
       if (location.hash.slice(1) !== addressOf(state)) open(location.hash);
     });
