@@ -1,4 +1,4 @@
-"""The kernel of the live page in Node: the bits of the native baseline, the numbers of the package; and what is missing."""
+"""The kernel of the live page in Node: bits of the native baseline, numbers of the package; the page, its command."""
 
 from __future__ import annotations
 
@@ -19,11 +19,10 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
-from seismass.explore import explorer_html
-from seismass.explore import compiled
+from seismass.effective_mass.curve import bootstrap_counts
+from seismass.explore import compiled, explorer_html
 from seismass.explore.chart import BINS, CASES
 from seismass.explore.page import RESAMPLES
-from seismass.effective_mass.curve import bootstrap_counts
 from seismass.report.page import page_html
 from seismass.spectra import mean_spectrum
 
@@ -220,13 +219,14 @@ def test_what_the_page_cannot_solve_is_refused_in_words(in_node: Any) -> None:
 
 
 def test_records_are_read_to_the_bit(in_node: Any, tmp_path: Path) -> None:
-    """The built-in files, and text as `read_record` takes it: the same samples and step, or the same kind of refusal."""
+    """The built-in files, and text as `read_record` takes it: the same samples, step and unit."""
     times = [f"{0.005 * i:.3f} {np.sin(0.1 * i) * 9.0e-3:.6E}" for i in range(400)]
     texts = [
         *(record.source.read_text() for record in SUITE if record.source is not None),
         "# acceleration in g\n" + "\n".join(times),
         "Units: cm/s2, dt = 0.02\n" + "\n".join(f"{np.cos(0.1 * i):.5f}" for i in range(300)),
-        "PEER\nEvent, station\nACCELERATION TIME SERIES IN UNITS OF G\n 4   0.0050 NPTS, DT\n -.24E-03-.23E-03 .1E-02\n 0.5",
+        "PEER\nEvent, station\nACCELERATION TIME SERIES IN UNITS OF G\n 4   0.0050 NPTS, DT\n"
+        " -.24E-03-.23E-03 .1E-02\n 0.5",
     ]
     found = in_node(records=[{"text": text} for text in texts])["records"]
     for number, (text, one) in enumerate(zip(texts, found, strict=True)):
@@ -265,7 +265,10 @@ def test_records_that_cannot_be_read_are_refused(in_node: Any, tmp_path: Path, t
 
 
 def test_addresses_are_read_as_they_are_written(in_node: Any) -> None:
-    address = "v=1&by=hand&m=synthetic-3&n=2&T=0.5&z=0.02&O=1.5&r2=0.1&h=4&R=3&V=0.3,0.1&a=1.5,0&s=0.4,0.2&k=0.3,0.2&x=1.25&c=0.6"
+    address = (
+        "v=1&by=hand&m=synthetic-3&n=2&T=0.5&z=0.02&O=1.5&r2=0.1&h=4&R=3&V=0.3,0.1&a=1.5,0&s=0.4,0.2&k=0.3,0.2"
+        "&x=1.25&c=0.6"
+    )
     wrong = "#n=9&T=abc&a=1,2,3,4,5&k=0.9&s=0.3&by=magic&z="
     found = in_node(addresses=[address, "", wrong])["addresses"]
     assert found[0]["again"] == address
@@ -288,7 +291,9 @@ def test_chart_of_other_buildings_is_that_of_the_documentation() -> None:
     block = re.search(r"<!-- builtin -->\n(.*?)<!-- end of builtin -->", text, re.DOTALL)
     assert block is not None
     assert f"{CASES} cases" in block[1]
-    rows = re.findall(r"^([\d.]+) +(?:to ([\d.]+)|and more) +\d+ +([\d.]+) +([\d.]+) +([\d.]+)$", block[1], re.MULTILINE)
+    rows = re.findall(
+        r"^([\d.]+) +(?:to ([\d.]+)|and more) +\d+ +([\d.]+) +([\d.]+) +([\d.]+)$", block[1], re.MULTILINE
+    )
     assert [(*map(float, row[:1]), float(row[1]) if row[1] else None, *map(float, row[2:])) for row in rows] == [
         dataclasses.astuple(one) for one in BINS
     ]

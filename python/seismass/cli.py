@@ -27,7 +27,21 @@ from seismass.commands import (
 )
 from seismass.errors import SeismassError
 
-COMMANDS = (building, effective_map, study, run, animate, explore, records, spectrum, scale, match, pulse, validate, report)
+COMMANDS = (
+    building,
+    effective_map,
+    study,
+    run,
+    animate,
+    explore,
+    records,
+    spectrum,
+    scale,
+    match,
+    pulse,
+    validate,
+    report,
+)
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""

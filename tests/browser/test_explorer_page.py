@@ -1,4 +1,4 @@
-"""The live page in a browser: it solves what is chosen, shows the numbers of `seismass run`, and keeps a case in its address."""
+"""The live page in a browser: the numbers of `seismass run`, a case in its address, records of one's own, speed."""
 
 from __future__ import annotations
 
@@ -134,15 +134,18 @@ def test_fraction_is_that_of_the_package(html: str, open_page: Any, tmp_path: Pa
         table = rows(page, "suite")
         file = exported(page, tmp_path)
     scene = sm.read_scene(file).scene
-    expected = sm.effective_mass(scene, [record.scaled(factor * 0.8) for record, factor in zip(suite, factors, strict=True)])
+    expected = sm.effective_mass(
+        scene, [record.scaled(factor * 0.8) for record, factor in zip(suite, factors, strict=True)]
+    )
     assert expected.interval is not None
     low, high = expected.interval
     assert words.startswith(
-        f"Effective fraction {expected.value:.3f} (90 % interval over the motions {low:.2f} to {high:.2f}); {expected.kind}: "
+        f"Effective fraction {expected.value:.3f} (90 % interval over the motions {low:.2f} to {high:.2f}); "
+        f"{expected.kind}: "
     )
     assert (
-        f"eta = {expected.eta:.3f} (C1 = {expected.base_shear_coefficient:.4f}): min(1, eta²) = {expected.estimate:.3f} "
-        f"at best, min(1, eta) = {expected.conservative:.3f} to be safe" in words
+        f"eta = {expected.eta:.3f} (C1 = {expected.base_shear_coefficient:.4f}): min(1, eta²) = "
+        f"{expected.estimate:.3f} at best, min(1, eta) = {expected.conservative:.3f} to be safe" in words
     )
     # Drifts of the package are over the height.
     height = float(scene.building.heights[0])
@@ -196,7 +199,9 @@ def test_what_is_out_of_range_is_said_and_not_taken(html: str, open_page: Any) -
         assert not page.locator(".problem").is_visible()
         visit(page, "n=7&m=file:mine.AT2")
         said = page.locator(".problem").inner_text()
-        assert said.startswith("storeys in the address must be from 1 to 4; got 7 The record file:mine.AT2 of this link")
+        assert said.startswith(
+            "storeys in the address must be from 1 to 4; got 7. The record file:mine.AT2 of this link"
+        )
 
 
 def test_goods_by_keyboard_and_friction_that_follows(html: str, open_page: Any) -> None:
@@ -226,7 +231,8 @@ def test_answer_is_said_once_in_words(html: str, open_page: Any) -> None:
         assert region.get_attribute("role") == "status"
         page.evaluate("""() => {
           window.said = [];
-          new MutationObserver(() => window.said.push(1)).observe(document.querySelector('.answer'), { childList: true });
+          const observer = new MutationObserver(() => window.said.push(1));
+          observer.observe(document.querySelector('.answer'), { childList: true });
         }""")
         slider = page.get_by_label("R, slider")
         slider.focus()
@@ -234,7 +240,9 @@ def test_answer_is_said_once_in_words(html: str, open_page: Any) -> None:
             page.keyboard.press("ArrowLeft")
         settled(page)
         assert 1 <= page.evaluate("window.said.length") <= 3
-        assert re.match(r"Largest drift [\d.]+ mm \([\d.]+ % of the height\) in storey 1\. Storeys", region.inner_text())
+        assert re.match(
+            r"Largest drift [\d.]+ mm \([\d.]+ % of the height\) in storey 1\. Storeys", region.inner_text()
+        )
         assert "Effective fraction of the goods" in region.inner_text()
 
 
@@ -284,5 +292,7 @@ def test_page_is_fast(html: str, open_page: Any) -> None:
           return performance.now() - start;
         }"""
         taken = [page.evaluate(measure, f"{0.4 + 0.01 * step:.2f}") for step in range(21)]
-    print(f"first picture {loaded:.0f} ms after the page was asked for; a slider moved: {statistics.median(taken):.1f} ms")
+    print(
+        f"first picture {loaded:.0f} ms after the page was asked for; a slider moved: {statistics.median(taken):.1f} ms"
+    )
     assert len(taken) == 21

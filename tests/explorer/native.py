@@ -1,4 +1,4 @@
-"""Solves the same runs with the kernel of this installation: python native.py < asked.json; hashes as solve.js has them."""
+"""Solves the runs of solve.js with the kernel of this installation: python native.py < asked.json."""
 
 from __future__ import annotations
 

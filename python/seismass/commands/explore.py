@@ -14,8 +14,9 @@ _EPILOG = """examples:
   seismass explore
   seismass explore --out warehouse.html --open
 
-The page needs nothing but itself: no network and no Python. docs/explorer.md explains it. It carries the kernel compiled
-to WebAssembly, which wheels of releases have; in a clone of the project, make explorer compiles it and writes the page.
+The page needs nothing but itself: no network and no Python. docs/explorer.md explains it. It carries the kernel
+compiled to WebAssembly, which wheels of releases have; in a clone of the project, make explorer compiles it and writes
+the page.
 exit codes: 0 done, 2 bad input, or no compiled kernel"""
 
 

@@ -58,7 +58,7 @@
       remarks.push(`The record ${state.record} of this link is not part of the page: drop its file here. ${given.suite[0]} stands in for it.`);
       state.record = given.suite[0];
     }
-    complain(remarks.join(" "));
+    complain(remarks.map((remark) => remark.replace(/\.?$/, ".")).join(" "));
     fill();
     changed();
   }
