@@ -440,7 +440,7 @@
   });
 
   start().catch((error) => {
-    complain(`The kernel could not be started: ${error.message}. The page needs a browser with WebAssembly SIMD and DecompressionStream: Chromium 91, Firefox 113, Safari 16.4 or newer.`);
+    complain(`The kernel could not be started: ${error.message}. The page needs a newer browser: Chromium 120, Firefox 117, Safari 17.2 or later.`);
     one(".answer").textContent = "The kernel could not be started.";
   });
 })();
