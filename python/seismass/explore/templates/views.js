@@ -140,6 +140,13 @@ function fractionTables(root, found, names) {
 }
 
 // ---- figures --------------------------------------------------------------------------------------------------------
+// Zero, and the largest round number on either side.
+function evenTicks(most) {
+  const power = 10 ** Math.floor(Math.log10(most));
+  const round = [5, 2, 1].find((one) => one * power <= most) * power;
+  const words = String(Number(round.toPrecision(1)));
+  return [[-round, `${MINUS}${words}`], [0, "0"], [round, words]];
+}
 function drawLoops(canvas, colours, { state, scene, real, code, beside }, at) {
   const chart = chartOf(canvas, colours);
   if (chart.width === 0) return;
@@ -154,7 +161,7 @@ function drawLoops(canvas, colours, { state, scene, real, code, beside }, at) {
   const entries = [{ words: "goods slide", colour: colours.real }];
   if (other) entries.push({ words: beside.words, colour: colours.model, thick: 1.2, dash: [4, 2] });
   const keyEnd = chart.key(entries, 46, 14, chart.width);
-  const [left, gap, foot] = [46, 12, 38];
+  const [left, gap, foot] = [56, 16, 38];
   const wide = (chart.width - left - 8 - gap * (columns - 1)) / columns;
   const high = (chart.height - keyEnd - foot - (lines - 1) * 40) / lines;
   for (let i = 0; i < n; i++) {
@@ -163,9 +170,8 @@ function drawLoops(canvas, colours, { state, scene, real, code, beside }, at) {
     Object.assign(box, { right: box.left + wide, bottom: box.top + high - 12 });
     const last = i + columns >= n;
     const panel = chart.panel(box, [-drift, drift], [-force, force], {
-      title: `storey ${i + 1}`, xCount: wide < 170 ? 2 : 4, yCount: high < 140 ? 2 : 4, xTitle: last ? "drift (mm)" : "",
-      yTitle: column ? "" : "shear / W",
-      yTicks: column ? [] : undefined, xTicks: last ? undefined : [],
+      title: `storey ${i + 1}`, xTitle: last ? "drift (mm)" : "", yTitle: column ? "" : "shear / W",
+      xTicks: last ? evenTicks(drift) : [], yTicks: column ? [] : evenTicks(force),
     });
     for (const [run, colour, options] of [[other, colours.model, { width: 1, dash: [4, 2] }], [real, colours.real, { width: 1.2 }]]) {
       if (!run) continue;
