@@ -76,7 +76,7 @@ test-rust:
 test-python: build $(VENV)/browser web-kernel
 	$(PYTHON) -m pytest --numprocesses 2 --dist loadfile
 
-test-wheel: build
+test-wheel: build web-kernel
 	sh tools/check-wheel $(PYTHON)
 
 # Wheels for Linux on x86-64 and aarch64 in dist, from either. Needs Rust's standard library for both, and says so.
