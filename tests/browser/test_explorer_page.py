@@ -43,8 +43,9 @@ def until(page: Any, expression: str) -> None:
 
 
 def settled(page: Any) -> None:
-    """Wait for the effective fraction of the case that is shown."""
+    """Wait for the effective fraction of the case that was chosen last, which is solved at the next frame."""
     until(page, READY)
+    page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
     until(page, FOUND)
 
 
@@ -274,6 +275,27 @@ def test_own_record_is_taken_from_a_file(html: str, open_page: Any, tmp_path: Pa
     assert scene.motion.dt == read.dt
     peaks = sm.simulate(scene.scene, read).peak_drift
     assert [row[1] for row in shown] == [f"{1e3 * peak:.3f}" for peak in peaks]
+
+
+def test_it_plays_when_it_is_opened_unless_less_motion_is_preferred(html: str, open_page: Any) -> None:
+    """And goes on from where it is when another case is solved; the dots of the loops follow."""
+    clock = "parseFloat(document.querySelector('.clock').textContent)"
+    loops = "document.querySelector('.loops').toDataURL()"
+    with open_page(html, "explorer") as page:
+        settled(page)
+        until(page, f"{clock} > 0.5")
+        before, drawn = page.evaluate(clock), page.evaluate(loops)
+        page.get_by_label("2", exact=True).check()
+        until(page, f"{SHOWN} >= 2")
+        assert page.evaluate(clock) >= before
+        page.locator(".play").click()
+        assert page.evaluate(loops) != drawn
+    with open_page(html, "explorer", reduced_motion="reduce") as page:
+        settled(page)
+        assert page.evaluate(clock) == 0.0
+        drawn = page.evaluate(loops)
+        page.locator(".time").evaluate("e => { e.value = 8.5; e.dispatchEvent(new Event('input')); }")
+        assert page.evaluate(loops) != drawn
 
 
 def test_page_is_fast(html: str, open_page: Any) -> None:

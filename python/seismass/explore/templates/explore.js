@@ -34,6 +34,7 @@
     kernel.setSuite(suiteAt(1), new Float64Array(0)); // for the spectrum of the design
     open(location.hash);
     requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("first picture")));
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) requestAnimationFrame(() => player.play());
     window.addEventListener("hashchange", () => {
       if (location.hash.slice(1) !== addressOf(state)) open(location.hash);
     });
@@ -287,9 +288,11 @@
     return Object.fromEntries(["paper", "ink", "soft", "line", "real", "model", "other", "yield"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
   }
   let time = 0;
+  let putDots = () => {};
   function drawRun() {
     const palette = colours();
-    drawLoops(one(".loops"), palette, solved, time / seconds(solved.record, solved.every));
+    putDots = drawLoops(one(".loops"), palette, solved);
+    putDots(time / seconds(solved.record, solved.every));
     drawProfile(one(".profile"), palette, solved);
   }
   function drawFraction() {
@@ -399,7 +402,7 @@
 
   player.addEventListener("time", (event) => {
     time = event.detail;
-    if (solved !== null) drawLoops(one(".loops"), colours(), solved, time / seconds(solved.record, solved.every));
+    if (solved !== null) putDots(time / seconds(solved.record, solved.every));
   });
   const redraw = () => {
     if (solved === null) return;

@@ -147,9 +147,10 @@ function evenTicks(most) {
   const words = String(Number(round.toPrecision(1)));
   return [[-round, `${MINUS}${words}`], [0, "0"], [round, words]];
 }
-function drawLoops(canvas, colours, { state, scene, real, code, beside }, at) {
+// Returns what puts the dots where a row of the histories is, over the loops that stay as they are.
+function drawLoops(canvas, colours, { scene, real, beside }) {
   const chart = chartOf(canvas, colours);
-  if (chart.width === 0) return;
+  if (chart.width === 0) return () => {};
   const n = scene.storeys;
   const weight = GRAVITY * n;
   const columns = n === 4 && chart.width < 480 ? 2 : n;
@@ -164,6 +165,7 @@ function drawLoops(canvas, colours, { state, scene, real, code, beside }, at) {
   const [left, gap, foot] = [56, 16, 38];
   const wide = (chart.width - left - 8 - gap * (columns - 1)) / columns;
   const high = (chart.height - keyEnd - foot - (lines - 1) * 40) / lines;
+  const panels = [];
   for (let i = 0; i < n; i++) {
     const [column, line] = [i % columns, Math.floor(i / columns)];
     const box = { left: left + column * (wide + gap), top: keyEnd + 12 + line * (high + 28) };
@@ -178,11 +180,19 @@ function drawLoops(canvas, colours, { state, scene, real, code, beside }, at) {
       const rows = Math.min(run.rows, run.drift.length / n);
       panel.line(Array.from({ length: rows }, (_, row) => [1000 * run.drift[row * n + i], run.force[row * n + i] / weight]), { colour, ...options });
     }
-    const row = Math.min(Math.round(at), real.rows - 1);
-    panel.dot(1000 * real.drift[row * n + i], real.force[row * n + i] / weight, colours.yield);
+    panels.push(panel);
   }
   const peaks = Array.from(real.peakShear, (shear, i) => `storey ${i + 1} up to ${general(shear / weight, 3)} of the weight at drifts up to ${fixed(1000 * real.peakDrift[i], 1)} mm`);
   canvas.setAttribute("aria-label", `Storey shear against drift: ${peaks.join(", ")}.`);
+  const loops = document.createElement("canvas");
+  [loops.width, loops.height] = [canvas.width, canvas.height];
+  loops.getContext("2d").drawImage(canvas, 0, 0);
+  return (at) => {
+    const row = Math.min(Math.round(at), real.rows - 1);
+    chart.context.clearRect(0, 0, chart.width, chart.height);
+    chart.context.drawImage(loops, 0, 0, chart.width, chart.height);
+    panels.forEach((panel, i) => panel.dot(1000 * real.drift[row * n + i], real.force[row * n + i] / weight, colours.yield));
+  };
 }
 
 function drawProfile(canvas, colours, { state, scene, real, code, full }) {

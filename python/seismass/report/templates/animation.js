@@ -513,6 +513,7 @@
     time = Math.min(time, END);
     redraw();
   };
+  root.play = () => setPlaying(true);
   redraw();
   if (alone && !still.matches) setPlaying(true);
 })();
