@@ -7,6 +7,7 @@ BENCH_VENV := .venv-bench
 PYTHON := $(VENV)/bin/python
 RUST_SOURCES := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
 DATA := $(shell find data -type f)
+WEB_KERNEL := python/seismass/explore/seismass_web.wasm
 
 export PATH := $(PATH):$(HOME)/.cargo/bin
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
@@ -14,11 +15,16 @@ export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
-.PHONY: study test bench bench-kernel count-instructions stress docs clean build lint test-rust test-python test-wheel wheels \
-	test-aarch64
+.PHONY: study explorer test bench bench-kernel count-instructions stress docs clean build lint test-rust test-python test-wheel wheels \
+	test-aarch64 web-kernel
 
 study: build
 	$(VENV)/bin/seismass study --effective --sensitivity --out out/study
+
+# The live page: out/explorer.html. Needs Rust's standard library for WebAssembly, or its sources, and says so.
+explorer: build $(WEB_KERNEL)
+	@mkdir -p out
+	$(VENV)/bin/seismass explore --out out/explorer.html
 
 test: lint docs test-wheel test-rust test-python
 
@@ -68,14 +74,14 @@ test-rust:
 	cargo test --locked --workspace --exclude seismass-python
 
 # Two processes, a file's tests in one of them: they share its fixtures.
-test-python: build $(VENV)/browser
+test-python: build $(VENV)/browser web-kernel
 	$(PYTHON) -m pytest --numprocesses 2 --dist loadfile
 
-test-wheel: build
+test-wheel: build web-kernel
 	sh tools/check-wheel $(PYTHON)
 
 # Wheels for Linux on x86-64 and aarch64 in dist, from either. Needs Rust's standard library for both, and says so.
-wheels: build
+wheels: build web-kernel
 	$(PYTHON) -m pip install --quiet --group wheels
 	env -u CONDA_PREFIX VIRTUAL_ENV=$(abspath $(VENV)) PATH="$(abspath $(VENV))/bin:$$PATH" sh tools/make-wheels $(PYTHON) dist
 
@@ -89,7 +95,7 @@ docs:
 clean:
 	cargo clean
 	rm -rf $(VENV) $(BENCH_VENV) out dist python/seismass/data .pytest_cache .mypy_cache .ruff_cache .hypothesis
-	rm -f python/seismass/_kernel*.so python/seismass/_kernel*.pyd
+	rm -f python/seismass/_kernel*.so python/seismass/_kernel*.pyd $(WEB_KERNEL)
 	find python tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 build: $(VENV)/built
@@ -102,6 +108,14 @@ $(VENV)/installed: $(VENV)/created pyproject.toml
 	$(PYTHON) -m pip install --quiet --upgrade 'pip>=25.1'
 	$(PYTHON) -m pip install --quiet --group dev
 	@touch $@
+
+$(WEB_KERNEL): $(RUST_SOURCES) tools/make-web-kernel
+	sh tools/make-web-kernel
+
+# The same where a toolchain can; elsewhere the tests of the live page are skipped with a word.
+web-kernel:
+	@if sh tools/make-web-kernel --check 2>/dev/null; then $(MAKE) --no-print-directory $(WEB_KERNEL); \
+		else echo "no toolchain for WebAssembly (make explorer says what is missing): the live page is not tested" >&2; fi
 
 # Without it, or without a Chromium on the path, the tests that open pages are skipped with a word.
 $(VENV)/browser: $(VENV)/installed

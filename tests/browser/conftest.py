@@ -44,7 +44,8 @@ def browser() -> Iterator[Browser]:
 def open_page(browser: Browser, tmp_path: Path) -> Callable[..., Any]:
     """Return what opens a page: `with open_page(html, name, width=360, color_scheme="dark") as page`.
 
-    When it is left, there was nothing on the console and no request but that for the page.
+    When it is left, there was nothing on the console and no request but that for the page; what a page made itself,
+    such as the script of a worker, is none.
     """
 
     @contextmanager
@@ -57,7 +58,7 @@ def open_page(browser: Browser, tmp_path: Path) -> Callable[..., Any]:
         asked: list[str] = []
         page.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
         page.on("pageerror", lambda error: said.append(f"error: {error}"))
-        page.on("request", lambda request: asked.append(request.url))
+        page.on("request", lambda request: None if request.url.startswith("blob:") else asked.append(request.url))
         page.goto(file.as_uri())
         yield page
         context.close()

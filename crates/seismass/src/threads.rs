@@ -19,9 +19,7 @@ pub struct Control {
 /// one, whose threads stay. A process that was forked from one that has used that has none of its threads: it takes a
 /// pool of its own.
 pub(crate) fn in_pool<T: Send>(threads: Option<usize>, owner: &str, work: impl FnOnce() -> T + Send) -> Result<T> {
-    static PROCESS: OnceLock<u32> = OnceLock::new();
-    let process = std::process::id();
-    if *PROCESS.get_or_init(|| process) == process && threads.is_none_or(are_all_cores) {
+    if is_first_process() && threads.is_none_or(are_all_cores) {
         return Ok(work());
     }
     let refuse =
@@ -31,6 +29,20 @@ pub(crate) fn in_pool<T: Send>(threads: Option<usize>, owner: &str, work: impl F
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build();
     Ok(pool.map_err(|error| refuse(format!("a number the system can start ({error})")))?.install(work))
+}
+
+/// Whether this is the process that was the first to ask.
+#[cfg(not(target_family = "wasm"))]
+fn is_first_process() -> bool {
+    static PROCESS: OnceLock<u32> = OnceLock::new();
+    let process = std::process::id();
+    *PROCESS.get_or_init(|| process) == process
+}
+
+/// WebAssembly has no processes, and its standard library stops where it is asked for one.
+#[cfg(target_family = "wasm")]
+fn is_first_process() -> bool {
+    true
 }
 
 /// Whether the global pool has so many threads. It is started by this where there are as many cores, not otherwise.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -55,8 +56,29 @@ def element_content(animation: Animation) -> dict[str, Any]:
     }
 
 
-def element_html(content: dict[str, Any], *, autoplay: bool = False) -> Markup:
-    """Return the element of what `element_content` gives."""
+def element_html(
+    content: dict[str, Any],
+    *,
+    autoplay: bool = False,
+    speeds: Iterable[float] = SPEEDS,
+    factors: Iterable[tuple[float, str]] | None = None,
+) -> Markup:
+    """Return the element of what `element_content` gives.
+
+    Parameters
+    ----------
+    content : dict
+        What the element shows; without data (None) it waits for them, which its `show` takes.
+    autoplay : bool
+        Whether it plays when it is opened.
+    speeds : iterable of float
+        Choices of speed.
+    factors : iterable of (float, str), optional
+        Choices by which displacements are enlarged, with their words; 0 is the factor of the data. By default round
+        ones, and that of the content.
+    """
+    times = "\N{MULTIPLICATION SIGN}"
+    choices = factors or [(factor, f"{factor:g} {times}") for factor in sorted({content["factor"], *FACTORS})]
     data = json.dumps(content["data"], separators=(",", ":")).replace("<", "\\u003c")
     html: str = (
         templates()
@@ -66,10 +88,8 @@ def element_html(content: dict[str, Any], *, autoplay: bool = False) -> Markup:
             identifier="animation-" + hashlib.sha256(data.encode()).hexdigest()[:10],
             data=Markup(data),
             autoplay=autoplay,
-            speeds=[(speed, f"{speed:g} \N{MULTIPLICATION SIGN}") for speed in SPEEDS],
-            factors=[
-                (factor, f"{factor:g} \N{MULTIPLICATION SIGN}") for factor in sorted({content["factor"], *FACTORS})
-            ],
+            speeds=[(speed, f"{speed:g} {times}") for speed in speeds],
+            factors=list(choices),
         )
     )
     return Markup(html)

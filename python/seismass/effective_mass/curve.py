@@ -159,11 +159,17 @@ def resampled(
     model, real : ndarray, shape (resamples, shares)
         Statistic of each resample.
     """
-    count = int(cluster_of.max()) + 1
-    draws = np.random.default_rng(seed).multinomial(count, np.full(count, 1.0 / count), size=resamples)
-    weights = draws[:, cluster_of].astype(np.float64)
+    weights = bootstrap_counts(cluster_of, resamples, seed)
     model_drift, real_drift = (_weighted(values, weights, statistic) for values in (model, real))
     return model_drift, np.broadcast_to(real_drift, model_drift.shape)
+
+
+def bootstrap_counts(cluster_of: NDArray[np.int64], resamples: int, seed: int) -> FloatArray:
+    """Return how often each resample has each record, shape (resamples, records); see `resampled`."""
+    count = int(cluster_of.max()) + 1
+    draws = np.random.default_rng(seed).multinomial(count, np.full(count, 1.0 / count), size=resamples)
+    counts: FloatArray = draws[:, cluster_of].astype(np.float64)
+    return counts
 
 
 def _weighted(values: FloatArray, weights: FloatArray, statistic: Statistic) -> FloatArray:

@@ -93,7 +93,14 @@ def facts_html(facts: Mapping[str, str]) -> Markup:
     return Markup('<dl class="facts">{}</dl>').format(Markup("").join(rows))
 
 
-def page_html(title: str, sections: Iterable[Section], *, subtitle: str = "", lead: Iterable[str] = ()) -> str:
+def page_html(
+    title: str,
+    sections: Iterable[Section],
+    *,
+    subtitle: str = "",
+    lead: Iterable[str] = (),
+    runs_kernel: bool = False,
+) -> str:
     """Return a whole page.
 
     Its Content-Security-Policy allows no request at all, and no script but those of the page, which it names by their
@@ -109,6 +116,8 @@ def page_html(title: str, sections: Iterable[Section], *, subtitle: str = "", le
         A line below the heading, such as the version and the date of the input.
     lead : iterable of Markup, optional
         What comes before the table of contents: the answer.
+    runs_kernel : bool
+        Whether the page runs WebAssembly, and in a worker too, that it carries itself: then its policy lets it.
 
     Returns
     -------
@@ -121,8 +130,9 @@ def page_html(title: str, sections: Iterable[Section], *, subtitle: str = "", le
     )
     digests = (hashlib.sha256(script.encode()).digest() for script in _SCRIPT.findall(page))
     allowed = dict.fromkeys(f"'sha256-{base64.b64encode(digest).decode()}'" for digest in digests)
+    sources = [*allowed, *(("'wasm-unsafe-eval'", "; worker-src", "blob:") if runs_kernel else ())]
     # The template leaves one place for it, ahead of anything that a caller gave.
-    return page.replace("SCRIPT-DIGESTS", " ".join(allowed), 1)
+    return page.replace("SCRIPT-DIGESTS", " ".join(sources).replace(" ;", ";"), 1)
 
 
 @cache

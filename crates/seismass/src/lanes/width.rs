@@ -39,6 +39,7 @@ pub(crate) fn filled_to(length: usize, values: impl IntoIterator<Item = f64>, pa
 }
 
 /// An expression in which `$count` is the number of vectors in a padded width of at most [`MAX_LANES`], as a constant.
+#[cfg(not(feature = "four-storeys"))]
 macro_rules! by_width {
     ($width:expr, $count:ident => $call:expr) => {
         match $width {
@@ -66,9 +67,20 @@ macro_rules! by_width {
     };
 }
 
+/// One vector holds all storeys.
+#[cfg(feature = "four-storeys")]
+macro_rules! by_width {
+    ($width:expr, $count:ident => $call:expr) => {{
+        let _ = $width;
+        const $count: usize = 1;
+        $call
+    }};
+}
+
 pub(crate) use by_width;
 
 /// [`by_width`] of widths that hold at most [`MAX_DENSE`] storeys.
+#[cfg(not(feature = "four-storeys"))]
 macro_rules! by_dense_width {
     ($width:expr, $count:ident => $call:expr) => {
         match $width {
@@ -87,4 +99,15 @@ macro_rules! by_dense_width {
         }
     };
 }
+
+/// One vector holds all storeys.
+#[cfg(feature = "four-storeys")]
+macro_rules! by_dense_width {
+    ($width:expr, $count:ident => $call:expr) => {{
+        let _ = $width;
+        const $count: usize = 1;
+        $call
+    }};
+}
+
 pub(crate) use by_dense_width;

@@ -8,7 +8,12 @@ use crate::scene::damping::{Damping, StoreyDamping, natural_frequencies};
 use crate::scene::storey::Storey;
 
 /// Most storeys of a building: a full damping matrix takes 8 MB.
+#[cfg(not(feature = "four-storeys"))]
 pub const MAX_STOREYS: usize = 1000;
+
+/// Most storeys of a building: the feature `four-storeys` leaves out what more would need.
+#[cfg(feature = "four-storeys")]
+pub const MAX_STOREYS: usize = 4;
 
 /// Where the P-Delta effect comes from.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -1,7 +1,6 @@
 "use strict";
 (() => {
   const root = document.currentScript.parentElement;
-  const data = JSON.parse(root.querySelector('script[type="application/json"]').textContent);
   const one = (name) => root.querySelector("." + name);
   const [play, slider, clock, speed, factor] = ["play", "time", "clock", "speed", "factor"].map(one);
   const [buildings, plots] = [one("buildings"), one("plots")];
@@ -10,42 +9,54 @@
   const FLASH = 0.35; // seconds on the screen
 
   // ---- data -------------------------------------------------------------------------------------------------------
-  const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
-  // Values are little-endian, as every machine with a browser is.
-  const numbers = (text, peak) => Float32Array.from(new Int16Array(bytes(text)), (value) => (value * peak) / 32767);
-  const ground = { low: numbers(data.ground.low, data.ground.peak), high: numbers(data.ground.high, data.ground.peak) };
-  const storeys = data.heights.length;
-  const kinds = Object.fromEntries(data.kinds.map((name, i) => [name, i]));
-  const END = (data.rows - 1) * data.step;
+  let [data, ground, runs] = [null, null, []];
+  let [storeys, blockCount, END] = [0, 0, 0];
 
-  const runs = data.runs.map((given) => {
+  const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
+  // Values are little-endian, as every machine with a browser is. A page that solves while it is shown gives arrays.
+  const numbers = (given, peak) => {
+    if (typeof given !== "string") return given;
+    return Float32Array.from(new Int16Array(bytes(given)), (value) => (value * peak) / 32767);
+  };
+  const whole = (given, Type) => (typeof given === "string" ? new Type(bytes(given)) : given);
+
+  // Of each storey and block the events that change its state, and what the state is from there on.
+  const STARTS = { yield: 1, slip: 1, reverse: 1, lift: 2, unload: 0, reload: 0, stick: 0, touch: 1, land: 1 };
+  function opened(given) {
     const drift = numbers(given.drift.values, given.drift.peak);
     const slip = numbers(given.slip.values, given.slip.peak);
     const blocks = given.slip.peak > 0 || slip.length ? slip.length / given.rows : 0;
-    const event = { row: new Uint32Array(bytes(given.events.row)), kind: new Uint8Array(bytes(given.events.kind)) };
-    event.number = new Uint16Array(bytes(given.events.number));
+    const event = { row: whole(given.events.row, Uint32Array), kind: whole(given.events.kind, Uint8Array) };
+    event.number = whole(given.events.number, Uint16Array);
     const largest = new Float32Array(given.rows); // drift so far, of the storey that is compared
     for (let row = 0; row < given.rows; row++) {
       const here = storeys ? Math.abs(drift[row * storeys + data.storey]) : 0;
       largest[row] = row ? Math.max(largest[row - 1], here) : here;
     }
-    // Of each storey and block the events that change its state, and what the state is from there on.
-    const starts = { yield: 1, slip: 1, reverse: 1, lift: 2, unload: 0, reload: 0, stick: 0, touch: 1, land: 1 };
     const changes = new Map();
     event.row.forEach((row, i) => {
       const name = data.kinds[event.kind[i]];
-      if (!(name in starts)) return;
+      if (!(name in STARTS)) return;
       const ofStorey = name === "yield" || name === "unload" || name === "reload";
       const places = ofStorey || event.number[i] ? [event.number[i]] : Array.from({ length: blocks }, (_, j) => j + 1);
       for (const place of places) {
         const key = (ofStorey ? "s" : "b") + place;
         if (!changes.has(key)) changes.set(key, []);
-        changes.get(key).push([row, starts[name]]);
+        changes.get(key).push([row, STARTS[name]]);
       }
     });
     return { ...given, drift, slip, blocks, event, largest, changes };
-  });
-  const blockCount = runs[0].blocks;
+  }
+  function open(given) {
+    data = given;
+    ground = { low: numbers(data.ground.low, data.ground.peak), high: numbers(data.ground.high, data.ground.peak) };
+    storeys = data.heights.length;
+    END = (data.rows - 1) * data.step;
+    runs = data.runs.map(opened);
+    blockCount = runs[0].blocks;
+    slider.max = String(END);
+    if (data.alt) buildings.setAttribute("aria-label", data.alt);
+  }
 
   const lastUpTo = (list, row, of) => {
     let [low, high] = [0, list.length];
@@ -268,6 +279,12 @@
     }
     return [low, high];
   };
+  // Rows of the real building at which it begins to yield or its goods begin to slide, where they are to be marked.
+  function marksOf(name, number) {
+    const { row, kind, number: numbered } = runs[0].event;
+    const isOne = (_, i) => data.kinds[kind[i]] === name && (number === undefined || numbered[i] === number);
+    return data.marks ? Array.from(row).filter(isOne) : [];
+  }
   const DASHES = [[], [6, 3], [2, 3], [9, 3, 2, 3], [1, 2]];
   function panelsOf(mostCurves) {
     const wide = storeys ? (data.known ? 100 / data.heights[data.storey] : 1000) : 1;
@@ -280,7 +297,7 @@
         colour: colourOf(run), dash: i ? [5, 2] : [], label: run.attached === null ? "real" : "model",
       }));
       const title = `drift of storey ${data.storey + 1} (${unit})`;
-      panels.push({ title, ends: rangeOf(curves), digits: data.known ? 2 : 1, curves });
+      panels.push({ title, ends: rangeOf(curves), digits: data.known ? 2 : 1, curves, marks: marksOf("yield", data.storey + 1) });
     }
     if (blockCount) {
       const real = runs[0];
@@ -293,7 +310,7 @@
       const curves = all.filter((curve) => most.some(([, other]) => other === curve));
       curves.forEach((curve, i) => Object.assign(curve, { colour: hues[i], dash: DASHES[i] }));
       const title = all.length > mostCurves ? `slip (mm), ${mostCurves} blocks of ${all.length}` : "slip of blocks (mm)";
-      panels.push({ title, ends: rangeOf(curves), digits: 1, curves });
+      panels.push({ title, ends: rangeOf(curves), digits: 1, curves, marks: marksOf("slip") });
     }
     return panels;
   }
@@ -353,6 +370,16 @@
         stroke(context, curve, 1.5, points);
       }
     });
+    for (const panel of panels) {
+      context.strokeStyle = colours.yield;
+      context.lineWidth = 1;
+      context.beginPath();
+      for (const row of panel.marks || []) {
+        context.moveTo(xOf(row), panel.low + 1);
+        context.lineTo(xOf(row), panel.low + 6);
+      }
+      context.stroke();
+    }
     const seconds = [1, 2, 5, 10, 20, 50, 100, 200, 500].find((one) => (x1 - x0) / (END / one) >= 44) || 1000;
     for (let t = 0; t <= END + 1e-9; t += seconds) {
       const last = t + seconds > END;
@@ -399,15 +426,17 @@
   let since = null; // the time of the last frame on the screen while it plays
 
   function draw() {
+    if (data === null) return;
     const at = Math.min(time / data.step, data.rows - 1) || 0;
     const [context, width, height] = sized(buildings);
     if (width === 0) return;
     const each = width / runs.length;
-    runs.forEach((run, i) => drawBuilding(context, run, i * each, each, height, at, Number(factor.value)));
+    runs.forEach((run, i) => drawBuilding(context, run, i * each, each, height, at, Number(factor.value) || data.factor));
     drawPlots(at);
     slider.value = String(time);
     slider.setAttribute("aria-valuetext", `${time.toFixed(1)} of ${END.toFixed(1)} seconds`);
     clock.textContent = `${time.toFixed(2)} of ${END.toFixed(1)} s`;
+    root.dispatchEvent(new CustomEvent("time", { detail: time }));
   }
   const redraw = () => {
     readColours();
@@ -476,6 +505,15 @@
     backdrop = null;
     draw();
   }).observe(root);
+  const stored = JSON.parse(root.querySelector('script[type="application/json"]').textContent);
+  if (stored !== null) open(stored);
+  // For a page that solves while it is shown: other runs at the time that is shown.
+  root.show = (given) => {
+    open(given);
+    time = Math.min(time, END);
+    redraw();
+  };
+  root.play = () => setPlaying(true);
   redraw();
   if (alone && !still.matches) setPlaying(true);
 })();

@@ -1,0 +1,12 @@
+"""The live page: the exact kernel, compiled to WebAssembly, solves a building with sliding goods while a slider moves.
+
+`explorer_html` makes one file that needs nothing but itself: no network, no installation. It needs the compiled kernel,
+which a wheel of a release carries and `make explorer` builds.
+"""
+
+from __future__ import annotations
+
+from seismass.explore.compiled import kernel_file
+from seismass.explore.page import explorer_html
+
+__all__ = ["explorer_html", "kernel_file"]

@@ -1,0 +1,449 @@
+"use strict";
+(() => {
+  const root = document.currentScript.parentElement;
+  const one = (selector) => root.querySelector(selector);
+  const all = (selector) => Array.from(root.querySelectorAll(selector));
+  const given = JSON.parse(one("script.given").textContent);
+  const player = one("figure.animation");
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const PAUSE = 150; // ms without a change before the effective fraction is sought, and the address and the words follow
+  const SHARES = 101;
+
+  let kernel = null;
+  let module = null;
+  let worker = null;
+  let records = new Map(); // by the name in the address: name, dt, unit, values, samples, factor
+  let state = defaultCase();
+  let solved = null; // what is shown of the motion
+  let found = null; // what is known of the effective fraction
+  let number = 0; // of the case that the worker seeks
+  let inKernel = ""; // the motion that the kernel holds
+
+  // ---- what the page carries --------------------------------------------------------------------------------------
+  const bytesOf = (text) => Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
+  async function unpacked(text) {
+    const stream = new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  }
+  async function start() {
+    const [code, texts] = await Promise.all([unpacked(one("script.wasm").textContent), unpacked(given.records)]);
+    const files = JSON.parse(new TextDecoder().decode(texts));
+    for (const { name, text, factor } of files) records.set(name, { ...readRecord(text, name), name, factor });
+    module = await WebAssembly.compile(code);
+    kernel = openKernel(await WebAssembly.instantiate(module, {}));
+    kernel.setSuite(suiteAt(1), new Float64Array(0)); // for the spectrum of the design
+    open(location.hash);
+    requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("first picture")));
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) requestAnimationFrame(() => player.play());
+    window.addEventListener("hashchange", () => {
+      if (location.hash.slice(1) !== addressOf(state)) open(location.hash);
+    });
+    root.dataset.ready = "";
+  }
+  const suite = () => given.suite.map((name) => records.get(name));
+  const scaledBy = ({ samples }, scale) => samples.map((sample) => sample * scale);
+  const suiteAt = (intensity) => suite().map((record) => ({ dt: record.dt, samples: scaledBy(record, record.factor * intensity) }));
+  const recordInUse = () => records.get(state.record) || records.get(given.suite[0]);
+
+  function complain(words) {
+    const place = one(".problem");
+    place.hidden = words === "";
+    place.textContent = words;
+  }
+
+  // ---- the case and its fields ------------------------------------------------------------------------------------
+  function open(address) {
+    const { state: opened, remarks } = caseOf(address);
+    state = opened;
+    if (!records.has(state.record)) {
+      remarks.push(`The record ${state.record} of this link is not part of the page: drop its file here. ${given.suite[0]} stands in for it.`);
+      state.record = given.suite[0];
+    }
+    complain(remarks.map((remark) => remark.replace(/\.?$/, ".")).join(" "));
+    fill();
+    changed();
+  }
+  const loaded = () => state.massRatio.slice(0, state.storeys).flatMap((ratio, i) => (ratio > 0 ? [i] : []));
+  // The value of a slider: of a list that of all loaded floors, null where they differ.
+  function shownOf(key) {
+    if (!LISTS.includes(key)) return state[key];
+    const floors = loaded();
+    const values = new Set((floors.length ? floors : [0]).map((i) => state[key][i]));
+    return values.size === 1 ? [...values][0] : null;
+  }
+  const isEdited = (field) => document.activeElement === field;
+  function fill() {
+    for (const row of all(".row")) {
+      const { key } = row.dataset;
+      const value = shownOf(key);
+      const [range, field] = row.querySelectorAll("input");
+      if (value !== null) range.value = String(value);
+      range.setAttribute("aria-valuetext", value === null ? "differs from floor to floor" : String(value));
+      if (!isEdited(field)) field.value = value === null ? "" : String(value);
+      field.placeholder = value === null ? "differs" : "";
+      if (!isEdited(field)) field.removeAttribute("aria-invalid");
+      row.toggleAttribute("data-off", key === "R" && state.by !== "design");
+    }
+    for (const radio of all('.choice input[type="radio"]')) radio.checked = String(state[radio.name]) === radio.value;
+    for (const row of all(".floors tbody tr")) row.hidden = Number(row.dataset.floor) >= state.storeys;
+    const strength = solved === null ? state.strength : solved.scene.strength;
+    for (const field of all(".floors input")) {
+      const [key, floor] = [field.dataset.list, Number(field.closest("tr").dataset.floor)];
+      if (isEdited(field)) continue;
+      const isGiven = key !== "strength" || state.by === "hand";
+      field.readOnly = !isGiven;
+      const value = key === "strength" ? strength[floor] : state[key][floor];
+      field.type = Number.isFinite(value) || value === undefined ? "number" : "text";
+      field.value = value === undefined ? "" : isGiven ? String(value) : general(value, 4);
+      field.removeAttribute("aria-invalid");
+    }
+    const select = one("#x-record");
+    for (const name of records.keys()) {
+      if (Array.from(select.options).every((option) => option.value !== name)) select.add(new Option(name.replace(/^file:/, ""), name));
+    }
+    select.value = state.record;
+    const code = Array.from(one("#x-code").options).find((option) => option.value !== "" && Number(option.value) === state.counted);
+    one("#x-code").value = code === undefined ? "" : code.value;
+    const record = recordInUse();
+    const scale = record.factor * state.intensity;
+    const pga = (largest(record.samples.map(Math.abs)) * scale) / GRAVITY;
+    one(".motion").textContent =
+      `${record.samples.length} samples at ${record.dt} s, PGA ${fixed(pga, 3)} g` +
+      (record.factor === 1 ? "." : `: scaled by ${general(record.factor, 4)} to the target${state.intensity === 1 ? "" : `, times ${general(state.intensity, 4)}`}.`);
+  }
+
+  // A number that a field gives; what is out of its range is marked and not taken.
+  function taken(field, key) {
+    const [low, high, , words] = LIMITS[key];
+    const value = field.value.trim() === "" ? NaN : Number(field.value);
+    const fits = value >= low && value <= high;
+    field.toggleAttribute("aria-invalid", false);
+    if (!fits) field.setAttribute("aria-invalid", "true");
+    complain(fits ? "" : `${words} must be from ${low} to ${high}; got ${field.value || "nothing"}`);
+    return fits ? value : null;
+  }
+  function setValue(key, value, floor) {
+    const floors = floor === undefined ? (LISTS.includes(key) ? loaded() : null) : [floor];
+    if (floors === null) state[key] = value;
+    else for (const i of floors.length ? floors : [0]) state[key][i] = value;
+    // Kinetic friction is at most static friction: the one that was not touched follows.
+    state.muS.forEach((mu, i) => {
+      if (key === "muS") state.muK[i] = Math.min(state.muK[i], mu);
+      if (key === "muK") state.muS[i] = Math.max(state.muS[i], state.muK[i]);
+    });
+    changed();
+  }
+  for (const row of all(".row")) {
+    for (const field of row.querySelectorAll("input")) {
+      field.addEventListener("input", () => {
+        const value = taken(field, row.dataset.key);
+        if (value !== null) setValue(row.dataset.key, value);
+      });
+      field.addEventListener("blur", () => fill());
+    }
+  }
+  for (const field of all(".floors input")) {
+    field.addEventListener("input", () => {
+      const value = taken(field, field.dataset.list);
+      if (value !== null) setValue(field.dataset.list, value, Number(field.closest("tr").dataset.floor));
+    });
+    field.addEventListener("blur", () => fill());
+  }
+  for (const radio of all('.choice input[type="radio"]')) {
+    radio.addEventListener("change", () => {
+      if (radio.name === "storeys") state.storeys = Number(radio.value);
+      else {
+        // By hand one starts from what was.
+        if (radio.value === "hand" && solved !== null) solved.scene.strength.forEach((value, i) => (state.strength[i] = Number.isFinite(value) ? Number(value.toPrecision(4)) : state.strength[i]));
+        state.by = radio.value;
+      }
+      changed();
+    });
+  }
+  one("#x-record").addEventListener("change", (event) => {
+    state.record = event.target.value;
+    changed();
+  });
+  one("#x-code").addEventListener("change", (event) => {
+    if (event.target.value !== "") setValue("counted", Number(event.target.value));
+  });
+  one("#x-beside").addEventListener("change", () => changed());
+  one("form.controls").addEventListener("submit", (event) => event.preventDefault());
+
+  // ---- records that are given ---------------------------------------------------------------------------------------
+  let pending = null; // a file whose unit or step has to be said
+  function takeRecord(text, name) {
+    const stated = { unit: one("#x-unit").value || undefined, dt: Number(one("#x-dt").value) || undefined };
+    try {
+      const record = readRecord(text, name, stated);
+      pending = null;
+      one(".unstated").hidden = true;
+      complain("");
+      const key = `file:${name}`;
+      records.set(key, { ...record, factor: 1 });
+      state.record = key;
+      changed();
+    } catch (error) {
+      pending = { text, name };
+      one(".unstated").hidden = !/^(?:unit|step) of/.test(error.message);
+      complain(error.message);
+    }
+  }
+  const readFile = async (file) => takeRecord(await file.text(), file.name);
+  one("#x-file").addEventListener("change", (event) => event.target.files.length && readFile(event.target.files[0]));
+  for (const field of [one("#x-unit"), one("#x-dt")]) {
+    field.addEventListener("change", () => pending !== null && takeRecord(pending.text, pending.name));
+  }
+  document.addEventListener("dragover", (event) => {
+    event.preventDefault();
+    root.classList.add("dropping");
+  });
+  document.addEventListener("dragleave", (event) => event.relatedTarget === null && root.classList.remove("dropping"));
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    root.classList.remove("dropping");
+    if (event.dataTransfer.files.length) readFile(event.dataTransfer.files[0]);
+  });
+
+  // ---- solving ------------------------------------------------------------------------------------------------------
+  function solve() {
+    const record = recordInUse();
+    const scale = record.factor * state.intensity;
+    const wanted = `${state.record} ${scale}`;
+    if (inKernel !== wanted) {
+      kernel.setMotion(record.dt, scaledBy(record, scale));
+      inKernel = wanted;
+    }
+    const scene = sceneOf(state, strengthsOf(state, kernel.design(state, state.counted)));
+    const every = Math.max(1, Math.round(record.samples.length / 8000));
+    const blocks = scene.massRatio.flatMap((ratio, i) => (ratio > 0 ? [{ floor: i + 1, ratio, muS: scene.muS[i], muK: scene.muK[i] }] : []));
+    const run = (share) => {
+      const done = kernel.run(scene, share, every);
+      const rows = done.drift.length / scene.storeys;
+      return { ...done, rows, blocks: share === null ? blocks : [] };
+    };
+    const real = run(null);
+    const [code, full] = blocks.length ? [run(state.counted), run(1)] : [real, real];
+    const chosen = blocks.length ? one("#x-beside").value : "none";
+    const beside = {
+      none: null,
+      code: { run: code, share: state.counted, words: "model of the code" },
+      full: { run: full, share: 1, words: "all goods attached" },
+    }[chosen];
+    return { state: structuredClone(state), scene, record, scale, every, real, code, full, beside };
+  }
+
+  const seconds = (record, every) => every * record.dt;
+  function animated({ state, scene, record, scale, every, real, code, full, beside }) {
+    const step = seconds(record, every);
+    const { rows } = real;
+    const [low, high] = [new Float32Array(rows), new Float32Array(rows)];
+    for (let row = 0; row < rows; row++) {
+      let [least, most] = [Infinity, -Infinity];
+      for (let i = row * every; i <= Math.min((row + 1) * every, record.samples.length - 1); i++) {
+        const value = (record.samples[i] * scale) / GRAVITY;
+        [least, most] = [Math.min(least, value), Math.max(most, value)];
+      }
+      [low[row], high[row]] = [least, most];
+    }
+    const spread = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+    const shown = (run, label, what, attached) => {
+      const events = { row: [], kind: [], number: [] };
+      for (let i = 0; i < run.events.length; i += 4) {
+        events.row.push(Math.min(Math.ceil(run.events[i] / step - 1e-9), rows - 1));
+        events.kind.push(run.events[i + 1]);
+        events.number.push(run.events[i + 2]);
+      }
+      return {
+        label, what, attached, rows, collapsed: null, end: run.end[0], events,
+        drift: { peak: spread(run.drift), values: run.drift }, slip: { peak: spread(run.slip), values: run.slip },
+      };
+    };
+    const runs = [shown(real, "real building", real.blocks.length ? "goods slide" : "no goods", null)];
+    if (beside) runs.push(shown(beside.run, beside.words, `${fixed(100 * beside.share, 0)} % of the goods attached`, beside.share));
+    // Displacements are enlarged as far as nothing leaves the picture.
+    const n = scene.storeys;
+    let farthest = spread(real.slip);
+    for (const run of [real, ...(beside ? [beside.run] : [])]) {
+      for (let row = 0; row < rows; row++) {
+        let moved = 0;
+        for (let i = 0; i < n; i++) farthest = Math.max(farthest, Math.abs((moved += run.drift[row * n + i])));
+      }
+    }
+    const room = 0.15 * n * state.height;
+    const factor = given.enlargements.filter((one) => one * farthest <= room).at(-1) || 1;
+    const mass = Math.max(...real.blocks.map((block) => block.ratio), 0);
+    return {
+      step, rows, known: true, factor, marks: true, storey: place(real.peakDrift),
+      heights: Array.from({ length: n }, () => state.height), kinds: EVENT_NAMES,
+      ground: { peak: spread(high) > spread(low) ? spread(high) : spread(low), low, high },
+      blocks: real.blocks.map((block) => ({ floor: block.floor, size: Math.sqrt(block.ratio / mass) })),
+      runs, alt: runWords({ state, real, code, full }),
+    };
+  }
+
+  // ---- what is shown --------------------------------------------------------------------------------------------------
+  function colours() {
+    const style = getComputedStyle(root);
+    return Object.fromEntries(["paper", "ink", "soft", "line", "real", "model", "other", "yield"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+  }
+  let time = 0;
+  let putDots = () => {};
+  function drawRun() {
+    const palette = colours();
+    putDots = drawLoops(one(".loops"), palette, solved);
+    putDots(time / seconds(solved.record, solved.every));
+    drawProfile(one(".profile"), palette, solved);
+  }
+  function drawFraction() {
+    const palette = colours();
+    drawCurve(one(".curve"), palette, found, state);
+    drawRule(one(".rule"), palette, found, given.bins, state);
+  }
+  function sayFraction() {
+    const place = one(".fraction");
+    const done = found !== null && found.shares !== undefined;
+    place.classList.toggle("stale", !done);
+    const list = one(".remarks");
+    list.replaceChildren();
+    if (solved.real.blocks.length === 0) place.textContent = "There are no goods on the floors, and so no share of them.";
+    else if (found === null) place.textContent = "Being solved over the built-in suite\u2026";
+    else if (found.error) place.textContent = `It could not be solved: ${found.error}`;
+    else if (!done) {
+      const part = found.left === undefined ? "" : ` ${Math.round(100 * (1 - found.left / SHARES))} % done.`;
+      place.textContent = `eta = ${fixed(found.eta, 3)} (C1 = ${fixed(found.coefficient, 4)}). Being solved over the built-in suite\u2026${part}`;
+    } else {
+      place.textContent = fractionWords(found).long;
+      list.append(...fractionRemarks(found).map((words) => Object.assign(document.createElement("li"), { textContent: words })));
+    }
+    fractionTables(root, done ? found : null, given.suite);
+    sayBar();
+  }
+  function sayBar() {
+    const { state, real, code } = solved;
+    const mm = (run) => fixed(1000 * largest(run.peakDrift), 1);
+    const parts = [`drift ${mm(real)} mm`];
+    if (real.blocks.length) {
+      parts.push(`code\u2019s model ${mm(code)}`);
+      parts.push(found !== null && found.shares ? `fraction ${fixed(found.value, 2)}` : "fraction \u2026");
+    }
+    one(".bar").textContent = parts.join(" \u00b7 ");
+  }
+  // Said once the reader pauses, so that a screen reader is not flooded.
+  function say() {
+    const fraction = found !== null && found.shares ? ` ${fractionWords(found).short}` : "";
+    const words = runWords(solved) + fraction;
+    if (one(".answer").textContent !== words) one(".answer").textContent = words;
+  }
+
+  let timer = 0;
+  let waiting = false;
+  function changed() {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      show();
+    });
+  }
+  function show() {
+    try {
+      solved = solve();
+    } catch (error) {
+      complain(error.message);
+      if (error instanceof WebAssembly.RuntimeError) restart();
+      return;
+    }
+    found = null;
+    number += 1;
+    if (worker !== null) worker.postMessage({ number });
+    fill();
+    player.show(animated(solved));
+    drawRun();
+    runTables(root, solved);
+    drawFraction();
+    sayFraction();
+    clearTimeout(timer);
+    timer = setTimeout(settle, PAUSE);
+    root.dataset.shown = String(number);
+  }
+  // The kernel stopped on a defect: what it holds may be half of something.
+  function restart() {
+    kernel = openKernel(new WebAssembly.Instance(module, {}));
+    kernel.setSuite(suiteAt(1), new Float64Array(0));
+    inKernel = "";
+  }
+  function settle() {
+    say();
+    followAddress();
+    if (solved.real.blocks.length) seek();
+    else root.dataset.found = String(number);
+  }
+  function seek() {
+    if (worker === null) {
+      const source = `"use strict";${openKernel}\n${effectiveWorker}\neffectiveWorker();`;
+      worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
+      worker.onmessage = ({ data }) => arrived(data);
+      worker.postMessage({ module });
+    }
+    worker.postMessage({ number, scene: solved.scene, motions: suiteAt(state.intensity), resamples: given.resamples.flat() });
+  }
+  function arrived({ number: of, begun, left, found: answer, error }) {
+    if (of !== number) return;
+    if (error !== undefined) found = { error };
+    if (begun !== undefined) found = begun;
+    if (left !== undefined) found = { ...found, left };
+    if (answer !== undefined) found = answer;
+    if (error === undefined && (begun !== undefined || answer !== undefined)) drawFraction();
+    sayFraction();
+    if (answer !== undefined) say();
+    if (answer !== undefined || error !== undefined) root.dataset.found = String(number);
+  }
+
+  player.addEventListener("time", (event) => {
+    time = event.detail;
+    if (solved !== null) putDots(time / seconds(solved.record, solved.every));
+  });
+  const redraw = () => {
+    if (solved === null) return;
+    drawRun();
+    drawFraction();
+  };
+  dark.addEventListener("change", redraw);
+  window.addEventListener("beforeprint", redraw);
+  window.addEventListener("afterprint", redraw);
+  new ResizeObserver(redraw).observe(one(".rest"));
+
+  // ---- out of the page --------------------------------------------------------------------------------------------------
+  one(".download").addEventListener("click", () => {
+    const { scene, record, scale } = solved;
+    const note = `made with the live page of seismass ${given.version}`;
+    const text = sceneFile(scene, { height: state.height, record, scale, note });
+    const link = Object.assign(document.createElement("a"), { download: "scene.toml", href: URL.createObjectURL(new Blob([text], { type: "application/toml" })) });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    one(".done").textContent = "Solve it with: seismass run scene.toml";
+  });
+  one(".link").addEventListener("click", async () => {
+    followAddress();
+    try {
+      await navigator.clipboard.writeText(location.href);
+      one(".done").textContent = "The link is in the clipboard.";
+    } catch {
+      one(".done").textContent = "The address of this page is the link.";
+    }
+  });
+  function followAddress() {
+    const address = addressOf(state);
+    if (location.hash.slice(1) !== address) history.replaceState(null, "", `#${address}`);
+  }
+  one(".reset").addEventListener("click", () => {
+    one(".done").textContent = "";
+    open("");
+  });
+
+  start().catch((error) => {
+    complain(`The kernel could not be started: ${error.message}. The page needs a newer browser: Chromium 120, Firefox 117, Safari 17.2 or later.`);
+    one(".answer").textContent = "The kernel could not be started.";
+  });
+})();

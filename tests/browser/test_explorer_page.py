@@ -1,0 +1,320 @@
+"""The live page in a browser: the numbers of `seismass run`, a case in its address, records of one's own, speed."""
+
+from __future__ import annotations
+
+import re
+import statistics
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import seismass as sm
+from seismass.cli import main
+from seismass.explore import compiled, explorer_html
+
+MINUS = "\N{MINUS SIGN}"
+READY = "document.querySelector('.explorer').dataset.found !== undefined"
+FOUND = "document.querySelector('.explorer').dataset.found === document.querySelector('.explorer').dataset.shown"
+SHOWN = "Number(document.querySelector('.explorer').dataset.shown || 0)"
+CASES = [
+    "",
+    "n=4&T=0.57&R=6&a=1.5,1.5,1.5,0&s=0.15,0.15,0.15,0.15&k=0.15,0.15,0.15,0.15&m=synthetic-3&x=1.4&h=3.2",
+    "n=2&T=0.38&by=hand&V=0.31,0.17&a=0.5,1&s=0.4,0.3&k=0.3,0.15&m=synthetic-5&z=0.03&O=1.5&r2=0.1",
+    "n=1&T=0.8&by=elastic&a=2&s=0.1&k=0.1&m=synthetic-7&c=0.6",
+]
+
+
+@pytest.fixture(scope="module")
+def html() -> str:
+    """The page; without a compiled kernel what opens it is skipped."""
+    if not (Path(compiled.__file__).parent / compiled.NAME).is_file():
+        pytest.skip("the kernel is not compiled to WebAssembly (make explorer): the live page is not opened")
+    return explorer_html()
+
+
+def until(page: Any, expression: str) -> None:
+    """Wait until it is true; Playwright's own waiting makes code of text, which the policy of the page refuses."""
+    end = time.monotonic() + 60.0
+    while not page.evaluate(expression):
+        assert time.monotonic() < end, expression
+        page.wait_for_timeout(10)
+
+
+def settled(page: Any) -> None:
+    """Wait for the effective fraction of the case that was chosen last, which is solved at the next frame."""
+    until(page, READY)
+    page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+    until(page, FOUND)
+
+
+def visit(page: Any, address: str) -> None:
+    """Open another case by the address of the page, as a link does."""
+    before = page.evaluate(SHOWN)
+    page.evaluate("address => { location.hash = address; }", address)
+    until(page, f"{SHOWN} > {before}")
+    settled(page)
+
+
+def set_value(page: Any, label: str, value: float) -> None:
+    page.get_by_label(label, exact=True).fill(str(value))
+
+
+def rows(page: Any, table: str) -> list[list[str]]:
+    """Cells of the body of a table, with plain signs."""
+    expression = "rows => rows.map(row => Array.from(row.cells, cell => cell.textContent))"
+    found = page.locator(f"table.{table} tbody tr").evaluate_all(expression)
+    return [[cell.replace(MINUS, "-") for cell in row] for row in found]
+
+
+def exported(page: Any, tmp_path: Path) -> Path:
+    """The scene file that the page gives."""
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Download scene file").click()
+    file = tmp_path / download.value.suggested_filename
+    download.value.save_as(file)
+    return file
+
+
+def printed(lines: list[str], first: str) -> list[list[str]]:
+    """Rows of a table that `seismass run` printed, by the first word of its head."""
+    start = next(i for i, line in enumerate(lines) if line.split()[:1] == [first])
+    body = []
+    for line in lines[start + 1 :]:
+        if not line.strip():
+            break
+        body.append(line.split())
+    return body
+
+
+def test_page_is_as_every_page_must_be(html: str, look: Any) -> None:
+    def prepare(page: Any) -> None:
+        settled(page)
+        page.locator(".time").evaluate("e => { e.value = 8.5; e.dispatchEvent(new Event('input')); }")
+
+    look(html, "explorer", prepare)
+
+
+@pytest.mark.parametrize("address", CASES)
+def test_numbers_are_those_of_seismass_run(
+    html: str, open_page: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str], address: str
+) -> None:
+    """Each cell of the storeys and of the goods is what the command prints for the scene file, to the last digit."""
+    with open_page(html, "explorer", accept_downloads=True) as page:
+        settled(page)
+        if address:
+            visit(page, address)
+        storeys, goods = rows(page, "storeys"), rows(page, "goods")
+        events = page.locator(".events").inner_text()
+        file = exported(page, tmp_path)
+    assert main(["run", str(file)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    # storey, peak drift, of height, at, residual, peak shear / W, floor acceleration: the columns of the command.
+    assert [row[:7] for row in storeys] == printed(lines, "storey")
+    blocks = printed(lines, "block")
+    assert goods == [row[1:] for row in blocks]
+    counts = next(line for line in lines if line.split()[:1] == ["events"]).split(maxsplit=1)[1]
+    assert events == f"Events of the real building: {counts}."
+    # The models' drifts are those of the package.
+    scene = sm.read_scene(file)
+    share = float(re.search(r"(?:^|&)c=([\d.]+)", address)[1]) if "c=" in address else 0.25
+    for column, attached in ((7, share), (8, 1.0)):
+        model = sm.simulate(sm.attached_scene(scene.scene, attached), scene.motion)
+        assert [row[column] for row in storeys] == [f"{1e3 * drift:.3f}" for drift in model.peak_drift]
+
+
+def test_fraction_is_that_of_the_package(html: str, open_page: Any, tmp_path: Path) -> None:
+    """At another intensity than 1, in the words that `EffectiveMass.text` has."""
+    suite = sm.builtin_suite("seven")
+    factors = sm.scale_asce7_10(suite, sm.TargetSpectrum.asce7()).factors
+    with open_page(html, "explorer", accept_downloads=True) as page:
+        settled(page)
+        visit(page, "x=0.8&n=2&T=0.4&a=1,0.5&s=0.25,0.25&k=0.2,0.2&R=3")
+        words = page.locator(".fraction").inner_text()
+        table = rows(page, "suite")
+        file = exported(page, tmp_path)
+    scene = sm.read_scene(file).scene
+    expected = sm.effective_mass(
+        scene, [record.scaled(factor * 0.8) for record, factor in zip(suite, factors, strict=True)]
+    )
+    assert expected.interval is not None
+    low, high = expected.interval
+    assert words.startswith(
+        f"Effective fraction {expected.value:.3f} (90 % interval over the motions {low:.2f} to {high:.2f}); "
+        f"{expected.kind}: "
+    )
+    assert (
+        f"eta = {expected.eta:.3f} (C1 = {expected.base_shear_coefficient:.4f}): min(1, eta²) = "
+        f"{expected.estimate:.3f} at best, min(1, eta) = {expected.conservative:.3f} to be safe" in words
+    )
+    # Drifts of the package are over the height.
+    height = float(scene.building.heights[0])
+    names = ("real", "model", "model_at_0", "model_at_1")
+    for row, storey in zip(table, expected.storeys.iter_rows(named=True), strict=True):
+        assert row[1:5] == [f"{1e3 * height * storey[name]:.3f}" for name in names]
+        assert row[5:] == [f"{storey[name]:.3f}" for name in ("ratio", "ratio_at_0", "ratio_at_1", "envelope_ratio")]
+
+
+def test_link_opens_the_same_case(html: str, open_page: Any) -> None:
+    with open_page(html, "explorer") as page:
+        settled(page)
+        page.get_by_label("4", exact=True).check()
+        set_value(page, "Static friction mu_s", 0.37)
+        set_value(page, "Goods of floor 4 over its mass", 0.5)
+        set_value(page, "First period T (s, without goods)", 0.61)
+        page.get_by_label("by hand").check()
+        set_value(page, "Yield shear of storey 2 over the weight", 0.222)
+        page.get_by_label("Record", exact=True).select_option("synthetic-4")
+        settled(page)
+        address = page.evaluate("location.hash")
+        shown = [rows(page, table) for table in ("storeys", "goods", "suite", "motions")]
+        words = page.locator(".answer").inner_text()
+    assert "n=4" in address
+    assert "0.222" in address
+    with open_page(html, "explorer") as page:
+        settled(page)
+        assert rows(page, "storeys") != shown[0]
+        visit(page, address)
+        assert [rows(page, table) for table in ("storeys", "goods", "suite", "motions")] == shown
+        assert page.locator(".answer").inner_text() == words
+        assert page.get_by_label("First period T (s, without goods)").input_value() == "0.61"
+        page.get_by_role("button", name="Start again").click()
+        until(page, f"{SHOWN} >= 3")
+        settled(page)
+        assert len(rows(page, "storeys")) == 3
+
+
+def test_what_is_out_of_range_is_said_and_not_taken(html: str, open_page: Any) -> None:
+    with open_page(html, "explorer") as page:
+        settled(page)
+        before = rows(page, "storeys")
+        field = page.get_by_label("First period T (s, without goods)")
+        field.fill("-3")
+        assert field.get_attribute("aria-invalid") == "true"
+        assert page.locator(".problem").inner_text() == "first period must be from 0.05 to 5; got -3"
+        assert rows(page, "storeys") == before
+        field.fill("0.5")
+        until(page, f"{SHOWN} >= 2")
+        assert field.get_attribute("aria-invalid") is None
+        assert not page.locator(".problem").is_visible()
+        visit(page, "n=7&m=file:mine.AT2")
+        said = page.locator(".problem").inner_text()
+        assert said.startswith(
+            "storeys in the address must be from 1 to 4; got 7. The record file:mine.AT2 of this link"
+        )
+
+
+def test_goods_by_keyboard_and_friction_that_follows(html: str, open_page: Any) -> None:
+    with open_page(html, "explorer") as page:
+        settled(page)
+        slider = page.get_by_label("Kinetic friction mu_k, slider")
+        slider.focus()
+        page.keyboard.press("ArrowRight")
+        until(page, f"{SHOWN} >= 2")
+        settled(page)
+        # mu_k 0.21 needs mu_s of at least that.
+        assert [row[2] for row in rows(page, "goods")] == ["0.21", "0.21"]
+        assert page.get_by_label("Static friction mu_s", exact=True).input_value() == "0.21"
+        set_value(page, "Goods of floor 1 over its mass", 0)
+        set_value(page, "Goods of floor 2 over its mass", 0)
+        settled(page)
+        assert page.locator(".fraction").inner_text() == "There are no goods on the floors, and so no share of them."
+        assert not page.locator("table.goods").is_visible()
+        assert not page.locator("table.suite").is_visible()
+
+
+def test_answer_is_said_once_in_words(html: str, open_page: Any) -> None:
+    """The live region changes after the reader pauses, not with each step of a slider."""
+    with open_page(html, "explorer") as page:
+        settled(page)
+        region = page.locator(".answer")
+        assert region.get_attribute("role") == "status"
+        page.evaluate("""() => {
+          window.said = [];
+          const observer = new MutationObserver(() => window.said.push(1));
+          observer.observe(document.querySelector('.answer'), { childList: true });
+        }""")
+        slider = page.get_by_label("R, slider")
+        slider.focus()
+        for _ in range(8):
+            page.keyboard.press("ArrowLeft")
+        settled(page)
+        assert 1 <= page.evaluate("window.said.length") <= 3
+        assert re.match(
+            r"Largest drift [\d.]+ mm \([\d.]+ % of the height\) in storey 1\. Storeys", region.inner_text()
+        )
+        assert "Effective fraction of the goods" in region.inner_text()
+
+
+@pytest.mark.parametrize("kind", ["at2", "columns"])
+def test_own_record_is_taken_from_a_file(html: str, open_page: Any, tmp_path: Path, kind: str) -> None:
+    record = sm.builtin_record("synthetic-9")
+    file = tmp_path / ("own.AT2" if kind == "at2" else "own.txt")
+    if kind == "at2":
+        assert record.source is not None
+        file.write_text(record.source.read_text())
+    else:
+        in_g = record.acceleration / sm.STANDARD_GRAVITY
+        file.write_text("".join(f"{i * record.dt:.3f} {value:.9f}\n" for i, value in enumerate(in_g.tolist())))
+    with open_page(html, "explorer", accept_downloads=True) as page:
+        settled(page)
+        page.get_by_label("Your own").set_input_files(file)
+        if kind == "columns":
+            until(page, "!document.querySelector('.unstated').hidden")
+            assert page.locator(".problem").inner_text().startswith("unit of own.txt must be given")
+            page.get_by_label("Unit of the file").select_option("g")
+        until(page, f"{SHOWN} >= 2")
+        settled(page)
+        assert not page.locator(".problem").is_visible()
+        assert page.get_by_label("Record", exact=True).input_value() == f"file:{file.name}"
+        scene = sm.read_scene(exported(page, tmp_path))
+        shown = rows(page, "storeys")
+    read = sm.read_record(file, unit="g")
+    assert scene.motion.acceleration.tolist() == read.acceleration.tolist()
+    assert scene.motion.dt == read.dt
+    peaks = sm.simulate(scene.scene, read).peak_drift
+    assert [row[1] for row in shown] == [f"{1e3 * peak:.3f}" for peak in peaks]
+
+
+def test_it_plays_when_it_is_opened_unless_less_motion_is_preferred(html: str, open_page: Any) -> None:
+    """And goes on from where it is when another case is solved; the dots of the loops follow."""
+    clock = "parseFloat(document.querySelector('.clock').textContent)"
+    loops = "document.querySelector('.loops').toDataURL()"
+    with open_page(html, "explorer") as page:
+        settled(page)
+        until(page, f"{clock} > 0.5")
+        before, drawn = page.evaluate(clock), page.evaluate(loops)
+        page.get_by_label("2", exact=True).check()
+        until(page, f"{SHOWN} >= 2")
+        assert page.evaluate(clock) >= before
+        page.locator(".play").click()
+        assert page.evaluate(loops) != drawn
+    with open_page(html, "explorer", reduced_motion="reduce") as page:
+        settled(page)
+        assert page.evaluate(clock) == 0.0
+        drawn = page.evaluate(loops)
+        page.locator(".time").evaluate("e => { e.value = 8.5; e.dispatchEvent(new Event('input')); }")
+        assert page.evaluate(loops) != drawn
+
+
+def test_page_is_fast(html: str, open_page: Any) -> None:
+    """Printed and not asserted: time to the first picture, and from a move of a slider to the picture (medians)."""
+    with open_page(html, "explorer") as page:
+        settled(page)
+        loaded = page.evaluate("performance.getEntriesByName('first picture')[0].startTime")
+        measure = """async value => {
+          const slider = document.querySelector('.row[data-key=period] input');
+          const root = document.querySelector('.explorer');
+          const before = root.dataset.shown;
+          const start = performance.now();
+          slider.value = value;
+          slider.dispatchEvent(new Event('input', { bubbles: true }));
+          while (root.dataset.shown === before) await new Promise((done) => requestAnimationFrame(done));
+          return performance.now() - start;
+        }"""
+        taken = [page.evaluate(measure, f"{0.4 + 0.01 * step:.2f}") for step in range(21)]
+    print(
+        f"first picture {loaded:.0f} ms after the page was asked for; a slider moved: {statistics.median(taken):.1f} ms"
+    )
+    assert len(taken) == 21
