@@ -683,9 +683,14 @@ CASES: list[Case] = [
     ),
     (
         "too many runs",
-        lambda: sm.stream_many([block()] * 70_000, [QUIET] * 70_000),
+        lambda: sm.stream_many(
+            sm.Grid.product(
+                sm.Building.uniform(1, 0.3), mass_ratio=[1.0] * 2**16, mu=[0.1] * 2**18, scale=[1.0] * 2**18
+            ),
+            [QUIET] * 3,
+        ),
         sm.InvalidOption,
-        r"runs of batch must be at most 4294967295; got 4900000000",
+        rf"runs of batch must be at most {2**53}; got {3 * 2**52}",
     ),
     (
         "no threads",

@@ -1,5 +1,6 @@
 """The house in order: one version, stored data where a package finds it, a README whose code runs."""
 
+import importlib
 import re
 import shlex
 import subprocess
@@ -42,8 +43,9 @@ def test_every_error_is_a_seismass_error_and_the_builtin_one() -> None:
 
 
 def test_import_leaves_what_is_slow_to_import_for_when_it_is_used() -> None:
-    """`import seismass` in a fresh process brings NumPy and Polars, and no SciPy, Matplotlib or PyWavelets."""
-    program = "import sys, seismass; print(*sorted({name.partition('.')[0] for name in sys.modules}))"
+    """Names of batches and studies bring NumPy and Polars, and no SciPy, Matplotlib or PyWavelets."""
+    names = "seismass.simulate_many, seismass.Campaign, seismass.effective_mass, seismass.intensity, seismass.assess"
+    program = f"import sys, seismass; {names}; print(*sorted({{name.partition('.')[0] for name in sys.modules}}))"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
     assert {"numpy", "polars"} <= set(found)
     assert not {"scipy", "matplotlib", "pywt"} & set(found)
@@ -77,7 +79,10 @@ def test_readme_names_make_targets_that_exist() -> None:
     assert named <= targets
 
 
-EPILOGS = {f"{command.__name__} --help": command._EPILOG for command in COMMANDS}
+EPILOGS = {
+    f"{name} --help": importlib.import_module(f"seismass.commands.{module}")._EPILOG
+    for name, (module, _) in COMMANDS.items()
+}
 
 
 @pytest.mark.parametrize("place", ["README", *EPILOGS])
@@ -92,6 +97,49 @@ def test_commands_are_ones_that_the_parser_takes(place: str) -> None:
             build_parser().parse_args(words)
         except SystemExit:
             pytest.fail(f"{place} has a command that is refused: seismass {line}")
+
+
+def run_python(*arguments: str) -> str:
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout
+
+
+def test_help_starts_with_what_to_type_and_needs_no_numpy() -> None:
+    program = "import sys; from seismass.cli import main\ntry: main(['--help'])\nfinally: print(sorted(sys.modules))"
+    text = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60).stdout
+    first = "\n".join(text.splitlines()[:8])
+    assert "the number for your building:" in first
+    assert "seismass building warehouse.toml" in first
+    for name in COMMANDS:
+        assert f"\n    {name}" in text
+    imported = text.splitlines()[-1]
+    for heavy in ("numpy", "polars", "matplotlib", "scipy"):
+        assert f"'{heavy}'" not in imported
+
+
+def test_the_package_and_its_command_line_can_be_run_as_modules() -> None:
+    version = f"seismass {seismass.__version__}\n"
+    assert run_python("-m", "seismass", "--version") == run_python("-m", "seismass.cli", "--version") == version
+
+
+def test_names_are_imported_when_they_are_first_used() -> None:
+    program = (
+        "import sys, seismass\nassert 'numpy' not in sys.modules\nseismass.Building\nassert 'numpy' in sys.modules\n"
+        "import seismass.batch, seismass.effective_mass.answer\n"
+        "print(callable(seismass.simulate), callable(seismass.effective_mass), callable(seismass.long_table))"
+    )
+    assert run_python("-c", program) == "True True True\n"
+    for name in seismass.__all__:
+        assert getattr(seismass, name) is not None
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh"])
+def test_shells_complete_every_command(shell: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["completion", shell]) == 0
+    script = capsys.readouterr().out
+    for name in COMMANDS:
+        assert name in script
+    assert "--mu-factors" in script
 
 
 def test_readme_scene_file_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

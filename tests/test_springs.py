@@ -13,7 +13,7 @@ import pytest
 
 import seismass as sm
 from seismass import _kernel
-from seismass.grid import GRID_COLUMNS
+from seismass.grid_axes import TABLE_COLUMNS
 from seismass.scene_file import KEYS
 from seismass.springs import SHAPE_FIELDS, SPRING_FIELDS
 
@@ -49,7 +49,7 @@ def test_signatures_name_every_field_with_its_default(function: Any, fields: dic
 @pytest.mark.parametrize("function", [sm.Grid, sm.Grid.product], ids=["init", "product"])
 def test_every_shape_is_a_column_of_a_grid(function: Any) -> None:
     found = defaults_of(function)
-    assert set(SHAPE_FIELDS) <= set(GRID_COLUMNS)
+    assert set(SHAPE_FIELDS) <= set(TABLE_COLUMNS)
     assert all(found[name] is None for name in SHAPE_FIELDS)
 
 

@@ -605,16 +605,26 @@ def test_failed_runs_give_exit_code_1(small: StudyResult, tmp_path: Path, monkey
     assert command("study", "--out", tmp_path / "out", "--no-figures") == 1
 
 
-def test_interrupt_exits_with_130_and_writes_nothing(
+def test_interrupt_exits_with_130_and_keeps_only_what_is_solved(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("seismass.study.run.simulate_many", interrupted)
-    assert command("study", "--out", tmp_path / "out") == 130
-    assert "interrupted" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
+    with monkeypatch.context() as patched:
+        patched.setattr("seismass.study.run.simulate_many", interrupted)
+        assert command("study", "--out", tmp_path / "out") == 130
+        assert "interrupted" in capsys.readouterr().err
+        assert list(tmp_path.iterdir()) == []
+    with monkeypatch.context() as patched:
+        patched.setattr("seismass.study.run.effective_fractions", interrupted)
+        assert command("study", "--out", tmp_path / "out", "--effective", "--no-figures") == 130
+        (kept,) = (tmp_path / "out").iterdir()
+        assert {file.name for file in kept.iterdir()} == {"inputs", "runs.pickle"}
+        patched.setattr("seismass.study.run.simulate_many", None)
+        patched.undo()
+    assert command("study", "--out", tmp_path / "out", "--no-figures") == 0
+    assert not kept.exists()
 
 
 def test_version_spectrum_and_scale_commands(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -4,64 +4,67 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import importlib
 import io
 import os
 import sys
 from collections.abc import Sequence
+from typing import Final
 
 from seismass import __version__
-from seismass.commands import (
-    animate,
-    building,
-    campaign,
-    effective_map,
-    explore,
-    ida,
-    match,
-    pulse,
-    records,
-    report,
-    run,
-    scale,
-    spectrum,
-    study,
-    validate,
-)
 from seismass.errors import SeismassError
 
-COMMANDS = (
-    building,
-    effective_map,
-    ida,
-    study,
-    campaign,
-    run,
-    animate,
-    explore,
-    records,
-    spectrum,
-    scale,
-    match,
-    pulse,
-    validate,
-    report,
-)
+COMMANDS: Final = {
+    "building": ("building", "your own building: how much of its live load to count as mass"),
+    "explore": ("explore", "the live page: a building with sliding goods, solved while sliders move"),
+    "map": ("effective_map", "the effective fraction of live load for many buildings: chart and rules"),
+    "ida": ("ida", "fragility: what a code's model makes of the probability of exceeding a limit"),
+    "study": ("study", "the parametric study: drift with sliding live load against a code's rule"),
+    "campaign": ("campaign", "a study of any size: axes or samples times motions, into a folder that resumes"),
+    "run": ("run", "solve one scene file"),
+    "animate": ("animate", "animate one scene file"),
+    "records": ("records", "what record files hold; the paper's seven records in a folder"),
+    "spectrum": ("spectrum", "response spectra of records, as CSV"),
+    "scale": ("scale", "scale a suite to a target spectrum"),
+    "match": ("match", "match records to a target spectrum"),
+    "pulse": ("pulse", "velocity pulses of near-fault records"),
+    "validate": ("validate", "the paper's validations and its claims, with our numbers"),
+    "report": ("report", "the page of a study or of a building again, from its tables"),
+    "completion": ("completion", "what a shell completes: a script for bash or zsh"),
+}
+"""Subcommands: the module in seismass.commands, which is imported when it is needed, and what --help says of it."""
 
-INTERRUPTED = 130
+INTERRUPTED: Final = 130
 """Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""
 
+_DESCRIPTION: Final = """How much of a building's live load acts as mass in an earthquake.
 
-def build_parser() -> argparse.ArgumentParser:
-    """Return the parser of the command line, with all subcommands."""
+the number for your building:
+  seismass building --example > warehouse.toml    a file to edit: the building, its goods and its site
+  seismass building warehouse.toml                the share to count as mass, with drifts, slips and assumptions"""
+
+
+def build_parser(only: str | None = None) -> argparse.ArgumentParser:
+    """Return the parser of the command line.
+
+    Parameters
+    ----------
+    only : str, optional
+        The one subcommand whose options are needed; others are listed alone. By default all of them.
+    """
     parser = argparse.ArgumentParser(
         prog="seismass",
-        description="How much of a building's live load acts as mass in an earthquake.",
-        epilog="exit codes: 0 done, 1 a run failed, 2 bad input, 130 interrupted",
+        description=_DESCRIPTION,
+        epilog="`seismass COMMAND --help` has examples. exit codes: 0 done, 1 a run failed, 2 bad input, 130 stopped",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"seismass {__version__}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in COMMANDS:
-        command.add_parser(subparsers)
+    for name, (module, text) in COMMANDS.items():
+        if only in (None, name):
+            importlib.import_module(f"seismass.commands.{module}").add_parser(subparsers, text)
+        else:
+            subparsers.add_parser(name, help=text)
     return parser
 
 
@@ -84,7 +87,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Without the name of the program; default those of the process.
     """
     _make_output_safe()
-    args = build_parser().parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    args = build_parser(next((word for word in words if not word.startswith("-")), "")).parse_args(words)
     try:
         code: int = args.run(args)
         sys.stdout.flush()
@@ -102,3 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print("\n" * sys.stderr.isatty() + "seismass: interrupted", file=sys.stderr)
         return INTERRUPTED
     return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())

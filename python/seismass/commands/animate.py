@@ -22,11 +22,11 @@ itself; a film (.mp4) needs ffmpeg on the path.
 exit codes: 0 done (a collapse is a result), 1 the run failed, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "animate",
-        help="animate one scene file",
+        help=help,
         description="Animate a scene file: the building sways and its goods slide, beside the model of a code, which "
         "has a share of them attached as mass, above the histories of record, drift and slip.",
         epilog=_EPILOG,

@@ -37,11 +37,11 @@ docs/building_file.md explains every key of a building file.
 exit codes: 0 done (a collapse is a result), 1 a run failed, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "building",
-        help="your own building: how much of its live load to count as mass",
+        help=help,
         description="Assess the building of a file (TOML or JSON): the share of its live load that acts as mass, with "
         "goods that slide, the code's share attached, all attached and none. Prints the answer and writes tables, "
         "figures and a page for the calculation folder.",

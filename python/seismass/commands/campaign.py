@@ -31,11 +31,11 @@ docs/campaign.md explains every key of a campaign file.
 exit codes: 0 done, 1 a run failed (its rows say why) or a part is damaged, 2 bad input, 130 interrupted"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "campaign",
-        help="a study of any size: axes or samples times motions, into a folder that resumes",
+        help=help,
         description="Solve the runs that a campaign file (TOML or JSON) describes, into a folder of Parquet files. The "
         "same command goes on where it was stopped, and ends in the same bytes.",
         epilog=_EPILOG,

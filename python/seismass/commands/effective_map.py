@@ -30,11 +30,11 @@ _EPILOG = """examples:
 exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "map",
-        help="the effective fraction of live load for many buildings: chart and rules",
+        help=help,
         description="Solve 16 buildings x 4 loads x 7 strengths x 11 friction coefficients under a suite of motions, "
         "find the effective fraction of live load of each, draw it against eta = mu_k/C1, and compare simple rules "
         "and codes with it.",

@@ -20,11 +20,11 @@ the page.
 exit codes: 0 done, 2 bad input, or no compiled kernel"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "explore",
-        help="write the live page",
+        help=help,
         description="Write the live page: a building of up to four storeys with sliding goods, solved exactly in the "
         "browser while its sliders move, with its effective fraction of live load.",
         epilog=_EPILOG,

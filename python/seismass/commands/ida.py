@@ -39,11 +39,11 @@ DEFAULT_LIMIT = "drift_ratio=0.02"
 """Allowable drift of ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II."""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "ida",
-        help="fragility: what a code's model makes of the probability of exceeding a limit",
+        help=help,
         description="Scale motions until limits are exceeded, for the building with sliding goods, for the model of a "
         "code, and with all goods attached; fit fragilities and compare the probabilities of exceedance.",
         epilog=_EPILOG,

@@ -37,11 +37,11 @@ _EPILOG = """examples:
 exit codes: 0 done, 1 a record is not matched within the tolerance, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "match",
-        help="match records to a target spectrum",
+        help=help,
         description="Records adjusted by wavelets in the time domain until their spectra are the target, without drift "
         "of velocity or displacement.",
         epilog=_EPILOG,

@@ -25,11 +25,11 @@ by Baker (2007). Needs PyWavelets: pip install PyWavelets.
 exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "pulse",
-        help="velocity pulses of near-fault records",
+        help=help,
         description="Whether a record is pulse-like, with the indicator, the test of early arrival and the pulse "
         "period.",
         epilog=_EPILOG,

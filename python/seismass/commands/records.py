@@ -25,11 +25,11 @@ Without a path: the seven records of the paper's Table 1, and how to get them.
 exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "records",
-        help="what record files hold; the paper's seven records in a folder",
+        help=help,
         description="A table of the records in a file, a folder or a list: labels, points, step, peaks, Arias "
         "intensity, duration and what is odd about them. With --find: which of the paper's seven records a folder "
         "holds, judged by header and content.",

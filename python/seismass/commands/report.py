@@ -17,11 +17,11 @@ _EPILOG = """examples:
 exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "report",
-        help="the page of a study or of a building again, from its tables",
+        help=help,
         description="Write the page of a study or of a building from the tables of its folder, without solving "
         "anything. The page needs nothing but itself.",
         epilog=_EPILOG,

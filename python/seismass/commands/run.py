@@ -39,11 +39,11 @@ keys of a scene file, table by table (docs/scene_file.md explains them, with an 
 exit codes: 0 solved (a collapse is a result), 1 the run failed, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "run",
-        help="solve one scene file",
+        help=help,
         description="Solve a scene file (TOML or JSON: building, blocks, motion) and print its peaks.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -48,11 +48,11 @@ methods:
 exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "scale",
-        help="scale a suite to a target spectrum",
+        help=help,
         description="Factors by which a suite is scaled to a target spectrum, with the misfit of each motion.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,

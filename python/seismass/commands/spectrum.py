@@ -43,11 +43,11 @@ Inelastic: strength (V_y/W), ductility, displacement (m), elastic_strength and r
 exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "spectrum",
-        help="response spectra of records, as CSV",
+        help=help,
         description="Response spectra, exact for acceleration that is linear between samples, printed as CSV: elastic, "
         "or inelastic for given strengths or ductilities.",
         epilog=_EPILOG,

@@ -37,11 +37,11 @@ _EPILOG = """examples:
 exit codes: 0 done, 1 a run failed (its rows say why), 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "study",
-        help="the parametric study: drift with sliding live load against a code's rule",
+        help=help,
         description="Run the parametric study of the paper: 72 buildings, each with sliding blocks, by a code's rule "
         "and with all of the blocks attached, under motions scaled to a target spectrum. Writes tables, figures and "
         "a page.",
@@ -104,7 +104,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
     from seismass.kept import KeptResults, kept_folder
     from seismass.report.findings import findings_text
-    from seismass.report.folder import PAGE, check_out
+    from seismass.report.folder import PAGE, check_out, folder_for
     from seismass.report.sensitivity import sensitivity_text
     from seismass.report.study_tables import study_tables
     from seismass.report.write import write_study
@@ -134,9 +134,8 @@ def run(args: argparse.Namespace) -> int:
     suite = read_motions(args)
     # The scenes of section 4 keep one core busy, and what is solved meanwhile the others. The stiffest friction springs
     # are left to `seismass validate`: they take four times as long as all others.
-    args.out.mkdir(parents=True, exist_ok=True)
     inputs = f"{inputs_digest(suite, target, parameters)} {__version__} {instruction_set()}"
-    with kept_folder(args.out, "study", inputs) as folder, ThreadPoolExecutor(1) as pool:
+    with folder_for(args.out), kept_folder(args.out, "study", inputs) as folder, ThreadPoolExecutor(1) as pool:
         kept = KeptResults(folder)
         scenes = pool.submit(paper_scenes, suite, springs=SPRINGS[:-1])
         result = run_study(

@@ -27,11 +27,11 @@ components of them in the same folder. Built-in motions stand in where there are
 exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any) -> None:
-    """Add the subcommand to those of the `seismass` command."""
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
     parser = subparsers.add_parser(
         "validate",
-        help="the paper's validations and its claims, with our numbers",
+        help=help,
         description="Solve the paper's section 4 with the exact kernel, with friction springs and, from kept results, "
         "with OpenSees; its shaking table over ranges of what is not published; and the parametric study. Print each "
         "claim of the paper with its verdict.",

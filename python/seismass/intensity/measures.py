@@ -161,7 +161,7 @@ def intensity_of(
     Examples
     --------
     >>> import seismass as sm
-    >>> motion = sm.Motion([0.0, 9.80665, 0.0], dt=0.01)
+    >>> motion = sm.Motion([0.0, sm.STANDARD_GRAVITY, 0.0], dt=0.01)
     >>> sm.intensity.intensity_of(motion, "pga")
     1.0
     """

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
@@ -34,6 +34,26 @@ def check_out(out: Path, owner: str) -> None:
     existing = next((path for path in (out, *out.parents) if path.exists()), None)
     if existing is not None and not (existing.is_dir() and os.access(existing, os.W_OK)):
         raise refusal(InvalidOption, "out", owner, "a folder that can be written to", str(out))
+
+
+@contextmanager
+def folder_for(out: Path) -> Iterator[None]:
+    """Make a folder for what is written to it, which goes again where an error or Ctrl-C leaves it empty.
+
+    Raises
+    ------
+    OSError
+        The folder cannot be made.
+    """
+    made = [path for path in (out, *out.parents) if not path.exists()]
+    out.mkdir(parents=True, exist_ok=True)
+    try:
+        yield
+    except BaseException:
+        with suppress(OSError):
+            for path in made:
+                path.rmdir()
+        raise
 
 
 def write_folder(
