@@ -21,7 +21,7 @@ import tempfile
 import threading
 import time
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import million
 import seismass as sm
@@ -48,37 +48,56 @@ def campaign(runs: int, **options: Any) -> sm.Campaign:
     return sm.Campaign(million.grid(runs), million.motion(), peaks_only=True, **options)
 
 
-def streamed(runs: int, threads: int) -> float:
-    """Return the wall time of runs that are streamed and dropped (s)."""
+class Measured(NamedTuple):
+    """Wall time, processor time of all threads of this process (s), and bytes of the parts."""
+
+    wall: float
+    processor: float
+    size: int = 0
+
+
+def streamed(runs: int, threads: int) -> Measured:
+    """Measure runs that are streamed and dropped."""
     scenes, shaking = million.grid(runs), million.motion()
-    began = time.perf_counter()
+    began = time.perf_counter(), time.process_time()
     million.stream(scenes, shaking, threads)
-    return time.perf_counter() - began
+    return Measured(time.perf_counter() - began[0], time.process_time() - began[1])
 
 
-def into_folder(made: sm.Campaign, **engine: Any) -> tuple[float, int]:
-    """Return the wall time of a campaign into a new folder (s), and the bytes of its parts."""
+def into_folder(made: sm.Campaign, **engine: Any) -> Measured:
+    """Measure a campaign into a new folder."""
     place = Path(tempfile.mkdtemp(prefix="campaign-", dir="."))
     try:
-        began = time.perf_counter()
+        began = time.perf_counter(), time.process_time()
         folder = made.run(place, **engine)
-        return time.perf_counter() - began, folder.bytes
+        return Measured(time.perf_counter() - began[0], time.process_time() - began[1], folder.bytes)
     finally:
         shutil.rmtree(place)
+
+
+def compared(before: list[Measured], after: list[Measured]) -> dict[str, float]:
+    """Return medians of ratios, round by round, of wall and of processor times, with least and most of the former."""
+    walls = [b.wall / a.wall for a, b in zip(before, after, strict=True)]
+    processors = [b.processor / a.processor for a, b in zip(before, after, strict=True)]
+    return {
+        "ratio": statistics.median(walls),
+        "least": min(walls),
+        "most": max(walls),
+        "processor_ratio": statistics.median(processors),
+    }
 
 
 def files_beside_stream(rounds: int, threads: int) -> dict[str, Any]:
     """Return medians of both, round by round, and of their ratio."""
     made = campaign(SMALL)
     million.stream(million.grid(SMALL // 10), million.motion(), threads)  # warm-up
-    pairs = [(streamed(SMALL, threads), into_folder(made, threads=threads)[0]) for _ in range(rounds)]
+    pairs = [(streamed(SMALL, threads), into_folder(made, threads=threads)) for _ in range(rounds)]
+    before, after = ([pair[place] for pair in pairs] for place in (0, 1))
     return {
         "runs": made.total,
-        "streamed_s": statistics.median(pair[0] for pair in pairs),
-        "folder_s": statistics.median(pair[1] for pair in pairs),
-        "ratio": statistics.median(pair[1] / pair[0] for pair in pairs),
-        "least": min(pair[1] / pair[0] for pair in pairs),
-        "most": max(pair[1] / pair[0] for pair in pairs),
+        "streamed_s": statistics.median(each.wall for each in before),
+        "folder_s": statistics.median(each.wall for each in after),
+        **compared(before, after),
     }
 
 
@@ -87,7 +106,7 @@ def large_here(runs: int, threads: int) -> dict[str, Any]:
     import resource  # where the system has it
 
     made = campaign(runs)
-    seconds, size = into_folder(made, threads=threads)
+    seconds, _, size = into_folder(made, threads=threads)
     unit = 1 if sys.platform == "darwin" else 1024
     return {
         "runs": made.total,
@@ -110,7 +129,7 @@ def sizes(runs: int) -> dict[str, float]:
     found = {}
     for name, kept in KINDS.items():
         made = campaign(runs, **kept)
-        found[name] = into_folder(made)[1] / made.total
+        found[name] = into_folder(made).size / made.total
     return found
 
 
@@ -121,7 +140,8 @@ def engines(rounds: int, workers: int, rate: float) -> dict[str, Any]:
     # A worker has one thread: parts of at least two seconds of it, an even share for each, eight parts a worker.
     part_runs = round(1.25 * PART_SECONDS * rate / million.THREADS)
     made = campaign(8 * workers * part_runs, part_runs=part_runs)
-    times: dict[str, list[float]] = {"threads": [], "workers": []}
+    before: list[Measured] = []
+    after: list[Measured] = []
     with (
         LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
         Client(cluster) as client,
@@ -129,25 +149,26 @@ def engines(rounds: int, workers: int, rate: float) -> dict[str, Any]:
         executor = client.get_executor(retries=3)
         into_folder(campaign(20 * part_runs // 8, part_runs=part_runs // 8), executor=executor)  # warm-up
         for _ in range(rounds):
-            times["threads"].append(into_folder(made, threads=workers)[0])
-            times["workers"].append(into_folder(made, executor=executor)[0])
+            before.append(into_folder(made, threads=workers))
+            spent = sum(client.run(time.process_time).values())
+            own = into_folder(made, executor=executor)
+            spent = sum(client.run(time.process_time).values()) - spent
+            after.append(own._replace(processor=own.processor + spent))
+        usual = statistics.median(each.wall for each in after)
         pids = list(client.run(os.getpid).values())
-        timer = threading.Timer(statistics.median(times["workers"]) / 2.0, os.kill, (pids[0], signal.SIGKILL))
+        timer = threading.Timer(usual / 2.0, os.kill, (pids[0], signal.SIGKILL))
         timer.start()
-        killed = into_folder(made, executor=executor)[0]
+        killed = into_folder(made, executor=executor).wall
         timer.join()
-    ratios = [after / before for before, after in zip(times["threads"], times["workers"], strict=True)]
     return {
         "workers": workers,
         "runs": made.total,
         "parts": made.parts,
-        "part_s": statistics.median(times["workers"]) * workers / made.parts,
-        "threads_s": statistics.median(times["threads"]),
-        "workers_s": statistics.median(times["workers"]),
-        "ratio": statistics.median(ratios),
-        "least": min(ratios),
-        "most": max(ratios),
+        "part_s": usual * workers / made.parts,
+        "threads_s": statistics.median(each.wall for each in before),
+        "workers_s": usual,
         "killed_s": killed,
+        **compared(before, after),
     }
 
 

@@ -30,7 +30,8 @@ def _row(*cells: str) -> str:
 
 
 def _spread(values: dict[str, Any]) -> str:
-    return f"{values['ratio']:.2f} ({values['least']:.2f} to {values['most']:.2f})"
+    wall = f"{values['ratio']:.2f} ({values['least']:.2f} to {values['most']:.2f})"
+    return f"{wall}, of processor times {values['processor_ratio']:.2f}"
 
 
 def _measured(found: dict[str, Any]) -> list[str]:
@@ -71,7 +72,7 @@ proportion; [performance.md](performance.md) has the cost of a sample and of an 
         *(_row(what, f"{runs:,}", f"{time:.1f}", f"{runs / time:,.0f}", more) for what, runs, time, more in rows),
         """
 Medians of rounds in which both were run one after the other. Ratios are of the same round, with the least and the
-most.
+most. Processor times, of client and workers together, are what a shared machine disturbs least.
 """,
         _row("kept", "bytes a run"),
         _row("---", "---"),
@@ -83,7 +84,7 @@ most.
 def _law(found: dict[str, Any]) -> list[str]:
     large = found["large"]
     rate, size = _rate_of_core(found), large["bytes"] / large["runs"]
-    small, overhead = min(found["sizes"].values()), max(found["engines"]["ratio"], 1.0)
+    small, overhead = min(found["sizes"].values()), max(found["engines"]["processor_ratio"], 1.0)
     head = f"""## The law used beyond
 
 A run costs the same whatever the number of runs: nothing is kept from part to part but the inputs, and parts do not
