@@ -3,7 +3,7 @@
 import importlib
 from typing import TYPE_CHECKING
 
-from seismass import _kernel, design
+from seismass import _kernel, design, intensity
 from seismass.animation import Animation, animate
 from seismass.assessment import Assessment, assess
 from seismass.batch import simulate_many, stream_many, write_many
@@ -168,6 +168,7 @@ __all__ = [
     "friction_table",
     "inelastic_spectrum",
     "instruction_set",
+    "intensity",
     "intensity_table",
     "live_load_uncertainty",
     "lognormal",

@@ -1,0 +1,539 @@
+"""Fragility: the probability that a limit is exceeded, by intensity, fitted to counts, to capacities or to a cloud."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Final, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seismass._values import FloatArray, as_array, as_count, as_number, as_positive, brief, counted, refusal
+from seismass.errors import InvalidOption
+from seismass.intensity.likelihood import Fits, capacity_fits, logistic_fit, probit_fits
+
+FragilityKind: TypeAlias = Literal["fitted", "step", "never", "always", "falling", "none"]
+"""How a fit ended; see `Fragility`."""
+FragilityMethod: TypeAlias = Literal["counts", "capacities", "cloud"]
+"""What a fragility was fitted to."""
+
+KINDS: Final[tuple[FragilityKind, ...]] = ("fitted", "step", "never", "always", "falling", "none")
+"""Kinds in the order of the numbers that `likelihood` has for them."""
+CONFIDENCE: Final = 0.90
+"""Default probability of intervals."""
+RESAMPLES: Final = 1000
+"""Default bootstrap resamples."""
+NO_COLLAPSE: Final = (-np.inf, 0.0)
+"""Intercept and slope of a collapse that never occurs."""
+
+_KIND_TEXTS: Final[dict[FragilityKind, str]] = {
+    "fitted": "",
+    "step": "an intensity parts the runs that exceed the limit from the others: the dispersion cannot be told from zero",
+    "never": "the limit is never exceeded: the median lies above the highest intensity",
+    "always": "the limit is always exceeded: the median lies below the lowest intensity",
+    "falling": "the limit is not exceeded more often at higher intensities: no lognormal curve fits",
+    "none": "the runs are too few for a curve",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Fragility:
+    """Probability that a limit is exceeded, by intensity: Phi(ln(x / median) / dispersion).
+
+    Attributes
+    ----------
+    median : float
+        Intensity at which the probability is one half. Infinite where the limit is never exceeded, 0 where always,
+        NaN where there is no curve.
+    dispersion : float
+        Standard deviation of the logarithm of the capacity: half of ln of the intensities at 84 and 16 %. 0 for a
+        step, NaN where it is not known.
+    kind : {"fitted", "step", "never", "always", "falling", "none"}
+        "fitted": the likelihood has a maximum. "step": an intensity parts the runs that exceed the limit from the
+        others, or all capacities are equal. "never", "always": in all runs the same. "falling": the limit is not
+        exceeded more often at higher intensities. "none": too few runs.
+    method : {"counts", "capacities", "cloud"}
+        What it was fitted to.
+    median_interval, dispersion_interval : tuple of float or None
+        Percentile bootstrap intervals; None without resamples.
+    confidence : float
+        Probability of the intervals.
+    runs, exceeding : int
+        Number of runs (or motions, for capacities), and of those that exceed the limit.
+    lowest, highest : float
+        Range of the intensities that it was fitted to; beyond it the curve is extrapolated.
+    parts : tuple of float
+        Median and dispersion of the lognormal part, and intercept and slope of the logistic curve of collapse over ln
+        of the intensity (-inf and 0: none), which a cloud may have.
+    samples : ndarray, shape (resamples, 4)
+        `parts` of each bootstrap resample.
+    remarks : tuple of str
+        What a user must know beside the numbers.
+    """
+
+    median: float
+    dispersion: float
+    kind: FragilityKind
+    method: FragilityMethod
+    median_interval: tuple[float, float] | None
+    dispersion_interval: tuple[float, float] | None
+    confidence: float
+    runs: int
+    exceeding: int
+    lowest: float
+    highest: float
+    parts: tuple[float, float, float, float] = field(repr=False)
+    samples: FloatArray = field(repr=False)
+    remarks: tuple[str, ...] = field(repr=False)
+
+    def probability(self, intensity: ArrayLike) -> FloatArray:
+        """Return the probability that the limit is exceeded, in the shape of `intensity`.
+
+        Where the limit was never (always) exceeded it is 0 (1) up to the highest (down to the lowest) intensity, and
+        NaN beyond it, where nothing is known.
+
+        Raises
+        ------
+        InvalidOption
+            An intensity is negative or no number.
+        """
+        at = _intensities(intensity)
+        found = _curves(np.array([self.parts]), at)[0]
+        if self.kind == "never":
+            found = np.where(at <= self.highest, 0.0, np.nan)
+        elif self.kind == "always":
+            found = np.where(at >= self.lowest, 1.0, np.nan)
+        return np.asarray(found)
+
+    def band(self, intensity: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Return the ends of the bootstrap interval of the probability at intensities; NaN without resamples.
+
+        Resamples without a curve are left out.
+        """
+        at = _intensities(intensity)
+        if not len(self.samples):
+            return np.full(at.shape, np.nan), np.full(at.shape, np.nan)
+        return interval_of(_curves(self.samples, at), self.confidence)
+
+    def quantile(self, probability: float) -> float:
+        """Return the intensity at which the limit is exceeded with a probability.
+
+        Raises
+        ------
+        InvalidOption
+            The probability is not between 0 and 1.
+        """
+        share = as_number(probability, "probability", "fragility", InvalidOption)
+        if not 0.0 < share < 1.0:
+            raise refusal(InvalidOption, "probability", "fragility", "between 0 and 1", f"{share:g}")
+        return _quantile(self.parts, share)
+
+    @property
+    def text(self) -> str:
+        """The curve in one line, and its remarks."""
+
+        def of(value: float, interval: tuple[float, float] | None) -> str:
+            return f"{value:.3g}" + ("" if interval is None else f" [{interval[0]:.3g}, {interval[1]:.3g}]")
+
+        line = (
+            f"median {of(self.median, self.median_interval)}, dispersion "
+            f"{of(self.dispersion, self.dispersion_interval)}; {self.exceeding} of {counted(self.runs, 'run')} exceed"
+        )
+        return "\n".join([line, *(f"remark: {remark}" for remark in self.remarks)])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything but the resamples as plain values."""
+        names = ("median", "dispersion", "kind", "method", "median_interval", "dispersion_interval", "confidence")
+        names += ("runs", "exceeding", "lowest", "highest", "parts", "remarks")
+        return {name: getattr(self, name) for name in names}
+
+
+def fit_counts(
+    intensity: ArrayLike,
+    exceeding: ArrayLike,
+    total: ArrayLike,
+    *,
+    confidence: float = CONFIDENCE,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> Fragility:
+    """Fit a lognormal fragility to the numbers of runs that exceed a limit at several intensities.
+
+    Parameters
+    ----------
+    intensity : array_like, shape (levels,)
+        Positive intensities.
+    exceeding : array_like, shape (levels,)
+        Runs that exceed the limit at each of them.
+    total : array_like, shape (levels,), or int
+        Runs there.
+    confidence, resamples, seed
+        Of the bootstrap intervals: runs of each level are drawn again by themselves, as for other motions at each
+        level. Analyses that scale the same motions draw these instead.
+
+    Raises
+    ------
+    InvalidOption
+        Lists differ in length, an intensity is not positive, or more runs exceed the limit than there are.
+
+    Notes
+    -----
+    Maximum of the binomial likelihood: Baker (2015), Efficient analytical fragility function fitting using dynamic
+    structural analysis, Earthquake Spectra 31:579-599, eq. 11.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> fit = sm.intensity.fit_counts(
+    ...     [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0], [0, 0, 0, 4, 6, 13, 12, 16], 40
+    ... )
+    >>> round(fit.median, 2), round(fit.dispersion, 2)
+    (1.07, 0.43)
+    """
+    owner = "fragility fit"
+    at = _positive(intensity, "intensity", owner)
+    hit = as_array(exceeding, "exceeding", owner, InvalidOption)
+    runs = as_array(total, "total", owner, InvalidOption, or_number=True)
+    runs = np.broadcast_to(runs, at.shape) if runs.ndim == 0 else runs
+    if not len(at) == len(hit) == len(runs):
+        got = f"{len(hit)} and {len(runs)}"
+        raise refusal(InvalidOption, "exceeding and total", owner, f"lists of {len(at)} values", got)
+    if not ((hit >= 0.0) & (hit <= runs) & np.isfinite(runs)).all():
+        raise refusal(InvalidOption, "exceeding", owner, "from 0 to total", brief(hit.tolist()))
+    chosen = _options(confidence, resamples, seed, owner)
+    fits = probit_fits(at, hit[None], runs[None])
+    whole = bool((hit == np.rint(hit)).all() and (runs == np.rint(runs)).all())
+    drawn = None
+    if chosen.resamples and whole and runs.sum() > 0:
+        number = runs.astype(np.int64)
+        share = np.divide(hit, runs, out=np.zeros(len(at)), where=runs > 0.0)
+        counts = np.random.default_rng(chosen.seed).binomial(number, share, size=(chosen.resamples, len(at)))
+        drawn = probit_fits(at, counts.astype(np.float64), np.broadcast_to(runs, counts.shape))
+    used = at[runs > 0.0]
+    return lognormal_fragility(fits, drawn, "counts", chosen.confidence, int(runs.sum()), int(hit.sum()), used)
+
+
+def fit_capacities(
+    capacities: ArrayLike,
+    censored_above: ArrayLike | None = None,
+    *,
+    confidence: float = CONFIDENCE,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> Fragility:
+    """Fit a lognormal fragility to the intensities at which motions first exceed a limit.
+
+    Parameters
+    ----------
+    capacities : array_like, shape (motions,)
+        Capacity of each motion; infinite or NaN where it never exceeds the limit.
+    censored_above : array_like, shape (motions,), or float, optional
+        Highest intensity to which each motion was scaled: a capacity above it only counts as larger than it. Needed
+        where a motion never exceeds the limit.
+    confidence, resamples, seed
+        Of the bootstrap intervals over the motions.
+
+    Raises
+    ------
+    InvalidOption
+        A capacity or limit is not positive, lists differ in length, or `censored_above` is missing.
+
+    Notes
+    -----
+    Maximum likelihood, with the motions that never exceed the limit as in the truncated incremental dynamic analysis of
+    Baker (2015). Without them the median is the geometric mean, and the dispersion the standard deviation of the
+    logarithm with divisor n.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> fit = sm.intensity.fit_capacities([0.5, 1.0, 2.0])
+    >>> round(fit.median, 12), round(fit.dispersion, 4)
+    (1.0, 0.566)
+    """
+    owner = "fragility fit"
+    given = as_array(capacities, "capacities", owner, InvalidOption)
+    if not len(given):
+        raise refusal(InvalidOption, "capacities", owner, "at least one", "none")
+    if (given <= 0.0).any():
+        raise refusal(InvalidOption, "capacities", owner, "positive", f"{given[given <= 0.0][0]:g}")
+    finite = np.isfinite(given)
+    if censored_above is None:
+        if not finite.all():
+            requirement = "given where a motion never exceeds the limit"
+            raise refusal(InvalidOption, "censored_above", owner, requirement, "None")
+        ceiling = np.full(len(given), np.inf)
+    else:
+        ceiling = as_array(censored_above, "censored_above", owner, InvalidOption, or_number=True)
+        ceiling = np.broadcast_to(ceiling, given.shape) if ceiling.ndim == 0 else ceiling
+        if len(ceiling) != len(given):
+            raise refusal(InvalidOption, "censored_above", owner, f"a list of {len(given)} values", f"{len(ceiling)}")
+        if not (ceiling > 0.0).all():
+            raise refusal(InvalidOption, "censored_above", owner, "positive", brief(ceiling.tolist()))
+    exceeded = finite & (given <= ceiling)
+    known = np.where(exceeded, given, ceiling)
+    if not np.isfinite(known).all():
+        requirement = "finite where a motion never exceeds the limit"
+        raise refusal(InvalidOption, "censored_above", owner, requirement, brief(ceiling.tolist()))
+    chosen = _options(confidence, resamples, seed, owner)
+    count = len(known)
+    fits = capacity_fits(known, exceeded, np.ones((1, count)))
+    drawn = None
+    if chosen.resamples and count > 1:
+        equal = np.full(count, 1.0 / count)
+        weights = np.random.default_rng(chosen.seed).multinomial(count, equal, size=chosen.resamples)
+        drawn = capacity_fits(known, exceeded, weights.astype(np.float64))
+    return lognormal_fragility(fits, drawn, "capacities", chosen.confidence, count, int(exceeded.sum()), known)
+
+
+def fit_cloud(
+    intensity: ArrayLike,
+    demand: ArrayLike,
+    limit: float,
+    *,
+    collapsed: ArrayLike | None = None,
+    confidence: float = CONFIDENCE,
+    resamples: int = RESAMPLES,
+    seed: int = 0,
+) -> Fragility:
+    """Fit a fragility to demands of motions as they are: a line through the logarithms, and a curve of collapse.
+
+    Parameters
+    ----------
+    intensity : array_like, shape (runs,)
+        Positive intensity of each run.
+    demand : array_like, shape (runs,)
+        Its demand. Runs without any (zero) count as below the limit by the line through the others.
+    limit : float
+        The limit, positive.
+    collapsed : array_like of bool, shape (runs,), optional
+        Runs that collapsed; by default those of infinite demand.
+    confidence, resamples, seed
+        Of the bootstrap intervals over the runs.
+
+    Raises
+    ------
+    InvalidOption
+        Lists differ in length, or a value is not what it must be.
+
+    Notes
+    -----
+    ln(demand) = a + b ln(x) + a normal error of constant deviation s over the runs that do not collapse, so that the
+    limit is exceeded with Phi((a + b ln(x) - ln(limit)) / s): Cornell, Jalayer, Hamburger and Foutch (2002), J. Struct.
+    Eng. 128:526-533. A logistic regression on ln(x) adds collapse: P = P_nc (1 - P_c) + P_c, Jalayer, Ebrahimian,
+    Miano, Manfredi and Sezen (2017), Earthquake Eng. Struct. Dyn. 46:2639-2663. s has divisor n - 2.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> fit = sm.intensity.fit_cloud([0.1, 0.2, 0.4, 0.8], [0.011, 0.019, 0.041, 0.079], 0.02)
+    >>> round(fit.median, 2)
+    0.2
+    """
+    owner = "cloud fit"
+    at = _positive(intensity, "intensity", owner)
+    values = as_array(demand, "demand", owner, InvalidOption)
+    bound = as_positive(limit, "limit", owner, InvalidOption)
+    if len(values) != len(at):
+        raise refusal(InvalidOption, "demand", owner, f"a list of {len(at)} values", f"{len(values)}")
+    fell = np.isinf(values) if collapsed is None else np.asarray(collapsed, dtype=np.bool_)
+    if fell.shape != at.shape:
+        raise refusal(InvalidOption, "collapsed", owner, f"a list of {len(at)} values", f"shape {fell.shape}")
+    if not ((values >= 0.0) & (np.isfinite(values) | fell)).all():
+        raise refusal(InvalidOption, "demand", owner, "zero or positive, and finite without collapse", brief(values.tolist()))
+    chosen = _options(confidence, resamples, seed, owner)
+    parts, kind = cloud_parts(at, values, fell, bound, np.ones(len(at)))
+    samples = np.empty((0, 4))
+    if chosen.resamples and len(at) > 1 and kind == "fitted":
+        equal = np.full(len(at), 1.0 / len(at))
+        weights = np.random.default_rng(chosen.seed).multinomial(len(at), equal, size=chosen.resamples)
+        samples = np.array([cloud_parts(at, values, fell, bound, row.astype(np.float64))[0] for row in weights])
+    exceeding = int((fell | (values > bound)).sum())
+    remarks = []
+    zero = int(((values == 0.0) & ~fell).sum())
+    if zero:
+        remarks.append(f"{counted(zero, 'run')} without any demand cannot be part of a line through logarithms")
+    return fragility_of(parts, samples, kind, "cloud", chosen.confidence, len(at), exceeding, at, remarks)
+
+
+def cloud_parts(
+    at: FloatArray, demand: FloatArray, collapsed: NDArray[np.bool_], limit: float, weight: FloatArray
+) -> tuple[tuple[float, float, float, float], FragilityKind]:
+    """Return the parts of a cloud's curve for weighted runs, and how its fit ended."""
+    log = np.log(at)
+    used = ~collapsed & (demand > 0.0) & (weight > 0.0)
+    collapse = NO_COLLAPSE
+    fell = collapsed & (weight > 0.0)
+    if fell.any():
+        found = logistic_fit(log, collapsed, weight)
+        if found is not None:
+            collapse = (float(found[0]), float(found[1]))
+    missing = (np.nan, np.nan, *collapse)
+    if weight[used].sum() <= 2.0 or np.ptp(log[used]) == 0.0:
+        return missing, "none"
+    if fell.any() and collapse == NO_COLLAPSE:
+        return missing, "step"
+    own, x, y = weight[used], log[used], np.log(demand[used])
+    middle_x, middle_y = np.average(x, weights=own), np.average(y, weights=own)
+    slope = float(own @ ((x - middle_x) * (y - middle_y)) / (own @ (x - middle_x) ** 2))
+    if slope <= 0.0:
+        return missing, "falling"
+    intercept = middle_y - slope * middle_x
+    scatter = float(np.sqrt(own @ (y - intercept - slope * x) ** 2 / (own.sum() - 2.0)))
+    median = float(np.exp((np.log(limit) - intercept) / slope))
+    return (median, scatter / slope, *collapse), "fitted"
+
+
+def lognormal_fragility(
+    fits: Fits,
+    drawn: Fits | None,
+    method: FragilityMethod,
+    confidence: float,
+    runs: int,
+    exceeding: int,
+    at: FloatArray,
+) -> Fragility:
+    """Return the fragility of the one sample in `fits`, with the resamples in `drawn`."""
+    parts = (float(fits.median[0]), float(fits.dispersion[0]), *NO_COLLAPSE)
+    samples = np.empty((0, 4))
+    if drawn is not None:
+        samples = np.column_stack([drawn.median, drawn.dispersion, np.tile(NO_COLLAPSE, (len(drawn.median), 1))])
+    return fragility_of(parts, samples, KINDS[fits.kind[0]], method, confidence, runs, exceeding, at, [])
+
+
+def fragility_of(
+    parts: tuple[float, float, float, float],
+    samples: FloatArray,
+    kind: FragilityKind,
+    method: FragilityMethod,
+    confidence: float,
+    runs: int,
+    exceeding: int,
+    at: FloatArray,
+    remarks: list[str],
+) -> Fragility:
+    """Return a fragility of its parts, those of its resamples, and what it was fitted to."""
+    said = [_KIND_TEXTS[kind]] if kind != "fitted" else []
+    median, dispersion = _median_and_dispersion(parts)
+    intervals: list[tuple[float, float] | None] = [None, None]
+    if len(samples) and kind == "fitted":
+        both = np.array([_median_and_dispersion(row) for row in samples.tolist()])
+        for place in range(2):
+            low, high = interval_of(both[:, place], confidence)
+            intervals[place] = (float(low), float(high))
+        lost = int(np.isnan(both[:, 0]).sum())
+        if lost:
+            said.append(f"{lost} of {len(samples)} resamples have no curve and are left out of the intervals")
+    return Fragility(
+        median=median,
+        dispersion=dispersion,
+        kind=kind,
+        method=method,
+        median_interval=intervals[0],
+        dispersion_interval=intervals[1],
+        confidence=confidence,
+        runs=runs,
+        exceeding=exceeding,
+        lowest=float(at.min(initial=np.inf)),
+        highest=float(at.max(initial=0.0)),
+        parts=parts,
+        samples=samples,
+        remarks=(*said, *remarks),
+    )
+
+
+def interval_of(values: FloatArray, confidence: float) -> tuple[FloatArray, FloatArray]:
+    """Return the percentile interval over the first axis, NaN left out; an end between finite and infinite is infinite."""
+    tail = 0.5 * (1.0 - confidence)
+    ordered = np.sort(values, axis=0)
+    number = np.count_nonzero(~np.isnan(values), axis=0)
+    ends = []
+    for share in (tail, 1.0 - tail):
+        place = share * np.maximum(number - 1, 0)
+        low = np.floor(place).astype(np.int64)
+        high = np.minimum(low + 1, np.maximum(number - 1, 0))
+        below, above = (np.take_along_axis(ordered, index[None], axis=0)[0] for index in (low, high))
+        with np.errstate(invalid="ignore"):
+            between = below + (place - low) * (above - below)
+        ends.append(np.where(np.isinf(above) & (place > low), above, np.where(below == above, below, between)))
+    return ends[0], ends[1]
+
+
+@dataclass(frozen=True, slots=True)
+class BootstrapOptions:
+    """Probability of intervals, resamples and seed."""
+
+    confidence: float
+    resamples: int
+    seed: int
+
+
+def _options(confidence: Any, resamples: Any, seed: Any, owner: str) -> BootstrapOptions:
+    share = as_number(confidence, "confidence", owner, InvalidOption)
+    if not 0.0 < share < 1.0:
+        raise refusal(InvalidOption, "confidence", owner, "between 0 and 1", f"{share:g}")
+    count = as_count(resamples, "resamples", owner, InvalidOption)
+    return BootstrapOptions(share, count, as_count(seed, "seed", owner, InvalidOption))
+
+
+def _curves(parts: FloatArray, at: FloatArray) -> FloatArray:
+    """Probability of each row of parts at each intensity, shape (rows, *at.shape)."""
+    from scipy.special import expit, ndtr  # slow to import
+
+    median, dispersion, intercept, slope = (column.reshape(-1, *(1,) * at.ndim) for column in parts.T)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        log = np.log(at)
+        above = log - np.log(median)
+        drift = np.where(dispersion > 0.0, ndtr(above / dispersion), (above >= 0.0).astype(np.float64))
+        drift = np.where(np.isnan(median), np.nan, drift)
+        collapse = np.where(np.isneginf(intercept), 0.0, expit(intercept + slope * log))
+    return np.where(at == 0.0, 0.0 * drift, drift + collapse * (1.0 - drift))
+
+
+def _median_and_dispersion(parts: Any) -> tuple[float, float]:
+    """Median and half the logarithmic distance of 16 and 84 % of a curve, those of the lognormal where it is one."""
+    median, dispersion, intercept, _ = parts
+    if np.isneginf(intercept) or np.isnan(median):
+        return float(median), float(dispersion)
+    from scipy.special import ndtr  # slow to import
+
+    low, high = (_quantile(parts, float(ndtr(sign))) for sign in (-1.0, 1.0))
+    return _quantile(parts, 0.5), 0.5 * float(np.log(high / low))
+
+
+def _quantile(parts: Any, share: float) -> float:
+    """Intensity at which a curve reaches a probability."""
+    from scipy.optimize import brentq  # slow to import
+    from scipy.special import ndtri
+
+    median, dispersion, intercept, slope = parts
+    lognormal = float(median * np.exp(dispersion * ndtri(share)))
+    if np.isneginf(intercept) or not np.isfinite(lognormal):
+        return lognormal
+    if slope <= 0.0:
+        return float(np.nan)
+
+    def missing(log: float) -> float:
+        return float(_curves(np.array([parts]), np.array([np.exp(log)]))[0, 0]) - share
+
+    high = np.log(lognormal)
+    low = high - 1.0
+    while missing(low) > 0.0:
+        low -= 1.0
+    return float(np.exp(brentq(missing, low, high, xtol=1e-13)))
+
+
+def _intensities(given: ArrayLike) -> FloatArray:
+    at = np.asarray(given, dtype=np.float64)
+    if not (at >= 0.0).all():
+        raise refusal(InvalidOption, "intensity", "fragility", "zero or positive", brief(given))
+    return at
+
+
+def _positive(given: Any, name: str, owner: str) -> FloatArray:
+    values = as_array(given, name, owner, InvalidOption)
+    if not len(values):
+        raise refusal(InvalidOption, name, owner, "at least one", "none")
+    if not ((values > 0.0) & np.isfinite(values)).all():
+        raise refusal(InvalidOption, name, owner, "positive and finite", brief(values.tolist()))
+    return values
