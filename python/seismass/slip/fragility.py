@@ -1,0 +1,2 @@
+"""Fragility of slip."""
+def slip_fragilities(*a, **k): raise NotImplementedError
