@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterator
 from itertools import chain
 from typing import Any, Final
 
@@ -12,7 +13,6 @@ import polars as pl
 
 from seismass._values import FloatArray
 from seismass.effective_mass.curve import Kind, Statistic, interpolated_roots, is_below, kind_of, over_records
-from seismass.effective_mass.models import building_of
 from seismass.effective_mass.runs import NamedMotions, Peaks
 from seismass.scene import Scene
 
@@ -135,19 +135,30 @@ def record_table(motions: NamedMotions, shares: FloatArray, real: Peaks, model: 
 def inputs_digest(scene: Scene, motions: NamedMotions, chosen: dict[str, Any]) -> str:
     """SHA-256 of everything that the numbers depend on."""
     digest = hashlib.sha256(json.dumps(chosen, sort_keys=True).encode())
-    building = building_of(scene)
-    structure = [building.mass, *building.springs_in_use().values(), building.damping_matrix, scene.geometric_stiffness]
-    optional = [building.heights, scene.initial_drift, scene.initial_velocity, scene.collapse_drift]
-    if building.laws:
-        digest.update(repr((building.backbone, building.hysteresis)).encode())
-    for array in (*structure, *optional):
-        digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
-    for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
-        digest.update(np.array([block.floor, mass, block.mu_s, block.mu_k, *chain(*block.wear)], dtype="<f8").tobytes())
-    for motion in motions.motions:
-        digest.update(np.float64(motion.dt).tobytes())
-        digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())
-        if motion.vertical is not None:
-            digest.update(b"vertical")
-            digest.update(np.ascontiguousarray(motion.vertical, dtype="<f8").tobytes())
+    for part in chain(scene_bytes(scene), motion_bytes(motions)):
+        digest.update(part)
     return digest.hexdigest()
+
+
+def scene_bytes(scene: Scene) -> Iterator[bytes]:
+    """Yield what defines a scene, in an order that does not change."""
+    building = scene.building
+    if building is not None:
+        structure = [building.mass, *building.springs_in_use().values(), building.damping_matrix]
+        optional = [building.heights, scene.initial_drift, scene.initial_velocity, scene.collapse_drift]
+        if building.laws:
+            yield repr((building.backbone, building.hysteresis)).encode()
+        for array in (*structure, scene.geometric_stiffness, *optional):
+            yield b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes()
+    for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
+        yield np.array([block.floor, mass, block.mu_s, block.mu_k, *chain(*block.wear)], dtype="<f8").tobytes()
+
+
+def motion_bytes(motions: NamedMotions) -> Iterator[bytes]:
+    """Yield the samples and the time step of each motion."""
+    for motion in motions.motions:
+        yield np.float64(motion.dt).tobytes()
+        yield np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes()
+        if motion.vertical is not None:
+            yield b"vertical"
+            yield np.ascontiguousarray(motion.vertical, dtype="<f8").tobytes()

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass._values import FloatArray, as_array, as_count, as_number, as_positive, brief, counted, refusal
 from seismass.errors import InvalidOption
-from seismass.intensity.likelihood import Fits, capacity_fits, logistic_fit, probit_fits
+from seismass.intensity.likelihood import Fits, capacity_fits, cloud_fits, probit_fits
+from seismass.intensity.probability import NO_COLLAPSE, interval_of, medians_and_dispersions, probabilities, quantiles
 
 FragilityKind: TypeAlias = Literal["fitted", "step", "never", "always", "falling", "none"]
 """How a fit ended; see `Fragility`."""
@@ -23,12 +24,10 @@ CONFIDENCE: Final = 0.90
 """Default probability of intervals."""
 RESAMPLES: Final = 1000
 """Default bootstrap resamples."""
-NO_COLLAPSE: Final = (-np.inf, 0.0)
-"""Intercept and slope of a collapse that never occurs."""
 
 _KIND_TEXTS: Final[dict[FragilityKind, str]] = {
     "fitted": "",
-    "step": "an intensity parts the runs that exceed the limit from the others: the dispersion cannot be told from zero",
+    "step": "an intensity parts the runs that exceed the limit from the others: the dispersion is not known",
     "never": "the limit is never exceeded: the median lies above the highest intensity",
     "always": "the limit is always exceeded: the median lies below the lowest intensity",
     "falling": "the limit is not exceeded more often at higher intensities: no lognormal curve fits",
@@ -62,11 +61,11 @@ class Fragility:
         Number of runs (or motions, for capacities), and of those that exceed the limit.
     lowest, highest : float
         Range of the intensities that it was fitted to; beyond it the curve is extrapolated.
-    parts : tuple of float
-        Median and dispersion of the lognormal part, and intercept and slope of the logistic curve of collapse over ln
-        of the intensity (-inf and 0: none), which a cloud may have.
+    curve : ndarray, shape (4,)
+        Median and dispersion of the lognormal part, centre and width of the logistic curve of collapse that a cloud may
+        have (infinity and 0: none); see `probability`.
     samples : ndarray, shape (resamples, 4)
-        `parts` of each bootstrap resample.
+        `curve` of each bootstrap resample.
     remarks : tuple of str
         What a user must know beside the numbers.
     """
@@ -82,7 +81,7 @@ class Fragility:
     exceeding: int
     lowest: float
     highest: float
-    parts: tuple[float, float, float, float] = field(repr=False)
+    curve: FloatArray = field(repr=False)
     samples: FloatArray = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
 
@@ -98,7 +97,7 @@ class Fragility:
             An intensity is negative or no number.
         """
         at = _intensities(intensity)
-        found = _curves(np.array([self.parts]), at)[0]
+        found = probabilities(self.curve[None], at)[0]
         if self.kind == "never":
             found = np.where(at <= self.highest, 0.0, np.nan)
         elif self.kind == "always":
@@ -113,7 +112,7 @@ class Fragility:
         at = _intensities(intensity)
         if not len(self.samples):
             return np.full(at.shape, np.nan), np.full(at.shape, np.nan)
-        return interval_of(_curves(self.samples, at), self.confidence)
+        return interval_of(probabilities(self.samples, at), self.confidence)
 
     def quantile(self, probability: float) -> float:
         """Return the intensity at which the limit is exceeded with a probability.
@@ -126,7 +125,7 @@ class Fragility:
         share = as_number(probability, "probability", "fragility", InvalidOption)
         if not 0.0 < share < 1.0:
             raise refusal(InvalidOption, "probability", "fragility", "between 0 and 1", f"{share:g}")
-        return _quantile(self.parts, share)
+        return float(quantiles(self.curve[None], share)[0])
 
     @property
     def text(self) -> str:
@@ -143,9 +142,9 @@ class Fragility:
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the resamples as plain values."""
-        names = ("median", "dispersion", "kind", "method", "median_interval", "dispersion_interval", "confidence")
-        names += ("runs", "exceeding", "lowest", "highest", "parts", "remarks")
-        return {name: getattr(self, name) for name in names}
+        names = ["median", "dispersion", "kind", "method", "median_interval", "dispersion_interval", "confidence"]
+        names += ["runs", "exceeding", "lowest", "highest", "remarks"]
+        return {**{name: getattr(self, name) for name in names}, "curve": self.curve.tolist()}
 
 
 def fit_counts(
@@ -188,7 +187,7 @@ def fit_counts(
     ...     [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0], [0, 0, 0, 4, 6, 13, 12, 16], 40
     ... )
     >>> round(fit.median, 2), round(fit.dispersion, 2)
-    (1.07, 0.43)
+    (1.08, 0.43)
     """
     owner = "fragility fit"
     at = _positive(intensity, "intensity", owner)
@@ -200,7 +199,7 @@ def fit_counts(
         raise refusal(InvalidOption, "exceeding and total", owner, f"lists of {len(at)} values", got)
     if not ((hit >= 0.0) & (hit <= runs) & np.isfinite(runs)).all():
         raise refusal(InvalidOption, "exceeding", owner, "from 0 to total", brief(hit.tolist()))
-    chosen = _options(confidence, resamples, seed, owner)
+    chosen = bootstrap_options(confidence, resamples, seed, owner)
     fits = probit_fits(at, hit[None], runs[None])
     whole = bool((hit == np.rint(hit)).all() and (runs == np.rint(runs)).all())
     drawn = None
@@ -209,8 +208,16 @@ def fit_counts(
         share = np.divide(hit, runs, out=np.zeros(len(at)), where=runs > 0.0)
         counts = np.random.default_rng(chosen.seed).binomial(number, share, size=(chosen.resamples, len(at)))
         drawn = probit_fits(at, counts.astype(np.float64), np.broadcast_to(runs, counts.shape))
-    used = at[runs > 0.0]
-    return lognormal_fragility(fits, drawn, "counts", chosen.confidence, int(runs.sum()), int(hit.sum()), used)
+    return fragility_of(
+        as_curves(fits)[0],
+        np.empty((0, 4)) if drawn is None else as_curves(drawn),
+        fits.kind[0],
+        "counts",
+        chosen.confidence,
+        runs=int(runs.sum()),
+        exceeding=int(hit.sum()),
+        at=at[runs > 0.0],
+    )
 
 
 def fit_capacities(
@@ -275,7 +282,7 @@ def fit_capacities(
     if not np.isfinite(known).all():
         requirement = "finite where a motion never exceeds the limit"
         raise refusal(InvalidOption, "censored_above", owner, requirement, brief(ceiling.tolist()))
-    chosen = _options(confidence, resamples, seed, owner)
+    chosen = bootstrap_options(confidence, resamples, seed, owner)
     count = len(known)
     fits = capacity_fits(known, exceeded, np.ones((1, count)))
     drawn = None
@@ -283,7 +290,16 @@ def fit_capacities(
         equal = np.full(count, 1.0 / count)
         weights = np.random.default_rng(chosen.seed).multinomial(count, equal, size=chosen.resamples)
         drawn = capacity_fits(known, exceeded, weights.astype(np.float64))
-    return lognormal_fragility(fits, drawn, "capacities", chosen.confidence, count, int(exceeded.sum()), known)
+    return fragility_of(
+        as_curves(fits)[0],
+        np.empty((0, 4)) if drawn is None else as_curves(drawn),
+        fits.kind[0],
+        "capacities",
+        chosen.confidence,
+        runs=count,
+        exceeding=int(exceeded.sum()),
+        at=known,
+    )
 
 
 def fit_cloud(
@@ -340,94 +356,80 @@ def fit_cloud(
     if fell.shape != at.shape:
         raise refusal(InvalidOption, "collapsed", owner, f"a list of {len(at)} values", f"shape {fell.shape}")
     if not ((values >= 0.0) & (np.isfinite(values) | fell)).all():
-        raise refusal(InvalidOption, "demand", owner, "zero or positive, and finite without collapse", brief(values.tolist()))
-    chosen = _options(confidence, resamples, seed, owner)
-    parts, kind = cloud_parts(at, values, fell, bound, np.ones(len(at)))
+        raise refusal(
+            InvalidOption, "demand", owner, "zero or positive, and finite without collapse", brief(values.tolist())
+        )
+    chosen = bootstrap_options(confidence, resamples, seed, owner)
+    curves, kinds = cloud_fits(at, values, fell, bound, np.ones((1, len(at))))
     samples = np.empty((0, 4))
-    if chosen.resamples and len(at) > 1 and kind == "fitted":
+    if chosen.resamples and len(at) > 1:
         equal = np.full(len(at), 1.0 / len(at))
         weights = np.random.default_rng(chosen.seed).multinomial(len(at), equal, size=chosen.resamples)
-        samples = np.array([cloud_parts(at, values, fell, bound, row.astype(np.float64))[0] for row in weights])
-    exceeding = int((fell | (values > bound)).sum())
+        samples, _ = cloud_fits(at, values, fell, bound, weights.astype(np.float64))
+    return fragility_of(
+        curves[0],
+        samples,
+        kinds[0],
+        "cloud",
+        chosen.confidence,
+        runs=len(at),
+        exceeding=int((fell | (values > bound)).sum()),
+        at=at,
+        remarks=cloud_remarks(values, fell, curves[0]),
+    )
+
+
+def cloud_remarks(demand: FloatArray, collapsed: NDArray[np.bool_], curve: FloatArray) -> list[str]:
+    """Return what a user of a cloud must know: runs without demand, and collapses that one intensity parts."""
     remarks = []
-    zero = int(((values == 0.0) & ~fell).sum())
+    zero = int(((demand == 0.0) & ~collapsed).sum())
     if zero:
-        remarks.append(f"{counted(zero, 'run')} without any demand cannot be part of a line through logarithms")
-    return fragility_of(parts, samples, kind, "cloud", chosen.confidence, len(at), exceeding, at, remarks)
+        remarks.append(
+            f"{counted(zero, 'run')} of {len(demand)} without any demand are no part of the line through the "
+            "logarithms, so that the curve is too high where such runs are frequent"
+        )
+    if np.isfinite(curve[2]) and curve[3] == 0.0:
+        remarks.append(
+            f"all runs above intensity {curve[2]:.3g} collapse and none below it does: how collapse grows with the "
+            "intensity cannot be told"
+        )
+    return remarks
 
 
-def cloud_parts(
-    at: FloatArray, demand: FloatArray, collapsed: NDArray[np.bool_], limit: float, weight: FloatArray
-) -> tuple[tuple[float, float, float, float], FragilityKind]:
-    """Return the parts of a cloud's curve for weighted runs, and how its fit ended."""
-    log = np.log(at)
-    used = ~collapsed & (demand > 0.0) & (weight > 0.0)
-    collapse = NO_COLLAPSE
-    fell = collapsed & (weight > 0.0)
-    if fell.any():
-        found = logistic_fit(log, collapsed, weight)
-        if found is not None:
-            collapse = (float(found[0]), float(found[1]))
-    missing = (np.nan, np.nan, *collapse)
-    if weight[used].sum() <= 2.0 or np.ptp(log[used]) == 0.0:
-        return missing, "none"
-    if fell.any() and collapse == NO_COLLAPSE:
-        return missing, "step"
-    own, x, y = weight[used], log[used], np.log(demand[used])
-    middle_x, middle_y = np.average(x, weights=own), np.average(y, weights=own)
-    slope = float(own @ ((x - middle_x) * (y - middle_y)) / (own @ (x - middle_x) ** 2))
-    if slope <= 0.0:
-        return missing, "falling"
-    intercept = middle_y - slope * middle_x
-    scatter = float(np.sqrt(own @ (y - intercept - slope * x) ** 2 / (own.sum() - 2.0)))
-    median = float(np.exp((np.log(limit) - intercept) / slope))
-    return (median, scatter / slope, *collapse), "fitted"
-
-
-def lognormal_fragility(
-    fits: Fits,
-    drawn: Fits | None,
-    method: FragilityMethod,
-    confidence: float,
-    runs: int,
-    exceeding: int,
-    at: FloatArray,
-) -> Fragility:
-    """Return the fragility of the one sample in `fits`, with the resamples in `drawn`."""
-    parts = (float(fits.median[0]), float(fits.dispersion[0]), *NO_COLLAPSE)
-    samples = np.empty((0, 4))
-    if drawn is not None:
-        samples = np.column_stack([drawn.median, drawn.dispersion, np.tile(NO_COLLAPSE, (len(drawn.median), 1))])
-    return fragility_of(parts, samples, KINDS[fits.kind[0]], method, confidence, runs, exceeding, at, [])
+def as_curves(fits: Fits) -> FloatArray:
+    """Return lognormal fits as curves without collapse, shape (samples, 4)."""
+    return np.column_stack([fits.median, fits.dispersion, np.tile(NO_COLLAPSE, (len(fits.median), 1))])
 
 
 def fragility_of(
-    parts: tuple[float, float, float, float],
+    curve: FloatArray,
     samples: FloatArray,
-    kind: FragilityKind,
+    kind: int,
     method: FragilityMethod,
     confidence: float,
+    *,
     runs: int,
     exceeding: int,
     at: FloatArray,
-    remarks: list[str],
+    remarks: list[str] | None = None,
 ) -> Fragility:
-    """Return a fragility of its parts, those of its resamples, and what it was fitted to."""
-    said = [_KIND_TEXTS[kind]] if kind != "fitted" else []
-    median, dispersion = _median_and_dispersion(parts)
+    """Return a fragility of its curve, those of its resamples, the number of its kind, and what it was fitted to."""
+    name = KINDS[kind]
+    said = [_KIND_TEXTS[name]] if name != "fitted" else []
+    own_median, own_dispersion = medians_and_dispersions(curve[None])
     intervals: list[tuple[float, float] | None] = [None, None]
-    if len(samples) and kind == "fitted":
-        both = np.array([_median_and_dispersion(row) for row in samples.tolist()])
-        for place in range(2):
-            low, high = interval_of(both[:, place], confidence)
+    if len(samples) and name == "fitted":
+        both = medians_and_dispersions(samples)
+        for place, values in enumerate(both):
+            low, high = interval_of(values, confidence)
             intervals[place] = (float(low), float(high))
-        lost = int(np.isnan(both[:, 0]).sum())
+        lost = int(np.isnan(both[0]).sum())
         if lost:
             said.append(f"{lost} of {len(samples)} resamples have no curve and are left out of the intervals")
     return Fragility(
-        median=median,
-        dispersion=dispersion,
-        kind=kind,
+        median=float(own_median[0]),
+        dispersion=float(own_dispersion[0]),
+        kind=name,
         method=method,
         median_interval=intervals[0],
         dispersion_interval=intervals[1],
@@ -436,27 +438,10 @@ def fragility_of(
         exceeding=exceeding,
         lowest=float(at.min(initial=np.inf)),
         highest=float(at.max(initial=0.0)),
-        parts=parts,
+        curve=curve,
         samples=samples,
-        remarks=(*said, *remarks),
+        remarks=(*said, *(remarks or ())),
     )
-
-
-def interval_of(values: FloatArray, confidence: float) -> tuple[FloatArray, FloatArray]:
-    """Return the percentile interval over the first axis, NaN left out; an end between finite and infinite is infinite."""
-    tail = 0.5 * (1.0 - confidence)
-    ordered = np.sort(values, axis=0)
-    number = np.count_nonzero(~np.isnan(values), axis=0)
-    ends = []
-    for share in (tail, 1.0 - tail):
-        place = share * np.maximum(number - 1, 0)
-        low = np.floor(place).astype(np.int64)
-        high = np.minimum(low + 1, np.maximum(number - 1, 0))
-        below, above = (np.take_along_axis(ordered, index[None], axis=0)[0] for index in (low, high))
-        with np.errstate(invalid="ignore"):
-            between = below + (place - low) * (above - below)
-        ends.append(np.where(np.isinf(above) & (place > low), above, np.where(below == above, below, between)))
-    return ends[0], ends[1]
 
 
 @dataclass(frozen=True, slots=True)
@@ -468,59 +453,13 @@ class BootstrapOptions:
     seed: int
 
 
-def _options(confidence: Any, resamples: Any, seed: Any, owner: str) -> BootstrapOptions:
+def bootstrap_options(confidence: Any, resamples: Any, seed: Any, owner: str) -> BootstrapOptions:
+    """Return checked options of a bootstrap."""
     share = as_number(confidence, "confidence", owner, InvalidOption)
     if not 0.0 < share < 1.0:
         raise refusal(InvalidOption, "confidence", owner, "between 0 and 1", f"{share:g}")
     count = as_count(resamples, "resamples", owner, InvalidOption)
     return BootstrapOptions(share, count, as_count(seed, "seed", owner, InvalidOption))
-
-
-def _curves(parts: FloatArray, at: FloatArray) -> FloatArray:
-    """Probability of each row of parts at each intensity, shape (rows, *at.shape)."""
-    from scipy.special import expit, ndtr  # slow to import
-
-    median, dispersion, intercept, slope = (column.reshape(-1, *(1,) * at.ndim) for column in parts.T)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        log = np.log(at)
-        above = log - np.log(median)
-        drift = np.where(dispersion > 0.0, ndtr(above / dispersion), (above >= 0.0).astype(np.float64))
-        drift = np.where(np.isnan(median), np.nan, drift)
-        collapse = np.where(np.isneginf(intercept), 0.0, expit(intercept + slope * log))
-    return np.where(at == 0.0, 0.0 * drift, drift + collapse * (1.0 - drift))
-
-
-def _median_and_dispersion(parts: Any) -> tuple[float, float]:
-    """Median and half the logarithmic distance of 16 and 84 % of a curve, those of the lognormal where it is one."""
-    median, dispersion, intercept, _ = parts
-    if np.isneginf(intercept) or np.isnan(median):
-        return float(median), float(dispersion)
-    from scipy.special import ndtr  # slow to import
-
-    low, high = (_quantile(parts, float(ndtr(sign))) for sign in (-1.0, 1.0))
-    return _quantile(parts, 0.5), 0.5 * float(np.log(high / low))
-
-
-def _quantile(parts: Any, share: float) -> float:
-    """Intensity at which a curve reaches a probability."""
-    from scipy.optimize import brentq  # slow to import
-    from scipy.special import ndtri
-
-    median, dispersion, intercept, slope = parts
-    lognormal = float(median * np.exp(dispersion * ndtri(share)))
-    if np.isneginf(intercept) or not np.isfinite(lognormal):
-        return lognormal
-    if slope <= 0.0:
-        return float(np.nan)
-
-    def missing(log: float) -> float:
-        return float(_curves(np.array([parts]), np.array([np.exp(log)]))[0, 0]) - share
-
-    high = np.log(lognormal)
-    low = high - 1.0
-    while missing(low) > 0.0:
-        low -= 1.0
-    return float(np.exp(brentq(missing, low, high, xtol=1e-13)))
 
 
 def _intensities(given: ArrayLike) -> FloatArray:

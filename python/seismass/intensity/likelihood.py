@@ -20,8 +20,8 @@ NEVER: Final = 2
 ALWAYS: Final = 3
 FALLING: Final = 4
 NONE: Final = 5
-"""How a fit ended: with a maximum; a step at one intensity; never or always exceeded; falling with the intensity; too few
-data."""
+"""How a fit ended: with a maximum; a step at one intensity; never or always exceeded; falling with the intensity; too
+few data."""
 
 Loss: TypeAlias = Callable[[FloatArray], FloatArray]
 """Loss of each row of two parameters."""
@@ -30,6 +30,10 @@ Derivatives: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 
 _ITERATIONS: Final = 100
 _HALVINGS: Final = 40
+_SAME: Final = 1e-12
+"""Logarithms of intensities that differ by less are the same."""
+_ROUNDING: Final = 1e-13
+"""By how much a loss may grow relative to itself in a step that helps."""
 _CONVERGED: Final = 1e-20
 """Square of the Newton decrement below which a likelihood is at its maximum; rounding of a sum is far larger."""
 
@@ -103,9 +107,9 @@ def capacity_fits(capacity: FloatArray, exceeded: NDArray[np.bool_], weight: Flo
 
     Notes
     -----
-    Baker (2015), truncated incremental dynamic analysis, the limit up to which motions were scaled being one of each motion. In 1/beta and
-    ln(theta)/beta the likelihood is concave: Olsen (1978), Econometrica 46:1211-1215. Without censored motions it is
-    the mean and the standard deviation of ln(capacity), divided by n.
+    Baker (2015), truncated incremental dynamic analysis, each motion having its own intensity up to which it was
+    scaled. In 1/beta and ln(theta)/beta the likelihood is concave: Olsen (1978), Econometrica 46:1211-1215. Without
+    censored motions it is the mean and the standard deviation of ln(capacity), with divisor n.
     """
     log = np.log(capacity)
     samples = len(weight)
@@ -134,8 +138,8 @@ def capacity_fits(capacity: FloatArray, exceeded: NDArray[np.bool_], weight: Flo
     return Fits(median, dispersion, kind)
 
 
-def logistic_fit(x: FloatArray, occurred: NDArray[np.bool_], weight: FloatArray) -> FloatArray | None:
-    """Return intercept and slope of the logistic regression of the greatest likelihood; None where there is none.
+def logistic_fits(x: FloatArray, occurred: NDArray[np.bool_], weight: FloatArray) -> Fits:
+    """Return the logistic curve of the greatest likelihood for each sample: expit((x - centre) / width).
 
     Parameters
     ----------
@@ -143,28 +147,105 @@ def logistic_fit(x: FloatArray, occurred: NDArray[np.bool_], weight: FloatArray)
         Logarithm of the intensity.
     occurred : ndarray of bool, shape (runs,)
         What is regressed.
-    weight : ndarray, shape (runs,)
-        How often each run counts.
+    weight : ndarray, shape (samples, runs)
+        How often each run is in each sample.
+
+    Returns
+    -------
+    Fits
+        Centre as `median` (infinite or minus infinite where it never or always occurred), width as `dispersion`, kind.
     """
+    drawn = weight > 0.0
+    hit, missed = drawn & occurred, drawn & ~occurred
+    kind = np.full(len(weight), FITTED, dtype=np.int8)
+    centre, width = np.full(len(weight), np.nan), np.zeros(len(weight))
+    never, always = ~hit.any(axis=1), ~missed.any(axis=1)
+    kind[never], kind[always], kind[never & always] = NEVER, ALWAYS, NONE
+    centre[never], centre[always], centre[never & always] = np.inf, -np.inf, np.nan
+    both = ~never & ~always
+    lowest_hit, highest_hit = np.where(hit, x, np.inf).min(axis=1), np.where(hit, x, -np.inf).max(axis=1)
+    lowest_missed, highest_missed = np.where(missed, x, np.inf).min(axis=1), np.where(missed, x, -np.inf).max(axis=1)
+    step = both & (lowest_hit >= highest_missed)
+    kind[step], centre[step] = STEP, 0.5 * (lowest_hit + highest_missed)[step]
+    falling = both & ~step & (highest_hit <= lowest_missed)
+    rest = np.flatnonzero(both & ~step & ~falling)
+    if len(rest):
+        middle, spread = float(x.mean()), float(x.std())
+        a, b = _logistic((x - middle) / spread, occurred, weight[rest])
+        rises = b > 0.0
+        centre[rest[rises]] = middle - spread * a[rises] / b[rises]
+        width[rest[rises]] = spread / b[rises]
+        falling[rest[~rises]] = True
+    kind[falling] = FALLING
+    return Fits(centre, width, kind)
+
+
+def cloud_fits(
+    at: FloatArray, demand: FloatArray, collapsed: NDArray[np.bool_], limit: float, weight: FloatArray
+) -> tuple[FloatArray, NDArray[np.int8]]:
+    """Return the curve of a cloud for each sample, as `probability` has curves, and its kind.
+
+    Parameters
+    ----------
+    at, demand : ndarray, shape (runs,)
+        Intensity and demand of each run.
+    collapsed : ndarray of bool, shape (runs,)
+        Whether it collapsed.
+    limit : float
+        Limit of the demand.
+    weight : ndarray, shape (samples, runs)
+        How often each run is in each sample.
+
+    Notes
+    -----
+    Least squares of ln(demand) on ln(x) over the runs that have a demand and do not collapse.
+    """
+    log = np.log(at)
+    moves = ~collapsed & (demand > 0.0)
+    collapse = logistic_fits(log, collapsed, weight)
+    curves: FloatArray = np.full((len(weight), 4), np.nan)
+    curves[:, 2], curves[:, 3] = np.exp(collapse.median), collapse.dispersion
+    own, x, y = weight[:, moves], log[moves], np.log(demand[moves])
+    number = own.sum(axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        middle_x, middle_y = own @ x / number, own @ y / number
+        off = x - middle_x[:, None]
+        across = (own * off * off).sum(axis=1)
+        slope = (own * off * (y - middle_y[:, None])).sum(axis=1) / across
+        error = y - middle_y[:, None] - slope[:, None] * off
+        scatter = np.sqrt((own * error * error).sum(axis=1) / (number - 2.0))
+        median = np.exp(middle_x + (np.log(limit) - middle_y) / slope)
+    spread = np.where(own > 0.0, np.abs(off), 0.0).max(axis=1, initial=0.0)
+    kind = np.where(slope > 0.0, FITTED, FALLING).astype(np.int8)
+    kind[(number <= 2.0) | (spread < _SAME)] = NONE
+    kind[collapse.kind == FALLING] = FALLING
+    fitted = kind == FITTED
+    curves[fitted, 0], curves[fitted, 1] = median[fitted], (scatter / slope)[fitted]
+    nothing = number == 0.0
+    kind[nothing & (collapse.kind == NEVER)], kind[nothing & (collapse.kind == ALWAYS)] = NEVER, ALWAYS
+    curves[kind == NEVER, 0], curves[kind == ALWAYS, 0] = np.inf, 0.0
+    return curves, kind
+
+
+def _logistic(z: FloatArray, occurred: NDArray[np.bool_], weight: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Intercept and slope of the logistic regression on z, one of each sample."""
     from scipy.special import expit  # slow to import
 
-    hit, missed = (x[(weight > 0.0) & chosen] for chosen in (occurred, ~occurred))
-    if not len(hit) or not len(missed) or hit.min() >= missed.max() or hit.max() <= missed.min():
-        return None
-    design = np.stack([np.ones(len(x)), x - x.mean()], axis=1)
     sign = np.where(occurred, 1.0, -1.0)
 
     def loss(ab: FloatArray) -> FloatArray:
-        return np.atleast_1d(weight @ np.logaddexp(0.0, -sign * (design @ ab[0])))
+        return np.asarray((weight * np.logaddexp(0.0, -sign * (ab[:, :1] + ab[:, 1:] * z))).sum(axis=1))
 
     def derivatives(ab: FloatArray) -> tuple[FloatArray, FloatArray]:
-        p = expit(design @ ab[0])
-        gradient = design.T @ (weight * (p - occurred))
-        curvature = design.T @ (design * (weight * p * (1.0 - p))[:, None])
-        return gradient[None], curvature[None]
+        p = expit(ab[:, :1] + ab[:, 1:] * z)
+        first, second = weight * (p - occurred), weight * p * (1.0 - p)
+        gradient = np.stack([first.sum(axis=1), first @ z], axis=1)
+        cross = second @ z
+        curvature = np.stack([second.sum(axis=1), cross, cross, second @ (z * z)], axis=1)
+        return gradient, curvature.reshape(-1, 2, 2)
 
-    a, b = _newton(np.zeros((1, 2)), loss, derivatives)[0]
-    return np.array([a - b * x.mean(), b])
+    ab = _newton(np.zeros((len(weight), 2)), loss, derivatives)
+    return ab[:, 0], ab[:, 1]
 
 
 def _probit(z: FloatArray, hit: FloatArray, missed: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -209,9 +290,7 @@ def _tobit(t: FloatArray, seen: FloatArray, censored: FloatArray) -> tuple[Float
         second = seen + censored * hazard * (hazard - residual)
         gradient = np.stack([first @ t - number / p[:, 0], -first.sum(axis=1)], axis=1)
         cross = -(second @ t)
-        curvature = np.stack(
-            [second @ (t * t) + number / p[:, 0] ** 2, cross, cross, second.sum(axis=1)], axis=1
-        )
+        curvature = np.stack([second @ (t * t) + number / p[:, 0] ** 2, cross, cross, second.sum(axis=1)], axis=1)
         return gradient, curvature.reshape(-1, 2, 2)
 
     spread = float(t.std()) or 1.0
@@ -233,15 +312,13 @@ def _newton(start: FloatArray, loss: Loss, derivatives: Derivatives) -> FloatArr
     value = loss(found)
     for _ in range(_ITERATIONS):
         gradient, curvature = derivatives(found)
-        step = -np.linalg.solve(curvature, gradient[:, :, None])[:, :, 0]
+        step = -_solved(curvature, gradient)
         decrement = -(gradient * step).sum(axis=1)
         if not (decrement > _CONVERGED * np.maximum(1.0, np.abs(value))).any():
             break
         factor = np.ones(len(found))
         for _ in range(_HALVINGS):
-            tried = found + factor[:, None] * step
-            new = loss(tried)
-            worse = ~(new <= value + 1e-13 * np.abs(value))
+            worse = ~(loss(found + factor[:, None] * step) <= value + _ROUNDING * np.abs(value))
             if not worse.any():
                 break
             factor[worse] *= 0.5
@@ -249,3 +326,14 @@ def _newton(start: FloatArray, loss: Loss, derivatives: Derivatives) -> FloatArr
         found = found + factor[:, None] * step
         value = loss(found)
     return found
+
+
+def _solved(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    """Solve symmetric systems of two equations, shape (rows, 2, 2) and (rows, 2); zero where one is singular."""
+    (a, b), (_, d) = np.moveaxis(matrix, 0, -1)
+    determinant = a * d - b * b
+    inverse = np.divide(1.0, determinant, out=np.zeros_like(determinant), where=determinant > 0.0)
+    solved: FloatArray = (
+        np.stack([d * right[:, 0] - b * right[:, 1], a * right[:, 1] - b * right[:, 0]], axis=1) * inverse[:, None]
+    )
+    return solved

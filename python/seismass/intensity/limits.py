@@ -110,7 +110,9 @@ class LimitState:
         if self.storey is not None:
             as_count(self.storey, "storey", owner, InvalidOption, least=1)
             if self.quantity in _OF_BLOCKS:
-                raise refusal(InvalidOption, "storey", owner, "left out for a slip, which has a block", f"{self.storey}")
+                raise refusal(
+                    InvalidOption, "storey", owner, "left out for a slip, which has a block", f"{self.storey}"
+                )
         if self.block is not None:
             as_count(self.block, "block", owner, InvalidOption, least=1)
             if self.quantity not in _OF_BLOCKS:

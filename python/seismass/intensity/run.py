@@ -94,12 +94,12 @@ def solve_runs(
     setting: Setting,
     model: IndexArray,
     motion: IndexArray,
-    scale: FloatArray,
+    intensity: FloatArray,
     *,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> pl.DataFrame:
-    """Solve runs given by the numbers of model and motion, from 0, and the factor of the motion.
+    """Solve runs given by the numbers of model and motion, from 0, and the intensity to which the motion is scaled.
 
     Parameters
     ----------
@@ -107,8 +107,8 @@ def solve_runs(
         Models, motions and limits.
     model, motion : ndarray of int, shape (runs,)
         Which model under which motion.
-    scale : ndarray, shape (runs,)
-        Factor of the motion, both components.
+    intensity : ndarray, shape (runs,)
+        Intensity of the motion, both components of which are scaled.
     threads : int, optional
         Number of threads; default all cores. The result does not depend on it.
     progress : callable, optional
@@ -129,7 +129,7 @@ def solve_runs(
         Ctrl-C was pressed.
     """
     names = list(setting.models)
-    total = len(model)
+    total, scale = len(model), intensity / setting.unit[motion]
     frames = []
     for first in range(0, max(total, 1), AT_ONCE):
         part = slice(first, first + AT_ONCE)
@@ -143,7 +143,7 @@ def solve_runs(
             "motion": (motion + 1).astype(np.uint32),
             "record": pl.Series(setting.motions.names, dtype=pl.String).gather(motion),
             "scale": scale,
-            "intensity": scale * setting.unit[motion],
+            "intensity": intensity,
         }
     ).hstack(demands)
 
@@ -191,7 +191,7 @@ def solve_grid(
     levels = check_levels(intensities, owner)
     shape = (len(setting.models), len(setting.motions), len(levels))
     model, motion, level = (part.ravel() for part in np.indices(shape))
-    return solve_runs(setting, model, motion, levels[level] / setting.unit[motion], threads=threads, progress=progress)
+    return solve_runs(setting, model, motion, levels[level], threads=threads, progress=progress)
 
 
 def check_levels(intensities: Any, owner: str, name: str = "intensities") -> FloatArray:
