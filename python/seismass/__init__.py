@@ -38,6 +38,10 @@ from seismass.errors import (
 )
 from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
+from seismass.intensity.annual_rate import AnnualRate, annual_rate
+from seismass.intensity.hazard import HazardCurve
+from seismass.intensity.risk import risk_targeted_share
+from seismass.intensity.risk_result import RiskTargetedShare
 from seismass.long_table import long_table
 from seismass.matching import MatchedRecord, MatchedSuite, match_spectrum, match_suite
 from seismass.motion import Motion
@@ -81,6 +85,7 @@ from seismass.scaling import (
 from seismass.scene import Scene
 from seismass.scene_file import SceneFile, read_scene
 from seismass.simulate import instruction_set, simulate
+from seismass.slip import BlockSize, Clearance, SlipDemand, slip_demand
 from seismass.spectra import InelasticSpectrum, TargetSpectrum, inelastic_spectrum, mean_spectrum, response_spectrum
 from seismass.spring_path import SpringPath, spring_forces
 from seismass.units import STANDARD_GRAVITY
@@ -101,9 +106,12 @@ __version__ = _kernel.VERSION
 __all__ = [
     "STANDARD_GRAVITY",
     "Animation",
+    "AnnualRate",
     "Assessment",
     "Block",
+    "BlockSize",
     "Building",
+    "Clearance",
     "CodeFraction",
     "EffectiveMass",
     "EffectiveMassMap",
@@ -111,6 +119,7 @@ __all__ = [
     "FirstModeOscillator",
     "FrictionPair",
     "Grid",
+    "HazardCurve",
     "InelasticSpectrum",
     "InvalidBuildingFile",
     "InvalidMotion",
@@ -133,6 +142,7 @@ __all__ = [
     "Record",
     "RecordFormatError",
     "Response",
+    "RiskTargetedShare",
     "RotD",
     "ScalingResult",
     "Scene",
@@ -140,12 +150,14 @@ __all__ = [
     "SeismassError",
     "Selection",
     "SimulationError",
+    "SlipDemand",
     "SpringPath",
     "Suite",
     "SyntheticParameters",
     "TargetSpectrum",
     "__version__",
     "animate",
+    "annual_rate",
     "assess",
     "attached_scene",
     "baker2007",
@@ -184,6 +196,7 @@ __all__ = [
     "read_scene",
     "read_suite",
     "response_spectrum",
+    "risk_targeted_share",
     "rotd",
     "scale_asce7_10",
     "scale_asce7_16",
@@ -194,6 +207,7 @@ __all__ = [
     "shahi_baker2014",
     "simulate",
     "simulate_many",
+    "slip_demand",
     "spring_forces",
     "stream_many",
     "synthetic_motion",

@@ -100,7 +100,8 @@ def lognormal_rates(median: ArrayLike, dispersion: ArrayLike, hazard: HazardCurv
             difference = np.asarray(log_ndtr(-(low + shift)))
         else:
             difference = _log_difference(low + shift, high + shift, log_ndtr)
-        return np.asarray(np.exp(log_constants[segment] - k * log_median + 0.5 * shift**2 + difference))
+        with np.errstate(over="ignore"):  # far beyond the lower end
+            return np.asarray(np.exp(log_constants[segment] - k * log_median + 0.5 * shift**2 + difference))
 
     z = [(place - log_median) / safe for place in x]
     first, last = np.asarray(ndtr(z[0])), np.asarray(ndtr(z[-1]))
@@ -261,12 +262,15 @@ def annual_rate(fragility: Lognormal | ArrayLike, hazard: HazardCurve, *, extrap
     >>> import seismass as sm
     >>> sa = np.geomspace(1e-4, 1e3, 8)
     >>> hazard = sm.HazardCurve(sa, 0.01 * (sa / 0.1) ** -2.0)
-    >>> fragility = sm.intensity.Fragility(median=0.5, dispersion=0.4)
-    >>> round(sm.annual_rate(fragility, hazard).value / (0.01 * 5.0**-2.0 * np.exp(0.5 * 0.8**2)), 9)
+    >>> fragility = sm.intensity.fit_capacities([0.5 * np.exp(-0.4), 0.5 * np.exp(0.4)])  # dispersion 0.4
+    >>> round(sm.annual_rate(fragility, hazard, extrapolate=True).value / (0.01 * 5.0**-2.0 * np.exp(0.32)), 9)
     1.0
     """
     curve = check_hazard(hazard, OWNER)
     if isinstance(fragility, Lognormal):
+        if np.isfinite(getattr(fragility, "parts", (0.0, 0.0, -np.inf))[2]):
+            requirement = "lognormal, without a logistic part of collapse, or the capacities of motions"
+            raise refusal(InvalidOption, "fragility", OWNER, requirement, "that of a cloud with collapses")
         median = as_number(fragility.median, "median", "fragility", InvalidOption)
         dispersion = as_number(fragility.dispersion, "dispersion", "fragility", InvalidOption)
         if not 0.0 < median < np.inf:

@@ -65,8 +65,7 @@ def exact_capacities(setting: Setting, limit: LimitState, *, threads: int | None
     model, motion = (part.ravel() for part in np.indices((len(setting.models), len(setting.motions))))
 
     def demand(which: IndexArray, intensity: FloatArray) -> FloatArray:
-        scale = intensity / setting.unit[motion[which]]
-        table = solve_runs(setting, model[which], motion[which], scale, threads=threads)
+        table = solve_runs(setting, model[which], motion[which], intensity, threads=threads)
         return table[limit.column].to_numpy()
 
     every = np.arange(len(model))

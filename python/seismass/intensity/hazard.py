@@ -80,7 +80,10 @@ class HazardCurve(Value):
             raise refusal(InvalidOption, "points", OWNER, "as many intensities as rates", got)
         if len(intensities) < 2:
             raise refusal(InvalidOption, "points", OWNER, "at least two", str(len(intensities)))
-        for name, values, sign, order in (("sa_g", intensities, 1.0, "increasing"), ("rate", rates, -1.0, "decreasing")):
+        for name, values, sign, order in (
+            ("sa_g", intensities, 1.0, "increasing"),
+            ("rate", rates, -1.0, "decreasing"),
+        ):
             wrong = np.flatnonzero(~((values > 0.0) & np.isfinite(values)))
             if len(wrong):
                 got = f"{values[wrong[0]]:g} in point {wrong[0] + 1}"
@@ -163,7 +166,9 @@ class HazardCurve(Value):
         """
         at = as_positive(rate, "rate", OWNER, InvalidOption)
         self._check_inside(at, self.annual_rate[::-1], "rate", "a year", extrapolate)
-        return float(np.exp(_linear(np.array([-np.log(at)]), -np.log(self.annual_rate), np.log(self.sa_g))[0]))
+        number = int(np.clip(np.searchsorted(-self.annual_rate, -at, side="right") - 1, 0, len(self.sa_g) - 1))
+        slope = self.slopes[min(number, len(self.sa_g) - 2)]
+        return float(self.sa_g[number] * (at / self.annual_rate[number]) ** (-1.0 / slope))
 
     def probability(self, sa_g: float, years: float, *, extrapolate: bool = False) -> float:
         """Return the probability that an intensity (g) is exceeded at least once in so many years.
@@ -175,8 +180,9 @@ class HazardCurve(Value):
 
     def rates(self, sa_g: FloatArray) -> FloatArray:
         """Return the annual rate at each of several positive intensities (g), by the end segments beyond the ends."""
-        log_rates = _linear(np.log(sa_g), np.log(self.sa_g), np.log(self.annual_rate))
-        return np.asarray(np.exp(log_rates), dtype=np.float64)
+        number = np.clip(np.searchsorted(self.sa_g, sa_g, side="right") - 1, 0, len(self.sa_g) - 1)
+        slope = np.append(self.slopes, self.slopes[-1])[number]
+        return np.asarray(self.annual_rate[number] * (sa_g / self.sa_g[number]) ** -slope, dtype=np.float64)
 
     def tilted(self, factor: float, about: float = DESIGN_RATE) -> HazardCurve:
         """Return the curve with all slopes multiplied by a factor, through the same intensity at an annual rate.
@@ -242,10 +248,3 @@ def check_years(years: Any, owner: str) -> float:
     """Return a number of years for which probabilities are given."""
     number = as_number(years, "years", owner, InvalidOption)
     return as_positive(number, "years", owner, InvalidOption)
-
-
-def _linear(at: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Linear interpolation at any place, on the end segments beyond the ends; exact at the points."""
-    number = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
-    weight = (at - x[number]) / (x[number + 1] - x[number])
-    return np.asarray((1.0 - weight) * y[number] + weight * y[number + 1], dtype=np.float64)

@@ -15,7 +15,14 @@ from seismass import _kernel
 from seismass._values import FloatArray, as_array, as_count, as_number, brief, refusal
 from seismass.effective_mass.answer import effective_mass
 from seismass.effective_mass.curve import check_fractions
-from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, building_of, check_damping, check_loaded
+from seismass.effective_mass.models import (
+    SAME_DAMPING,
+    ModelDamping,
+    attached,
+    building_of,
+    check_damping,
+    check_loaded,
+)
 from seismass.effective_mass.result import EffectiveMass
 from seismass.effective_mass.runs import Progress
 from seismass.effective_mass.tables import inputs_digest
@@ -156,7 +163,9 @@ def risk_targeted_share(
         raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{options.confidence:g}")
     if progress is not None and not callable(progress):
         raise refusal(InvalidOption, "progress", OWNER, "a callable of two numbers", brief(progress))
-    grid = np.unique(np.append(check_fractions(DEFAULT_SHARES if shares is None else shares, OWNER), options.code_share))
+    grid = np.unique(
+        np.append(check_fractions(DEFAULT_SHARES if shares is None else shares, OWNER), options.code_share)
+    )
     limits = _limits(options.limit, other_limits)
     design = as_number(design_rate, "design_rate", OWNER, InvalidOption)
     given = _listed(motions)
@@ -231,7 +240,10 @@ def _effective(
 ) -> tuple[EffectiveMass | None, str]:
     """The effective fraction at the design intensity, or None with the reason."""
     if not hazard.annual_rate[-1] <= rate <= hazard.annual_rate[0]:
-        return None, f"the hazard curve does not reach the design rate of {rate:.3g} a year: no effective fraction there"
+        return (
+            None,
+            f"the hazard curve does not reach the design rate of {rate:.3g} a year: no effective fraction there",
+        )
     level = hazard.intensity(rate)
     scaled = [
         (each if hasattr(each, "scaled") else each.motion).scaled(level / unit)
@@ -288,7 +300,11 @@ def _limit(limit: Any, scene: Scene) -> LimitState:
 
 def _limits(limit: LimitState, others: Any) -> tuple[LimitState, ...]:
     """The limit, and others of the same quantity and storey in increasing order."""
-    values = np.array(OTHER_LIMITS) * limit.value if others is None else as_array(others, "other_limits", OWNER, InvalidOption)
+    values = (
+        np.array(OTHER_LIMITS) * limit.value
+        if others is None
+        else as_array(others, "other_limits", OWNER, InvalidOption)
+    )
     if not (np.isfinite(values) & (values > 0.0)).all():
         raise refusal(InvalidOption, "other_limits", OWNER, "positive", brief(values.tolist()))
     more = sorted(set(values.tolist()) - {limit.value})

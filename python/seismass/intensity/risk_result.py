@@ -126,8 +126,8 @@ class RiskTargetedShare:
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the curve and the capacities as plain values; null for what is no finite number."""
-        names = ("value", "kind", "roots", "interval", "confidence", "estimator", "real", "code", "attached", "model")
-        names += ("excess", "code_share", "remarks", "metadata")
+        names = ["value", "kind", "roots", "interval", "confidence", "estimator", "real", "code", "attached", "model"]
+        names += ["excess", "code_share", "remarks", "metadata"]
         document: dict[str, Any] = {"schema_version": SCHEMA_VERSION}
         document |= {name: getattr(self, name) for name in names}
         effective = self.effective

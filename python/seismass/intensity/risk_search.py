@@ -127,7 +127,8 @@ class RiskSearch:
             return FoundShare(0.0, "zero", (), True)
         if not self._slides():
             return FoundShare(1.0, "stuck", (), True)
-        known = dict(zip(self.grid.tolist(), (self.rates.model / self.rates.real - 1.0).tolist(), strict=True))
+        ratios: list[float] = (self.rates.model / self.rates.real - 1.0).tolist()
+        known: dict[float, float] = dict(zip(self.grid.tolist(), ratios, strict=True))
 
         def difference(share: float) -> float:
             if share not in known:
@@ -151,6 +152,6 @@ class RiskSearch:
     def _slides(self) -> bool:
         """Whether goods slide under any motion that brings the real building to the limit."""
         motion = np.arange(len(self.setting.motions))
-        scale = self.capacities[0] / self.setting.unit
-        table = solve_runs(self.setting, np.zeros_like(motion), motion, scale, threads=self.options.threads)
-        return bool((table["slip"].to_numpy() > 0.0).any())
+        at = self.capacities[0]
+        table = solve_runs(self.setting, np.zeros_like(motion), motion, at, threads=self.options.threads)
+        return bool(np.any(table["slip"].to_numpy() > 0.0))

@@ -17,7 +17,7 @@ SLOPE_FACTORS: Final = (0.75, 1.25)
 
 
 def rate_table(search: RiskSearch, several: bool) -> pl.DataFrame:
-    """Return one row per model: its annual rate, and that of the real building over it; see `RiskTargetedShare.rates`."""
+    """Return one row per model with its annual rate; see `RiskTargetedShare.rates`."""
     rates, options = search.rates, search.options
     rows = []
     models = (
@@ -102,7 +102,7 @@ def capacity_table(search: RiskSearch) -> pl.DataFrame:
 def sensitivity_table(
     search: RiskSearch, capacities: dict[float, FloatArray], found: FoundShare, several: bool
 ) -> pl.DataFrame:
-    """Return one row per changed assumption: the share by interpolation, and rates; see `RiskTargetedShare.sensitivity`.
+    """Return one row per changed assumption with its share and rates; see `RiskTargetedShare.sensitivity`.
 
     Parameters
     ----------
@@ -156,16 +156,16 @@ def risk_remarks(search: RiskSearch, found: FoundShare, reason: str) -> tuple[st
     """Return assumptions, and what a user must know beside the numbers."""
     rates, motions = search.rates, len(search.setting.motions)
     remarks = [
-        "the same motions are scaled to all intensities: their spectra do not change with the intensity as hazard would "
-        "have it"
+        "the same motions are scaled to all intensities, whereas those that a site has change their spectra with the "
+        "intensity"
     ]
     if found.kind == "multiple":
         listed = ", ".join(f"{root:.3f}" for root in found.roots)
         remarks.append(f"{len(found.roots)} shares give the same rate ({listed}); the largest counts")
     if found.kind == "one":
         remarks.append(
-            f"the real building exceeds the limit {rates.real / float(rates.model[-1]):.3g} times as often as the model "
-            f"with all goods attached"
+            f"the real building exceeds the limit {rates.real / float(rates.model[-1]):.3g} times as often as with all "
+            f"goods attached"
         )
     parts = rate_parts(search.capacities[:1], search.hazard, search.options.estimator, np.ones((1, motions)))
     if not search.options.extrapolate:
@@ -174,7 +174,8 @@ def risk_remarks(search: RiskSearch, found: FoundShare, reason: str) -> tuple[st
     outside = int((search.capacities[0] > search.hazard.sa_g[-1]).sum())
     if outside:
         remarks.append(
-            f"{counted(outside, 'motion')} of {motions} bring the real building to the limit only above the hazard curve"
+            f"under {counted(outside, 'motion')} of {motions} the real building reaches the limit only above the hazard "
+            f"curve"
         )
     if motions < 7:
         remarks.append(f"{counted(motions, 'motion')}: few for a fragility")

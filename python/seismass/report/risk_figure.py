@@ -11,6 +11,7 @@ import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from seismass._values import FloatArray
 from seismass.plots.axes import grid_lines
@@ -44,6 +45,7 @@ def _hazard(axes: Axes, result: RiskTargetedShare) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     label = result.measure.label
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.set_xlabel(f"{label} (g)")
     axes.set_ylabel("annual rate of exceedance (1/year)")
     grid_lines(axes)
@@ -97,6 +99,9 @@ def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) ->
         label = f"effective fraction at the design intensity {effective.value:.2f}"
         axes.axvline(effective.value, color=ORANGE, linewidth=1.3, linestyle=(0, (5, 2)), label=label)
     axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_xlim(-0.01, 1.01)
     axes.set_xlabel(f"share {LAMBDA} of the live load attached as mass")
     axes.set_ylabel("real / model annual rate\n(above 1: the model is unsafe)")

@@ -36,14 +36,22 @@ def slip_demand_figure(result: SlipDemand) -> Figure:
         handles = [
             Line2D([], [], color=BLUE, marker="o", linestyle="", markersize=5.0, label="in the building, each motion"),
             Line2D(
-                [], [], color=GREY, marker="o", markerfacecolor="white", linestyle="", markersize=5.0,
+                [],
+                [],
+                color=GREY,
+                marker="o",
+                markerfacecolor="white",
+                linestyle="",
+                markersize=5.0,
                 label="the same block on the ground",
             ),
-            Line2D([], [], color=INK, marker="D", linewidth=1.6, markersize=5.0, label="mean, 16 to 84 % of the motions"),
+            Line2D(
+                [], [], color=INK, marker="D", linewidth=1.6, markersize=5.0, label="mean, 16 to 84 % of the motions"
+            ),
         ]
         if result.exceedance.height:
             handles.append(Line2D([], [], color=VERMILION, linestyle=(0, (8, 2)), linewidth=1.2, label="clearance"))
-        figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), frameon=False)
+        figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
         figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * width)), fontsize=7.5)
     return figure
 
@@ -71,9 +79,7 @@ def _by_block(axes: Axes, result: SlipDemand) -> None:
             if np.isfinite([low, mean, high]).all():
                 axes.hlines(place + offset, 1e3 * low, 1e3 * high, color=INK, linewidth=1.6)
                 axes.plot([1e3 * mean], [place + offset], color=INK, marker="D", markersize=5.0)
-        for limit in result.exceedance.filter((result.exceedance["block"] == row["block"])).filter(
-            side="any"
-        )["clearance"]:
+        for limit in result.exceedance.filter(block=row["block"], side="any")["clearance"]:
             axes.vlines(1e3 * limit, place - 0.4, place + 0.4, color=VERMILION, linestyle=(0, (8, 2)), linewidth=1.2)
         name = "ground" if row["floor"] == 0 else f"floor {row['floor']}"
         collapses = f"\n{lost} collapsed" if lost else ""

@@ -36,9 +36,7 @@ def _blocks(result: SlipDemand) -> list[str]:
             f"{_percent(row['ground_slides']):>8}"
         )
     lines += ["", "Slip that remains (mm), slip over that on the ground, friction over floor acceleration"]
-    lines.append(
-        f"  {'block':16}{'remains':>24}{'building/ground':>26}{'motion by motion':>24}{'mu_s g/PFA':>12}"
-    )
+    lines.append(f"  {'block':16}{'remains':>24}{'building/ground':>26}{'motion by motion':>24}{'mu_s g/PFA':>12}")
     for row in result.blocks.iter_rows(named=True):
         name = f"{row['block']}, {_floor(row['floor'])}"
         remains = f"{_mm(row['residual_mean'])} [{_mm(row['residual_p16'])}, {_mm(row['residual_p84'])}]"
@@ -49,9 +47,10 @@ def _blocks(result: SlipDemand) -> list[str]:
         if row["slides_on_floor_only"]:
             lines.append(f"  {'':16}slides in the building alone under {row['slides_on_floor_only']} motions")
     lines.append(
-        f"  building/ground: ratio of means with its {100 * result.confidence:g} % interval over the motions; motion by "
-        f"motion: median [16 %, 84 %]; PFA: all goods attached"
+        f"  building/ground: ratio of means with its {100 * result.confidence:g} % interval; motion by motion: median "
+        f"[16 %, 84 %];"
     )
+    lines.append("  PFA: peak floor acceleration with all goods attached, mean of the ratio")
     return lines
 
 
@@ -85,8 +84,8 @@ def _squat(result: SlipDemand) -> list[str]:
             )
             if row["overturning_limits_exceeded"] is not None:
                 lines.append(
-                    f"    acceleration and velocity ({row['overturning_velocity']:.2g} m/s) above Ishiyama's lower limits "
-                    f"of overturning: {row['overturning_limits_exceeded']} motions"
+                    f"    above both lower limits of overturning by Ishiyama (velocity {row['overturning_velocity']:.2g} "
+                    f"m/s): under {row['overturning_limits_exceeded']} motions"
                 )
     return ["Slide or rock", *lines] if lines else []
 
@@ -104,10 +103,11 @@ def _estimates(result: SlipDemand) -> list[str]:
         base = "the ground" if row["base"] == "ground" else f"{_floor(row['floor'])} alone"
         cells = ["-" if row[name] is None else f"{row[name]:.2f}" for name in ("ratio", "log_scatter")]
         short = "-" if row["below"] is None else _percent(row["below"])
-        lines.append(
-            f"  {row['block']:<8}{base:14}{TITLES[row['estimate']]:34}{cells[0]:>8}{cells[1]:>9}{short:>8}"
-        )
-    return [*lines, "  on the ground beside the slip there; on a floor of the building alone beside that in the building"]
+        lines.append(f"  {row['block']:<8}{base:14}{TITLES[row['estimate']]:34}{cells[0]:>8}{cells[1]:>9}{short:>8}")
+    return [
+        *lines,
+        "  on the ground beside the slip there; on a floor of the building alone beside that in the building",
+    ]
 
 
 def _floor(floor: int) -> str:

@@ -17,7 +17,7 @@ from seismass.effective_mass.tables import inputs_digest
 from seismass.errors import InvalidOption, InvalidScene
 from seismass.intensity.fragility import Fragility
 from seismass.intensity.measures import IntensityMeasure, MeasureName, measure_for
-from seismass.motion import MotionLike
+from seismass.motion import HasMotion, Motion, MotionLike
 from seismass.scene import Scene
 from seismass.simulate import instruction_set
 from seismass.slip.clearance import Clearance, as_clearances, exceedance_table
@@ -122,7 +122,10 @@ def slip_demand(
         raise refusal(InvalidScene, "scene", OWNER, "a Scene", brief(scene))
     if not scene.blocks:
         raise refusal(InvalidScene, "blocks", OWNER, "at least one", "none")
-    named = named_motions(motions, OWNER)
+    given: Any = motions
+    if not isinstance(motions, Motion | HasMotion) and isinstance(motions, Iterable):
+        given = list(motions)
+    named = named_motions(given, OWNER)
     count = len(scene.blocks)
     measured, limits = as_sizes(sizes, count), as_clearances(clearance, count)
     probability = as_number(confidence, "confidence", OWNER, InvalidOption)
@@ -148,32 +151,34 @@ def slip_demand(
         "clearances": [None if each is None else [each.plus, each.minus] for each in limits],
     }
     fragilities: dict[int, Fragility] = {}
+    of_fragilities: tuple[str, ...] = ()
     if fragility:
-        fragilities, about = slip_fragilities(
+        chosen_measure = measure_for(measure, scene, period)
+        chosen["measure"] = chosen_measure.to_dict()
+        fragilities, of_fragilities = slip_fragilities(
             scene,
-            named,
+            given,
             limits,
-            measure_for(measure, scene, period),
+            chosen_measure,
             confidence=probability,
             resamples=draws,
             seed=start,
             threads=threads,
         )
-        chosen |= about
     by_run = run_table(scene, named, runs, measured)
     squat = squat_table(scene, by_run, measured)
     compared = estimate_table(named, solved, scene)
-    sides = (runs.or_infinite(values) for values in (runs.plus, runs.minus))
+    plus, minus = runs.or_infinite(runs.plus), runs.or_infinite(runs.minus)
     return SlipDemand(
         blocks=block_table(scene, named, runs, probability, draws, start),
         runs=by_run,
-        exceedance=exceedance_table(*sides, limits, probability),
+        exceedance=exceedance_table(plus, minus, limits, probability),
         squat=squat,
         estimates=estimate_summary(compared),
         estimate_runs=compared,
         fragilities=fragilities,
         confidence=probability,
-        remarks=demand_remarks(scene, named, runs, squat, limits, bool(fragilities)),
+        remarks=(*demand_remarks(scene, named, runs, squat, limits, bool(fragilities)), *of_fragilities),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,

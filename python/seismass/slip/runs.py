@@ -1,4 +1,4 @@
-"""Runs of a scene, of its goods on the ground, and of the building alone and with all goods attached, motion by motion."""
+"""Runs of a scene, of its goods on the ground, and of the building alone and with all goods attached."""
 
 from __future__ import annotations
 
@@ -217,9 +217,7 @@ def _demand(response: Response, motion: Motion, floor: int) -> float:
     return demand_in_g(history, motion.vertical)
 
 
-def _floor_estimates(
-    scene: Scene, alone: Response, motion: Motion, ground_velocity: FloatArray
-) -> list[EstimateRow]:
+def _floor_estimates(scene: Scene, alone: Response, motion: Motion, ground_velocity: FloatArray) -> list[EstimateRow]:
     """Estimates of the motion of the floors of the building alone, and the exact slip of each block on it."""
     rows = []
     bases: dict[int, Base] = {}

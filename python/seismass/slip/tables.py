@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from seismass._values import FloatArray, counted
 from seismass.effective_mass.runs import NamedMotions
-from seismass.intensity.fragility import interval_of
+from seismass.intensity.probability import interval_of
 from seismass.scene import Scene
 from seismass.slip.clearance import Clearance
 from seismass.slip.estimates import log_ratio
@@ -84,9 +84,7 @@ def amplification(floor: FloatArray, ground: FloatArray) -> FloatArray:
         return np.asarray(floor / ground, dtype=np.float64)
 
 
-def run_table(
-    scene: Scene, motions: NamedMotions, runs: SlipRuns, sizes: tuple[BlockSize | None, ...]
-) -> pl.DataFrame:
+def run_table(scene: Scene, motions: NamedMotions, runs: SlipRuns, sizes: tuple[BlockSize | None, ...]) -> pl.DataFrame:
     """Return one row per motion and block; see `SlipDemand.runs`."""
     count, blocks = len(motions), len(scene.blocks)
     sliding = np.array([block.mu_s for block in scene.blocks])
@@ -253,8 +251,8 @@ def demand_remarks(
     for row in squat.filter(pl.col("rocks_first")).iter_rows(named=True):
         remarks.append(
             f"block {row['block']} rocks before it slides (mu_s = {row['mu_s']:g} above b/(2 h_c) = "
-            f"{row['uplift_g']:.3g}), and would lift off under {row['uplift']} of {row['motions']} motions: its slip is "
-            f"of a model without rocking"
+            f"{row['uplift_g']:.3g}), and would lift off under {row['uplift']} of {row['motions']} motions: the model of "
+            f"its slip has no rocking"
         )
     collapsed = int(runs.collapsed.sum())
     if collapsed:
