@@ -144,3 +144,22 @@ def test_readme_answer_for_the_warehouse_is_current() -> None:
     readme = module["readme"]()
     assert (ROOT / "README.md").read_text(encoding="utf-8") == readme
     assert "ANSWER" in readme
+
+
+def test_numbers_of_the_page_of_fragility_are_current(shared: Path) -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "intensity_page.py"))
+    page = tool["PAGE"].read_text(encoding="utf-8")
+    names = tool["example"](page)
+    blocks = {**tool["blocks"](names), "far_field": tool["far_field"](names, shared)}
+    for key, lines in blocks.items():
+        assert tool["with_block"](page, key, lines) == page, key
+    # What its words say: the ratio of capacities is the same by every measure, the dispersion least for sa_avg.
+    rows = [line.split("  ") for line in blocks["choices"][1:5]]
+    assert len({row[-1].strip() for row in rows}) == 1
+    dispersions = [float(re.findall(r"([\d.]+) \[", line)[1]) for line in blocks["choices"][1:5]]
+    assert min(dispersions) == dispersions[3]
+    # The fewer goods a rule attaches, the more the real building has where its model says 10 %; "all" is safe.
+    real = [float(re.findall(r" g +(\d+) \[", line)[0]) for line in blocks["far_field"][2:]]
+    assert real == sorted(real, reverse=True)
+    assert real[1] > 15.0
+    assert real[-1] < 10.0

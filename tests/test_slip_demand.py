@@ -176,7 +176,7 @@ def test_clearances_by_side(suite: list[sm.Record]) -> None:
 
 
 def test_collapse_counts_as_lost_goods(suite: list[sm.Record]) -> None:
-    scene = sm.Scene(building(heights=3.0), sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2), collapse_drift=0.085)
+    scene = sm.Scene(building(heights=3.0), sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2), collapse_drift=0.11)
     found = slip_demand(scene, suite, clearance=10.0)
     lost = found.runs.filter(block=1, collapsed=True).height
     assert 0 < lost < 7

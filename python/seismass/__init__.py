@@ -38,6 +38,7 @@ from seismass.errors import (
 )
 from seismass.friction import FrictionPair, friction_pair, friction_table
 from seismass.grid import Grid
+from seismass.intensity import IntensityAnalysis, LimitState, incremental_dynamic_analysis
 from seismass.intensity.annual_rate import AnnualRate, annual_rate
 from seismass.intensity.hazard import HazardCurve
 from seismass.intensity.risk import risk_targeted_share
@@ -121,11 +122,13 @@ __all__ = [
     "Grid",
     "HazardCurve",
     "InelasticSpectrum",
+    "IntensityAnalysis",
     "InvalidBuildingFile",
     "InvalidMotion",
     "InvalidOption",
     "InvalidScene",
     "InvalidSceneFile",
+    "LimitState",
     "LiveLoadUncertainty",
     "MatchedRecord",
     "MatchedSuite",
@@ -178,6 +181,7 @@ __all__ = [
     "first_mode_oscillator",
     "friction_pair",
     "friction_table",
+    "incremental_dynamic_analysis",
     "inelastic_spectrum",
     "instruction_set",
     "intensity",

@@ -14,6 +14,7 @@ from seismass.commands import (
     animate,
     building,
     effective_map,
+    ida,
     match,
     pulse,
     records,
@@ -26,7 +27,7 @@ from seismass.commands import (
 )
 from seismass.errors import SeismassError
 
-COMMANDS = (building, effective_map, study, run, animate, records, spectrum, scale, match, pulse, validate, report)
+COMMANDS = (building, effective_map, ida, study, run, animate, records, spectrum, scale, match, pulse, validate, report)
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""

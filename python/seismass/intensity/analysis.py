@@ -271,8 +271,8 @@ def cloud_analysis(
 
     Notes
     -----
-    See `fit_cloud`. For collapse itself as a limit, each run counts by itself (`fit_counts`). The line through the logarithms is assumed to hold
-    over the whole cloud, with one scatter.
+    See `fit_cloud`. For collapse itself as a limit, each run counts by itself, as in `fit_counts`. The line through the
+    logarithms is assumed to hold over the whole cloud, with one scatter.
 
     Examples
     --------

@@ -113,7 +113,8 @@ def _remarks(
     for limit_state in setting.limits:
         without = [name for name, scene in setting.models.items() if not limit_state.applies(scene)]
         if without:
-            remarks.append(f"{limit_state.name}: {', '.join(without)} has no goods that slide, and so no slip")
+            have = "have" if len(without) > 1 else "has"
+            remarks.append(f"{limit_state.name}: {' and '.join(without)} {have} no goods that slide, and so no slip")
     remarks.append(
         "the scatter is that of the motions alone: friction, occupancy, stiffness and strength are as given"
         + ("" if method == "cloud" else ", and scaling leaves the shape of spectra as it is")

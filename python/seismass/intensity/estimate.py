@@ -68,10 +68,11 @@ def of_stripes(levels: FloatArray, exceeded: Sequence[FloatArray], draws: Sequen
     draws : sequence of Draws
         Those of the motions of each level.
     """
+    rows = min(len(draw.weights) for draw in draws)  # none where the motions of a level are of one earthquake
     hits, runs = (np.array([[f(each) for each in exceeded]], dtype=np.float64) for f in (np.sum, np.size))
     fits = probit_fits(levels, hits, runs)
-    drawn_hits = np.stack([draw.weights @ each for draw, each in zip(draws, exceeded, strict=True)], axis=1)
-    drawn_runs = np.stack([draw.weights.sum(axis=1) for draw in draws], axis=1)
+    drawn_hits = np.stack([draw.weights[:rows] @ each for draw, each in zip(draws, exceeded, strict=True)], axis=1)
+    drawn_runs = np.stack([draw.weights[:rows].sum(axis=1) for draw in draws], axis=1)
     return fragility_of(
         as_curves(fits)[0],
         as_curves(probit_fits(levels, drawn_hits, drawn_runs)),

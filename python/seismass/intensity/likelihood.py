@@ -107,8 +107,8 @@ def capacity_fits(capacity: FloatArray, exceeded: NDArray[np.bool_], weight: Flo
 
     Notes
     -----
-    Baker (2015), truncated incremental dynamic analysis, each motion having its own intensity up to which it was
-    scaled. In 1/beta and ln(theta)/beta the likelihood is concave: Olsen (1978), Econometrica 46:1211-1215. Without
+    Baker (2015), eq. 7, of truncated incremental dynamic analysis, each motion having its own intensity up to which it
+    was scaled. In 1/beta and ln(theta)/beta the likelihood is concave: Olsen (1978), Econometrica 46:1211-1215. Without
     censored motions it is the mean and the standard deviation of ln(capacity), with divisor n.
     """
     log = np.log(capacity)
@@ -207,7 +207,7 @@ def cloud_fits(
     curves[:, 2], curves[:, 3] = np.exp(collapse.median), collapse.dispersion
     own, x, y = weight[:, moves], log[moves], np.log(demand[moves])
     number = own.sum(axis=1)
-    with np.errstate(invalid="ignore", divide="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         middle_x, middle_y = own @ x / number, own @ y / number
         off = x - middle_x[:, None]
         across = (own * off * off).sum(axis=1)

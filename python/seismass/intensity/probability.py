@@ -87,7 +87,8 @@ def _parts_reach(curves: FloatArray, share: float) -> FloatArray:
     median, dispersion, centre, width = curves.T
     inside = np.isfinite(median) & (median > 0.0)
     lognormal = np.where(inside, median * np.exp(np.where(inside, dispersion, 0.0) * ndtri(share)), median)
-    logistic = centre * np.exp(-width * np.log(1.0 / share - 1.0))
+    with np.errstate(over="ignore"):
+        logistic = centre * np.exp(-width * np.log(1.0 / share - 1.0))
     return np.asarray(np.minimum(lognormal, logistic))
 
 

@@ -22,7 +22,6 @@ from seismass.intensity.limits import LimitState
 from seismass.intensity.measures import IntensityMeasure
 from seismass.intensity.run import check_levels
 from seismass.intensity.trace import demand_at, intensity_at
-from seismass.study.tables import quantile
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -159,6 +158,8 @@ class IntensityAnalysis:
         -----
         Vamvatsikos and Cornell (2002), section 5. Between intensities that were solved curves are linear.
         """
+        from seismass.study.tables import quantile  # brings the whole study
+
         if given not in ("intensity", "demand"):
             raise refusal(InvalidOption, "given", "fractiles", "intensity or demand", brief(given))
         if self.capacities.is_empty():
@@ -221,7 +222,9 @@ class IntensityAnalysis:
         """Return the tables by name, the fractiles among them where motions are scaled."""
         names = ("motions", "runs", "capacities", "fragilities", "curves", "comparison", "exceedance")
         found: dict[str, pl.DataFrame] = {name: getattr(self, name) for name in names}
-        if not self.capacities.is_empty():
+        if self.capacities.is_empty():
+            del found["capacities"]
+        else:
             found |= {f"fractiles_given_{given}": self.fractiles(given) for given in ("intensity", "demand")}
         return found
 
@@ -276,7 +279,7 @@ class IntensityAnalysis:
         drawn: dict[str, Figure] = {}
         if figures:
             drawn["fragility"] = self.plot()
-            for limit in {each.column: each for each in self.limits}.values():
+            for limit in {each.column: each for each in self.limits if each.quantity != "collapse"}.values():
                 drawn[f"demand_{limit.column}"] = self.plot_ida(limit)
         return write_folder(
             as_path(folder, "intensity analysis", InvalidOption),

@@ -23,8 +23,8 @@ Progress: TypeAlias = Callable[[int, int], object]
 """Called with (runs done, runs in all)."""
 IndexArray: TypeAlias = NDArray[np.int64]
 
-AT_ONCE: Final = 4096
-"""Runs of a batch, each with a motion scaled for it: some 100 MB of samples at most."""
+SAMPLES_AT_ONCE: Final = 2**22
+"""Samples of scaled motions that a batch holds, in some 100 MB."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,13 +130,16 @@ def solve_runs(
     """
     names = list(setting.models)
     total, scale = len(model), intensity / setting.unit[motion]
-    frames = []
-    for first in range(0, max(total, 1), AT_ONCE):
-        part = slice(first, first + AT_ONCE)
-        frames.append(
-            _solve_part(setting, model[part], motion[part], scale[part], threads, _since(progress, first, total))
-        )
-    demands = pl.concat(frames)
+    # Runs of one scaled motion follow each other, so that it is made once for all models.
+    order = np.lexsort((model, scale, motion))
+    frames, done = [], 0
+    for part in _parts(setting, motion[order], scale[order]):
+        own = order[part]
+        frames.append(_solve_part(setting, model[own], motion[own], scale[own], threads, _since(progress, done, total)))
+        done += len(own)
+    place = np.empty(total, dtype=np.int64)
+    place[order] = np.arange(total)
+    demands = pl.concat(frames)[place]
     return pl.DataFrame(
         {
             "model": pl.Series(names, dtype=pl.String).gather(model),
@@ -231,6 +234,16 @@ def _solve_part(
             demand = limit.demand(table, heights)
             found[limit.column] = pl.Series(limit.column, demand, dtype=pl.Float64, nan_to_null=True)
     return pl.DataFrame(found)
+
+
+def _parts(setting: Setting, motion: IndexArray, scale: FloatArray) -> list[slice]:
+    """Stretches of ordered runs whose scaled motions fit into memory together."""
+    samples = np.array([each.samples for each in setting.motions.motions])[motion]
+    same = (np.diff(motion) == 0) & (np.diff(scale) == 0.0)
+    samples[1:][same] = 0
+    part = np.cumsum(samples) // SAMPLES_AT_ONCE
+    starts = [0, *(np.flatnonzero(np.diff(part)) + 1).tolist()]
+    return [slice(first, last) for first, last in zip(starts, [*starts[1:], len(motion)], strict=True)]
 
 
 def _since(progress: Progress | None, first: int, total: int) -> Progress | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass._values import counted
@@ -10,6 +11,7 @@ from seismass._values import counted
 if TYPE_CHECKING:
     from seismass.intensity.result import IntensityAnalysis
 
+_WIDTH: Final = 120
 _METHODS: Final = {
     "hunt_fill": "incremental dynamic analysis, hunt and fill",
     "stripes": "stripes",
@@ -37,7 +39,11 @@ def text_of(result: IntensityAnalysis) -> str:
         ]
         rows = result.exceedance.filter(limit=limit.name)
         lines += [_exceedance(row, result.reference) for row in rows.iter_rows(named=True)]
-    return "\n".join([*lines, *[""] * bool(result.remarks), *(f"remark    {remark}" for remark in result.remarks)])
+    if result.remarks:
+        lines.append("")
+    for remark in result.remarks:
+        lines += textwrap.wrap(remark, _WIDTH, initial_indent="remark    ", subsequent_indent=10 * " ")
+    return "\n".join(lines)
 
 
 def _number(value: float | None, digits: str = ".3g") -> str:
@@ -63,8 +69,10 @@ def _fitted(row: dict[str, Any]) -> str:
         }
         return said[row["kind"]]
     median = _number(row["median"]) + _between(row["median_low"], row["median_high"])
+    if row["kind"] == "step":
+        return f"{median:23} unknown, a step"
     spread = _number(row["dispersion"], ".2f") + _between(row["dispersion_low"], row["dispersion_high"], ".2f")
-    return f"{median:24}{spread}"
+    return f"{median:23} {spread}"
 
 
 def _ratio(row: dict[str, Any], reference: str) -> str:
@@ -87,8 +95,6 @@ def _exceedance(row: dict[str, Any], reference: str) -> str:
     if row["difference"] is not None:
         points = f"{100.0 * row['difference']:+.1f} points"
         difference = f"; {points}{_between(row['difference_low'], row['difference_high'], '+.1f', 100.0)}"
-    own = row["probability"]
-    said = "unknown" if own is None else f"{100.0 * own:.1f} %"
-    return (
-        f"  at {row['intensity']:.3g}: {row['model']} says {said}, {reference} has {percent('reference')}{difference}"
-    )
+    said = "unknown" if row["probability"] is None else f"{100.0 * row['probability']:.1f} %"
+    where = f"where {row['model']} says {said} (at {row['intensity']:.3g})"
+    return f"  {where}, {reference} has {percent('reference')}{difference}"

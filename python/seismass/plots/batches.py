@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_number, brief, refusal
+from seismass._values import FloatArray, as_number, refusal
 from seismass.errors import InvalidOption
+from seismass.intensity.fragility import fit_counts
 from seismass.plots.axes import grid_lines, single
 from seismass.plots.columns import checked_table, demand_of, in_unit, label_of, one_value
 from seismass.plots.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, plain
@@ -201,39 +202,14 @@ def fragility_fit(intensity: ArrayLike, exceeded: ArrayLike, number: ArrayLike) 
     Raises
     ------
     InvalidOption
-        Lists differ in length, or an intensity is not positive.
+        Lists differ in length, an intensity is not positive, or more motions exceed the limit than there are.
 
     Notes
     -----
-    Binomial likelihood as in Baker (2015), Earthquake Spectra 31:579-599, eq. 11. In a + b ln(x), with b = 1/beta and
-    a = -ln(median)/beta, it is concave.
+    It is `seismass.intensity.fit_counts` without its interval.
     """
-    from scipy.optimize import minimize  # slow to import
-    from scipy.special import log_ndtr
-
-    owner = "fragility fit"
-    x = as_array(intensity, "intensity", owner, InvalidOption)
-    k, n = (as_array(v, name, owner, InvalidOption) for v, name in ((exceeded, "exceeded"), (number, "number")))
-    if not len(x) == len(k) == len(n):
-        raise refusal(
-            InvalidOption, "exceeded and number", owner, f"lists of {len(x)} values", f"{len(k)} and {len(n)}"
-        )
-    if not (x > 0.0).all():
-        raise refusal(InvalidOption, "intensity", owner, "positive", brief(x.min(initial=np.inf)))
-    log, safe = np.log(x), n - k
-    if not (k > 0.0).any() or not (safe > 0.0).any():
-        return None
-    parted = log[k > 0.0].min() >= log[safe > 0.0].max()
-    if parted or np.average(log, weights=k) <= np.average(log, weights=safe):
-        return None
-    centre, spread = float(log.mean()), float(log.std())
-
-    def loss(ab: FloatArray) -> float:
-        z = ab[0] + ab[1] * (log - centre) / spread
-        return -float(k @ log_ndtr(z) + safe @ log_ndtr(-z))
-
-    a, b = minimize(loss, np.array([0.0, 1.0]), method="BFGS").x
-    return float(np.exp(centre - spread * a / b)), float(spread / b)
+    fit = fit_counts(intensity, exceeded, number, resamples=0)
+    return (fit.median, fit.dispersion) if fit.kind == "fitted" else None
 
 
 def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: Axes | None = None) -> Figure:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import Any, Final
 
 import matplotlib as mpl
@@ -36,7 +37,7 @@ def fragility_figure(result: IntensityAnalysis) -> Figure:
         figure = Figure(figsize=(max(4.4 * columns, 6.4), 0.9 + 3.3 * rows), layout="constrained")
         panels = figure.subplots(rows, columns, squeeze=False).ravel()
         for axes, limit in zip(panels, result.limits, strict=False):
-            for model, look, marker in zip(result.models, SERIES, _MARKERS, strict=False):
+            for model, look, marker in zip(result.models, cycle(SERIES), cycle(_MARKERS), strict=False):
                 if (model, limit.name) in result.fits:
                     _curve(axes, result, limit, model, look, marker)
             axes.set_title(plain(limit.text))
@@ -49,7 +50,7 @@ def fragility_figure(result: IntensityAnalysis) -> Figure:
             axes.set_axis_off()
         handles: list[Any] = [
             Line2D([], [], **look, marker=marker, markersize=4.0, label=plain(model))
-            for model, look, marker in zip(result.models, SERIES, _MARKERS, strict=False)
+            for model, look, marker in zip(result.models, cycle(SERIES), cycle(_MARKERS), strict=False)
         ]
         if any(len(fit.samples) for fit in result.fits.values()):
             share = f"{100.0 * result.metadata['confidence']:g} % interval"
@@ -123,7 +124,7 @@ def demand_figure(result: IntensityAnalysis, limit: LimitState) -> Figure:
             for x, y in result.traces(model, column):
                 finite = np.isfinite(y)
                 if fractiles is None:
-                    axes.plot(scale * y[finite], x[finite], color=GREY, linestyle="", marker="o", markersize=3.0)
+                    axes.loglog(scale * y[finite], x[finite], color=INK, linestyle="", marker="o", markersize=3.0)
                     continue
                 points, values = np.append(0.0, x), np.append(0.0, np.where(finite, y, np.nan))
                 axes.plot(scale * values, points, color=GREY, linewidth=0.7, alpha=0.8, gid="motion")
@@ -137,7 +138,8 @@ def demand_figure(result: IntensityAnalysis, limit: LimitState) -> Figure:
                     shown = np.where(np.isfinite(value), scale * value, np.nan)
                     at = np.append(0.0, own["level"].to_numpy())
                     axes.plot(np.append(0.0, shown), at, color=SERIES[0]["color"], linestyle=style, linewidth=1.8)
-            axes.set_title(plain(model))
+            fallen = result.runs.filter(model=model, status="collapsed").height
+            axes.set_title(plain(model) if scaled or not fallen else f"{plain(model)}, {fallen} collapsed")
             axes.set_xlabel(limit.label)
             grid_lines(axes)
         if limit.quantity != "collapse":
@@ -145,19 +147,20 @@ def demand_figure(result: IntensityAnalysis, limit: LimitState) -> Figure:
             for axes in panels:
                 for bound in bounds:
                     axes.axvline(scale * bound, color=VERMILION, linestyle=(0, (8, 2)), linewidth=1.1)
-            panels[0].set_xlim(0.0, 2.0 * scale * max(bounds) if max(bounds) > 0.0 else None)
-            panels[0].set_ylim(0.0, _highest_shown(result, column, 2.0 * max(bounds)))
+            if scaled:
+                panels[0].set_xlim(0.0, 2.0 * scale * max(bounds) if max(bounds) > 0.0 else None)
+                panels[0].set_ylim(0.0, _highest_shown(result, column, 2.0 * max(bounds)))
         panels[0].set_ylabel(_intensity_label(result))
-        handles = [Line2D([], [], color=GREY, linewidth=0.8, label="each motion")]
-        if scaled:
+        handles = [Line2D([], [], color=VERMILION, linestyle=(0, (8, 2)), label="limit")]
+        if not scaled:
+            handles.append(Line2D([], [], color=INK, linestyle="", marker="o", markersize=3.0, label="each motion"))
+        else:
+            handles.append(Line2D([], [], color=GREY, linewidth=0.8, label="each motion"))
             handles += [
                 Line2D([], [], color=SERIES[0]["color"], linestyle=style, label=_FRACTILE_NAMES[name])
                 for name, style in _FRACTILE_LOOKS.items()
             ]
-        handles += [
-            Line2D([], [], color=VERMILION, linestyle=(0, (8, 2)), label="limit"),
-            Line2D([], [], color=INK, linestyle="", marker="x", markersize=4.5, label="last before collapse"),
-        ]
+            handles.append(Line2D([], [], color=INK, linestyle="", marker="x", markersize=4.5, label="before collapse"))
         figure.legend(handles=handles, loc="outside upper center", ncols=3, frameon=False)
         figure.supxlabel(_caption(result), fontsize=7.5)
     return figure

@@ -1,0 +1,172 @@
+"""`seismass ida FILE`: incremental dynamic analysis of a building with sliding goods beside the models of a code."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seismass.commands.effective_map import numbers_option
+from seismass.commands.options import (
+    add_records_options,
+    left_out,
+    positive_option,
+    read_motions,
+    threads_option,
+    warn_left_out,
+)
+from seismass.commands.study import progress_bar
+
+if TYPE_CHECKING:
+    from seismass.scene import Scene
+
+_EPILOG = """examples:
+  seismass ida warehouse.toml
+  seismass ida scene.toml --records my_records/ --limit drift_ratio=0.02 --limit slip=0.1 --limit collapse
+  seismass ida scene.toml --measure sa_avg --code-share 0.8 --at 0.5,1,1.5 --out fragility
+  seismass ida scene.toml --method stripes --intensities 0.2,0.4,0.6,0.8,1,1.2 --limit drift@1=0.05
+  seismass ida scene.toml --method cloud --measure pga --limit drift=0.05 --json
+
+limits: drift_ratio, drift, residual_drift_ratio, residual_drift, slip, residual_slip, floor_acceleration_g (ratio, m
+or g), of a storey, floor or block with @NUMBER; or collapse
+
+exit codes: 0 done, 1 a run failed, 2 bad input"""
+
+DEFAULT_LIMIT = "drift_ratio=0.02"
+"""Allowable drift of ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II."""
+
+
+def add_parser(subparsers: Any) -> None:
+    """Add the subcommand to those of the `seismass` command."""
+    parser = subparsers.add_parser(
+        "ida",
+        help="fragility: what a code's model makes of the probability of exceeding a limit",
+        description="Scale motions until limits are exceeded, for the building with sliding goods, for the model of a "
+        "code, and with all goods attached; fit fragilities and compare the probabilities of exceedance.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "file", type=Path, metavar="FILE", help="scene file (its motion is not used) or building file, .toml or .json"
+    )
+    asked = parser.add_argument_group("what is asked")
+    asked.add_argument(
+        "--limit",
+        action="append",
+        metavar="LIMIT",
+        help=f"limit state, several times if wanted ({DEFAULT_LIMIT}; of a building file its drift limit)",
+    )
+    asked.add_argument(
+        "--measure",
+        choices=("scale", "pga", "sa_t1", "sa_avg"),
+        default="sa_t1",
+        help="intensity measure (sa_t1: pseudo-acceleration at T1, in g)",
+    )
+    asked.add_argument(
+        "--period", type=positive_option, metavar="T", help="T1 of the measure, s (that of the building without goods)"
+    )
+    asked.add_argument(
+        "--code-share",
+        type=float,
+        metavar="L",
+        help="share of the goods in the code's model (0.25, or the file's code)",
+    )
+    asked.add_argument("--at", type=numbers_option, metavar="LIST", help="intensities at which models are compared")
+    method = parser.add_argument_group("method")
+    method.add_argument("--method", choices=("hunt_fill", "stripes", "cloud"), default="hunt_fill", help="(hunt_fill)")
+    method.add_argument("--intensities", type=numbers_option, metavar="LIST", help="intensities of stripes")
+    method.add_argument("--highest", type=positive_option, metavar="X", help="largest intensity of a hunt")
+    method.add_argument("--tolerance", type=positive_option, metavar="R", help="relative width of capacities (0.001)")
+    add_records_options(parser.add_argument_group("motions, as they are"))
+    output = parser.add_argument_group("running and output")
+    output.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the bootstrap (0)")
+    output.add_argument("--out", type=Path, metavar="DIR", help="folder to write tables and figures to")
+    output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
+    output.add_argument("--json", action="store_true", help="print the answer as JSON")
+    output.add_argument("--no-figures", action="store_true", help="write tables only")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the analysis, print its answer and write its files; return the exit code."""
+    from seismass.errors import InvalidOption, SimulationError
+    from seismass.intensity import HuntAndFill, cloud_analysis, incremental_dynamic_analysis, parse_limit
+    from seismass.report.folder import check_out
+
+    started = time.perf_counter()
+    if args.out is not None:
+        check_out(args.out, "ida")
+    if args.method != "hunt_fill" and not args.highest is args.tolerance is None:
+        raise InvalidOption(f"--highest and --tolerance of ida must be left out where --method is {args.method}")
+    if args.method == "cloud" and args.intensities is not None:
+        raise InvalidOption("--intensities of ida must be left out where --method is cloud")
+    models, rule, drift_limit = models_of(args.file, args.code_share)
+    limits = [parse_limit(text) for text in args.limit or [drift_limit]]
+    suite = read_motions(args, "eleven")
+    common: dict[str, Any] = {"measure": args.measure, "period": args.period, "at": args.at or (), "seed": args.seed}
+    common |= {"threads": args.jobs, "progress": progress_bar()}
+    try:
+        if args.method == "cloud":
+            result = cloud_analysis(models, suite, limits, **common)
+        else:
+            given = {"highest": args.highest, "tolerance": args.tolerance}
+            hunt = {name: value for name, value in given.items() if value is not None}
+            result = incremental_dynamic_analysis(
+                models,
+                suite,
+                limits,
+                method=args.method,
+                intensities=args.intensities,
+                hunt=HuntAndFill(**hunt) if args.method == "hunt_fill" else None,
+                **common,
+            )
+    except SimulationError as error:
+        print(f"seismass: run failed: {error}", file=sys.stderr)
+        return 1
+    files = [] if args.out is None else result.write(args.out, figures=not args.no_figures)
+    if args.json:
+        warn_left_out(suite)
+        print(json.dumps(result.to_dict(), indent=2, allow_nan=False))
+        return 0
+    print(f"suite     {suite.name}\ncode      {rule}\n{result.text}")
+    for line in left_out(suite):
+        print(f"          {line}")
+    written = f"{len(files)} files in {args.out}, " if files else ""
+    print(f"\n{written}{time.perf_counter() - started:.1f} s")
+    return 0
+
+
+def models_of(path: Path, code_share: float | None) -> tuple[dict[str, Scene], str, str]:
+    """Return the models of a scene file or a building file, what the code's has attached, and the limit by default.
+
+    The code's model of a building file has its code's fraction of the design live load, whatever is present.
+    """
+    from seismass.assessment.models import with_mass
+    from seismass.building_file import read_building
+    from seismass.intensity import compared_models
+    from seismass.intensity.models import CODE, DEFAULT_CODE_SHARE, REAL
+    from seismass.scene_file import read_scene
+
+    share = DEFAULT_CODE_SHARE if code_share is None else code_share
+    rule = f"{100.0 * share:g} % of the goods attached as mass"
+    if not is_building_file(path):
+        return compared_models(read_scene(path).scene, share), rule, DEFAULT_LIMIT
+    building = read_building(path)
+    models = compared_models(building.scene(), share)
+    if code_share is None:
+        models[CODE] = with_mass(models[REAL], building.code.fraction * building.live_load)
+        code = building.code
+        rule = f"{code.code}, {code.use}: {100.0 * code.fraction:g} % of the design live load attached as mass"
+    return models, rule, f"drift_ratio={building.drift_limit:g}"
+
+
+def is_building_file(path: Path) -> bool:
+    """Whether a file has tables that only building files have."""
+    from seismass.errors import InvalidSceneFile
+    from seismass.input_table import load_table
+
+    found = load_table(path, "scene or building file", InvalidSceneFile).values
+    return any(name in found for name in ("storeys", "goods", "site"))
