@@ -95,7 +95,9 @@ def test_goods_with_more_friction_than_acceleration_do_not_slide(suite: list[sm.
 def test_goods_slide_exactly_where_friction_is_below_the_attached_floor_acceleration(suite: list[sm.Record]) -> None:
     for mu in (0.4, 0.6, 0.8):
         rows = slip_demand(storage(mu), suite).runs.filter(pl.col("collapsed").not_())
-        slides = rows.group_by("motion").agg((pl.col("peak_slip") > 0.0).any(), (pl.col("mu_over_attached") < 1.0).any())
+        slides = rows.group_by("motion").agg(
+            (pl.col("peak_slip") > 0.0).any(), (pl.col("mu_over_attached") < 1.0).any()
+        )
         assert slides["peak_slip"].to_list() == slides["mu_over_attached"].to_list()
 
 
@@ -291,7 +293,9 @@ def test_one_sided_fragility_says_so(suite: list[sm.Record]) -> None:
 def test_result_is_written_whole(tmp_path: Path, suite: list[sm.Record]) -> None:
     found = slip_demand(storage(), suite, clearance=0.1, sizes=BlockSize(1.0, 1.2))
     files = found.write(tmp_path / "out")
-    assert {"slip_blocks.csv", "slip_runs.parquet", "slip_demand.json", "slip_demand.png"} <= {each.name for each in files}
+    assert {"slip_blocks.csv", "slip_runs.parquet", "slip_demand.json", "slip_demand.png"} <= {
+        each.name for each in files
+    }
     document = json.loads((tmp_path / "out" / "slip_demand.json").read_text(encoding="utf-8"))
     assert document["metadata"]["clearances"] == [[0.1, 0.1]] * 2
     again = slip_demand(storage(), suite, clearance=0.1, sizes=BlockSize(1.0, 1.2))
