@@ -211,7 +211,7 @@ def test_squat_rule() -> None:
 
 
 def test_overturning_velocity_is_near_that_of_an_impulse() -> None:
-    """0.4 sqrt(8 g R (1 - cos a)/(3 cos^2 a)) tends to 0.4 sqrt(2 g/3) B/sqrt(H) = 1.0228 B/sqrt(H) for slender blocks."""
+    """0.4 sqrt(8 g R (1 - cos a)/(3 cos^2 a)) tends to 0.4 sqrt(2 g/3) = 1.0228 times B/sqrt(H) for slender blocks."""
     width, height = 0.01, 2.0
     angle, radius = np.arctan(width / height), 0.5 * np.hypot(width, height)
     energy = 0.4 * np.sqrt(8.0 * G * radius * (1.0 - np.cos(angle)) / (3.0 * np.cos(angle) ** 2))

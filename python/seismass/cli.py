@@ -19,15 +19,33 @@ from seismass.commands import (
     pulse,
     records,
     report,
+    risk,
     run,
     scale,
+    slip,
     spectrum,
     study,
     validate,
 )
 from seismass.errors import SeismassError
 
-COMMANDS = (building, effective_map, ida, study, run, animate, records, spectrum, scale, match, pulse, validate, report)
+COMMANDS = (
+    building,
+    effective_map,
+    ida,
+    risk,
+    slip,
+    study,
+    run,
+    animate,
+    records,
+    spectrum,
+    scale,
+    match,
+    pulse,
+    validate,
+    report,
+)
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""

@@ -174,8 +174,8 @@ def risk_remarks(search: RiskSearch, found: FoundShare, reason: str) -> tuple[st
     outside = int((search.capacities[0] > search.hazard.sa_g[-1]).sum())
     if outside:
         remarks.append(
-            f"under {counted(outside, 'motion')} of {motions} the real building reaches the limit only above the hazard "
-            f"curve"
+            f"under {counted(outside, 'motion')} of {motions} the real building reaches the limit only where the "
+            f"hazard curve has ended"
         )
     if motions < 7:
         remarks.append(f"{counted(motions, 'motion')}: few for a fragility")

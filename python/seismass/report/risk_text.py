@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.effective_mass.curve import Kind
+from seismass.report.slip_demand_text import remark_lines
 
 if TYPE_CHECKING:
     from seismass.intensity.risk_result import RiskTargetedShare
@@ -17,6 +18,7 @@ KIND_TEXTS: Final[dict[Kind, str]] = {
     "one": "even with all goods attached the model exceeds the limit less often than the real building",
 }
 """What each kind means."""
+_LABEL: Final = 21
 _NAMES: Final = {"real": "goods slide", "code": "code", "attached": "all attached", "none": "none attached"}
 
 
@@ -60,7 +62,7 @@ def risk_text(result: RiskTargetedShare) -> str:
         share = _with_ends(row["value"], row["low"], row["high"], ".2f")
         ratio = "-" if row["real_over_code"] is None else f"{row['real_over_code']:.2f}"
         lines.append(f"  {name:30}{share:>22}{row['kind']:>10}{row['real_rate']:>12.2g}{ratio:>16}")
-    return "\n".join([*lines, "", *(f"remark               {remark}" for remark in result.remarks)])
+    return "\n".join([*lines, "", *remark_lines(result.remarks, _LABEL)])
 
 
 def _interval(ends: tuple[float, float] | None, percent: str) -> str:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import textwrap
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Final
 
 from seismass.slip.estimates import TITLES
 
 if TYPE_CHECKING:
     from seismass.slip.result import SlipDemand
 
-_LABEL = 12
+_LABEL: Final = 12
 
 
 def slip_demand_text(result: SlipDemand) -> str:
@@ -18,7 +20,16 @@ def slip_demand_text(result: SlipDemand) -> str:
     for part in (_exceedance(result), _squat(result), _estimates(result)):
         if part:
             lines += ["", *part]
-    return "\n".join([*lines, "", *(f"{'remark':{_LABEL}}{remark}" for remark in result.remarks)])
+    return "\n".join([*lines, "", *remark_lines(result.remarks, _LABEL)])
+
+
+def remark_lines(remarks: Iterable[str], indent: int) -> list[str]:
+    """Return remarks as lines of at most 120 characters, indented by their label."""
+    lines = []
+    for remark in remarks:
+        first = f"{'remark':{indent}}"
+        lines += textwrap.wrap(remark, 120, initial_indent=first, subsequent_indent=" " * indent)
+    return lines
 
 
 def _blocks(result: SlipDemand) -> list[str]:
@@ -84,8 +95,8 @@ def _squat(result: SlipDemand) -> list[str]:
             )
             if row["overturning_limits_exceeded"] is not None:
                 lines.append(
-                    f"    above both lower limits of overturning by Ishiyama (velocity {row['overturning_velocity']:.2g} "
-                    f"m/s): under {row['overturning_limits_exceeded']} motions"
+                    f"    above both of Ishiyama's lower limits of overturning, as to velocity "
+                    f"{row['overturning_velocity']:.2g} m/s: under {row['overturning_limits_exceeded']} motions"
                 )
     return ["Slide or rock", *lines] if lines else []
 

@@ -251,8 +251,8 @@ def demand_remarks(
     for row in squat.filter(pl.col("rocks_first")).iter_rows(named=True):
         remarks.append(
             f"block {row['block']} rocks before it slides (mu_s = {row['mu_s']:g} above b/(2 h_c) = "
-            f"{row['uplift_g']:.3g}), and would lift off under {row['uplift']} of {row['motions']} motions: the model of "
-            f"its slip has no rocking"
+            f"{row['uplift_g']:.3g}), and would lift off under {row['uplift']} of {row['motions']} motions: its slip "
+            f"is of a model without rocking"
         )
     collapsed = int(runs.collapsed.sum())
     if collapsed:
