@@ -103,7 +103,7 @@ def test_certain_capacities_give_the_hazard_at_them() -> None:
     assert several.value == pytest.approx(by_hand, rel=1e-14)
     # Above 2 g three motions of five exceed the limit at least, and all at most.
     assert several.bounds == pytest.approx((by_hand + 0.6 * last, by_hand + last), rel=1e-14)
-    assert any("below 0.05 g" in remark for remark in several.remarks)
+    assert any("begins at 0.05 g: weaker" in remark for remark in several.remarks)
 
 
 def test_many_at_once_are_those_one_by_one() -> None:

@@ -192,8 +192,8 @@ def test_hazard_that_ends_early_is_said(suite: list[sm.Record]) -> None:
     cut = sm.risk_targeted_share(storage(0.15), suite, short, 0.01, **options)  # type: ignore[arg-type]
     longer = sm.risk_targeted_share(storage(0.15), suite, short, 0.01, extrapolate=True, **options)  # type: ignore[arg-type]
     assert cut.real < longer.real
-    assert any("the hazard curve ends there: intensities above 0.6 g" in remark for remark in cut.remarks)
-    assert not any("the hazard curve ends there" in remark for remark in longer.remarks)
+    assert any("the hazard curve ends at 0.6 g: stronger motions would add" in remark for remark in cut.remarks)
+    assert not any("the hazard curve ends" in remark for remark in longer.remarks)
 
 
 def test_text_tables_json_and_files(tmp_path: Path, found: sm.RiskTargetedShare) -> None:
@@ -251,6 +251,14 @@ def test_what_is_refused(suite: list[sm.Record], options: dict[str, object], mes
     with pytest.raises(sm.InvalidOption) as error:
         sm.risk_targeted_share(storage(0.15), suite, **given)  # type: ignore[arg-type]
     assert message in str(error.value)
+
+
+def test_scenes_that_do_not_start_at_rest_are_refused(suite: list[sm.Record]) -> None:
+    with pytest.raises(sm.InvalidScene, match="initial state of risk-targeted share must be at rest"):
+        sm.risk_targeted_share(storage(0.15, initial_drift=[0.001, 0.0]), suite, HAZARD, 0.01)
+    pushed = sm.Block(1, mass_ratio=1.0, mu=0.1, velocity=0.1)
+    with pytest.raises(sm.InvalidScene, match="must be at rest"):
+        sm.risk_targeted_share(sm.Scene(storage(0.15).building, [pushed]), suite, HAZARD, 0.01)
 
 
 def test_limit_beyond_the_hazard_curve_is_refused(suite: list[sm.Record]) -> None:

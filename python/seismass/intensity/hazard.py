@@ -12,7 +12,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, Value, as_array, as_number, as_positive, brief, frozen, refusal
+from seismass._values import FloatArray, Value, as_array, as_positive, brief, frozen, refusal
 from seismass.errors import InvalidOption
 
 OWNER: Final = "hazard curve"
@@ -246,5 +246,4 @@ def check_hazard(hazard: Any, owner: str) -> HazardCurve:
 
 def check_years(years: Any, owner: str) -> float:
     """Return a number of years for which probabilities are given."""
-    number = as_number(years, "years", owner, InvalidOption)
-    return as_positive(number, "years", owner, InvalidOption)
+    return as_positive(years, "years", owner, InvalidOption)

@@ -26,7 +26,7 @@ from seismass.effective_mass.models import (
 from seismass.effective_mass.result import EffectiveMass
 from seismass.effective_mass.runs import Progress
 from seismass.effective_mass.tables import inputs_digest
-from seismass.errors import InvalidOption
+from seismass.errors import InvalidOption, InvalidScene
 from seismass.intensity.exact_capacities import exact_capacities
 from seismass.intensity.hazard import DESIGN_RATE, HazardCurve, check_hazard
 from seismass.intensity.limits import LimitState
@@ -146,7 +146,7 @@ def risk_targeted_share(
     >>> found.kind, found.value
     ('stuck', 1.0)
     """
-    checked = check_loaded(scene)
+    checked = _at_rest(check_loaded(scene))
     curve = check_hazard(hazard, OWNER)
     options = RiskOptions(
         limit=_limit(limit, checked),
@@ -281,6 +281,14 @@ def _chosen(
         "resamples": options.resamples,
         "seed": options.seed,
     }
+
+
+def _at_rest(scene: Scene) -> Scene:
+    """A scene that has no drift and no velocity at the start, so that no demand comes with intensity zero."""
+    states = (scene.initial_drift, scene.initial_velocity)
+    if any(state is not None and state.any() for state in states) or any(block.velocity for block in scene.blocks):
+        raise refusal(InvalidScene, "initial state", OWNER, "at rest", "drifts or velocities")
+    return scene
 
 
 def _listed(motions: Any) -> list[Any]:

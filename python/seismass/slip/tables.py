@@ -17,7 +17,6 @@ from seismass.slip.clearance import Clearance
 from seismass.slip.estimates import log_ratio
 from seismass.slip.runs import SlipRuns, SolvedMotion
 from seismass.slip.squat import BlockSize
-from seismass.study.tables import quantile
 from seismass.units import STANDARD_GRAVITY
 
 QUANTILES: Final = {"p16": 0.16, "median": 0.50, "p84": 0.84}
@@ -297,6 +296,8 @@ def _pooled_ratio(
 
 
 def _quantiles(values: FloatArray) -> dict[str, float]:
+    from seismass.study.tables import quantile  # of the study, which is not needed before
+
     return {name: float(quantile(values[None, :], share)[0]) for name, share in QUANTILES.items()}
 
 
