@@ -13,6 +13,7 @@ import seismass as sm
 from seismass.intensity import IntensityMeasure, solve_grid
 from seismass.intensity.annual_rate import annual_rate
 from seismass.intensity.exact_capacities import STEP, exact_capacities
+from seismass.intensity.risk_rates import RateCurve
 from seismass.intensity.run import setting_of
 
 G = sm.STANDARD_GRAVITY
@@ -106,6 +107,27 @@ def test_capacities_are_first_crossings(suite: list[sm.Record]) -> None:
             demand = table["drift_ratio"].to_numpy()
             assert (demand[:-1] <= 0.01).all()
             assert demand[-1] > 0.01
+
+
+@pytest.mark.parametrize(
+    ("rates", "kind", "value"),
+    [
+        ([1.2, 1.1, 1.05], "zero", 0.0),
+        ([0.7, 0.75, 1.25], "root", 0.75),
+        ([0.7, 1.25, 0.9], "one", 1.0),
+        ([1.25, 0.75, 1.25], "multiple", 0.75),
+    ],
+)
+def test_operator_on_rates(rates: list[float], kind: str, value: float) -> None:
+    """Rates of models at shares 0, 1/2 and 1 where the real building has 1 a year; linear between them."""
+    hazard = sm.HazardCurve([1e-3, 1e3], [1e3, 1e-3])  # the rate is 1 over the capacity
+    capacities = 1.0 / np.array(rates)[:, None]
+    shares = np.array([0.0, 0.5, 1.0])
+    curve = RateCurve.of(shares, np.array([1.0]), capacities, hazard, "empirical", True, np.ones((1, 1)))
+    np.testing.assert_allclose(curve.model, rates, rtol=1e-12)
+    assert curve.kind == kind
+    assert curve.value == pytest.approx(value, abs=1e-12)
+    assert curve.value_draws[0] == pytest.approx(value, abs=1e-12)
 
 
 def test_collapse_is_a_capacity(suite: list[sm.Record]) -> None:

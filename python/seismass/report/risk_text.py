@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+from seismass._values import counted
 from seismass.effective_mass.curve import Kind
 from seismass.report.slip_demand_text import remark_lines
 
@@ -26,10 +27,11 @@ def risk_text(result: RiskTargetedShare) -> str:
     """Return `RiskTargetedShare.text`."""
     percent = f"{100.0 * result.confidence:g} %"
     about = result.metadata
+    motions = counted(about["motions"], "motion")
     lines = [
         f"risk-targeted share  {result.value:.3f}{_interval(result.interval, percent)}",
         f"                     {result.kind}: {KIND_TEXTS[result.kind]}",
-        f"limit                {result.limit.text} under {about['motions']} motions; {result.measure.label}, "
+        f"limit                {result.limit.text} under {motions}; {result.measure.label}, "
         f"{result.estimator} fragilities",
         f"hazard               {result.hazard.label or 'as given'}: {result.hazard.sa_g[0]:g} to "
         f"{result.hazard.sa_g[-1]:g} g{', extrapolated' if about['extrapolate'] else ''}",

@@ -6,6 +6,7 @@ import textwrap
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Final
 
+from seismass._values import counted
 from seismass.slip.estimates import TITLES
 
 if TYPE_CHECKING:
@@ -33,9 +34,9 @@ def remark_lines(remarks: Iterable[str], indent: int) -> list[str]:
 
 
 def _blocks(result: SlipDemand) -> list[str]:
-    motions = result.metadata["motions"]
+    motions = counted(result.metadata["motions"], "motion")
     lines = [
-        f"Peak slip (mm): mean of {motions} motions [16 %, 84 % of them], largest; share of motions that slide",
+        f"Peak slip (mm): mean of {motions} [16 %, 84 % of them], largest; share of motions that slide",
         f"  {'block':16}{'in the building':>30}{'largest':>9}{'slides':>8}{'on the ground':>30}{'slides':>8}",
     ]
     for row in result.blocks.iter_rows(named=True):
@@ -56,7 +57,9 @@ def _blocks(result: SlipDemand) -> list[str]:
         ratio = "-" if row["mu_over_attached"] is None else f"{row['mu_over_attached']:.2f}"
         lines.append(f"  {name:16}{remains:>24}{pooled:>26}{each:>24}{ratio:>12}")
         if row["slides_on_floor_only"]:
-            lines.append(f"  {'':16}slides in the building alone under {row['slides_on_floor_only']} motions")
+            lines.append(
+                f"  {'':16}slides in the building alone under {counted(row['slides_on_floor_only'], 'motion')}"
+            )
     lines.append(
         f"  building/ground: ratio of means with its {100 * result.confidence:g} % interval; motion by motion: median "
         f"[16 %, 84 %];"
@@ -94,9 +97,10 @@ def _squat(result: SlipDemand) -> list[str]:
                 f"    lifts off above {row['uplift_g']:.3g} g: under {row['uplift']} of {row['motions']} motions"
             )
             if row["overturning_limits_exceeded"] is not None:
+                exceeded = counted(row["overturning_limits_exceeded"], "motion")
                 lines.append(
                     f"    above both of Ishiyama's lower limits of overturning, as to velocity "
-                    f"{row['overturning_velocity']:.2g} m/s: under {row['overturning_limits_exceeded']} motions"
+                    f"{row['overturning_velocity']:.2g} m/s: under {exceeded}"
                 )
     return ["Slide or rock", *lines] if lines else []
 

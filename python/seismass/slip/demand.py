@@ -99,10 +99,10 @@ def slip_demand(
 
     Notes
     -----
-    On the ground: each block alone, with its friction, under the same motion, solved exactly. The building alone has
-    the mass of the floors, and all goods attached their whole mass too; both keep stiffness, strength and P/h. No goods
-    slide if and only if mu_s g is not below the peak floor acceleration of the building with all goods attached
-    (without vertical motion), so that this one is set beside mu_s.
+    On the ground: each block alone, with its friction, from rest, under the same motion, solved exactly. The building
+    alone has the mass of the floors, and all goods attached their whole mass too; both keep stiffness, strength and
+    P/h. No goods slide if and only if mu_s g is not below the peak floor acceleration of the building with all goods
+    attached (without vertical motion), so that this one is set beside mu_s.
 
     The published estimates use peaks or the spectrum of the ground motion, and of the motion of the floor of the
     building alone, as an engineer has it who analyses the building first and the goods afterwards. "rigid_block" is
