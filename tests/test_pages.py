@@ -164,3 +164,34 @@ def test_numbers_of_the_page_of_fragility_are_current(shared: Path) -> None:
     assert real == sorted(real, reverse=True)
     assert real[1] > 15.0
     assert real[-1] < 10.0
+
+
+def test_numbers_of_the_page_of_slip_demand_are_current() -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "slip_page.py"))
+    page = tool["PAGE"].read_text(encoding="utf-8")
+    blocks = tool["blocks"](tool["example"](page))
+    for key, lines in blocks.items():
+        assert tool["with_block"](page, key, lines) == page, key
+    # What its words say of elastic and yielding buildings: mean slip by building, friction and floor, ground first.
+    slip = [int(re.findall(r"(?:ground|floor \d) +(\d+)", line)[0]) for line in blocks["floors"][1:]]
+    elastic, yielding = ([slip[first : first + 5] for first in range(start, start + 15, 5)] for start in (0, 15))
+    assert all(floors == sorted(floors) for floors in elastic)
+    assert elastic[2][0] <= 1 < 200 < elastic[2][4]
+    assert max(yielding[2]) <= 1
+    assert yielding[1][1] < yielding[1][0] < yielding[1][4]
+    assert "3.78 [" in blocks["floors"][-6]
+
+
+def test_numbers_of_the_page_of_risk_are_current(shared: Path) -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "risk_page.py"))
+    page = tool["PAGE"].read_text(encoding="utf-8")
+    names = tool["example"](page)
+    blocks = {**tool["blocks"](names), "far_field": tool["far_field"](names, shared)}
+    for key, lines in blocks.items():
+        assert tool["with_block"](page, key, lines) == page, key
+    # What its words say: slopes change rates by factors and the share by little; the limit changes the share.
+    rows = {(row["parameter"], row["setting"]): row for row in names["answer"].sensitivity.iter_rows(named=True)}
+    steep, flat = rows["hazard slope", "x 1.25"], rows["hazard slope", "x 0.75"]
+    assert flat["real_rate"] > 1.5 * steep["real_rate"]
+    assert abs(flat["value"] - steep["value"]) < 0.05
+    assert rows["limit", "0.5 %"]["value"] > rows["limit", "3 %"]["value"] + 0.2

@@ -1,6 +1,6 @@
 """Names of the package, imported when they are first used; `__init__.py` reads them here."""
 
-from . import design, intensity, plots
+from . import design, intensity, plots, slip
 from .animation import Animation, animate
 from .assessment import Assessment, assess
 from .batch import simulate_many, stream_many, write_many
@@ -39,6 +39,10 @@ from .grid import Grid
 from .grid_axes import GridAxis
 from .grid_design import StrengthDesign
 from .intensity import IntensityAnalysis, LimitState, incremental_dynamic_analysis
+from .intensity.annual_rate import AnnualRate, annual_rate
+from .intensity.hazard import HazardCurve
+from .intensity.risk import risk_targeted_share
+from .intensity.risk_result import RiskTargetedShare
 from .long_table import long_table
 from .matching import MatchedRecord, MatchedSuite, match_spectrum, match_suite
 from .motion import Motion
@@ -82,6 +86,7 @@ from .scaling import (
 from .scene import Scene
 from .scene_file import SceneFile, read_scene
 from .simulate import instruction_set, simulate
+from .slip import BlockSize, Clearance, SlipDemand, slip_demand
 from .spectra import InelasticSpectrum, TargetSpectrum, inelastic_spectrum, mean_spectrum, response_spectrum
 from .spring_path import SpringPath, spring_forces
 from .units import STANDARD_GRAVITY
@@ -91,12 +96,15 @@ __version__: str
 __all__ = [
     "STANDARD_GRAVITY",
     "Animation",
+    "AnnualRate",
     "Assessment",
     "Block",
+    "BlockSize",
     "Building",
     "Campaign",
     "CampaignFolder",
     "CampaignProgress",
+    "Clearance",
     "CodeFraction",
     "EffectiveMass",
     "EffectiveMassMap",
@@ -105,6 +113,7 @@ __all__ = [
     "FrictionPair",
     "Grid",
     "GridAxis",
+    "HazardCurve",
     "InelasticSpectrum",
     "IntensityAnalysis",
     "InvalidBuildingFile",
@@ -130,6 +139,7 @@ __all__ = [
     "Record",
     "RecordFormatError",
     "Response",
+    "RiskTargetedShare",
     "RotD",
     "ScalingResult",
     "Scene",
@@ -137,6 +147,7 @@ __all__ = [
     "SeismassError",
     "Selection",
     "SimulationError",
+    "SlipDemand",
     "SpringPath",
     "StrengthDesign",
     "Suite",
@@ -144,6 +155,7 @@ __all__ = [
     "TargetSpectrum",
     "__version__",
     "animate",
+    "annual_rate",
     "assess",
     "attached_scene",
     "baker2007",
@@ -184,6 +196,7 @@ __all__ = [
     "read_scene",
     "read_suite",
     "response_spectrum",
+    "risk_targeted_share",
     "rotd",
     "scale_asce7_10",
     "scale_asce7_16",
@@ -194,6 +207,8 @@ __all__ = [
     "shahi_baker2014",
     "simulate",
     "simulate_many",
+    "slip",
+    "slip_demand",
     "spring_forces",
     "stream_many",
     "synthetic_motion",

@@ -19,6 +19,8 @@ COMMANDS: Final = {
     "explore": ("explore", "the live page: a building with sliding goods, solved while sliders move"),
     "map": ("effective_map", "the effective fraction of live load for many buildings: chart and rules"),
     "ida": ("ida", "fragility: what a code's model makes of the probability of exceeding a limit"),
+    "slip": ("slip", "how far goods slide, to which edge or wall, and whether they slide or rock"),
+    "risk": ("risk", "the share of the live load that keeps the annual rate of exceeding a drift limit"),
     "study": ("study", "the parametric study: drift with sliding live load against a code's rule"),
     "campaign": ("campaign", "a study of any size: axes or samples times motions, into a folder that resumes"),
     "run": ("run", "solve one scene file"),

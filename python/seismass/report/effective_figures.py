@@ -65,7 +65,7 @@ def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None
         axes.set_xlabel("share of the live load attached as mass")
         axes.set_ylabel("real / model largest drift\n(above 1: the model is unsafe)")
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-        _mark_codes(axes, marks)
+        mark_codes(axes, marks)
         figure.legend(loc="outside upper center", ncols=2, frameon=False)
         figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
@@ -80,7 +80,7 @@ def _mark_answer(axes: Axes, result: EffectiveMass) -> None:
     axes.plot([result.value], [ratio], color=VERMILION, marker="D", markersize=7.0, linestyle="", label=text, zorder=5)
 
 
-def _mark_codes(axes: Axes, marks: Mapping[str, float]) -> None:
+def mark_codes(axes: Axes, marks: Mapping[str, float]) -> None:
     """Codes as short ticks at the upper edge, named there."""
     for name, share in marks.items():
         axes.axvline(share, ymin=0.93, ymax=1.0, color=INK, linewidth=1.4)

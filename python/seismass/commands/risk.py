@@ -1,0 +1,147 @@
+"""`seismass risk FILE`: annual rates of exceeding a drift limit, and the share of the live load that keeps them."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from seismass.commands.effective_map import numbers_option
+from seismass.commands.options import (
+    add_records_options,
+    left_out,
+    positive_option,
+    read_motions,
+    threads_option,
+    warn_left_out,
+)
+from seismass.commands.study import progress_bar
+
+_EPILOG = """examples:
+  seismass risk scene.toml --hazard hazard.csv
+  seismass risk scene.toml --hazard hazard.csv --hazard-period 0.5 --limit drift_ratio=0.02 --records recordings/
+  seismass risk scene.toml --hazard hazard.csv --code-share 0.8 --other-limits 0.005,0.01,0.03 --out risk
+  seismass risk warehouse.toml --hazard hazard.csv --estimator empirical --extrapolate --json
+
+hazard.csv: intensity (g) and annual rate of exceedance, with or without a header such as Sa,rate
+
+exit codes: 0 done, 1 a run failed, 2 bad input"""
+
+
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
+    parser = subparsers.add_parser(
+        "risk",
+        help=help,
+        description="With a hazard curve: annual rates of exceeding a drift limit for the building with sliding goods, "
+        "for the model of a code and for all goods attached, and the share attached whose model has the rate of the "
+        "real building.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "file", type=Path, metavar="FILE", help="scene file (its motion is not used) or building file, .toml or .json"
+    )
+    asked = parser.add_argument_group("what is asked")
+    asked.add_argument("--hazard", type=Path, required=True, metavar="CSV", help="intensity (g), annual rate")
+    asked.add_argument("--hazard-period", type=positive_option, metavar="T", help="period of its Sa, s")
+    asked.add_argument(
+        "--limit",
+        metavar="LIMIT",
+        help="drift_ratio=VALUE or drift=VALUE (m), of a storey with @NUMBER (drift_ratio=0.02; of a building file its "
+        "drift limit)",
+    )
+    asked.add_argument(
+        "--other-limits", type=numbers_option, metavar="LIST", help="limits beside (1/4, 1/2, 3/2 of it)"
+    )
+    asked.add_argument(
+        "--measure", choices=("pga", "sa_t1", "sa_avg"), default="sa_t1", help="what the hazard is of (sa_t1)"
+    )
+    asked.add_argument(
+        "--period",
+        type=positive_option,
+        metavar="T",
+        help="T1 of the measure, s (that of the hazard, or of the building without goods)",
+    )
+    asked.add_argument(
+        "--code-share",
+        type=float,
+        metavar="L",
+        help="share of the goods in the code's model (0.25; of a building file the fraction of its code over the share "
+        "present)",
+    )
+    method = parser.add_argument_group("method")
+    method.add_argument("--shares", type=numbers_option, metavar="LIST", help="shares of models (0,0.05,...,1)")
+    method.add_argument("--estimator", choices=("lognormal", "empirical"), default="lognormal", help="(lognormal)")
+    method.add_argument("--extrapolate", action="store_true", help="continue the hazard curve beyond its ends")
+    method.add_argument(
+        "--design-rate", type=positive_option, metavar="R", help="annual rate of the design intensity (1/475)"
+    )
+    add_records_options(parser.add_argument_group("motions, as they are"))
+    output = parser.add_argument_group("running and output")
+    output.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the bootstrap (0)")
+    output.add_argument("--out", type=Path, metavar="DIR", help="folder to write tables and the figure to")
+    output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
+    output.add_argument("--json", action="store_true", help="print the answer as JSON")
+    output.add_argument("--no-figures", action="store_true", help="write tables only")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Find the share, print the answer and write its files; return the exit code."""
+    from seismass.building_file import read_building
+    from seismass.commands.ida import DEFAULT_LIMIT, is_building_file
+    from seismass.commands.slip import scene_of
+    from seismass.errors import SimulationError
+    from seismass.intensity import parse_limit
+    from seismass.intensity.hazard import HazardCurve
+    from seismass.intensity.risk import risk_targeted_share
+    from seismass.report.folder import check_out
+
+    started = time.perf_counter()
+    if args.out is not None:
+        check_out(args.out, "risk")
+    hazard = HazardCurve.from_csv(args.hazard, period=args.hazard_period)
+    drift_limit, code_share = DEFAULT_LIMIT, args.code_share
+    if is_building_file(args.file):
+        building = read_building(args.file)
+        drift_limit = f"drift_ratio={building.drift_limit:g}"
+        if code_share is None and building.present_share > 0.0:
+            code_share = min(1.0, building.code.fraction / building.present_share)
+    suite = read_motions(args, "eleven")
+    given = {"code_share": code_share, "design_rate": args.design_rate}
+    chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    try:
+        result = risk_targeted_share(
+            scene_of(args.file),
+            suite,
+            hazard,
+            parse_limit(args.limit or drift_limit),
+            measure=args.measure,
+            period=args.period,
+            shares=args.shares,
+            estimator=args.estimator,
+            extrapolate=args.extrapolate,
+            other_limits=args.other_limits,
+            seed=args.seed,
+            threads=args.jobs,
+            progress=progress_bar(),
+            **chosen,
+        )
+    except SimulationError as error:
+        print(f"seismass: run failed: {error}", file=sys.stderr)
+        return 1
+    files = [] if args.out is None else result.write(args.out, figures=not args.no_figures)
+    if args.json:
+        warn_left_out(suite)
+        print(json.dumps(result.to_dict(), indent=2, allow_nan=False))
+        return 0
+    print(f"suite                {suite.name}\n{result.text}")
+    for line in left_out(suite):
+        print(f"                     {line}")
+    written = f"{len(files)} files in {args.out}, " if files else ""
+    print(f"\n{written}{time.perf_counter() - started:.1f} s")
+    return 0

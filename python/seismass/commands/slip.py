@@ -1,0 +1,204 @@
+"""`seismass slip FILE`: how far goods slide, whether they reach an edge or a wall, and whether they slide or rock."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seismass.commands.options import (
+    add_records_options,
+    add_target_options,
+    left_out,
+    positive_option,
+    read_motions,
+    read_target,
+    threads_option,
+    warn_left_out,
+)
+from seismass.commands.study import progress_bar
+
+if TYPE_CHECKING:
+    from seismass.records import Suite
+    from seismass.scene import Scene
+    from seismass.slip import Clearance
+
+_EPILOG = """examples:
+  seismass slip scene.toml --records recordings/
+  seismass slip scene.toml --clearance 0.3 --size 1.0x1.2
+  seismass slip warehouse.toml --sds 1.0 --sd1 0.6 --period 0.6 --clearance 1=0.2 --clearance 2=0.5,0.1
+  seismass slip scene.toml --clearance 0.3 --fragility --measure pga --out slip
+
+--clearance: DISTANCE for both sides, PLUS,MINUS for each (one may be left empty), in m; --size: WIDTHxHEIGHT or
+WIDTHxHEIGHT@CENTRE, in m. BLOCK= before either makes it that of one block, counted from 1.
+
+exit codes: 0 done (a collapse is a result), 1 a run failed, 2 bad input"""
+
+
+def add_parser(subparsers: Any, help: str) -> None:
+    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
+    parser = subparsers.add_parser(
+        "slip",
+        help=help,
+        description="Slip of the goods of a scene file or a building file over a suite of motions, beside the same "
+        "goods on the ground and published estimates.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "file", type=Path, metavar="FILE", help="scene file (its motion is not used) or building file, .toml or .json"
+    )
+    asked = parser.add_argument_group("what is asked")
+    asked.add_argument(
+        "--clearance", action="append", default=[], metavar="[BLOCK=]M", help="distance to an edge or a wall, m"
+    )
+    asked.add_argument("--size", action="append", default=[], metavar="[BLOCK=]BxH", help="size of a block, m")
+    asked.add_argument("--fragility", action="store_true", help="also fit the probability of reaching clearances")
+    asked.add_argument(
+        "--measure",
+        choices=("scale", "pga", "sa_t1", "sa_avg"),
+        help="intensity measure of --fragility (sa_t1; pga without a building)",
+    )
+    motions = parser.add_argument_group("motions, as they are unless a target or a factor is given")
+    add_records_options(motions)
+    add_target_options(motions)
+    motions.add_argument(
+        "--period", type=positive_option, metavar="T", help="with a target: scaled from 0.2 T to 1.5 T (1 s)"
+    )
+    motions.add_argument("--factor", type=positive_option, metavar="F", help="factor of all motions (1)")
+    output = parser.add_argument_group("running and output")
+    output.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the bootstrap (0)")
+    output.add_argument("--out", type=Path, metavar="DIR", help="folder to write tables and the figure to")
+    output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
+    output.add_argument("--json", action="store_true", help="print the result as JSON")
+    output.add_argument("--no-figures", action="store_true", help="write tables only")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Solve the runs, print the slip demand and write its files; return the exit code."""
+    from seismass.errors import SimulationError
+    from seismass.report.folder import check_out
+    from seismass.slip import parse_size, slip_demand
+
+    started = time.perf_counter()
+    if args.out is not None:
+        check_out(args.out, "slip demand")
+    scene = scene_of(args.file)
+    blocks = len(scene.blocks)
+    sizes = _per_block("size", args.size, blocks, parse_size)
+    clearances = _per_block("clearance", args.clearance, blocks, parse_clearance)
+    suite, scaling, motions = _motions(args)
+    try:
+        result = slip_demand(
+            scene,
+            motions,
+            sizes=sizes,
+            clearance=clearances,
+            fragility=args.fragility,
+            measure=args.measure or ("pga" if scene.building is None else "sa_t1"),
+            seed=args.seed,
+            threads=args.jobs,
+            progress=progress_bar(),
+        )
+    except SimulationError as error:
+        print(f"seismass: run failed: {error}", file=sys.stderr)
+        return 1
+    files = [] if args.out is None else result.write(args.out, figures=not args.no_figures)
+    if args.json:
+        warn_left_out(suite)
+        print(json.dumps(result.to_dict(), indent=2, allow_nan=False))
+        return 0
+    print(f"suite       {suite.name}\nscaling     {scaling}\n\n{result.text}")
+    for line in left_out(suite):
+        print(f"            {line}")
+    written = f"{len(files)} files in {args.out}, " if files else ""
+    print(f"\n{written}{time.perf_counter() - started:.1f} s")
+    return 0
+
+
+def scene_of(path: Path) -> Scene:
+    """Return the scene of a scene file or a building file."""
+    from seismass.building_file import read_building
+    from seismass.commands.ida import is_building_file
+    from seismass.scene_file import read_scene
+
+    return read_building(path).scene() if is_building_file(path) else read_scene(path).scene
+
+
+def parse_clearance(text: str) -> Clearance:
+    """Return a clearance from its text: a distance for both sides, or one for each with a comma between.
+
+    Raises
+    ------
+    InvalidOption
+        It cannot be read.
+    """
+    from seismass._values import brief, refusal
+    from seismass.errors import InvalidOption
+    from seismass.slip import Clearance
+
+    sides = text.split(",")
+    try:
+        values = [float(side) if side.strip() else None for side in sides]
+    except ValueError:
+        values = []
+    if len(values) not in (1, 2) or not any(value is not None for value in values):
+        requirement = "a distance, or PLUS,MINUS of which one may be empty (m)"
+        raise refusal(InvalidOption, "--clearance", "slip", requirement, brief(text))
+    return Clearance(values[0], values[-1])
+
+
+def _per_block(name: str, given: list[str], blocks: int, parse: Any) -> list[Any] | None:
+    """What is given for all blocks or for single ones, one per block; None where nothing is given.
+
+    Raises
+    ------
+    InvalidOption
+        A block is not there or named twice.
+    """
+    from seismass._values import refusal
+    from seismass.errors import InvalidOption
+
+    if not given:
+        return None
+    found: dict[int, Any] = {}
+    for text in given:
+        number, equals, value = text.partition("=")
+        block = int(number) if number.strip().isdecimal() and equals else 0
+        if equals and not 1 <= block <= blocks:
+            raise refusal(InvalidOption, f"--{name}", "slip", f"of a block from 1 to {blocks}", text)
+        if block in found:
+            raise refusal(InvalidOption, f"--{name}", "slip", "given once for a block", text)
+        found[block] = parse(value if equals else text)
+    return [found.get(number, found.get(0)) for number in range(1, blocks + 1)]
+
+
+def _motions(args: argparse.Namespace) -> tuple[Suite, str, list[Any]]:
+    """The suite as it is, how it is scaled, and the motions.
+
+    Raises
+    ------
+    InvalidOption
+        A factor stands beside a target, or a period without one.
+    """
+    from seismass.errors import InvalidOption
+    from seismass.scaling import scale_asce7_10
+
+    suite = read_motions(args)
+    targeted = not args.target is args.sds is args.sd1 is args.tl is None
+    if not targeted:
+        if args.period is not None:
+            raise InvalidOption(f"--period of slip must be left out where no target is given; got {args.period:g}")
+        factor = args.factor or 1.0
+        said = "motions as they are" if args.factor is None else f"motions x {factor:g}"
+        return suite, said, list(suite) if args.factor is None else [record.scaled(factor) for record in suite]
+    if args.factor is not None:
+        raise InvalidOption(f"--factor of slip must be left out where a target is given; got {args.factor:g}")
+    target = read_target(args)
+    factors = scale_asce7_10(suite, target, period=args.period or 1.0).factors
+    scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+    return suite, f"ASCE 7-10 to {target.label}, for T = {args.period or 1.0:g} s", scaled

@@ -1,0 +1,204 @@
+"""How far goods slide in a building, beside the same goods on the ground and published estimates."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+
+from seismass import _kernel
+from seismass._values import as_count, as_number, brief, refusal
+from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_damping
+from seismass.effective_mass.runs import NamedMotions, named_motions
+from seismass.effective_mass.tables import inputs_digest
+from seismass.errors import InvalidOption, InvalidScene
+from seismass.intensity.fragility import Fragility
+from seismass.intensity.measures import IntensityMeasure, MeasureName, measure_for
+from seismass.motion import HasMotion, Motion, MotionLike
+from seismass.scene import Scene
+from seismass.simulate import instruction_set
+from seismass.slip.clearance import Clearance, as_clearances, exceedance_table
+from seismass.slip.fragility import slip_fragilities
+from seismass.slip.result import SCHEMA_VERSION, SlipDemand
+from seismass.slip.runs import SlipModels, SlipRuns, solve_motion
+from seismass.slip.squat import BlockSize, as_sizes
+from seismass.slip.tables import (
+    block_table,
+    demand_remarks,
+    estimate_summary,
+    estimate_table,
+    run_table,
+    squat_table,
+)
+
+Progress: TypeAlias = Callable[[int, int], object]
+"""Called with (motions done, motions in all)."""
+
+OWNER: Final = "slip demand"
+
+
+def slip_demand(
+    scene: Scene,
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    sizes: BlockSize | Iterable[BlockSize | None] | None = None,
+    clearance: float | Clearance | Iterable[float | Clearance | None] | None = None,
+    fragility: bool = False,
+    measure: MeasureName | IntensityMeasure = "sa_t1",
+    period: float | None = None,
+    damping: ModelDamping = SAME_DAMPING,
+    confidence: float = 0.90,
+    resamples: int = 2000,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> SlipDemand:
+    """Return how far the goods of a scene slide, beside the same goods on the ground and published estimates.
+
+    Parameters
+    ----------
+    scene : Scene
+        Building and goods; goods on the ground slab, or without any building, are allowed.
+    motions : Motion, Record or iterable of them
+        The suite, scaled as it is to act. Records of one event are resampled together.
+    sizes : BlockSize, or list with one per block or None, optional
+        Widths and heights, for the check whether a block slides or rocks. One size is that of all blocks.
+    clearance : float, Clearance, or list with one per block or None, optional
+        How far each block may slide (m); a number counts on both sides.
+    fragility : bool, default False
+        Also scale every motion until each block reaches its clearance, and fit the probability by intensity. Needs a
+        clearance.
+    measure, period
+        Intensity measure of fragilities, as for `seismass.intensity.measure_for`: by default Sa (g) at the first period
+        of the building without goods.
+    damping : {"same", "ratio"}
+        Damping of the models of the building alone and with all goods attached, see `attached_scene`.
+    confidence : float, default 0.90
+        Probability of intervals.
+    resamples, seed : int
+        Bootstrap resamples over the motions, and their seed.
+    threads : int, optional
+        Number of threads of the runs for fragilities; default all cores. The result does not depend on it.
+    progress : callable, optional
+        Called with (motions done, motions in all).
+
+    Returns
+    -------
+    SlipDemand
+        Statistics by block, and one row per motion and block.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption
+        An argument is not what it must be, or the scene has no block.
+    SimulationError
+        A run could not be carried to its end.
+
+    Notes
+    -----
+    On the ground: each block alone, with its friction, from rest, under the same motion, solved exactly. The building
+    alone has the mass of the floors, and all goods attached their whole mass too; both keep stiffness, strength and
+    P/h. No goods slide if and only if mu_s g is not below the peak floor acceleration of the building with all goods
+    attached (without vertical motion), so that this one is set beside mu_s.
+
+    The published estimates use peaks or the spectrum of the ground motion, and of the motion of the floor of the
+    building alone, as an engineer has it who analyses the building first and the goods afterwards. "rigid_block" is
+    the exact slip on that motion: on the ground it is the ground slip itself; on the floor it differs from the slip in
+    the building by what the goods do to the building.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
+    >>> scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2))
+    >>> result = sm.slip_demand(scene, [record.scaled(2.0) for record in sm.builtin_suite("seven")], clearance=0.1)
+    >>> result.blocks.select("block", "floor", "slides").rows()
+    [(1, 1, 1.0), (2, 2, 1.0)]
+    """
+    if not isinstance(scene, Scene):
+        raise refusal(InvalidScene, "scene", OWNER, "a Scene", brief(scene))
+    if not scene.blocks:
+        raise refusal(InvalidScene, "blocks", OWNER, "at least one", "none")
+    given: Any = motions
+    if not isinstance(motions, Motion | HasMotion) and isinstance(motions, Iterable):
+        given = list(motions)
+    named = named_motions(given, OWNER)
+    count = len(scene.blocks)
+    measured, limits = as_sizes(sizes, count), as_clearances(clearance, count)
+    probability = as_number(confidence, "confidence", OWNER, InvalidOption)
+    if not 0.0 < probability < 1.0:
+        raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{probability:g}")
+    draws = as_count(resamples, "resamples", OWNER, InvalidOption, least=1)
+    start = as_count(seed, "seed", OWNER, InvalidOption)
+    if fragility and not any(limits):
+        raise refusal(InvalidOption, "clearance", OWNER, "given for a fragility", "None")
+    models = SlipModels.of(scene, check_damping(damping, OWNER))
+    solved = []
+    for number, motion in enumerate(named.motions, start=1):
+        solved.append(solve_motion(models, motion))
+        if progress is not None:
+            progress(number, len(named))
+    runs = SlipRuns.of(solved)
+    chosen: dict[str, Any] = {
+        "damping": damping,
+        "confidence": probability,
+        "resamples": draws,
+        "seed": start,
+        "sizes": [None if size is None else [size.width, size.height, size.centre_height] for size in measured],
+        "clearances": [None if each is None else [each.plus, each.minus] for each in limits],
+    }
+    fragilities: dict[int, Fragility] = {}
+    of_fragilities: tuple[str, ...] = ()
+    if fragility:
+        chosen_measure = measure_for(measure, scene, period)
+        chosen["measure"] = chosen_measure.to_dict()
+        fragilities, of_fragilities = slip_fragilities(
+            scene,
+            given,
+            limits,
+            chosen_measure,
+            confidence=probability,
+            resamples=draws,
+            seed=start,
+            threads=threads,
+        )
+    by_run = run_table(scene, named, runs, measured)
+    squat = squat_table(scene, by_run, measured)
+    compared = estimate_table(named, solved, scene)
+    plus, minus = runs.or_infinite(runs.plus), runs.or_infinite(runs.minus)
+    return SlipDemand(
+        blocks=block_table(scene, named, runs, probability, draws, start),
+        runs=by_run,
+        exceedance=exceedance_table(plus, minus, limits, probability),
+        squat=squat,
+        estimates=estimate_summary(compared),
+        estimate_runs=compared,
+        fragilities=fragilities,
+        confidence=probability,
+        remarks=(*demand_remarks(scene, named, runs, squat, limits, bool(fragilities)), *of_fragilities),
+        metadata={
+            "schema_version": SCHEMA_VERSION,
+            "package_version": _kernel.VERSION,
+            "instructions": instruction_set(),
+            "inputs_sha256": _digest(scene, named, chosen),
+            "motions": len(named),
+            "clusters": named.clusters,
+            **chosen,
+        },
+    )
+
+
+def _digest(scene: Scene, motions: NamedMotions, chosen: dict[str, Any]) -> str:
+    """SHA-256 of everything that the numbers depend on, for scenes with and without a building."""
+    if scene.building is not None:
+        return inputs_digest(scene, motions, chosen)
+    digest = hashlib.sha256(json.dumps(chosen, sort_keys=True).encode())
+    digest.update(repr(scene.blocks).encode())
+    for motion in motions.motions:
+        digest.update(np.float64(motion.dt).tobytes())
+        for part in (motion.acceleration, motion.vertical):
+            digest.update(b"none" if part is None else np.ascontiguousarray(part, dtype="<f8").tobytes())
+    return digest.hexdigest()

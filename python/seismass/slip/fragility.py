@@ -1,0 +1,64 @@
+"""Fragility of slip: the probability that a block reaches its clearance, by intensity."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+from seismass.intensity.analysis import incremental_dynamic_analysis
+from seismass.intensity.fragility import Fragility
+from seismass.intensity.hunt import HuntAndFill
+from seismass.intensity.limits import LimitState
+from seismass.intensity.measures import IntensityMeasure
+from seismass.intensity.models import REAL
+from seismass.scene import Scene
+from seismass.slip.clearance import Clearance
+
+TOLERANCE: Final = 1e-3
+"""Relative width to which the intensity is located at which a block reaches its clearance."""
+
+
+def slip_fragilities(
+    scene: Scene,
+    motions: Any,
+    clearances: tuple[Clearance | None, ...],
+    measure: IntensityMeasure,
+    *,
+    confidence: float,
+    resamples: int,
+    seed: int,
+    threads: int | None,
+) -> tuple[dict[int, Fragility], tuple[str, ...]]:
+    """Return the fragility of each block with a clearance, by its number, and remarks of the analysis.
+
+    The limit is one of the largest absolute slip: the smaller clearance, as if both sides had it.
+
+    Parameters
+    ----------
+    scene : Scene
+        Building and goods.
+    motions : Motion, Record or iterable of them
+        The suite.
+    clearances : tuple of Clearance or None
+        One per block.
+    measure : IntensityMeasure
+        The intensity measure.
+    confidence, resamples, seed, threads
+        As for `incremental_dynamic_analysis`.
+    """
+    limits = {
+        number: LimitState("slip", each.smallest, block=number)
+        for number, each in enumerate(clearances, start=1)
+        if each is not None
+    }
+    found = incremental_dynamic_analysis(
+        {REAL: scene},
+        motions,
+        list(limits.values()),
+        measure=measure,
+        hunt=HuntAndFill(tolerance=TOLERANCE),
+        confidence=confidence,
+        resamples=resamples,
+        seed=seed,
+        threads=threads,
+    )
+    return {number: found.fragility(limit, REAL) for number, limit in limits.items()}, found.remarks

@@ -1,0 +1,239 @@
+"""Runs of a scene, of its goods on the ground, and of the building alone and with all goods attached."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seismass._values import FloatArray
+from seismass.block import Block
+from seismass.effective_mass.models import ModelDamping, attached
+from seismass.motion import Motion
+from seismass.records.intensity import integrals, peak_velocity
+from seismass.response import Response
+from seismass.scene import Scene
+from seismass.simulate import simulate
+from seismass.slip.clearance import signed_peaks
+from seismass.slip.estimates import Base, estimates
+from seismass.slip.squat import demand_in_g
+from seismass.units import STANDARD_GRAVITY
+
+
+@dataclass(frozen=True, slots=True)
+class SlipModels:
+    """The scene, its blocks on the ground, and the building alone and with all goods attached (None without goods)."""
+
+    scene: Scene
+    ground: Scene
+    alone: Scene | None
+    full: Scene | None
+
+    @classmethod
+    def of(cls, scene: Scene, damping: ModelDamping) -> SlipModels:
+        """Return the models of a scene."""
+        ground = Scene(None, [on_ground(block) for block in scene.blocks])
+        if not any(floor > 0 for floor in scene.block_floor):
+            return cls(scene, ground, None, None)
+        return cls(scene, ground, attached(scene, 0.0, damping), attached(scene, 1.0, damping))
+
+
+def on_ground(block: Block) -> Block:
+    """Return a block with the same friction on the ground, where its mass does not matter."""
+    return block.replace(floor=0, mass=1.0, mass_ratio=None, velocity=None)
+
+
+@dataclass(frozen=True, slots=True)
+class EstimateRow:
+    """Estimates of the slip of one block under one motion.
+
+    Attributes
+    ----------
+    block : int
+        Index of the block, from 0.
+    base : {"ground", "floor"}
+        Whose motion they are of: the ground, or the block's floor in the building alone.
+    values : dict of str to float
+        Slip (m) by the name of the estimate; "rigid_block" is exact for that motion.
+    """
+
+    block: int
+    base: str
+    values: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class SolvedMotion:
+    """What is kept of the runs under one motion; arrays have shape (blocks,).
+
+    Attributes
+    ----------
+    peak, plus, minus, residual, path : ndarray
+        Slip of each block (m): largest absolute, largest to each side, final, and the path; up to a collapse.
+    moving : ndarray of bool
+        Whether the block still slides at the end.
+    collapsed : bool
+        Whether the building with sliding goods collapsed.
+    ground_peak, ground_residual : ndarray
+        Slip of the same block on the ground (m).
+    acceleration, velocity : ndarray
+        Peak absolute acceleration (m/s2) and velocity (m/s) of the block's floor, goods sliding.
+    demand : ndarray
+        Largest |a|/(g + a_v) there.
+    alone_acceleration, full_acceleration : ndarray
+        Peak absolute acceleration of the floor in the building alone, and with all goods attached (m/s2); NaN where
+        that collapsed.
+    estimates : list of EstimateRow
+        Published estimates.
+    """
+
+    peak: FloatArray
+    plus: FloatArray
+    minus: FloatArray
+    residual: FloatArray
+    path: FloatArray
+    moving: NDArray[np.bool_]
+    collapsed: bool
+    ground_peak: FloatArray
+    ground_residual: FloatArray
+    acceleration: FloatArray
+    velocity: FloatArray
+    demand: FloatArray
+    alone_acceleration: FloatArray
+    full_acceleration: FloatArray
+    estimates: list[EstimateRow]
+
+
+@dataclass(frozen=True, slots=True)
+class SlipRuns:
+    """Runs under all motions: arrays of `SolvedMotion`, of shape (motions, blocks), and `collapsed` (motions,)."""
+
+    peak: FloatArray
+    plus: FloatArray
+    minus: FloatArray
+    residual: FloatArray
+    path: FloatArray
+    moving: NDArray[np.bool_]
+    collapsed: NDArray[np.bool_]
+    ground_peak: FloatArray
+    ground_residual: FloatArray
+    acceleration: FloatArray
+    velocity: FloatArray
+    demand: FloatArray
+    alone_acceleration: FloatArray
+    full_acceleration: FloatArray
+
+    @classmethod
+    def of(cls, solved: list[SolvedMotion]) -> SlipRuns:
+        """Return the runs under all motions."""
+        return cls(*(np.array([getattr(each, field.name) for each in solved]) for field in fields(cls)))
+
+    def or_infinite(self, values: FloatArray) -> FloatArray:
+        """Return values (motions, blocks) with infinity in runs that collapsed: goods of a fallen building are lost."""
+        return np.where(self.collapsed[:, None], np.inf, values)
+
+
+def solve_motion(models: SlipModels, motion: Motion) -> SolvedMotion:
+    """Solve the models under one motion.
+
+    Raises
+    ------
+    SimulationError
+        A run could not be carried to its end.
+    """
+    scene = models.scene
+    floors = np.array(scene.block_floor)
+    real = simulate(scene, motion, histories=True, events=False)
+    ground = simulate(models.ground, motion, events=False)
+    ground_velocity, _ = integrals(motion.acceleration, motion.dt)
+    base = _ground_base(motion, ground_velocity)
+    standing = real.floor_velocity[:, floors - 1] if scene.storeys else np.zeros(real.block_velocity.shape)
+    rate = real.block_velocity - np.where(floors > 0, standing, 0.0)
+    plus, minus = signed_peaks(real.slip, rate, motion.dt, real.peak_slip)
+    alone = None if models.alone is None else simulate(models.alone, motion, histories=True, events=False)
+    full = None if models.full is None else simulate(models.full, motion, events=False)
+    rows = [
+        EstimateRow(number, "ground", {**estimates(base, block.mu_k), "rigid_block": float(ground.peak_slip[number])})
+        for number, block in enumerate(scene.blocks)
+    ]
+    if alone is not None and alone.status == "completed":
+        rows += _floor_estimates(scene, alone, motion, ground_velocity)
+    return SolvedMotion(
+        peak=real.peak_slip,
+        plus=plus,
+        minus=minus,
+        residual=real.residual_slip,
+        path=real.slip_path,
+        moving=np.abs(rate[-1]) > 0.0,
+        collapsed=real.status == "collapsed",
+        ground_peak=ground.peak_slip,
+        ground_residual=ground.residual_slip,
+        acceleration=_at_floors(real.peak_floor_acceleration, floors, base.acceleration),
+        velocity=np.array([_peak_velocity(real, ground_velocity, floor, base.velocity) for floor in floors]),
+        demand=np.array([_demand(real, motion, floor) for floor in floors]),
+        alone_acceleration=_peaks(alone, floors, base.acceleration),
+        full_acceleration=_peaks(full, floors, base.acceleration),
+        estimates=rows,
+    )
+
+
+def _ground_base(motion: Motion, velocity: FloatArray) -> Base:
+    return Base(
+        motion, motion.pga, float(peak_velocity(motion.acceleration, motion.dt, velocity)), _peak_vertical(motion)
+    )
+
+
+def _peak_vertical(motion: Motion) -> float:
+    return 0.0 if motion.vertical is None else float(np.abs(motion.vertical).max())
+
+
+def _peaks(response: Response | None, floors: NDArray[np.int64], ground: float) -> FloatArray:
+    """Peak acceleration at the floor of each block in a model without sliding goods; NaN after a collapse."""
+    if response is None:
+        return np.full(len(floors), ground)
+    if response.status == "collapsed":
+        return np.where(floors > 0, np.nan, ground)
+    return _at_floors(response.peak_floor_acceleration, floors, ground)
+
+
+def _at_floors(values: FloatArray, floors: NDArray[np.int64], ground: float) -> FloatArray:
+    return np.array([ground if floor == 0 else values[floor - 1] for floor in floors])
+
+
+def _peak_velocity(response: Response, ground_velocity: FloatArray, floor: int, ground: float) -> float:
+    """Largest absolute velocity of a floor (m/s), at the samples; that of the ground is exact."""
+    if floor == 0:
+        return ground
+    return float(np.nanmax(np.abs(response.floor_velocity[:, floor - 1] + ground_velocity)))
+
+
+def _demand(response: Response, motion: Motion, floor: int) -> float:
+    """Largest |a|/(g + a_v): in continuous time without vertical motion, of the samples with it."""
+    if motion.vertical is None:
+        peak = motion.pga if floor == 0 else float(response.peak_floor_acceleration[floor - 1])
+        return peak / STANDARD_GRAVITY
+    history = motion.acceleration if floor == 0 else response.floor_acceleration[:, floor - 1]
+    return demand_in_g(history, motion.vertical)
+
+
+def _floor_estimates(scene: Scene, alone: Response, motion: Motion, ground_velocity: FloatArray) -> list[EstimateRow]:
+    """Estimates of the motion of the floors of the building alone, and the exact slip of each block on it."""
+    rows = []
+    bases: dict[int, Base] = {}
+    for number, block in enumerate(scene.blocks):
+        if block.floor == 0:
+            continue
+        if block.floor not in bases:
+            velocity = alone.floor_velocity[:, block.floor - 1] + ground_velocity
+            bases[block.floor] = Base(
+                Motion(alone.floor_acceleration[:, block.floor - 1], motion.dt, motion.vertical),
+                float(alone.peak_floor_acceleration[block.floor - 1]),
+                float(np.abs(velocity).max()),
+                _peak_vertical(motion),
+            )
+        base = bases[block.floor]
+        exact = simulate(Scene(None, [on_ground(block)]), base.motion, events=False)
+        values = {**estimates(base, block.mu_k), "rigid_block": float(exact.peak_slip[0])}
+        rows.append(EstimateRow(number, "floor", values))
+    return rows

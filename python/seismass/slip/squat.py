@@ -1,0 +1,168 @@
+"""Whether a block slides or rocks: its size, the static rule, uplift by the floor's acceleration, and a limit of
+velocity below which overturning is not expected. The model of the kernel slides and does not rock.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from seismass._values import FloatArray, as_positive, brief, refusal
+from seismass.errors import InvalidOption
+from seismass.units import STANDARD_GRAVITY
+
+OWNER: Final = "block size"
+
+
+@dataclass(frozen=True)
+class BlockSize:
+    """Size of a block in the vertical plane of the motion.
+
+    Attributes
+    ----------
+    width : float
+        Full width b of the base in the direction of the motion (m).
+    height : float
+        Full height h (m).
+    centre : float or None
+        Height of the centre of gravity above the floor (m); by default h/2, as in a uniform block.
+
+    Raises
+    ------
+    InvalidOption
+        A length is not positive, or the centre is above the top.
+
+    Notes
+    -----
+    Floor acceleration a and vertical acceleration a_v (up positive) act on a block of mass m that moves with its
+    floor: the force m a at the height h_c of its centre and its weight m (g + a_v), which is centred over the base.
+
+    - It slides where m |a| > mu_s m (g + a_v), so where |a| > mu_s (g + a_v).
+    - It lifts off one edge where m |a| h_c > m (g + a_v) b/2, so where |a| > (g + a_v) b/(2 h_c).
+
+    Both limits have the factor g + a_v, so that vertical motion does not change which of them is reached first: the
+    block rocks before it slides if mu_s > b/(2 h_c), which is mu_s > b/h for a uniform block (Shenton 1996, J. Eng.
+    Mech. 122:690-693, for the limits of sliding and rocking from rest). A block with mu_s below that limit never
+    rocks, however strong the motion: while it slides its acceleration is mu_k (g + a_v), and mu_k <= mu_s.
+
+    Uplift is not overturning. Whether a rocking block falls depends on the motion and on its size; the kernel does
+    not compute it.
+
+    Examples
+    --------
+    >>> from seismass.slip import BlockSize
+    >>> pallet = BlockSize(1.0, 1.2)
+    >>> round(pallet.uplift_g, 3), pallet.rocks_first(0.5), pallet.rocks_first(0.9)
+    (0.833, False, True)
+    """
+
+    width: float
+    height: float
+    centre: float | None = None
+
+    def __post_init__(self) -> None:
+        width = as_positive(self.width, "width", OWNER, InvalidOption)
+        height = as_positive(self.height, "height", OWNER, InvalidOption)
+        object.__setattr__(self, "width", width)
+        object.__setattr__(self, "height", height)
+        if self.centre is not None:
+            centre = as_positive(self.centre, "centre", OWNER, InvalidOption)
+            if centre > height:
+                raise refusal(InvalidOption, "centre", OWNER, f"at most the height, {height:g} m", f"{centre:g}")
+            object.__setattr__(self, "centre", centre)
+
+    @property
+    def centre_height(self) -> float:
+        """Height of the centre of gravity (m)."""
+        return 0.5 * self.height if self.centre is None else self.centre
+
+    @property
+    def uplift_g(self) -> float:
+        """Floor acceleration that lifts one edge without vertical motion, over g: b/(2 h_c), b/h if uniform."""
+        return 0.5 * self.width / self.centre_height
+
+    def uplift_acceleration(self, vertical: float = 0.0) -> float:
+        """Return the floor acceleration (m/s2) that lifts one edge, under a vertical acceleration (m/s2, up positive).
+
+        Zero where g + a_v is negative: the block has no contact.
+        """
+        return max(STANDARD_GRAVITY + float(vertical), 0.0) * self.uplift_g
+
+    def rocks_first(self, mu_s: float) -> bool:
+        """Whether the block rocks before it slides: mu_s > b/(2 h_c)."""
+        return mu_s > self.uplift_g
+
+    @property
+    def overturning_velocity(self) -> float | None:
+        """Peak floor velocity (m/s) below which a uniform block is not expected to overturn; None for others.
+
+        Ishiyama (1982), Earthquake Eng. Struct. Dyn. 10:635-650, gives as lower limits of overturning a peak
+        acceleration of g B/H together with a peak velocity of 10 B/sqrt(H) (cm and s), which is B/sqrt(H) in m and s.
+        The form is quoted from secondary literature. It is 2 % below 0.4 times the velocity by which an impulse
+        overturns a slender uniform block, sqrt(8 g R (1 - cos a)/(3 cos^2 a)) with tan a = B/H and
+        2 R = sqrt(B^2 + H^2). Both limits must be exceeded, on a rigid floor; it is no sufficient condition.
+        """
+        return None if self.centre is not None else float(self.width / np.sqrt(self.height))
+
+
+def parse_size(text: str) -> BlockSize:
+    """Return a size from its text: "1.0x1.2", width by height (m), or "1.0x1.2@0.4" with the height of its centre.
+
+    Raises
+    ------
+    InvalidOption
+        It cannot be read.
+
+    Examples
+    --------
+    >>> from seismass.slip import parse_size
+    >>> parse_size("1.0x1.2@0.4")
+    BlockSize(width=1.0, height=1.2, centre=0.4)
+    """
+    parts = re.fullmatch(r"([^x@]+)x([^x@]+)(?:@([^x@]+))?", text.strip().lower())
+    try:
+        if parts is None:
+            raise ValueError
+        width, height, centre = (None if part is None else float(part) for part in parts.groups())
+    except ValueError:
+        raise refusal(InvalidOption, "size", "block", "WIDTHxHEIGHT or WIDTHxHEIGHT@CENTRE (m)", brief(text)) from None
+    assert width is not None
+    assert height is not None
+    return BlockSize(width, height, centre)
+
+
+def as_sizes(sizes: Any, blocks: int) -> tuple[BlockSize | None, ...]:
+    """Return one size per block: one for all, or a list with None where a size is not known.
+
+    Raises
+    ------
+    InvalidOption
+        Something else, or another number of sizes than of blocks.
+    """
+    if sizes is None or isinstance(sizes, BlockSize):
+        return (sizes,) * blocks
+    requirement = f"a BlockSize, or a list of {blocks}, one per block or None"
+    listed = list(sizes) if isinstance(sizes, Iterable) and not isinstance(sizes, str) else [sizes]
+    if len(listed) != blocks or not all(size is None or isinstance(size, BlockSize) for size in listed):
+        raise refusal(InvalidOption, "sizes", "slip demand", requirement, brief(sizes))
+    return tuple(listed)
+
+
+def demand_in_g(acceleration: FloatArray, vertical: FloatArray | None) -> float:
+    """Return the largest |a|/(g + a_v) of a history, which friction and uplift have their limits on.
+
+    Parameters
+    ----------
+    acceleration : ndarray, shape (samples,)
+        Absolute horizontal acceleration of the floor (m/s2); NaN after a collapse.
+    vertical : ndarray, shape (samples,), optional
+        Vertical acceleration (m/s2, up positive); samples at which g + a_v is not positive have no contact and are
+        left out.
+    """
+    weight = STANDARD_GRAVITY + (np.zeros(1) if vertical is None else vertical)
+    ratio = np.where(weight > 0.0, np.abs(acceleration) / np.where(weight > 0.0, weight, 1.0), 0.0)
+    return float(np.nanmax(ratio, initial=0.0))

@@ -1,0 +1,317 @@
+"""Tables and remarks of a slip demand, from the runs under all motions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Final
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from seismass._values import FloatArray, counted
+from seismass.effective_mass.runs import NamedMotions
+from seismass.intensity.probability import interval_of
+from seismass.scene import Scene
+from seismass.slip.clearance import Clearance
+from seismass.slip.estimates import log_ratio
+from seismass.slip.runs import SlipRuns, SolvedMotion
+from seismass.slip.squat import BlockSize
+from seismass.units import STANDARD_GRAVITY
+
+QUANTILES: Final = {"p16": 0.16, "median": 0.50, "p84": 0.84}
+"""Shares of the motions that are tabulated."""
+
+
+def block_table(
+    scene: Scene, motions: NamedMotions, runs: SlipRuns, confidence: float, resamples: int, seed: int
+) -> pl.DataFrame:
+    """Return one row per block: its slip over the motions, that on the ground, and floor accelerations.
+
+    See `SlipDemand.blocks`.
+    """
+    slip = runs.or_infinite(runs.peak)
+    residual = runs.or_infinite(np.abs(runs.residual))
+    weights = _weights(motions, resamples, seed)
+    rows = []
+    for number, block in enumerate(scene.blocks):
+        own, ground = slip[:, number], runs.ground_peak[:, number]
+        pooled, low, high = _pooled_ratio(own, ground, weights, confidence)
+        ratios = amplification(own, ground)
+        both = ratios[np.isfinite(ratios)]
+        accelerations = {
+            "floor_acceleration_g": runs.acceleration[:, number],
+            "alone_acceleration_g": runs.alone_acceleration[:, number],
+            "attached_acceleration_g": runs.full_acceleration[:, number],
+        }
+        rows.append(
+            {
+                "block": number + 1,
+                "floor": block.floor,
+                "mu_s": block.mu_s,
+                "mu_k": block.mu_k,
+                "mean": _mean(own),
+                **_quantiles(own),
+                "largest": float(own.max()),
+                "slides": float((own > 0.0).mean()),
+                "residual_mean": _mean(residual[:, number]),
+                **{f"residual_{name}": value for name, value in _quantiles(residual[:, number]).items()},
+                "residual_largest": float(residual[:, number].max()),
+                "path_mean": _mean(runs.or_infinite(runs.path)[:, number]),
+                "ground_mean": _mean(ground),
+                **{f"ground_{name}": value for name, value in _quantiles(ground).items()},
+                "ground_largest": float(ground.max()),
+                "ground_slides": float((ground > 0.0).mean()),
+                "amplification": pooled,
+                "amplification_low": low,
+                "amplification_high": high,
+                "amplification_p16": _quantile(both, 0.16),
+                "amplification_median": _quantile(both, 0.50),
+                "amplification_p84": _quantile(both, 0.84),
+                "slides_on_floor_only": int(((own > 0.0) & (ground == 0.0)).sum()),
+                **{name: _mean(values) / STANDARD_GRAVITY for name, values in accelerations.items()},
+                "mu_over_attached": _mean(block.mu_s * STANDARD_GRAVITY / accelerations["attached_acceleration_g"]),
+            }
+        )
+    kinds = {"block": pl.UInt32, "floor": pl.UInt32, "slides_on_floor_only": pl.UInt32}
+    return _frame(rows, kinds)
+
+
+def amplification(floor: FloatArray, ground: FloatArray) -> FloatArray:
+    """Return slip in the building over slip on the ground: infinite where the ground has none, NaN without either."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(floor / ground, dtype=np.float64)
+
+
+def run_table(scene: Scene, motions: NamedMotions, runs: SlipRuns, sizes: tuple[BlockSize | None, ...]) -> pl.DataFrame:
+    """Return one row per motion and block; see `SlipDemand.runs`."""
+    count, blocks = len(motions), len(scene.blocks)
+    sliding = np.array([block.mu_s for block in scene.blocks])
+    uplift = np.array([np.nan if size is None else size.uplift_g for size in sizes])
+    velocity = np.array(
+        [np.nan if size is None or size.overturning_velocity is None else size.overturning_velocity for size in sizes]
+    )
+    rocks = (sliding > uplift) & (runs.demand > uplift)
+    reached = rocks & (runs.velocity > velocity)
+    accelerations = {
+        "floor_acceleration_g": runs.acceleration,
+        "alone_acceleration_g": runs.alone_acceleration,
+        "attached_acceleration_g": runs.full_acceleration,
+    }
+    columns: dict[str, Any] = {
+        "motion": np.repeat(np.arange(1, count + 1, dtype=np.uint32), blocks),
+        "record": [name for name in motions.names for _ in range(blocks)],
+        "event": [event or None for event in motions.events for _ in range(blocks)],
+        "block": np.tile(np.arange(1, blocks + 1, dtype=np.uint32), count),
+        "floor": np.tile(np.array(scene.block_floor, dtype=np.uint32), count),
+        "collapsed": np.repeat(runs.collapsed, blocks),
+        "peak_slip": runs.peak.ravel(),
+        "slip_plus": runs.plus.ravel(),
+        "slip_minus": runs.minus.ravel(),
+        "residual_slip": pl.Series(runs.residual.ravel(), nan_to_null=True),
+        "slip_path": runs.path.ravel(),
+        "moving_at_end": runs.moving.ravel(),
+        "ground_slip": runs.ground_peak.ravel(),
+        "ground_residual": runs.ground_residual.ravel(),
+        "amplification": pl.Series(amplification(runs.peak, runs.ground_peak).ravel(), nan_to_null=True),
+    }
+    for name, values in accelerations.items():
+        columns[name] = pl.Series(values.ravel() / STANDARD_GRAVITY, nan_to_null=True)
+    mu_over_attached = sliding * STANDARD_GRAVITY / runs.full_acceleration
+    columns["mu_over_attached"] = pl.Series(mu_over_attached.ravel(), nan_to_null=True)
+    columns["floor_velocity"] = runs.velocity.ravel()
+    columns["acceleration_over_weight"] = runs.demand.ravel()
+    columns["uplift"] = _known(rocks, np.isfinite(uplift))
+    columns["overturning_limits_exceeded"] = _known(reached, np.isfinite(velocity))
+    return pl.DataFrame(columns, schema_overrides={"event": pl.String})
+
+
+def _known(values: NDArray[np.bool_], known: NDArray[np.bool_]) -> pl.Series:
+    """Values (motions, blocks) as a column, null for blocks of which they are not known."""
+    column = [bool(value) if sure else None for row in values for value, sure in zip(row, known, strict=True)]
+    return pl.Series(column, dtype=pl.Boolean)
+
+
+def squat_table(scene: Scene, runs: pl.DataFrame, sizes: tuple[BlockSize | None, ...]) -> pl.DataFrame:
+    """Return one row per block with a size: whether it slides or rocks, and under how many motions it would lift off.
+
+    See `SlipDemand.squat`.
+    """
+    rows = []
+    for number, (block, size) in enumerate(zip(scene.blocks, sizes, strict=True), start=1):
+        if size is None:
+            continue
+        own = runs.filter(block=number)
+        static = max([block.mu_s, *(mu_s for _, mu_s, _ in block.wear)])
+        limits = own["overturning_limits_exceeded"]
+        rows.append(
+            {
+                "block": number,
+                "floor": block.floor,
+                "mu_s": static,
+                "width": size.width,
+                "height": size.height,
+                "centre_height": size.centre_height,
+                "uplift_g": size.uplift_g,
+                "rocks_first": size.rocks_first(static),
+                "motions": own.height,
+                "uplift": int(own["uplift"].sum()),
+                "acceleration_over_weight": _mean(own["acceleration_over_weight"].to_numpy()),
+                "overturning_velocity": size.overturning_velocity,
+                "overturning_limits_exceeded": None if limits.null_count() else int(limits.sum()),
+            }
+        )
+    kinds = {
+        "block": pl.UInt32,
+        "floor": pl.UInt32,
+        "mu_s": pl.Float64,
+        "width": pl.Float64,
+        "height": pl.Float64,
+        "centre_height": pl.Float64,
+        "uplift_g": pl.Float64,
+        "rocks_first": pl.Boolean,
+        "motions": pl.UInt32,
+        "uplift": pl.UInt32,
+        "acceleration_over_weight": pl.Float64,
+        "overturning_velocity": pl.Float64,
+        "overturning_limits_exceeded": pl.UInt32,
+    }
+    return pl.DataFrame(rows, schema=kinds)
+
+
+def estimate_table(motions: NamedMotions, solved: Iterable[SolvedMotion], scene: Scene) -> pl.DataFrame:
+    """Return one row per motion, block, base and estimate; see `SlipDemand.estimate_runs`."""
+    rows = []
+    for number, each in enumerate(solved):
+        for row in each.estimates:
+            exact = each.ground_peak if row.base == "ground" else each.peak
+            lost = row.base == "floor" and each.collapsed
+            for name, value in row.values.items():
+                rows.append(
+                    {
+                        "motion": number + 1,
+                        "record": motions.names[number],
+                        "block": row.block + 1,
+                        "floor": scene.blocks[row.block].floor,
+                        "base": row.base,
+                        "estimate": name,
+                        "slip": value,
+                        "exact": None if lost else float(exact[row.block]),
+                    }
+                )
+    return _frame(rows, {"motion": pl.UInt32, "block": pl.UInt32, "floor": pl.UInt32, "exact": pl.Float64})
+
+
+def estimate_summary(table: pl.DataFrame) -> pl.DataFrame:
+    """Return one row per block, base and estimate: how it does over the motions; see `SlipDemand.estimates`."""
+    rows = []
+    keys = ["block", "floor", "base", "estimate"]
+    for key, group in table.group_by(keys, maintain_order=True):
+        compared = group.drop_nulls("exact")
+        slip, exact = compared["slip"].to_numpy(), compared["exact"].to_numpy()
+        ratios = log_ratio(slip, exact)
+        slid = exact > 0.0
+        rows.append(
+            {
+                **dict(zip(keys, key, strict=True)),
+                "motions": len(exact),
+                "slide": int(slid.sum()),
+                "compared": len(ratios),
+                "mean": _mean(slip),
+                "exact_mean": _mean(exact),
+                "ratio": float(np.exp(ratios.mean())) if len(ratios) else None,
+                "log_scatter": float(ratios.std()) if len(ratios) else None,
+                "below": float((slip[slid] < exact[slid]).mean()) if slid.any() else None,
+            }
+        )
+    kinds = {
+        "motions": pl.UInt32,
+        "slide": pl.UInt32,
+        "compared": pl.UInt32,
+        "ratio": pl.Float64,
+        "log_scatter": pl.Float64,
+        "below": pl.Float64,
+    }
+    return _frame(rows, kinds)
+
+
+def demand_remarks(
+    scene: Scene,
+    motions: NamedMotions,
+    runs: SlipRuns,
+    squat: pl.DataFrame,
+    clearances: tuple[Clearance | None, ...],
+    fragilities: bool,
+) -> tuple[str, ...]:
+    """Return assumptions, and what a user must know beside the numbers."""
+    remarks = ["goods are rigid, slide in one direction and meet no obstacle: slip beyond a clearance is notional"]
+    if not (runs.peak > 0.0).any() and not runs.collapsed.any():
+        remarks.append("stuck: no block slides under any motion")
+    for row in squat.filter(pl.col("rocks_first")).iter_rows(named=True):
+        remarks.append(
+            f"block {row['block']} rocks before it slides (mu_s = {row['mu_s']:g} above b/(2 h_c) = "
+            f"{row['uplift_g']:.3g}), and would lift off under {row['uplift']} of {row['motions']} motions: its slip "
+            f"is of a model without rocking"
+        )
+    collapsed = int(runs.collapsed.sum())
+    if collapsed:
+        remarks.append(
+            f"the building collapses under {counted(collapsed, 'motion')}: slip counts as infinite there, and every "
+            f"clearance as exceeded"
+        )
+    moving = int(runs.moving.any(axis=1).sum())
+    if moving:
+        remarks.append(f"goods still slide at the end of {counted(moving, 'motion')}: the residual is that of the end")
+    if fragilities and any(each is not None and each.one_sided for each in clearances):
+        remarks.append(
+            "fragilities are of the largest absolute slip and the smaller clearance, as if both sides had it; the "
+            "probabilities at the given intensity are by side"
+        )
+    if any(motion.vertical is not None for motion in motions.motions):
+        remarks.append("with vertical motion, uplift and the ratio of acceleration to weight are taken at the samples")
+    if len(motions) < 7:
+        remarks.append(f"{counted(len(motions), 'motion')}: few for a mean or a probability")
+    if any(block.wear for block in scene.blocks):
+        remarks.append("estimates take the friction of blocks before any slip")
+    return tuple(remarks)
+
+
+def _weights(motions: NamedMotions, resamples: int, seed: int) -> FloatArray:
+    """How often each motion is in each bootstrap resample, those of one earthquake together."""
+    count = motions.clusters
+    equal = np.full(count, 1.0 / count)
+    draws = np.random.default_rng(seed).multinomial(count, equal, size=resamples)
+    return draws[:, motions.cluster_of].astype(np.float64)
+
+
+def _pooled_ratio(
+    own: FloatArray, ground: FloatArray, weights: FloatArray, confidence: float
+) -> tuple[float | None, float | None, float | None]:
+    """Mean slip in the building over mean slip on the ground, with its bootstrap interval, both drawn together."""
+    if not ground.any() or not np.isfinite(own).all():
+        return None, None, None
+    with np.errstate(divide="ignore", invalid="ignore"):
+        low, high = interval_of((weights @ own) / (weights @ ground), confidence)
+    return float(own.sum() / ground.sum()), float(low), float(high)
+
+
+def _quantiles(values: FloatArray) -> dict[str, float]:
+    from seismass.study.tables import quantile  # of the study, which is not needed before
+
+    return {name: float(quantile(values[None, :], share)[0]) for name, share in QUANTILES.items()}
+
+
+def _quantile(values: FloatArray, share: float) -> float | None:
+    return float(np.quantile(values, share)) if len(values) else None
+
+
+def _mean(values: FloatArray) -> float:
+    """Mean of the values that are numbers; NaN without any."""
+    known = values[~np.isnan(values)]
+    return float(known.mean()) if len(known) else float("nan")
+
+
+def _frame(rows: list[dict[str, Any]], kinds: dict[str, Any]) -> pl.DataFrame:
+    """Rows as a frame; NaN is null."""
+    frame = pl.DataFrame(rows, schema_overrides=kinds, infer_schema_length=None)
+    return frame.with_columns(pl.selectors.float().fill_nan(None))
