@@ -59,7 +59,7 @@ def newmark_bound(base: Base, mu_k: float) -> float:
     """Return V^2/(2 mu g) min(A/(mu g), 6): an upper bound for earthquakes (m).
 
     Newmark (1965), for a block that slides to one side only, and so of several pulses that add up; a block on a level
-    floor slides back as well. Quoted from secondary literature.
+    floor slides back as well. From memory, not checked in a source.
     """
     limit = mu_k * STANDARD_GRAVITY
     if not base.acceleration > limit:
@@ -73,7 +73,8 @@ def asce43(base: Base, mu_k: float) -> float:
     """Return the sliding distance of ASCE/SEI 43-05, Appendix A.1 (m).
 
     mu_e = mu (1 - 0.4 A_v/g), c_s = 2 mu_e g, and c_s/(2 pi f_es)^2, where f_es is the lowest frequency at which the
-    spectral acceleration at 10 % damping equals c_s: the spectral displacement there. The standard calls it a
+    spectral acceleration at 10 % damping equals c_s: the spectral displacement there. mu_e, c_s and f_es were read in a
+    copy of the appendix; the last expression is from memory, as it was illegible there. The standard calls it a
     conservatively biased best estimate and combines two horizontal directions, of which the model has one. Zero where
     the spectrum is below c_s everywhere; infinite where c_s is zero, or exceeded at 0.05 Hz still.
     """
