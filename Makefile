@@ -89,8 +89,10 @@ wheels: build web-kernel
 test-aarch64:
 	sh tools/test-aarch64
 
-docs:
+# The documentation site in out/site: pages, reference, examples that run, rustdoc. Warnings and broken links are errors.
+docs: build $(VENV)/site
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
+	sh tools/make-site $(PYTHON) out/site
 
 clean:
 	cargo clean
@@ -120,6 +122,10 @@ web-kernel:
 # Without it, or without a Chromium on the path, the tests that open pages are skipped with a word.
 $(VENV)/browser: $(VENV)/installed
 	@$(PYTHON) -m pip install --quiet --group browser && touch $@ || echo "no Playwright: pages are not opened" >&2
+
+$(VENV)/site: $(VENV)/installed pyproject.toml
+	@$(PYTHON) -m pip install --quiet --group docs
+	@touch $@
 
 $(BENCH_VENV)/made: tools/find-python tools/make-bench-env benchmarks/requirements.txt
 	sh tools/make-bench-env $(BENCH_VENV)

@@ -1,0 +1,96 @@
+"""Writes the reference of the documentation site: a page per module with its public names, by `__all__`.
+
+Usage: python tools/api_pages.py FOLDER. The names of the top level are grouped by the module that defines them.
+"""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import sys
+from pathlib import Path
+from typing import Final
+
+import seismass
+
+MODULES: Final = {
+    "design": "Modes, response spectrum analysis, lateral forces, weights, periods and limits of codes, pushover.",
+    "intensity": "Incremental dynamic analysis, stripes, clouds, fragility.",
+    "plots": "Figures of one run, of batches, and of a pushover.",
+    "slip": "Slip demand, clearances, blocks that rock.",
+    "records": "Records, readers, pairs, suites, synthetic motions.",
+    "scaling": "Scaling and selection of motions.",
+    "spectra": "Response spectra and target spectra.",
+    "study": "The parametric study and its sensitivity.",
+    "validation": "The validations of the paper.",
+    "explore": "The live page.",
+}
+"""Modules that have a page of their own, beside the top level, and what they hold."""
+
+GROUPS: Final = (
+    ("Scenes", ("building", "block", "scene", "damping", "scene_file", "building_file", "own_building", "grid")),
+    ("Runs", ("simulate", "response", "batch", "long_table", "motion", "spring_path", "campaign")),
+    ("How much acts as mass", ("effective_mass", "assessment", "distributions", "codes", "friction")),
+    ("Fragility, risk, slip", ("intensity", "slip")),
+    ("Motions", ("records", "scaling", "matching", "pulses", "spectra")),
+    ("Figures and pages", ("animation",)),
+    ("Errors", ("errors",)),
+)
+"""Groups of the top level, by the modules that define the names; what is left is listed last."""
+
+
+def rule(title: str, mark: str = "=") -> str:
+    """Return a heading."""
+    return f"{title}\n{mark * len(title)}\n"
+
+
+def table(module: str, names: list[str]) -> str:
+    """Return a list of names that gets a page for each."""
+    lines = "\n".join(f"   {name}" for name in names)
+    return f".. currentmodule:: {module}\n\n.. autosummary::\n   :toctree: generated\n\n{lines}\n"
+
+
+def top_level() -> str:
+    """Return the page of the top level."""
+    left = [name for name in seismass.__all__ if not name.startswith("_")]
+    left = [name for name in left if not inspect.ismodule(getattr(seismass, name))]
+    text = rule("seismass") + "\n.. code-block:: python\n\n   import seismass as sm\n\n"
+    for title, modules in GROUPS:
+        found = [name for name in left if _module(name) in modules]
+        left = [name for name in left if name not in found]
+        text += rule(title, "-") + "\n" + table("seismass", found) + "\n"
+    return text + rule("Other", "-") + "\n" + table("seismass", left)
+
+
+def _module(name: str) -> str:
+    """Module below the package that defines a name."""
+    defined = getattr(getattr(seismass, name), "__module__", "seismass") or "seismass"
+    first = defined.partition(".")[2].partition(".")[0]
+    return "grid" if first.startswith("grid") else first
+
+
+def of_module(name: str, text: str) -> str:
+    """Return the page of a module."""
+    module = importlib.import_module(f"seismass.{name}")
+    public = [item for item in module.__all__ if not inspect.ismodule(getattr(module, item))]
+    objects = [item for item in public if callable(getattr(module, item))]
+    numbers = [item for item in public if item not in objects]
+    page = rule(f"seismass.{name}") + f"\n{text}\n\n" + table(f"seismass.{name}", objects)
+    if numbers:
+        page += "\nConstants: " + ", ".join(f"``{item}``" for item in numbers) + ".\n"
+    return page
+
+
+def main(folder: Path) -> None:
+    """Write all pages."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "top_level.rst").write_text(top_level(), encoding="utf-8")
+    for name, text in MODULES.items():
+        (folder / f"{name}.rst").write_text(of_module(name, text), encoding="utf-8")
+    entries = "\n".join(f"   {name}" for name in ("top_level", *MODULES))
+    index = rule("Reference") + "\nPython names, from their docstrings. The kernel's are in :doc:`../rust`.\n\n"
+    (folder / "index.rst").write_text(f"{index}.. toctree::\n   :maxdepth: 1\n\n{entries}\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
