@@ -70,12 +70,19 @@ def _module(name: str) -> str:
 
 
 def of_module(name: str, text: str) -> str:
-    """Return the page of a module."""
+    """Return the page of a module; names of the top level are listed with links to their pages there."""
     module = importlib.import_module(f"seismass.{name}")
     public = [item for item in module.__all__ if not inspect.ismodule(getattr(module, item))]
     objects = [item for item in public if callable(getattr(module, item))]
     numbers = [item for item in public if item not in objects]
-    page = rule(f"seismass.{name}") + f"\n{text}\n\n" + table(f"seismass.{name}", objects)
+    above = [item for item in objects if getattr(seismass, item, None) is getattr(module, item)]
+    own = [item for item in objects if item not in above]
+    page = rule(f"seismass.{name}") + f"\n{text}\n\n"
+    if above:
+        lines = "\n".join(f"   {item}" for item in above)
+        page += f"Also at the top level:\n\n.. currentmodule:: seismass\n\n.. autosummary::\n\n{lines}\n\n"
+    if own:
+        page += table(f"seismass.{name}", own)
     if numbers:
         page += "\nConstants: " + ", ".join(f"``{item}``" for item in numbers) + ".\n"
     return page

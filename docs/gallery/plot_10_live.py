@@ -2,16 +2,16 @@
 The live page
 =============
 
-The kernel, compiled to WebAssembly, solves a building while a slider moves. ``seismass explore`` writes the page; where the
-site was built with the compiled kernel, it is below.
+The kernel, compiled to WebAssembly, solves a building while a slider moves. ``seismass explore`` writes the page. Where
+the site was built with the compiled kernel, it is below.
 
 .. raw:: html
    :file: ../_build_live.html
 """
 
 # %%
-# A link to the page holds the case. "Download scene file" gives the scene for ``seismass run``, with the same numbers. Here
-# is the case that the page opens with, from Python:
+# A link to the page holds the case. "Download scene file" gives the scene for ``seismass run``, with the same numbers.
+# Here is a case like the one that the page opens with, from Python:
 import seismass as sm
 
 suite = sm.builtin_suite("seven")

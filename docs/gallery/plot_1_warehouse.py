@@ -6,7 +6,8 @@ The share of the live load to count as mass, for the warehouse of four storeys t
 """
 
 # %%
-# A building file states the building, its goods, its site and its code. ``seismass building --example`` prints this one.
+# A building file states the building, its goods, its site and its code. ``seismass building --example`` prints this
+# one.
 import seismass as sm
 from seismass.building_file import example_file
 

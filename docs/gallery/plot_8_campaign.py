@@ -2,8 +2,8 @@
 A study on a cluster
 ====================
 
-A campaign is a folder: its parts are solved by threads, by workers, or by jobs of an array, and any of them goes on where
-another one stopped.
+A campaign is a folder. Its parts are solved by threads, by workers, or by jobs of an array, and any of them goes on
+where another one stopped.
 """
 
 # %%
@@ -28,8 +28,8 @@ campaign = sm.Campaign(grid, sm.builtin_suite("seven"), part_runs=512, peaks_onl
 campaign
 
 # %%
-# Two jobs of an array of two; on a cluster each is a process of its own. ``campaign.run(folder, workers=4)`` starts workers
-# of dask, ``scheduler="tcp://head:8786"`` takes those of a running scheduler.
+# Two jobs of an array of two; on a cluster each is a process of its own. ``campaign.run(folder, workers=4)`` starts
+# workers of dask, ``scheduler="tcp://head:8786"`` takes those of a running scheduler.
 place = TemporaryDirectory()
 for job in (1, 2):
     folder = campaign.run(place.name, shard=(job, 2))

@@ -2,7 +2,8 @@
 A degrading storey
 ==================
 
-A peak-oriented storey that softens and loses strength with the energy it dissipates: driven slowly, and in an earthquake.
+A peak-oriented storey that softens and loses strength with the energy it dissipates: driven slowly, and in an
+earthquake.
 """
 
 # %%
@@ -24,7 +25,7 @@ building = sm.Building(
     residual_strength=0.3,
 )
 turns = 0.03 * np.array([1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 0])
-drifts = np.concatenate([np.linspace(a, b, 60) for a, b in zip([0.0, *turns[:-1]], turns)])
+drifts = np.concatenate([np.linspace(a, b, 60) for a, b in zip([0.0, *turns[:-1]], turns, strict=True)])
 path = sm.spring_forces(building, 1, drifts)
 figure = Figure(figsize=(6.0, 4.0), layout="constrained")
 axes = figure.subplots()

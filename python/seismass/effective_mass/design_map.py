@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from itertools import pairwise
-from typing import Any, Final, Literal, TypeAlias, get_args
+from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 import polars as pl
@@ -36,6 +36,9 @@ from seismass.scene import Scene
 from seismass.simulate import instruction_set
 from seismass.spectra import TargetSpectrum, mean_spectrum
 from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SCHEMA_VERSION: Final = 1
 """Version of the tables and of the metadata of a map; see docs/effective_mass.md."""
@@ -218,6 +221,12 @@ class EffectiveMassMap:
         case = np.arange(len(rows))
         drift: FloatArray = (1.0 - weight) * rows[case, place] + weight * rows[case, place + 1]
         return drift
+
+    def plot(self) -> Figure:
+        """Return the chart: the fraction of each case against eta, with its scatter, the two rules and codes."""
+        from seismass.report.map_figures import collapse_figure
+
+        return collapse_figure(self)
 
     def rules(self, rules: Mapping[str, Callable[[FloatArray], FloatArray]] = RULES) -> pl.DataFrame:
         """Return how the models of simple rules compare with the real drift, over all cases in which goods slide.

@@ -72,7 +72,7 @@ def lognormal_rates(median: ArrayLike, dispersion: ArrayLike, hazard: HazardCurv
     Notes
     -----
     On a segment rate = c x^-k, and with z = (ln x - ln median)/dispersion, integration by parts of
-    P(x) |d rate(x)| from x1 to x2 gives
+    P(x) (-d rate(x)) from x1 to x2 gives
 
         P(x1) rate(x1) - P(x2) rate(x2) + c median^-k exp((k dispersion)^2/2) (Phi(z2 + k dispersion) - Phi(z1 + k
         dispersion)).
@@ -251,7 +251,7 @@ def annual_rate(fragility: Lognormal | ArrayLike, hazard: HazardCurve, *, extrap
 
     Notes
     -----
-    rate(F) = integral of P(F | x) |d rate(x)|, in closed form on every segment (see `lognormal_rates` and
+    rate(F) = integral of P(F given x) (-d rate(x)), in closed form on every segment (see `lognormal_rates` and
     `capacity_rates`).
 
     Examples

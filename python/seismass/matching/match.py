@@ -83,7 +83,7 @@ def match_spectrum(
         Periods in the range at which wavelets are fitted, in geometric spacing; by default so many that neighbours
         differ by a quarter of the damping. The misfit is judged at three times as many.
     tolerance : float
-        Largest misfit |Sa/target - 1| at any of the periods at which it is judged.
+        Largest misfit, abs(Sa/target - 1), at any of the periods at which it is judged.
     max_iterations : int
         Largest number of passes; 0 for the scaled record.
     scale : {"least_squares", "none"} or float

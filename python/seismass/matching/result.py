@@ -27,7 +27,7 @@ class Misfit(NamedTuple):
     """Deviation of a spectrum from the target over the periods at which it is judged."""
 
     largest: float
-    """Largest |Sa/target - 1|."""
+    """Largest abs(Sa/target - 1)."""
     rms: float
     """Root mean square of Sa/target - 1."""
     lowest: float

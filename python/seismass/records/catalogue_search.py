@@ -60,7 +60,7 @@ def find_catalogue(folder: str | os.PathLike[str]) -> CatalogueSearch:
     A file is one of the seven if its header names event, year and station, or if its points, the place of its peak and
     the ratio of its two largest accelerations are those of a component: that is so in any unit, and for scaled records.
     Where the ratio is only near, the file is another processing of the recording, and a remark says so. A name such as
-    RSN6_... alone proves nothing: files are renamed.
+    ``RSN6_...`` alone proves nothing: files are renamed.
     """
     place = as_path(folder, "catalogue search", RecordFormatError)
     if not place.is_dir():

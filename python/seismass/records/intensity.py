@@ -144,7 +144,7 @@ def significant_duration(acceleration: FloatArray, dt: float, start: float, end:
 
 
 def cumulative_absolute_velocity(acceleration: FloatArray, dt: float) -> float:
-    """Return the integral of |a| (m/s), with the changes of sign within steps; EPRI NP-5930 (1988), unfiltered."""
+    """Return the integral of abs(a) (m/s), with the changes of sign within steps; EPRI NP-5930 (1988), unfiltered."""
     size = np.abs(acceleration)
     before, after = size[:-1], size[1:]
     both = before + after
@@ -155,7 +155,7 @@ def cumulative_absolute_velocity(acceleration: FloatArray, dt: float) -> float:
 
 
 def bracketed_duration(acceleration: FloatArray, dt: float, threshold_g: float) -> float:
-    """Return the time (s) from the first to the last crossing of a threshold of |a|; 0 where it is not reached.
+    """Return the time (s) from the first to the last crossing of a threshold of abs(a); 0 where it is not reached.
 
     Raises
     ------

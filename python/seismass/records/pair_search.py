@@ -86,10 +86,10 @@ class Pairs:
 def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "padded"] = "shorter") -> Pairs:
     """Return the pairs and triples of components among the record files of a folder and of those below.
 
-    Files of one folder belong together that share the record sequence number of their names (RSN161_...), or else event
-    and station of their headers, or else a name but for the direction it ends in. Of those the two horizontals make the
-    pair, and one vertical component is added. Directions come from the header, or from names that end in two numbers 90
-    degrees apart.
+    Files of one folder belong together that share the record sequence number of their names (``RSN161_...``), or else
+    event and station of their headers, or else a name but for the direction it ends in. Of those the two horizontals
+    make the pair, and one vertical component is added. Directions come from the header, or from names that end in two
+    numbers 90 degrees apart.
 
     Parameters
     ----------

@@ -172,7 +172,7 @@ class Record(Value):
 
     @property
     def cav(self) -> float:
-        """Cumulative absolute velocity (m/s): the integral of |a|, exact where a changes sign within a step."""
+        """Cumulative absolute velocity (m/s): the integral of abs(a), exact where a changes sign within a step."""
         return intensity.cumulative_absolute_velocity(self.acceleration, self.dt)
 
     @property
@@ -201,7 +201,7 @@ class Record(Value):
         return intensity.significant_duration(self.acceleration, self.dt, start, end)
 
     def bracketed_duration(self, threshold_g: float = intensity.BRACKET_G) -> float:
-        """Return the time (s) from the first to the last crossing of a threshold of |a|; 0 where it is not reached.
+        """Return the time (s) from the first to the last crossing of a threshold of abs(a); 0 where it is not reached.
 
         Parameters
         ----------

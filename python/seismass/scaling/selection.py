@@ -32,8 +32,8 @@ class Selection:
         The records chosen, in the order of the candidates.
     table : polars.DataFrame
         One row per candidate: `number` from 1, `record`, `event`, `station`, `factor` (of least squares in the
-        logarithm), `misfit` and `largest_misfit` (root mean square and largest of |ln(scaled/target)|), `step` at which
-        it was chosen (null: it was not), `mean_misfit` of the mean of those chosen up to then (of its shape: a common
+        logarithm), `misfit` and `largest_misfit` (root mean square and largest of abs(ln(scaled/target))), `step` at
+        which it was chosen (null: it was not), `mean_misfit` of the mean of those chosen up to then (of its shape: a common
         factor is taken out), and the `reason`.
     """
 

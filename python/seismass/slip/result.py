@@ -45,7 +45,7 @@ class SlipDemand:
         One row per motion and block: motion, record, event, block, floor, collapsed, peak_slip, slip_plus, slip_minus
         (to each side; see `seismass.slip.signed_peaks`), residual_slip (signed), slip_path, moving_at_end, ground_slip,
         ground_residual, amplification, floor_acceleration_g, alone_acceleration_g, attached_acceleration_g,
-        mu_over_attached, floor_velocity (m/s), acceleration_over_weight (largest |a|/(g + a_v)), uplift and
+        mu_over_attached, floor_velocity (m/s), acceleration_over_weight (largest abs(a)/(g + a_v)), uplift and
         overturning_limits_exceeded (null without a size).
     exceedance : polars.DataFrame
         Probability of reaching the clearances at the given intensity; see `seismass.slip.exceedance_table`.

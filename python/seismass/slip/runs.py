@@ -80,7 +80,7 @@ class SolvedMotion:
     acceleration, velocity : ndarray
         Peak absolute acceleration (m/s2) and velocity (m/s) of the block's floor, goods sliding.
     demand : ndarray
-        Largest |a|/(g + a_v) there.
+        Largest abs(a)/(g + a_v) there.
     alone_acceleration, full_acceleration : ndarray
         Peak absolute acceleration of the floor in the building alone, and with all goods attached (m/s2); NaN where
         that collapsed.
@@ -209,7 +209,7 @@ def _peak_velocity(response: Response, ground_velocity: FloatArray, floor: int, 
 
 
 def _demand(response: Response, motion: Motion, floor: int) -> float:
-    """Largest |a|/(g + a_v): in continuous time without vertical motion, of the samples with it."""
+    """Largest abs(a)/(g + a_v): in continuous time without vertical motion, of the samples with it."""
     if motion.vertical is None:
         peak = motion.pga if floor == 0 else float(response.peak_floor_acceleration[floor - 1])
         return peak / STANDARD_GRAVITY
