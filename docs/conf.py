@@ -8,6 +8,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 
+from matplotlib.figure import Figure  # noqa: E402
+from sphinx_gallery.scrapers import figure_rst  # noqa: E402
+
 import seismass  # noqa: E402
 
 project = "seismass"
@@ -20,10 +23,10 @@ extensions = [
     "numpydoc",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
-    "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
 ]
 source_suffix = {".rst": "restructuredtext", ".md": "markdown"}
+templates_path = ["_templates"]
 exclude_patterns = ["_build", "gallery"]
 nitpicky = False
 
@@ -41,6 +44,7 @@ numpydoc_xref_param_type = False
 
 html_theme = "pydata_sphinx_theme"
 html_title = "seismass"
+html_context = {"default_mode": "auto"}
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False
@@ -58,6 +62,18 @@ html_theme_options = {
 # Search, theme and fonts are files of the site itself.
 html_sidebars = {"index": [], "cite": [], "changelog": []}
 
+
+def figures(block, block_vars, gallery_conf):
+    """Save the figure that a block of an example ends with, as a notebook shows it; figures need no pyplot."""
+    last = block_vars["example_globals"].get("___")
+    if not isinstance(last, Figure) or getattr(last, "_in_gallery", False):
+        return ""
+    last._in_gallery = True  # `___` is the last value so far
+    path = next(block_vars["image_path_iterator"])
+    last.savefig(path, dpi=120)
+    return figure_rst([path], gallery_conf["src_dir"])
+
+
 sphinx_gallery_conf = {
     "examples_dirs": ["gallery"],
     "gallery_dirs": ["examples"],
@@ -71,7 +87,8 @@ sphinx_gallery_conf = {
     "min_reported_time": 10_000,
     "abort_on_example_error": True,
     "capture_repr": ("_repr_html_", "__repr__"),
-    "image_scrapers": ("matplotlib",),
+    "image_scrapers": (figures,),
+    "ignore_repr_types": r"matplotlib\.figure",
     "reset_modules": (),
     "notebook_images": False,
     "within_subsection_order": "FileNameSortKey",

@@ -1,6 +1,6 @@
 """Checks the links of a built site: every file and every anchor inside it exists. Addresses elsewhere are not asked.
 
-Usage: python tools/check_links.py FOLDER. rustdoc, which cargo checks, is left out as a source and is a target.
+Usage: python tools/check_links.py FOLDER. Pages of rustdoc, which cargo checks, are targets alone.
 """
 
 from __future__ import annotations
@@ -8,7 +8,11 @@ from __future__ import annotations
 import sys
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Final
 from urllib.parse import unquote, urlsplit
+
+NOT_PAGES: Final = ("rust", "_static")
+"""Folders of rustdoc, and of files of the theme."""
 
 
 class Page(HTMLParser):
@@ -33,7 +37,7 @@ class Page(HTMLParser):
 
 def broken(folder: Path) -> list[str]:
     """Return the links of the pages of a folder that lead nowhere, or that would fetch something from elsewhere."""
-    sources = [path for path in sorted(folder.rglob("*.html")) if path.relative_to(folder).parts[0] != "rust"]
+    sources = [path for path in sorted(folder.rglob("*.html")) if path.relative_to(folder).parts[0] not in NOT_PAGES]
     pages = {path: Page(path.read_text(encoding="utf-8")) for path in sources}
     found = []
     for path, page in pages.items():

@@ -33,8 +33,8 @@ class Selection:
     table : polars.DataFrame
         One row per candidate: `number` from 1, `record`, `event`, `station`, `factor` (of least squares in the
         logarithm), `misfit` and `largest_misfit` (root mean square and largest of abs(ln(scaled/target))), `step` at
-        which it was chosen (null: it was not), `mean_misfit` of the mean of those chosen up to then (of its shape: a common
-        factor is taken out), and the `reason`.
+        which it was chosen (null: it was not), `mean_misfit` of the mean of those chosen up to then (of its shape: a
+        common factor is taken out), and the `reason`.
     """
 
     suite: Suite

@@ -41,8 +41,8 @@ class BlockSize:
     Floor acceleration a and vertical acceleration a_v (up positive) act on a block of mass m that moves with its
     floor: the force m a at the height h_c of its centre and its weight m (g + a_v), which is centred over the base.
 
-    - It slides where m |a| > mu_s m (g + a_v), so where |a| > mu_s (g + a_v).
-    - It lifts off one edge where m |a| h_c > m (g + a_v) b/2, so where |a| > (g + a_v) b/(2 h_c).
+    - It slides where m abs(a) > mu_s m (g + a_v), so where abs(a) > mu_s (g + a_v).
+    - It lifts off one edge where m abs(a) h_c > m (g + a_v) b/2, so where abs(a) > (g + a_v) b/(2 h_c).
 
     Both limits have the factor g + a_v, so that vertical motion does not change which of them is reached first: the
     block rocks before it slides if mu_s > b/(2 h_c), which is mu_s > b/h for a uniform block (Shenton 1996, J. Eng.
@@ -153,7 +153,7 @@ def as_sizes(sizes: Any, blocks: int) -> tuple[BlockSize | None, ...]:
 
 
 def demand_in_g(acceleration: FloatArray, vertical: FloatArray | None) -> float:
-    """Return the largest |a|/(g + a_v) of a history, which friction and uplift have their limits on.
+    """Return the largest abs(a)/(g + a_v) of a history, which friction and uplift have their limits on.
 
     Parameters
     ----------
