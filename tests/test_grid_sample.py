@@ -6,6 +6,7 @@ import pickle
 from typing import Any
 
 import numpy as np
+import polars as pl
 import pytest
 from polars.testing import assert_frame_equal
 from scipy import stats
@@ -312,3 +313,15 @@ def test_a_product_of_more_than_2_to_33_scenes() -> None:
     factors = grid.table(runs[0], runs[-1])["scale"].to_list()
     for row, number, factor in zip(rows.iter_rows(named=True), runs, factors, strict=True):
         assert row["peak_drift"] == sm.simulate(grid.scene(number), MOTION.scaled(factor)).peak_drift.tolist()
+
+
+def test_one_table_has_at_most_32_bits_of_rows_and_scenes_may_be_far_apart() -> None:
+    many = np.linspace(0.1, 0.5, 2**17)
+    grid = sm.Grid.product(BUILDING, mass_ratio=1.0, mu=many, scale=np.linspace(0.5, 2.0, 2**17))
+    for solve in (sm.simulate_many, lambda *given: sm.write_many("rows.parquet", *given)):
+        with pytest.raises(sm.InvalidOption, match=r"runs of batch must be at most 4294967295 for one table"):
+            solve(grid, MOTION)
+    ends = [sm.simulate_many(grid, MOTION, runs=range(number, number + 1)) for number in (1, 2**34)]
+    long = sm.long_table(pl.concat(ends), grid)
+    assert long["scene"].unique().to_list() == [1, 2**34]
+    assert long["mu_s"].unique().sort().to_list() == [0.1, 0.5]

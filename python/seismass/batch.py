@@ -27,6 +27,8 @@ DEFAULT_CHUNK: Final = 8192
 """Runs solved at once: enough to share propagators and to keep threads busy, in some tens of megabytes."""
 MAX_RUNS: Final = 2**53
 """Most runs of a batch: beyond, doubles in which numbers of runs may be read skip some."""
+MAX_ROWS: Final = 2**32 - 1
+"""Most rows of one table: Polars counts them by 32 bits."""
 MAX_THREADS: Final = _kernel.MAX_THREADS
 """Most threads of a batch, as the kernel has it: more than any machine has cores for."""
 
@@ -101,7 +103,7 @@ def simulate_many(
     """
     batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
     # Objects are there already, so that all runs may look for equal ones; those of a grid exist a chunk at a time.
-    stretch = _stretch(runs, batch.total)
+    stretch = _one_table(_stretch(runs, batch.total))
     chunk = DEFAULT_CHUNK if isinstance(scenes, Grid) else max(len(stretch), 1)
     return pl.concat(list(_frames(batch, stretch, chunk, options, _checked_progress(progress))))
 
@@ -201,7 +203,7 @@ def write_many(
         raise refusal(InvalidOption, "path", "batch", requirement, brief(str(target)))
     size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
     batch, options, report = _batch(scenes, motions, pairs), _options(peaks_only, threads), _checked_progress(progress)
-    stretch = _stretch(runs, batch.total)
+    stretch = _one_table(_stretch(runs, batch.total))
     solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], stretch)
     with (
         written_whole(target) as temporary,
@@ -274,6 +276,14 @@ def _stretch(runs: Any, total: int) -> range:
     if len(runs) and not (runs[0] >= 1 and runs[-1] <= total):
         raise refusal(InvalidOption, "runs", "batch", limits, brief(runs))
     return range(runs[0] - 1, runs[-1]) if len(runs) else range(0)
+
+
+def _one_table(stretch: range) -> range:
+    """Refuse more runs than one table holds."""
+    if len(stretch) > MAX_ROWS:
+        requirement = f"at most {MAX_ROWS} for one table (stream_many and Campaign take more)"
+        raise refusal(InvalidOption, "runs", "batch", requirement, str(len(stretch)))
+    return stretch
 
 
 def checked_motions(motions: Any) -> tuple[list[Any], list[Motion], list[str]]:

@@ -13,7 +13,7 @@ from seismass._values import brief, refusal
 from seismass.errors import InvalidOption, InvalidScene
 from seismass.forks import require_polars
 from seismass.grid import Grid
-from seismass.grid_axes import TABLE_COLUMNS
+from seismass.grid_axes import TABLE_COLUMNS, table_of
 from seismass.scene import Scene
 
 _PER_STOREY: Final = (
@@ -134,9 +134,8 @@ def _flat(runs: pl.DataFrame, names: tuple[str, ...]) -> pl.DataFrame:
 def _of_grid(grid: Grid, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataFrame]:
     """What describes the scenes of a table, and their blocks: number, floor, and what has a value per block."""
     used = _used(table, len(grid))
-    first, last = (int(used[0]), int(used[-1])) if len(used) else (1, 0)
-    described = grid.table(first, last).drop("motion", strict=False)[used - first]
     scenes = used - 1
+    described = table_of(grid._described, scenes).drop("motion", strict=False)
     per_block = [name for name in ("mass_ratio", "mu_s", "mu_k") if isinstance(described.schema.get(name), pl.List)]
     row, column = np.nonzero(grid._sliding(scenes))
     blocks = _block_table(used[row], np.array(grid.floors, dtype=np.int64)[column])

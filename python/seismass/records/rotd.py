@@ -126,9 +126,9 @@ def rotd(
     --------
     >>> import seismass as sm
     >>> record = sm.builtin_suite()[0]
-    >>> diagonal = sm.Pair.from_records(record, record)
+    >>> diagonal = sm.Pair.from_records(record, record.scaled(-1.0))
     >>> sm.rotd(diagonal, [0.5, 1.0]).angle
-    array([45., 45.])
+    array([135., 135.])
     """
     from seismass.motion import Motion  # reading records needs no kernel
     from seismass.spectra import response_spectrum
