@@ -17,9 +17,8 @@ fn main() -> seismass::Result<()> {
     let goods = vec![Block::new(1, 1e5, 0.3), Block::new(2, 1e5, 0.3)];
     let scene = Scene::new(Some(Arc::new(building)), goods)?;
 
-    let samples: Vec<f64> = (0..1000)
-        .map(|i| 5.0 * (0.1 * f64::from(i)).sin() * (-0.002 * f64::from(i)).exp())
-        .collect();
+    let samples: Vec<f64> =
+        (0..1000).map(|i| 5.0 * (0.1 * f64::from(i)).sin() * (-0.002 * f64::from(i)).exp()).collect();
     let response = simulate(&scene, &Motion::new(samples, 0.01, None)?, &Options::default())?;
 
     for (storey, peak) in response.peaks.drift.iter().enumerate() {
