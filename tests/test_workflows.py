@@ -28,7 +28,8 @@ def test_every_linked_crate_has_its_licence_in_the_file() -> None:
     assert "THIRD-PARTY-LICENCES.txt" in project["license-files"]
     if shutil.which("cargo") is None:
         pytest.skip("no cargo")
-    command = ["cargo", "tree", "--locked", "--edges", "normal", "--prefix", "none", "-p", "seismass-python"]
+    command = ["cargo", "tree", "--locked", "--target", "all", "--edges", "normal", "--prefix", "none"]
+    command += ["-p", "seismass-python", "-p", "seismass-web"]
     tree = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True, timeout=300).stdout
     linked = {tuple(match) for match in re.findall(r"^(\S+) v(\S+)", tree, re.MULTILINE)}
     linked = {(name, version) for name, version in linked if not name.startswith("seismass")}

@@ -59,7 +59,7 @@ def page() -> str:
     """Return the file: what is linked, then each text once, with the crates that have it."""
     packages = linked()
     lines = [
-        "seismass is MIT OR Apache-2.0. Wheel and live page contain code of these crates, under their licences.",
+        "seismass is MIT OR Apache-2.0. Wheel and live page contain code of these crates, or were made with them.",
         "",
         *(f"{each['name']} {each['version']}: {each['license']}" for each in packages),
     ]
