@@ -132,6 +132,6 @@ $(BENCH_VENV)/made: tools/find-python tools/make-bench-env benchmarks/requiremen
 	@touch $@
 
 # Python sources are used in place (an editable install), so that only Rust, the metadata or the data need a new build.
-$(VENV)/built: $(VENV)/installed $(RUST_SOURCES) $(DATA) README.md
+$(VENV)/built: $(VENV)/installed $(RUST_SOURCES) $(DATA) packaging/README.md
 	env -u CONDA_PREFIX VIRTUAL_ENV=$(abspath $(VENV)) $(PYTHON) -m maturin develop --release --locked
 	@touch $@

@@ -39,6 +39,14 @@ def test_every_linked_crate_has_its_licence_in_the_file() -> None:
         assert re.search(rf"^{re.escape(name)} {re.escape(version)} \(", text, re.MULTILINE), (name, version)
 
 
+def test_what_an_index_shows_has_no_relative_links() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    crate = tomllib.loads((ROOT / "crates" / "seismass" / "Cargo.toml").read_text(encoding="utf-8"))["package"]
+    for shown in (ROOT / project["readme"], ROOT / "crates" / "seismass" / crate["readme"]):
+        targets = re.findall(r"\]\(([^)]*)\)", shown.read_text(encoding="utf-8"))
+        assert not [target for target in targets if not target.startswith("https://")], shown
+
+
 def test_the_recipe_needs_what_the_package_needs() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     recipe = (ROOT / "packaging" / "conda" / "recipe.yaml").read_text(encoding="utf-8")
