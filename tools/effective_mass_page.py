@@ -6,6 +6,7 @@ alone is checked by the tests.
 
 from __future__ import annotations
 
+import runpy
 import sys
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from seismass.report.map_figures import collapse_figure, rules_figure
 from seismass.spectra import TargetSpectrum
 
 ROOT = Path(__file__).parents[1]
+PARTS = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 PAGE = ROOT / "docs" / "effective_mass.md"
 MORE = (
     "01_Hector_Mine_1999_Hector/RSN1787_HECTOR_HEC000.AT2",
@@ -46,8 +48,8 @@ def suites(shared: Path) -> dict[str, Suite]:
     }
 
 
-def tables(key: str, result: EffectiveMassMap) -> str:
-    """Return the tables of one map between their markers."""
+def tables(key: str, result: EffectiveMassMap) -> list[str]:
+    """Return the lines of the tables of one map."""
     sliding = result.table.filter(pl.col("slides"))
     worst = []
     for name, what in (
@@ -59,9 +61,7 @@ def tables(key: str, result: EffectiveMassMap) -> str:
         worst.append(f"  {what:55}{100.0 * share:>5.1f} % of cases, worst {most:.2f}")
     counts = result.table["kind"].value_counts().sort("kind").to_dicts()
     kinds = ", ".join(f"{row['count']} {row['kind']}" for row in counts)
-    lines = [
-        f"<!-- {key} -->",
-        "```text",
+    return [
         f"{TITLES[key]}: {result.table.height} cases, goods slide in {sliding.height} ({kinds})",
         "",
         *rules_text(result.rules()),
@@ -70,18 +70,13 @@ def tables(key: str, result: EffectiveMassMap) -> str:
         "",
         "Some storey drifts more than 1.05 times the model",
         *worst,
-        "```",
-        f"<!-- end of {key} -->",
     ]
-    return "\n".join(lines)
 
 
 def with_tables(page: str, key: str, result: EffectiveMassMap) -> str:
     """Return the page with the tables of one map in their place."""
-    first, last = f"<!-- {key} -->", f"<!-- end of {key} -->"
-    before, _, rest = page.partition(first)
-    _, _, after = rest.partition(last)
-    return before + tables(key, result) + after
+    changed: str = PARTS["with_block"](page, key, tables(key, result))
+    return changed
 
 
 def write(maps: dict[str, EffectiveMassMap]) -> None:

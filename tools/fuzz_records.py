@@ -405,10 +405,8 @@ def table(tally: Tally, seed: int, real: bool) -> str:
 def write_page(text: str) -> None:
     """Put the table into docs/records.md between its marks."""
     page = PAGE.read_text(encoding="utf-8")
-    first, last = "<!-- fuzz -->", "<!-- end of fuzz -->"
-    before, _, rest = page.partition(first)
-    _, _, after = rest.partition(last)
-    PAGE.write_text(f"{before}{first}\n{text}\n{last}{after}", encoding="utf-8")
+    parts = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
+    PAGE.write_text(parts["with_text"](page, "fuzz", text), encoding="utf-8")
 
 
 def main() -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import re
+import runpy
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +22,7 @@ from numpy.typing import NDArray
 import seismass as sm
 
 ROOT: Final = Path(__file__).parents[1]
+PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 PAGE: Final = ROOT / "docs" / "ground_motions.md"
 FLATFILE: Final = Path("records/reference/nga_w2_selected.csv")
 LENGTH_RATIO: Final = 15.0
@@ -198,11 +200,7 @@ def signed(value: float) -> str:
 def with_tables(page: str, tables: dict[str, str]) -> str:
     """Return the page with each table between its markers."""
     for key, text in tables.items():
-        first, last = f"<!-- {key} -->", f"<!-- end of {key} -->"
-        before, found, rest = page.partition(first)
-        if not found:
-            raise SystemExit(f"{PAGE.name} has no mark {first}")
-        page = f"{before}{first}\n{text}\n{last}{rest.partition(last)[2]}"
+        page = PARTS["with_text"](page, key, text)
     return page
 
 

@@ -5,7 +5,6 @@ Usage: tools/intensity_page.py [SHARED], a folder with `records`, without which 
 
 from __future__ import annotations
 
-import re
 import runpy
 import sys
 from collections.abc import Mapping
@@ -19,19 +18,13 @@ from seismass.intensity import IntensityAnalysis, LimitState, cloud_analysis, in
 from seismass.report.figures import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
+PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 PAGE: Final = ROOT / "docs" / "intensity.md"
 LIMIT: Final = LimitState("drift_ratio", 0.02)
 RULES: Final = {"none": 0.0, "ASCE 7 storage": 0.25, "NBC, NZS 1170.5": 0.6, "Eurocode 8": 0.8, "all": 1.0}
 """Shares of the live load attached by rules."""
 
-
-def example(page: str) -> dict[str, Any]:
-    """Run the code of the page, without what it writes, and return what it defines."""
-    (block,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
-    names: dict[str, Any] = {}
-    lines = [line for line in block.splitlines() if not line.startswith(("print(", "answer.write("))]
-    exec(compile("\n".join(lines), str(PAGE), "exec"), names)
-    return names
+example, with_block = PARTS["example"], PARTS["with_block"]
 
 
 def choices(scene: sm.Scene, suite: sm.Suite) -> list[str]:
@@ -100,14 +93,6 @@ def far_field(names: Mapping[str, Any], shared: Path) -> list[str]:
     """Return the table of rules under 42 recorded components."""
     suites = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))["suites"]
     return rules(names["scene"], suites(shared)["far_field"])
-
-
-def with_block(page: str, key: str, lines: list[str]) -> str:
-    """Return the page with a block of numbers in its place."""
-    first, last = f"<!-- {key} -->", f"<!-- end of {key} -->"
-    before, _, rest = page.partition(first)
-    _, _, after = rest.partition(last)
-    return before + "\n".join([first, "```text", *lines, "```", last]) + after
 
 
 def main(shared: Path | None) -> None:

@@ -9,7 +9,7 @@ program is written by benchmarks/matching.py and kept as it is.
 from __future__ import annotations
 
 import os
-import re
+import runpy
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -21,6 +21,7 @@ import seismass as sm
 from seismass.report.figures import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
+PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 PAGE: Final = ROOT / "docs" / "matching.md"
 FIGURE: Final = ROOT / "docs" / "figures" / "matched.png"
 OTHERS: Final = (
@@ -37,14 +38,6 @@ def table(header: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
     """Return a table whose first column is of words."""
     lines = [header, tuple("---" if column == 0 else "---:" for column in range(len(header))), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def with_table(page: str, name: str, content: str) -> str:
-    """Return the page with what stands between the markers of a name replaced."""
-    block = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end of {name} -->)", re.DOTALL)
-    if not block.search(page):
-        raise SystemExit(f"docs/matching.md has no place for {name}")
-    return block.sub(lambda match: f"{match[1]}{content}\n{match[2]}", page)
 
 
 def misfit_row(matched: sm.MatchedRecord) -> tuple[str, ...]:
@@ -183,7 +176,7 @@ def main(names: list[str]) -> None:
         draw(Path(folder))
     for name in [name for name in TABLES if not names or name in names]:
         content = TABLES[name](Path(folder))
-        PAGE.write_text(with_table(PAGE.read_text(encoding="utf-8"), name, content), encoding="utf-8")
+        PAGE.write_text(PARTS["with_text"](PAGE.read_text(encoding="utf-8"), name, content), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ Usage: python tools/readme_answer.py
 
 from __future__ import annotations
 
-import re
+import runpy
 import sys
 from pathlib import Path
 from typing import Final
@@ -14,7 +14,7 @@ from seismass.assessment import assess
 from seismass.records.builtin import data_directory
 
 ROOT: Final = Path(__file__).parents[1]
-BLOCK: Final = re.compile(r"(<!-- warehouse -->\n```text\n).*?(```\n<!-- end of warehouse -->)", re.DOTALL)
+PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 LAST: Final = "Stability coefficient"
 """The README ends before the line that begins so."""
 
@@ -23,7 +23,8 @@ def readme() -> str:
     """Return the README with the first part of the answer for the example."""
     text = assess(data_directory() / "examples" / "warehouse.toml").text().partition(LAST)[0].strip("\n")
     page = (ROOT / "README.md").read_text(encoding="utf-8")
-    return BLOCK.sub(lambda match: f"{match[1]}{text}\n{match[2]}", page)
+    changed: str = PARTS["with_block"](page, "warehouse", [text])
+    return changed
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ The recordings are not part of this project: SEISMASS_SHARED names the folder th
 from __future__ import annotations
 
 import os
-import re
+import runpy
 import shutil
 import sys
 import tempfile
@@ -21,8 +21,8 @@ from seismass.spectra import TargetSpectrum
 from seismass.study import run_study
 
 ROOT: Final = Path(__file__).parents[1]
+PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 SUITE: Final = Path("records/paper_seven.csv")
-BLOCK: Final = re.compile(r"(<!-- findings -->\n```text\n).*?(```\n<!-- end of findings -->)", re.DOTALL)
 
 
 def readme(shared: Path) -> str:
@@ -30,7 +30,8 @@ def readme(shared: Path) -> str:
     result = run_study(read_suite(shared / SUITE), TargetSpectrum.asce7())
     text = findings_text(findings(result.summary, result.fractions, result.metadata["code"]["name"])).strip("\n")
     page = (ROOT / "README.md").read_text(encoding="utf-8")
-    return BLOCK.sub(lambda match: f"{match[1]}{text}\n{match[2]}", page)
+    changed: str = PARTS["with_block"](page, "findings", [text])
+    return changed
 
 
 def main() -> int:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import re
+import runpy
 import sys
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from seismass.errors import RecordFormatError
 from seismass.records import Record, read_records
 
 ROOT = Path(__file__).parents[1]
+PARTS = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 PAGE = ROOT / "docs" / "records.md"
 OTHERS = ROOT / "tests" / "data" / "other_readers.csv"
 ARGUMENTS: dict[str, dict[str, object]] = {
@@ -92,10 +94,8 @@ def table(shared: Path) -> str:
 def page(shared: Path) -> str:
     """Return the page with its table as it is now."""
     text = PAGE.read_text(encoding="utf-8")
-    first, last = "<!-- readings -->", "<!-- end of readings -->"
-    before, _, rest = text.partition(first)
-    _, _, after = rest.partition(last)
-    return f"{before}{first}\n{table(shared)}\n{last}{after}"
+    changed: str = PARTS["with_text"](text, "readings", table(shared))
+    return changed
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@ Usage: tools/risk_page.py [SHARED], a folder with `records`, without which the t
 
 from __future__ import annotations
 
-import re
 import runpy
 import sys
 from collections.abc import Mapping
@@ -18,20 +17,14 @@ import seismass as sm
 from seismass.report.figures import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
+PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 PAGE: Final = ROOT / "docs" / "risk.md"
 FIGURE: Final = ROOT / "docs" / "figures" / "risk.png"
 FRICTIONS: Final = (0.1, 0.2, 0.3)
 LIMITS: Final = (0.005, 0.01, 0.02, 0.03)
 SHARES: Final = np.linspace(0.0, 1.0, 11)
 
-
-def example(page: str) -> dict[str, Any]:
-    """Run the code of the page, without what it writes, and return what it defines."""
-    (block,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
-    names: dict[str, Any] = {}
-    lines = [line for line in block.splitlines() if not line.startswith(("print(", "answer.write("))]
-    exec(compile("\n".join(lines), str(PAGE), "exec"), names)
-    return names
+example, with_block = PARTS["example"], PARTS["with_block"]
 
 
 def limits(building: sm.Building, motions: Any, hazard: sm.HazardCurve, frictions: tuple[float, ...]) -> list[str]:
@@ -65,14 +58,6 @@ def far_field(names: Mapping[str, Any], shared: Path) -> list[str]:
     """Return the table of shares under 42 recorded components."""
     suites = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))["suites"]
     return limits(names["building"], suites(shared)["far_field"], names["hazard"], (0.2,))
-
-
-def with_block(page: str, key: str, lines: list[str]) -> str:
-    """Return the page with a block of numbers in its place."""
-    first, last = f"<!-- {key} -->", f"<!-- end of {key} -->"
-    before, _, rest = page.partition(first)
-    _, _, after = rest.partition(last)
-    return before + "\n".join([first, "```text", *lines, "```", last]) + after
 
 
 def main(shared: Path | None) -> None:

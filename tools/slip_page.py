@@ -5,7 +5,7 @@ Usage: tools/slip_page.py
 
 from __future__ import annotations
 
-import re
+import runpy
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,20 +15,14 @@ import seismass as sm
 from seismass.report.figures import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
+PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 PAGE: Final = ROOT / "docs" / "slip_demand.md"
 FIGURE: Final = ROOT / "docs" / "figures" / "slip_demand.png"
 FRICTIONS: Final = (0.1, 0.2, 0.4)
 STRENGTHS: Final[dict[str, list[float] | None]] = {"elastic": None, "yielding": [0.30, 0.26, 0.20, 0.12]}
 """Yield shears over the weight of the building."""
 
-
-def example(page: str) -> dict[str, Any]:
-    """Run the code of the page, without what it writes, and return what it defines."""
-    (block,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
-    names: dict[str, Any] = {}
-    lines = [line for line in block.splitlines() if not line.startswith(("print(", "answer.write("))]
-    exec(compile("\n".join(lines), str(PAGE), "exec"), names)
-    return names
+example, with_block = PARTS["example"], PARTS["with_block"]
 
 
 def floors(motions: list[sm.Record]) -> list[str]:
@@ -51,14 +45,6 @@ def floors(motions: list[sm.Record]) -> list[str]:
 def blocks(names: Mapping[str, Any]) -> dict[str, list[str]]:
     """Return the blocks of numbers by key."""
     return {"answer": names["answer"].text.splitlines(), "floors": floors(names["motions"])}
-
-
-def with_block(page: str, key: str, lines: list[str]) -> str:
-    """Return the page with a block of numbers in its place."""
-    first, last = f"<!-- {key} -->", f"<!-- end of {key} -->"
-    before, _, rest = page.partition(first)
-    _, _, after = rest.partition(last)
-    return before + "\n".join([first, "```text", *lines, "```", last]) + after
 
 
 def main() -> None:
