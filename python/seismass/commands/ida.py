@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from seismass.commands.answer_output import add_answer_options, give_answer
 from seismass.commands.effective_map import numbers_option
 from seismass.commands.options import (
     add_records_options,
-    left_out,
     positive_option,
     read_motions,
-    threads_option,
-    warn_left_out,
 )
+from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, is_building_file
 from seismass.commands.study import progress_bar
 
 if TYPE_CHECKING:
@@ -35,9 +33,6 @@ or g), of a storey, floor or block with @NUMBER; or collapse
 
 exit codes: 0 done, 1 a run failed, 2 bad input"""
 
-DEFAULT_LIMIT = "drift_ratio=0.02"
-"""Allowable drift of ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II."""
-
 
 def add_parser(subparsers: Any, help: str) -> None:
     """Add the subcommand to those of the `seismass` command, with the line that lists it."""
@@ -49,9 +44,7 @@ def add_parser(subparsers: Any, help: str) -> None:
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
-        "file", type=Path, metavar="FILE", help="scene file (its motion is not used) or building file, .toml or .json"
-    )
+    add_file_argument(parser)
     asked = parser.add_argument_group("what is asked")
     asked.add_argument(
         "--limit",
@@ -81,12 +74,7 @@ def add_parser(subparsers: Any, help: str) -> None:
     method.add_argument("--highest", type=positive_option, metavar="X", help="largest intensity of a hunt")
     method.add_argument("--tolerance", type=positive_option, metavar="R", help="relative width of capacities (0.001)")
     add_records_options(parser.add_argument_group("motions, as they are"))
-    output = parser.add_argument_group("running and output")
-    output.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the bootstrap (0)")
-    output.add_argument("--out", type=Path, metavar="DIR", help="folder to write tables and figures to")
-    output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
-    output.add_argument("--json", action="store_true", help="print the answer as JSON")
-    output.add_argument("--no-figures", action="store_true", help="write tables only")
+    add_answer_options(parser)
     parser.set_defaults(run=run)
 
 
@@ -126,16 +114,7 @@ def run(args: argparse.Namespace) -> int:
     except SimulationError as error:
         print(f"seismass: run failed: {error}", file=sys.stderr)
         return 1
-    files = [] if args.out is None else result.write(args.out, figures=not args.no_figures)
-    if args.json:
-        warn_left_out(suite)
-        print(json.dumps(result.to_dict(), indent=2, allow_nan=False))
-        return 0
-    print(f"suite     {suite.name}\ncode      {rule}\n{result.text}")
-    for line in left_out(suite):
-        print(f"          {line}")
-    written = f"{len(files)} files in {args.out}, " if files else ""
-    print(f"\n{written}{time.perf_counter() - started:.1f} s")
+    give_answer(args, result, suite, head=f"suite     {suite.name}\ncode      {rule}\n", indent=10, started=started)
     return 0
 
 
@@ -161,12 +140,3 @@ def models_of(path: Path, code_share: float | None) -> tuple[dict[str, Scene], s
         code = building.code
         rule = f"{code.code}, {code.use}: {100.0 * code.fraction:g} % of the design live load attached as mass"
     return models, rule, f"drift_ratio={building.drift_limit:g}"
-
-
-def is_building_file(path: Path) -> bool:
-    """Whether a file has tables that only building files have."""
-    from seismass.errors import InvalidSceneFile
-    from seismass.input_table import load_table
-
-    found = load_table(path, "scene or building file", InvalidSceneFile).values
-    return any(name in found for name in ("storeys", "goods", "site"))

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
 from pathlib import Path
 from typing import Any
 
+from seismass.commands.answer_output import add_answer_options, give_answer
 from seismass.commands.effective_map import numbers_option
 from seismass.commands.options import (
     add_records_options,
-    left_out,
     positive_option,
     read_motions,
-    threads_option,
-    warn_left_out,
 )
+from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, is_building_file, scene_of
 from seismass.commands.study import progress_bar
 
 _EPILOG = """examples:
@@ -42,9 +40,7 @@ def add_parser(subparsers: Any, help: str) -> None:
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
-        "file", type=Path, metavar="FILE", help="scene file (its motion is not used) or building file, .toml or .json"
-    )
+    add_file_argument(parser)
     asked = parser.add_argument_group("what is asked")
     asked.add_argument("--hazard", type=Path, required=True, metavar="CSV", help="intensity (g), annual rate")
     asked.add_argument("--hazard-period", type=positive_option, metavar="T", help="period of its Sa, s")
@@ -81,20 +77,13 @@ def add_parser(subparsers: Any, help: str) -> None:
         "--design-rate", type=positive_option, metavar="R", help="annual rate of the design intensity (1/475)"
     )
     add_records_options(parser.add_argument_group("motions, as they are"))
-    output = parser.add_argument_group("running and output")
-    output.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the bootstrap (0)")
-    output.add_argument("--out", type=Path, metavar="DIR", help="folder to write tables and the figure to")
-    output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
-    output.add_argument("--json", action="store_true", help="print the answer as JSON")
-    output.add_argument("--no-figures", action="store_true", help="write tables only")
+    add_answer_options(parser)
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Find the share, print the answer and write its files; return the exit code."""
     from seismass.building_file import read_building
-    from seismass.commands.ida import DEFAULT_LIMIT, is_building_file
-    from seismass.commands.slip import scene_of
     from seismass.errors import SimulationError
     from seismass.intensity import parse_limit
     from seismass.intensity.hazard import HazardCurve
@@ -134,14 +123,5 @@ def run(args: argparse.Namespace) -> int:
     except SimulationError as error:
         print(f"seismass: run failed: {error}", file=sys.stderr)
         return 1
-    files = [] if args.out is None else result.write(args.out, figures=not args.no_figures)
-    if args.json:
-        warn_left_out(suite)
-        print(json.dumps(result.to_dict(), indent=2, allow_nan=False))
-        return 0
-    print(f"suite                {suite.name}\n{result.text}")
-    for line in left_out(suite):
-        print(f"                     {line}")
-    written = f"{len(files)} files in {args.out}, " if files else ""
-    print(f"\n{written}{time.perf_counter() - started:.1f} s")
+    give_answer(args, result, suite, head=f"suite                {suite.name}\n", indent=21, started=started)
     return 0

@@ -3,27 +3,23 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from seismass.commands.answer_output import add_answer_options, give_answer
 from seismass.commands.options import (
     add_records_options,
     add_target_options,
-    left_out,
     positive_option,
     read_motions,
     read_target,
-    threads_option,
-    warn_left_out,
 )
+from seismass.commands.scene_or_building import add_file_argument, scene_of
 from seismass.commands.study import progress_bar
 
 if TYPE_CHECKING:
     from seismass.records import Suite
-    from seismass.scene import Scene
     from seismass.slip import Clearance
 
 _EPILOG = """examples:
@@ -48,9 +44,7 @@ def add_parser(subparsers: Any, help: str) -> None:
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
-        "file", type=Path, metavar="FILE", help="scene file (its motion is not used) or building file, .toml or .json"
-    )
+    add_file_argument(parser)
     asked = parser.add_argument_group("what is asked")
     asked.add_argument(
         "--clearance", action="append", default=[], metavar="[BLOCK=]M", help="distance to an edge or a wall, m"
@@ -69,12 +63,7 @@ def add_parser(subparsers: Any, help: str) -> None:
         "--period", type=positive_option, metavar="T", help="with a target: scaled from 0.2 T to 1.5 T (1 s)"
     )
     motions.add_argument("--factor", type=positive_option, metavar="F", help="factor of all motions (1)")
-    output = parser.add_argument_group("running and output")
-    output.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the bootstrap (0)")
-    output.add_argument("--out", type=Path, metavar="DIR", help="folder to write tables and the figure to")
-    output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
-    output.add_argument("--json", action="store_true", help="print the result as JSON")
-    output.add_argument("--no-figures", action="store_true", help="write tables only")
+    add_answer_options(parser)
     parser.set_defaults(run=run)
 
 
@@ -107,26 +96,9 @@ def run(args: argparse.Namespace) -> int:
     except SimulationError as error:
         print(f"seismass: run failed: {error}", file=sys.stderr)
         return 1
-    files = [] if args.out is None else result.write(args.out, figures=not args.no_figures)
-    if args.json:
-        warn_left_out(suite)
-        print(json.dumps(result.to_dict(), indent=2, allow_nan=False))
-        return 0
-    print(f"suite       {suite.name}\nscaling     {scaling}\n\n{result.text}")
-    for line in left_out(suite):
-        print(f"            {line}")
-    written = f"{len(files)} files in {args.out}, " if files else ""
-    print(f"\n{written}{time.perf_counter() - started:.1f} s")
+    head = f"suite       {suite.name}\nscaling     {scaling}\n\n"
+    give_answer(args, result, suite, head=head, indent=12, started=started)
     return 0
-
-
-def scene_of(path: Path) -> Scene:
-    """Return the scene of a scene file or a building file."""
-    from seismass.building_file import read_building
-    from seismass.commands.ida import is_building_file
-    from seismass.scene_file import read_scene
-
-    return read_building(path).scene() if is_building_file(path) else read_scene(path).scene
 
 
 def parse_clearance(text: str) -> Clearance:
