@@ -12,37 +12,21 @@ from seismass.campaign.campaign import Campaign
 from seismass.campaign.values import axis_values
 from seismass.errors import InvalidCampaignFile
 from seismass.grid import Grid
+from seismass.grid_sample import SAMPLED
 from seismass.input_table import Table, load_table
 from seismass.records import Record, Suite, builtin_suite, read_suite
 from seismass.records.builtin import data_directory
 from seismass.scene_file import building_of_table
 from seismass.spectra import TargetSpectrum
-from seismass.springs import SHAPE_FIELDS
 
 SCALINGS: Final = ("none", "asce7-10", "asce7-16")
 """How a campaign file may scale its motions."""
 
-_AXES: Final = (
-    "storeys",
-    "period",
-    "strength",
-    "R",
-    "yield_shear_over_weight",
-    *SHAPE_FIELDS,
-    "mass_ratio",
-    "occupancy",
-    "attached",
-    "sliding",
-    "mu",
-    "mu_s",
-    "mu_k",
-    "scale",
-)
 _SETTINGS: Final = ("floors", "roof", "damping", "attached_of", "collapse_drift")
 KEYS: Final = {
     "": ("name", "note", "part_runs", "peaks_only", "columns", "single", "motions", "building", "grid", "sample"),
     "motions": ("builtin", "records", "scaling", "target", "period"),
-    "grid": (*_AXES, *_SETTINGS, "design"),
+    "grid": (*SAMPLED, *_SETTINGS, "design"),
     "grid.design": ("target", "share", "elastic_at_one", "combination"),
     "sample": ("samples", "method", "seed", "one_motion"),
 }
@@ -164,7 +148,7 @@ def _grid(top: Table, folder: Path, motions: int) -> Grid:
     elif "storeys" not in table.values:
         table.refuse("storeys", "given, or building", "nothing")
     sampled = "sample" in top.values
-    given: dict[str, Any] = {key: axis_values(table, key, sampled=sampled) for key in _AXES if key in table.values}
+    given: dict[str, Any] = {key: axis_values(table, key, sampled=sampled) for key in SAMPLED if key in table.values}
     given |= {key: table.values[key] for key in _SETTINGS if key in table.values}
     if "design" in table.values:
         given["design"] = _design(table.table("design"), folder)
