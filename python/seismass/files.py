@@ -19,10 +19,8 @@ _OS_ERROR = re.compile(r"\(os error (\d+)\)")
 
 
 @contextmanager
-def written_whole(path: str | os.PathLike[str], *, durable: bool = False) -> Iterator[Path]:
+def written_whole(path: str | os.PathLike[str], *, durable: bool = False, tidy: bool = True) -> Iterator[Path]:
     """Give a temporary path to write to, which replaces `path` at the end, or is removed when an error is raised.
-
-    What killed runs have left in the folder is removed first.
 
     Parameters
     ----------
@@ -30,6 +28,9 @@ def written_whole(path: str | os.PathLike[str], *, durable: bool = False) -> Ite
         The file to write; its folder must exist.
     durable : bool, default False
         Wait until the system has the file, and then its name, on the disk: neither is lost with the power.
+    tidy : bool, default True
+        Remove first what killed runs have left in the folder. Its files are listed for that, which one who writes many
+        files to one folder does once, by `remove_left_behind`.
 
     Raises
     ------
@@ -51,7 +52,7 @@ def written_whole(path: str | os.PathLike[str], *, durable: bool = False) -> Ite
     if not target.name or target.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(target))
     # A name of its own, as one made of the target's could be too long.
-    temporary = temporary_path(target.parent)
+    temporary = temporary_path(target.parent, tidy=tidy)
     # Fails here, with the system's reason, where the folder is missing or cannot be written.
     with reported_as(target):
         temporary.open("xb").close()

@@ -14,10 +14,11 @@ from typing import Any, Final
 from seismass._values import as_count, brief, refusal
 from seismass.campaign.campaign import Campaign
 from seismass.campaign.cluster import dask_executor
-from seismass.campaign.folder import CampaignFolder
+from seismass.campaign.folder import PARTS, CampaignFolder
 from seismass.campaign.progress import CampaignProgress, Report
 from seismass.campaign.work import Done, solve_part, write_part
 from seismass.errors import InvalidOption, SeismassError, SimulationError
+from seismass.temporary import remove_left_behind
 
 IN_FLIGHT: Final = 1024
 """Most tasks that an executor is given at once: enough for as many workers, and few to take back."""
@@ -36,7 +37,10 @@ def run_campaign(
     threads: int | None = None,
     progress: Any = None,
 ) -> None:
-    """Solve what is missing in the folder of a campaign; see `Campaign.run`."""
+    """Solve what is missing in the folder of a campaign; see `Campaign.run`.
+
+    What a killed worker has left is removed at the end, or when the folder is next prepared.
+    """
     given = {"executor": executor, "workers": workers, "scheduler": scheduler}
     chosen = [name for name, value in given.items() if value is not None]
     if len(chosen) > 1:
@@ -55,12 +59,14 @@ def run_campaign(
         return
     if not chosen:
         _by_threads(campaign, folder, missing, threads, clock)
+        remove_left_behind(folder / PARTS)
         return
     given_one: AbstractContextManager[Executor] = (
         nullcontext(executor) if executor is not None else dask_executor(workers=workers, scheduler=scheduler)
     )
     with given_one as found:
         _by_executor(campaign, folder, missing, found, 1 if threads is None else threads, clock)
+    remove_left_behind(folder / PARTS)
 
 
 def _shard(shard: Any) -> tuple[int, int]:

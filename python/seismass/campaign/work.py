@@ -59,7 +59,7 @@ def solve_part(folder: str, sha256: str, part: int, threads: int | None) -> Done
 
 
 def write_part(frame: pl.DataFrame, folder: Path, sha256: str, part: int) -> None:
-    """Write the rows of a part under its name, whole and on the disk.
+    """Write the rows of a part under its name, whole and on the disk. The folder, which may have many, is not listed.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def write_part(frame: pl.DataFrame, folder: Path, sha256: str, part: int) -> Non
         The file cannot be written, or the disk is full.
     """
     path = part_path(folder, part)
-    with written_whole(path, durable=True) as temporary, polars_writing(path):
+    with written_whole(path, durable=True, tidy=False) as temporary, polars_writing(path):
         frame.write_parquet(temporary, compression="zstd", metadata={"campaign": sha256, "part": str(part)})
 
 
