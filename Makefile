@@ -111,7 +111,7 @@ $(VENV)/installed: $(VENV)/created pyproject.toml
 	$(PYTHON) -m pip install --quiet --group dev
 	@touch $@
 
-$(WEB_KERNEL): $(RUST_SOURCES) tools/make-web-kernel
+$(WEB_KERNEL): $(RUST_SOURCES) tools/make-web-kernel tools/reproducible-flags
 	sh tools/make-web-kernel
 
 # The same where a toolchain can; elsewhere the tests of the live page are skipped with a word.

@@ -108,6 +108,13 @@ def random_case(draw: np.random.Generator) -> dict[str, Any]:
     }
 
 
+def test_kernel_names_no_path_of_the_machine(kernel: Path) -> None:
+    code = kernel.read_bytes()
+    assert b"crates/seismass/src/" in code
+    for folder in (ROOT, Path.home(), Path("/usr/lib")):
+        assert bytes(folder) + b"/" not in code, folder
+
+
 def test_a_hundred_runs_have_the_bits_of_the_native_baseline(in_node: Any) -> None:
     """Peaks, their times, residuals, events and histories: every bit of 100 cases of all kinds."""
     draw = np.random.default_rng(34)
