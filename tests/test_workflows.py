@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import runpy
 import shutil
 import subprocess
 import sys
@@ -22,6 +23,15 @@ def test_workflows_are_valid() -> None:
     assert len(WORKFLOWS) == 2
 
 
+def test_actionlint_finds_nothing() -> None:
+    """Where it is on the path: its binary is not in a package of its own project that pip could install."""
+    program = shutil.which("actionlint")
+    if program is None:
+        pytest.skip("no actionlint on the path: workflows are checked by their schema alone")
+    checked = subprocess.run([program, *map(str, WORKFLOWS)], cwd=ROOT, capture_output=True, text=True, timeout=120)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
 def test_every_linked_crate_has_its_licence_in_the_file() -> None:
     text = (ROOT / "THIRD-PARTY-LICENCES.txt").read_text(encoding="utf-8")
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -37,6 +47,41 @@ def test_every_linked_crate_has_its_licence_in_the_file() -> None:
     for name, version in sorted(linked):
         assert f"\n{name} {version}: " in text, "run tools/third_party_licences.py"
         assert re.search(rf"^{re.escape(name)} {re.escape(version)} \(", text, re.MULTILINE), (name, version)
+
+
+def test_rusts_standard_library_has_its_licences_in_the_file() -> None:
+    text = (ROOT / "THIRD-PARTY-LICENCES.txt").read_text(encoding="utf-8")
+    names, _, texts = text.partition("=" * 80)
+    for name in ("Rust's standard library", "hashbrown", "rustc-demangle", "windows_x86_64_msvc"):
+        assert re.search(rf"^{name}.*: .*(MIT|Apache-2.0)", names, re.MULTILINE), name
+    for owner in ("Rust's standard library (MIT.txt)", "Rust's standard library (Unicode-3.0.txt)", "hashbrown"):
+        assert re.search(rf"^{re.escape(owner)}", texts, re.MULTILINE), owner
+
+
+def test_address_of_the_repository_is_stated_everywhere_or_nowhere(tmp_path: Path) -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "state_repository.py"))
+    address = "https://example.org/owner/seismass"
+    for name in tool["additions"](address):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    before = {name: (tmp_path / name).read_text(encoding="utf-8") for name in tool["additions"](address)}
+    with pytest.raises(SystemExit, match="must be like"):
+        tool["state"](tmp_path, f"{address}/")
+    tool["state"](tmp_path, address)
+    urls = tomllib.loads((tmp_path / "pyproject.toml").read_text(encoding="utf-8"))["project"]["urls"]
+    assert urls["Repository"] == address
+    assert set(urls) == {"Repository", "Issues", "Documentation", "Changelog"}
+    workspace = tomllib.loads((tmp_path / "Cargo.toml").read_text(encoding="utf-8"))["workspace"]
+    assert workspace["package"]["repository"] == address
+    crate = tomllib.loads((tmp_path / "crates" / "seismass" / "Cargo.toml").read_text(encoding="utf-8"))["package"]
+    assert crate["repository"] == {"workspace": True}
+    for name, text in before.items():
+        stated = (tmp_path / name).read_text(encoding="utf-8")
+        assert stated != text
+        kept = iter(stated.splitlines())
+        assert all(line in kept for line in text.splitlines()), name  # lines were added, and none changed
+    with pytest.raises(SystemExit, match="states an address already"):
+        tool["state"](tmp_path, address)
 
 
 def test_what_an_index_shows_has_no_relative_links() -> None:
