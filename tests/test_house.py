@@ -147,7 +147,7 @@ def test_readme_scene_file_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.chdir(tmp_path)
     (scene,) = code_blocks("toml")
     Path("scene.toml").write_text(scene)
-    (command,) = re.findall(r"^seismass (run .*)$", "\n".join(code_blocks("sh")), re.MULTILINE)
+    (command,) = re.findall(r"^seismass (run scene.*)$", "\n".join(code_blocks("sh")), re.MULTILINE)
     assert main(shlex.split(command)) == 0
     assert Path("out.parquet").is_file()
     file = seismass.read_scene("scene.toml")

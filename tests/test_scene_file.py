@@ -16,7 +16,7 @@ import pytest
 
 import seismass as sm
 from seismass._kernel import MAX_STOREYS
-from seismass.scene_file import KEYS
+from seismass.scene_file import KEYS, scene_without_motion
 from seismass.springs import SHAPE_FIELDS, SPRING_FIELDS
 
 ROOT = Path(__file__).parents[1]
@@ -199,6 +199,25 @@ def test_record_files_are_found_beside_the_scene(tmp_path: Path, write: Write) -
     assert longer.acceleration[-1] == 0.0
 
 
+def test_built_in_motions_by_name(write: Write) -> None:
+    file = sm.read_scene(write(motion={"builtin": "synthetic-3", "scale": 0.5}))
+    record = sm.builtin_record("synthetic-3")
+    assert file.motion.acceleration.tolist() == (0.5 * record.acceleration).tolist()
+    assert file.motion.dt == record.dt
+    assert file.records == (record,)
+    assert any("SYNTHETIC motion 3: not a recording" in remark for remark in file.remarks)
+
+
+def test_scene_is_read_without_its_motion(write: Write) -> None:
+    path = write(motion={"file": "missing.AT2"}, initial={"velocity": [0.1, 0.2]}, name="without")
+    with pytest.raises(sm.RecordFormatError, match=r"missing\.AT2"):
+        sm.read_scene(path)
+    scene = scene_without_motion(path)
+    assert scene == sm.read_scene(write(motion=MOTION, initial={"velocity": [0.1, 0.2]}, name="without")).scene
+    with pytest.raises(sm.InvalidSceneFile, match="did you mean blocks"):
+        scene_without_motion(write(motion={}, block=[]))
+
+
 def changed(base: dict[str, Any], without: tuple[str, ...] = (), **changes: Any) -> dict[str, Any]:
     return {key: value for key, value in (base | changes).items() if key not in without}
 
@@ -224,6 +243,17 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
         sm.InvalidSceneFile,
         r"motion.units of .* \(did you mean motion.unit\?\); got an unknown key",
     ),
+    (
+        {"motion": {"builtin": "synthetic-12"}},
+        sm.InvalidSceneFile,
+        r"motion.builtin of .* from synthetic-1 to synthetic-11",
+    ),
+    (
+        {"motion": {"builtin": "synthetic-1", "dt": 0.01}},
+        sm.InvalidSceneFile,
+        r"motion.dt of .* left out where motion.bui",
+    ),
+    ({"motion": {"builtin": 1}}, sm.InvalidSceneFile, r"motion.builtin of .* must be text; got 1"),
     (
         {"initial": {"drifts": [0, 0]}},
         sm.InvalidSceneFile,
@@ -391,7 +421,7 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     (
         {"motion": {"dt": 0.01}},
         sm.InvalidSceneFile,
-        r"motion.file of .* must be given, or motion.acceleration; got nothing",
+        r"motion.file of .* must be given, or motion.builtin, or motion.acceleration; got nothing",
     ),
     (
         {"motion": changed(MOTION, file="a.AT2")},

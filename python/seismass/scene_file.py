@@ -18,7 +18,8 @@ from seismass.errors import InvalidMotion, InvalidScene, InvalidSceneFile
 from seismass.input_table import Table, load_table
 from seismass.motion import Motion
 from seismass.plausibility import motion_remarks
-from seismass.records import Record, read_record
+from seismass.records import Record, builtin_record, read_record
+from seismass.records.builtin import builtin_names, data_directory
 from seismass.scene import Scene
 from seismass.spring_laws import is_per_storey
 from seismass.springs import SPRING_FIELDS
@@ -52,7 +53,7 @@ KEYS: Final = {
     ),
     "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
     "blocks": ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear"),
-    "motion": ("file", "acceleration", "dt", "unit", "scale", "dt_scale"),
+    "motion": ("file", "builtin", "acceleration", "dt", "unit", "scale", "dt_scale"),
     "initial": ("drift", "velocity"),
 }
 """Keys of each table of a scene file, the file itself first; `vertical_motion` has those of `motion`."""
@@ -91,6 +92,11 @@ class SceneFile:
         """What the records had interpreted or left out, and what is unlikely about scene and motion, as sentences."""
         of_records = (f"{record.name}: {remark}" for record in self.records for remark in record.remarks)
         return (*of_records, *self.scene.remarks, *motion_remarks(self.motion))
+
+
+def example_scene() -> Path:
+    """Return the scene file that ships with the package: three storeys of storage under a built-in motion."""
+    return data_directory() / "examples" / "storage.toml"
 
 
 def read_scene(path: str | os.PathLike[str]) -> SceneFile:
@@ -139,28 +145,45 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     top.known(KEYS[""])
     if "motion" not in top.values:
         top.refuse("motion", "given", "nothing")
-    name, note = (top.text(key) for key in ("name", "note"))
+    scene = _scene(top)
+    motion, records = _motions(top, source.parent)
+    duration = top.values.get("duration")
+    if duration is not None:
+        duration = as_number(duration, "duration", source.name, InvalidSceneFile)
+        motion = motion.with_duration(duration)
+    return SceneFile(scene, motion, duration, scene.name, scene.note, source, records)
+
+
+def scene_without_motion(path: str | os.PathLike[str]) -> Scene:
+    """Return the scene of a scene file, whose motion may be missing and is not read.
+
+    Raises
+    ------
+    InvalidSceneFile, InvalidScene
+        As for `read_scene`.
+    """
+    top = load_table(as_path(path, "scene file", InvalidSceneFile), "scene file", InvalidSceneFile)
+    top.known(KEYS[""])
+    return _scene(top)
+
+
+def _scene(top: Table) -> Scene:
+    """Building, blocks and initial state of a file."""
     building = building_of_table(top.table("building")) if "building" in top.values else None
     initial = top.table("initial") if "initial" in top.values else None
     if initial is not None:
         initial.known(KEYS["initial"])
         if building is None:
             initial.empty("there is no building")
-    scene = Scene(
+    return Scene(
         building,
         [_block(table, number) for number, table in enumerate(top.tables("blocks"), start=1)],
         initial_drift=None if initial is None else initial.per_storey("drift"),
         initial_velocity=None if initial is None else initial.per_storey("velocity"),
         collapse_drift=top.values.get("collapse_drift"),
-        name=name,
-        note=note,
+        name=top.text("name"),
+        note=top.text("note"),
     )
-    motion, records = _motions(top, source.parent)
-    duration = top.values.get("duration")
-    if duration is not None:
-        duration = as_number(duration, "duration", source.name, InvalidSceneFile)
-        motion = motion.with_duration(duration)
-    return SceneFile(scene, motion, duration, name, note, source, records)
 
 
 def building_of_table(table: Table) -> Building:
@@ -284,8 +307,11 @@ def _motions(top: Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:
 def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | None]:
     """Acceleration (m/s2) and time step (s) after scaling, and the record they come from, if any."""
     table.known(KEYS["motion"])
-    table.needed("file", "acceleration")
-    table.excluded("file", "acceleration")
+    table.needed("file", "builtin", "acceleration")
+    table.excluded("file", "builtin", "acceleration")
+    table.excluded("builtin", "acceleration")
+    for key in ("dt", "unit"):
+        table.excluded(key, "builtin")
     unit = table.values.get("unit")
     if unit is not None and (not isinstance(unit, str) or unit not in ACCELERATION_UNITS):
         table.refuse("unit", f"one of {', '.join(ACCELERATION_UNITS)}", brief(unit))
@@ -299,6 +325,12 @@ def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | No
         file = table.text("file")
         dt = table.number("dt", 0.0) if "dt" in table.values else None
         record = read_record(folder / file, dt=dt, unit=unit)
+        samples, dt = record.acceleration, record.dt
+    elif "builtin" in table.values:
+        name, (first, *others) = table.text("builtin"), builtin_names()
+        if name not in (first, *others):
+            table.refuse("builtin", f"one from {first} to {others[-1]}", brief(name))
+        record = builtin_record(name)
         samples, dt = record.acceleration, record.dt
     else:
         table.needed("dt")

@@ -56,12 +56,11 @@ def add_parser(subparsers: Any, help: str) -> None:
 def run(args: argparse.Namespace) -> int:
     """Write the animation; return the exit code: 1 if a run failed. Bad input is raised."""
     from seismass.animation import animate
-    from seismass.records.builtin import data_directory
-    from seismass.scene_file import read_scene
+    from seismass.scene_file import example_scene, read_scene
 
     if args.fraction is not None and (args.code is not None or args.use is not None):
         raise InvalidOption("--fraction of seismass animate must be left out with --code or --use; got both")
-    scene: Path = data_directory() / "examples" / "storage.toml" if args.example else args.scene
+    scene: Path = example_scene() if args.example else args.scene
     target = args.out or Path(scene.name).with_suffix(".html")
     check_files(target)
     file = read_scene(scene)

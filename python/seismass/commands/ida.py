@@ -127,12 +127,12 @@ def models_of(path: Path, code_share: float | None) -> tuple[dict[str, Scene], s
     from seismass.building_file import read_building
     from seismass.intensity import compared_models
     from seismass.intensity.models import CODE, DEFAULT_CODE_SHARE, REAL
-    from seismass.scene_file import read_scene
+    from seismass.scene_file import scene_without_motion
 
     share = DEFAULT_CODE_SHARE if code_share is None else code_share
     rule = f"{100.0 * share:g} % of the goods attached as mass"
     if not is_building_file(path):
-        return compared_models(read_scene(path).scene, share), rule, DEFAULT_LIMIT
+        return compared_models(scene_without_motion(path), share), rule, DEFAULT_LIMIT
     building = read_building(path)
     models = compared_models(building.scene(), share)
     if code_share is None:

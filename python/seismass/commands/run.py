@@ -19,7 +19,7 @@ from seismass.errors import InvalidOption, SimulationError
 from seismass.files import write_table, written_whole
 from seismass.response import Response
 from seismass.scene import Scene
-from seismass.scene_file import KEYS, SceneFile, read_scene
+from seismass.scene_file import KEYS, SceneFile, example_scene, read_scene
 from seismass.simulate import simulate
 from seismass.units import STANDARD_GRAVITY
 
@@ -29,6 +29,7 @@ _KEYS = "\n".join(
     for table, keys in KEYS.items()
 )
 _EPILOG = f"""examples:
+  seismass run --example > scene.toml
   seismass run scene.toml
   seismass run scene.json --json > response.json
   seismass run scene.toml --histories response.parquet
@@ -48,7 +49,9 @@ def add_parser(subparsers: Any, help: str) -> None:
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("scene", type=Path, metavar="SCENE", help="scene file, .toml or .json")
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("scene", type=Path, nargs="?", metavar="SCENE", help="scene file, .toml or .json")
+    what.add_argument("--example", action="store_true", help="print a scene file to start from, and stop")
     parser.add_argument("--json", action="store_true", help="print peaks, residuals, counts, events and energy as JSON")
     parser.add_argument(
         "--histories",
@@ -66,6 +69,9 @@ def run(args: argparse.Namespace) -> int:
         raise InvalidOption(f"suffix of --histories must be {suffixes}; got {args.histories.suffix!r}")
     if args.histories is not None and not args.histories.absolute().parent.is_dir():
         raise InvalidOption(f"folder of --histories must exist; got {args.histories.absolute().parent}")
+    if args.example:
+        print(example_scene().read_text(encoding="utf-8"), end="")
+        return 0
     file = read_scene(args.scene)
     try:
         response = simulate(

@@ -17,7 +17,7 @@ or II."""
 def add_file_argument(parser: argparse.ArgumentParser) -> None:
     """Add the argument `file`."""
     parser.add_argument(
-        "file", type=Path, metavar="FILE", help="scene file (its motion is not used) or building file, .toml or .json"
+        "file", type=Path, metavar="FILE", help="scene file (its motion is not read) or building file, .toml or .json"
     )
 
 
@@ -45,6 +45,6 @@ def scene_of(path: Path) -> Scene:
         It cannot be read, or describes no scene or building.
     """
     from seismass.building_file import read_building
-    from seismass.scene_file import read_scene
+    from seismass.scene_file import scene_without_motion
 
-    return read_building(path).scene() if is_building_file(path) else read_scene(path).scene
+    return read_building(path).scene() if is_building_file(path) else scene_without_motion(path)

@@ -60,12 +60,21 @@ def builtin_record(name: str) -> Record:
     InvalidOption
         No built-in motion has that name.
     """
-    folder = data_directory() / "synthetic"
-    rows = csv.DictReader(io.StringIO((folder / "suite.csv").read_text(encoding="utf-8")))
-    listed = {Path(row["file"]).stem: row for row in rows}
+    listed = _listed()
     row = next((row for key, row in listed.items() if key == name), None)
     if row is None:
         first, *_, last = listed
         raise refusal(InvalidOption, "name", "built-in motion", f"one from {first} to {last}", brief(name))
-    record = read_record(folder / row["file"])
+    record = read_record(data_directory() / "synthetic" / row["file"])
     return record.replace(remarks=(*record.remarks, row["note"]))
+
+
+def builtin_names() -> tuple[str, ...]:
+    """Return the names of the built-in synthetic motions."""
+    return tuple(_listed())
+
+
+def _listed() -> dict[str, dict[str, str]]:
+    """The rows of the list of the built-in motions by name."""
+    text = (data_directory() / "synthetic" / "suite.csv").read_text(encoding="utf-8")
+    return {Path(row["file"]).stem: row for row in csv.DictReader(io.StringIO(text))}
