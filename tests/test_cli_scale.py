@@ -11,6 +11,7 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
+from seismass.records.builtin import data_directory
 
 SUITE = sm.builtin_suite("seven")
 TARGET = sm.TargetSpectrum.asce7()
@@ -144,6 +145,10 @@ def test_a_building_gives_period_and_pushover(tmp_path: Path, capsys: pytest.Cap
         (
             ["--pairs", "--method", "asce7-16", "--records", ".", "--select", "3"],
             "--select of scale must be left out with --pairs; got 3",
+        ),
+        (
+            ["--pairs", "--method", "asce7-16", "--records", str(data_directory() / "synthetic")],
+            "synthetic must be at least one; got none in",
         ),
         (["--max-per-event", "3"], "--max-per-event of scale must be left out without --select; got 3"),
         (["--plot", "figure.pdf"], "--plot of scale must be a file with the suffix .png or .svg; got figure.pdf"),

@@ -134,9 +134,12 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
     if not args.pairs:
         suite = read_motions(args, "eleven" if args.method == "asce7-16" else "seven")
         return suite, suite
+    from seismass.errors import InvalidMotion
     from seismass.records import Suite, find_pairs
 
     pairs = find_pairs(args.records)
+    if not len(pairs):
+        raise InvalidMotion(f"pairs of {args.records} must be at least one; got none in {len(pairs.excluded)} files")
     listed = tuple(pair.first.replace(name=pair.name, remarks=pair.remarks) for pair in pairs)
     return Suite(pairs.name, listed, pairs.excluded), pairs
 

@@ -1,0 +1,92 @@
+"""An example that each command prints in its help runs as it stands, in a folder with files of the names it uses."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import re
+import shlex
+import shutil
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from seismass.cli import COMMANDS, main
+from seismass.explore import compiled
+from seismass.records.builtin import data_directory
+
+RUN = [
+    "building --example > warehouse.toml",
+    "building warehouse.toml",
+    "explore",
+    "map --mu 0.2,0.4,0.6 --R 2,4,6 --alpha 1 --intensity 0.5,1,1.5,2",
+    "ida warehouse.toml",
+    "ida scene.toml --method cloud --measure pga --limit drift=0.05 --json",
+    "slip scene.toml --clearance 0.3 --size 1.0x1.2",
+    "risk scene.toml --hazard hazard.csv --hazard-period 0.5 --limit drift_ratio=0.02 --records recordings/",
+    "study --records suite.csv --second-slope 0.1 --no-figures --json > study.json",
+    "campaign --example > campaign.toml",
+    "run --example > scene.toml",
+    "run scene.toml",
+    "run scene.json --json > response.json",
+    "animate --example",
+    "records records/ --json",
+    "spectrum record.AT2 --damping 0.02 0.05",
+    "scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6",
+    "match record.AT2 --out matched.AT2 --plot matched.png",
+    "pulse RSN1106_KOBE_KJM000.AT2 --json",
+    "validate",
+    "report assessment",
+    "completion bash > ~/.local/share/bash-completion/completions/seismass",
+]
+"""Lines of the help, each of them quick; every command is there."""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Files of the names that the examples use."""
+    made, data = tmp_path_factory.mktemp("examples"), data_directory()
+    motions = [data / "synthetic" / f"synthetic-{number}.AT2" for number in (1, 2, 3)]
+    for name in ("records", "recordings"):
+        (made / name).mkdir()
+        for motion in motions:
+            shutil.copy(motion, made / name)
+    for name in ("record.AT2", "RSN1106_KOBE_KJM000.AT2"):
+        shutil.copy(motions[0], made / name)
+    shutil.copy(data / "examples" / "warehouse.toml", made)
+    shutil.copy(data / "examples" / "storage.toml", made / "scene.toml")
+    scene = tomllib.loads((made / "scene.toml").read_text(encoding="utf-8"))
+    (made / "scene.json").write_text(json.dumps(scene), encoding="utf-8")
+    (made / "suite.csv").write_text("file\n" + "".join(f"records/{motion.name}\n" for motion in motions))
+    intensity = np.array([0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 8.0])
+    rows = [f"{level:g},{rate:.6g}" for level, rate in zip(intensity, 0.01 * (intensity / 0.1) ** -2.5, strict=True)]
+    (made / "hazard.csv").write_text("\n".join(["Sa,rate", *rows, ""]))
+    assert main(["building", str(made / "warehouse.toml"), "--out", str(made / "assessment"), "--no-figures"]) == 0
+    return made
+
+
+def test_every_command_is_among_them_and_every_line_in_the_help() -> None:
+    assert {line.split()[0] for line in RUN} == set(COMMANDS)
+    for line in RUN:
+        module, _ = COMMANDS[line.split()[0]]
+        text = importlib.import_module(f"seismass.commands.{module}")._EPILOG
+        assert f"\n  seismass {line}\n" in text, line
+
+
+@pytest.mark.parametrize("line", RUN)
+def test_example_runs(
+    line: str, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if line == "explore" and not (Path(compiled.__file__).parent / compiled.NAME).is_file():
+        pytest.skip("the kernel is not compiled to WebAssembly (make explorer)")
+    monkeypatch.chdir(folder)
+    assert main(shlex.split(line.partition(" > ")[0])) == 0
+    printed = capsys.readouterr()
+    assert not re.search(r"Traceback|error", printed.err)
+    assert printed.out
+    if line.endswith(("--json", ".json")):
+        json.loads(printed.out)
+    if "--example >" in line:
+        tomllib.loads(printed.out)
