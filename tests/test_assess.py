@@ -177,7 +177,7 @@ def test_without_goods_the_answer_says_so(tmp_path: Path) -> None:
     assert result.advised is None
     assert result.effective == {}
     assert result.storeys["model"].unique().to_list() == ["bare"]
-    assert "ANSWER    no goods on the floors" in result.text()
+    assert "ANSWER    no goods on the floors" in result.text
     names = {path.name for path in result.write(tmp_path)}
     assert {"drift.png", "storeys.csv", "assessment.json"} <= names
     assert "effective_fraction.png" not in names
@@ -188,8 +188,8 @@ def test_without_heights_drifts_are_in_millimetres() -> None:
     result = sm.assess(tables(building={"height_m": None}), resamples=20)
     assert result.storeys["unit"].unique().to_list() == ["m"]
     assert result.storeys["limit"].null_count() == result.storeys.height
-    assert "Peak storey drift, mm" in result.text()
-    assert "Stability coefficient" not in result.text()
+    assert "Peak storey drift, mm" in result.text
+    assert "Stability coefficient" not in result.text
     assert any(line == "P-Delta: none (heights are not known)." for line in result.assumptions)
 
 
@@ -202,7 +202,7 @@ def test_collapses_are_counted_and_leave_no_mean() -> None:
     assert mean_of(result, "real")[0] is None
     assert mean_of(result, "real", "theta")[0] is None
     assert f"The building collapses under {collapsed} of 7 motions (goods slide)." in result.advice
-    assert f"goods slide {collapsed}" in result.text()
+    assert f"goods slide {collapsed}" in result.text
     json.loads(result.to_json())
 
 
@@ -276,7 +276,7 @@ def test_files_are_written_whole_and_old_ones_removed(small: sm.Assessment, tmp_
     files = small.write(tmp_path / "out")
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == sorted(path.name for path in files)
     assert pl.read_parquet(tmp_path / "out" / "runs.parquet").equals(small.runs)
-    assert (tmp_path / "out" / "assessment.txt").read_text(encoding="utf-8") == small.text() + "\n"
+    assert (tmp_path / "out" / "assessment.txt").read_text(encoding="utf-8") == small.text + "\n"
     small.write(tmp_path / "out", figures=False)
     assert not list((tmp_path / "out").glob("*.png"))
     (tmp_path / "file").write_text("")
@@ -297,7 +297,7 @@ def test_figures_have_what_they_should(warehouse: sm.Assessment) -> None:
 
 
 def test_the_page_says_the_answer_first(warehouse: sm.Assessment) -> None:
-    lines = warehouse.text().splitlines()
+    lines = warehouse.text.splitlines()
     assert lines[3].startswith(f"ANSWER    use lambda = {warehouse.advised:.2f} of the goods present")
     assert all(len(line) <= 120 for line in lines)
     for heading in ("Peak storey drift", "Stability coefficient", "Slip of the goods", "In an analysis", "Assumptions"):

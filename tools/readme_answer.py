@@ -21,7 +21,7 @@ LAST: Final = "Stability coefficient"
 
 def readme() -> str:
     """Return the README with the first part of the answer for the example."""
-    text = assess(data_directory() / "examples" / "warehouse.toml").text().partition(LAST)[0].strip("\n")
+    text = assess(data_directory() / "examples" / "warehouse.toml").text.partition(LAST)[0].strip("\n")
     page = (ROOT / "README.md").read_text(encoding="utf-8")
     changed: str = PARTS["with_block"](page, "warehouse", [text])
     return changed

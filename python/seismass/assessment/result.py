@@ -82,8 +82,9 @@ class Assessment:
         """The advised mass over the design live load of the whole building, to compare with the fraction of a code."""
         return None if self.advised is None else self.advised * self.building.present_share
 
+    @property
     def text(self) -> str:
-        """Return the page that `seismass building` prints, the answer first."""
+        """What `seismass building` prints, the answer first."""
         from seismass.report.assess_text import assessment_text
 
         return assessment_text(self)

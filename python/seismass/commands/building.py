@@ -119,7 +119,7 @@ def run(args: argparse.Namespace) -> int:
         warn_left_out(suite)
         print(result.to_json())
         return 0
-    print(result.text())
+    print(result.text)
     for line in left_out(suite):
         print(f"\n{line}")
     page = "" if args.no_figures else f", the page is {args.out / PAGE}"

@@ -40,7 +40,7 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
     """
     out = as_path(folder, "assessment", InvalidOption)
     check_out(out, "assessment")
-    documents = {"assessment.txt": result.text() + "\n", DOCUMENT: result.to_json() + "\n"}
+    documents = {"assessment.txt": result.text + "\n", DOCUMENT: result.to_json() + "\n"}
     drawn: dict[str, Figure] = {}
     if figures:
         drawn, drawings = _drawn(tables := assessment_tables(result))
