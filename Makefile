@@ -90,7 +90,7 @@ test-aarch64:
 	sh tools/test-aarch64
 
 # The documentation site in out/site: pages, reference, examples that run, rustdoc. Warnings and broken links are errors.
-docs: build $(VENV)/site
+docs: build web-kernel $(VENV)/site
 	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
 	sh tools/make-site $(PYTHON) out/site
 

@@ -9,7 +9,7 @@ import importlib
 import inspect
 import sys
 from pathlib import Path
-from typing import Final
+from typing import Any, Final, Literal, get_args, get_origin
 
 import seismass
 
@@ -39,6 +39,11 @@ GROUPS: Final = (
 """Groups of the top level, by the modules that define the names; what is left is listed last."""
 
 
+def is_documented(value: Any) -> bool:
+    """Whether a name has a page of its own: a class or a function, and not a number or the words of an option."""
+    return callable(value) and get_origin(value) is not Literal
+
+
 def rule(title: str, mark: str = "=") -> str:
     """Return a heading."""
     return f"{title}\n{mark * len(title)}\n"
@@ -54,12 +59,15 @@ def top_level() -> str:
     """Return the page of the top level."""
     left = [name for name in seismass.__all__ if not name.startswith("_")]
     left = [name for name in left if not inspect.ismodule(getattr(seismass, name))]
+    numbers = [name for name in left if not is_documented(getattr(seismass, name))]
+    left = [name for name in left if name not in numbers]
     text = rule("seismass") + "\n.. code-block:: python\n\n   import seismass as sm\n\n"
     for title, modules in GROUPS:
         found = [name for name in left if _module(name) in modules]
         left = [name for name in left if name not in found]
         text += rule(title, "-") + "\n" + table("seismass", found) + "\n"
-    return text + rule("Other", "-") + "\n" + table("seismass", left)
+    shown = ", ".join(f"``{name}`` = {getattr(seismass, name)}" for name in numbers)
+    return text + rule("Other", "-") + "\n" + (table("seismass", left) if left else "") + f"\nConstants: {shown}.\n"
 
 
 def _module(name: str) -> str:
@@ -73,8 +81,9 @@ def of_module(name: str, text: str) -> str:
     """Return the page of a module; names of the top level are listed with links to their pages there."""
     module = importlib.import_module(f"seismass.{name}")
     public = [item for item in module.__all__ if not inspect.ismodule(getattr(module, item))]
-    objects = [item for item in public if callable(getattr(module, item))]
-    numbers = [item for item in public if item not in objects]
+    objects = [item for item in public if is_documented(getattr(module, item))]
+    types = {item: get_args(getattr(module, item)) for item in public if get_origin(getattr(module, item)) is Literal}
+    numbers = [item for item in public if item not in objects and item not in types]
     above = [item for item in objects if getattr(seismass, item, None) is getattr(module, item)]
     own = [item for item in objects if item not in above]
     page = rule(f"seismass.{name}") + f"\n{text}\n\n"
@@ -83,6 +92,10 @@ def of_module(name: str, text: str) -> str:
         page += f"Also at the top level:\n\n.. currentmodule:: seismass\n\n.. autosummary::\n\n{lines}\n\n"
     if own:
         page += table(f"seismass.{name}", own)
+    if types:
+        page += "\n" + "".join(
+            f"``{item}``: {' or '.join(f'``{value!r}``' for value in types[item])}.\n\n" for item in types
+        )
     if numbers:
         page += "\nConstants: " + ", ".join(f"``{item}``" for item in numbers) + ".\n"
     return page

@@ -228,13 +228,14 @@ class EffectiveMassMap:
 
         return collapse_figure(self)
 
-    def rules(self, rules: Mapping[str, Callable[[FloatArray], FloatArray]] = RULES) -> pl.DataFrame:
+    def rules(self, rules: Mapping[str, Callable[[FloatArray], FloatArray]] | None = None) -> pl.DataFrame:
         """Return how the models of simple rules compare with the real drift, over all cases in which goods slide.
 
         Parameters
         ----------
-        rules : mapping of str to callable
-            Each takes eta, shape (cases,), and returns the share of the live load.
+        rules : mapping of str to callable, optional
+            Each takes eta, shape (cases,), and returns the share of the live load. By default the two of the page on
+            the effective fraction, its fit, and the fractions of codes.
 
         Returns
         -------
@@ -246,7 +247,7 @@ class EffectiveMassMap:
         slides = self.table["slides"].to_numpy()
         eta, real = self.table["eta"].to_numpy(), self.table["real"].to_numpy()
         rows = []
-        for name, rule in rules.items():
+        for name, rule in (RULES if rules is None else rules).items():
             ratio = (self.model_drift(np.asarray(rule(eta), dtype=np.float64)) / real)[slides]
             logarithm = np.log(ratio)
             rows.append(

@@ -266,7 +266,7 @@ def parse_limit(text: str) -> LimitState:
     Parameters
     ----------
     text : str
-        "drift_ratio=0.02"; with a storey, floor or block "drift_ratio@1=0.02", "slip@2=0.1"; or "collapse".
+        ``drift_ratio=0.02``; with a storey, floor or block ``drift_ratio@1=0.02``, ``slip@2=0.1``; or ``collapse``.
 
     Raises
     ------

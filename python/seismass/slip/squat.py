@@ -110,7 +110,7 @@ class BlockSize:
 
 
 def parse_size(text: str) -> BlockSize:
-    """Return a size from its text: "1.0x1.2", width by height (m), or "1.0x1.2@0.4" with the height of its centre.
+    """Return a size from its text: ``1.0x1.2``, width by height (m), or ``1.0x1.2@0.4`` with the height of its centre.
 
     Raises
     ------
