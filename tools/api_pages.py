@@ -67,7 +67,7 @@ def top_level() -> str:
         left = [name for name in left if name not in found]
         text += rule(title, "-") + "\n" + table("seismass", found) + "\n"
     shown = ", ".join(f"``{name}`` = {getattr(seismass, name)}" for name in numbers)
-    return text + rule("Other", "-") + "\n" + (table("seismass", left) if left else "") + f"\nConstants: {shown}.\n"
+    return text + rule("Other", "-") + "\n" + (table("seismass", left) if left else "") + f"\nConstants, in SI units: {shown}.\n"
 
 
 def _module(name: str) -> str:
