@@ -67,7 +67,8 @@ def top_level() -> str:
         left = [name for name in left if name not in found]
         text += rule(title, "-") + "\n" + table("seismass", found) + "\n"
     shown = ", ".join(f"``{name}`` = {getattr(seismass, name)}" for name in numbers)
-    return text + rule("Other", "-") + "\n" + (table("seismass", left) if left else "") + f"\nConstants, in SI units: {shown}.\n"
+    others = table("seismass", left) if left else ""
+    return f"{text}{rule('Other', '-')}\n{others}\nConstants, in SI units: {shown}.\n"
 
 
 def _module(name: str) -> str:

@@ -89,11 +89,10 @@ def standard_library() -> tuple[list[str], list[tuple[str, str]]]:
         names.append(html.unescape(f"{name} {version}, for Rust's standard library: {licence}"))
         for file, text in re.findall(r"<code>([^<]*)</code></summary>\s*<pre>(.*?)</pre>", block, re.DOTALL):
             found.append((f"{name} {version} ({file})", html.unescape(text).strip()))
-    licences = sorted(
-        {each for name in names for each in re.findall(r"[A-Z][\w.]*-[\w.-]+|MIT|ISC", name.split(": ")[1])}
-    )
-    for licence in licences:
-        file = share / "licenses" / f"{licence}.txt"
+    # The texts of the licences themselves are files of their own, by the names that the notices use.
+    words = sorted({word for name in names for word in re.split(r"[^\w.-]+", name.split(": ")[1])})
+    for word in words:
+        file = share / "licenses" / f"{word}.txt"
         if file.is_file():
             found.append((f"Rust's standard library ({file.name})", file.read_text(encoding="utf-8").strip()))
     return names, found
