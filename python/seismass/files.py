@@ -12,7 +12,7 @@ from typing import Literal
 
 import polars as pl
 
-from seismass.temporary import reported_as, temporary_path
+from seismass.temporary import reported_as, temporary_name, temporary_path
 
 _OS_ERROR = re.compile(r"\(os error (\d+)\)")
 """What Polars' own errors say of one of the system."""
@@ -52,7 +52,7 @@ def written_whole(path: str | os.PathLike[str], *, durable: bool = False, tidy: 
     if not target.name or target.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(target))
     # A name of its own, as one made of the target's could be too long.
-    temporary = temporary_path(target.parent, tidy=tidy)
+    temporary = temporary_path(target.parent) if tidy else target.parent / temporary_name()
     # Fails here, with the system's reason, where the folder is missing or cannot be written.
     with reported_as(target):
         temporary.open("xb").close()

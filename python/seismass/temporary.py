@@ -29,10 +29,9 @@ _NAME = re.compile(
 )
 
 
-def temporary_path(folder: Path, *, tidy: bool = True) -> Path:
-    """Return an unused path in a folder, named after this process; what killed processes left there may be removed."""
-    if tidy:
-        remove_left_behind(folder)
+def temporary_path(folder: Path) -> Path:
+    """Return an unused path in a folder, named after this process; what killed processes have left there is removed."""
+    remove_left_behind(folder)
     return folder / temporary_name()
 
 

@@ -57,15 +57,14 @@ def run_campaign(
     if clock.done == len(parts):
         clock.report(force=True)
         return
-    if not chosen:
+    if chosen:
+        given_one: AbstractContextManager[Executor] = (
+            nullcontext(executor) if executor is not None else dask_executor(workers=workers, scheduler=scheduler)
+        )
+        with given_one as found:
+            _by_executor(campaign, folder, missing, found, 1 if threads is None else threads, clock)
+    else:
         _by_threads(campaign, folder, missing, threads, clock)
-        remove_left_behind(folder / PARTS)
-        return
-    given_one: AbstractContextManager[Executor] = (
-        nullcontext(executor) if executor is not None else dask_executor(workers=workers, scheduler=scheduler)
-    )
-    with given_one as found:
-        _by_executor(campaign, folder, missing, found, 1 if threads is None else threads, clock)
     remove_left_behind(folder / PARTS)
 
 
