@@ -10,12 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import add_answer_options, give_answer
 from seismass.commands.effective_map import numbers_option
-from seismass.commands.options import (
-    add_records_options,
-    positive_option,
-    read_motions,
-)
-from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, is_building_file
+from seismass.commands.options import add_records_options, positive_option, read_motions
+from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, read_scene_or_building
 from seismass.commands.study import progress_bar
 
 if TYPE_CHECKING:
@@ -124,17 +120,15 @@ def models_of(path: Path, code_share: float | None) -> tuple[dict[str, Scene], s
     The code's model of a building file has its code's fraction of the design live load, whatever is present.
     """
     from seismass.assessment.models import with_mass
-    from seismass.building_file import read_building
     from seismass.intensity import compared_models
     from seismass.intensity.models import CODE, DEFAULT_CODE_SHARE, REAL
-    from seismass.scene_file import scene_without_motion
 
+    scene, building = read_scene_or_building(path)
     share = DEFAULT_CODE_SHARE if code_share is None else code_share
     rule = f"{100.0 * share:g} % of the goods attached as mass"
-    if not is_building_file(path):
-        return compared_models(scene_without_motion(path), share), rule, DEFAULT_LIMIT
-    building = read_building(path)
-    models = compared_models(building.scene(), share)
+    models = compared_models(scene, share)
+    if building is None:
+        return models, rule, DEFAULT_LIMIT
     if code_share is None:
         models[CODE] = with_mass(models[REAL], building.code.fraction * building.live_load)
         code = building.code

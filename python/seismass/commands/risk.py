@@ -10,12 +10,8 @@ from typing import Any
 
 from seismass.commands.answer_output import add_answer_options, give_answer
 from seismass.commands.effective_map import numbers_option
-from seismass.commands.options import (
-    add_records_options,
-    positive_option,
-    read_motions,
-)
-from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, is_building_file, scene_of
+from seismass.commands.options import add_records_options, positive_option, read_motions
+from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, read_scene_or_building
 from seismass.commands.study import progress_bar
 
 _EPILOG = """examples:
@@ -83,7 +79,6 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Find the share, print the answer and write its files; return the exit code."""
-    from seismass.building_file import read_building
     from seismass.errors import SimulationError
     from seismass.intensity import parse_limit
     from seismass.intensity.hazard import HazardCurve
@@ -95,8 +90,8 @@ def run(args: argparse.Namespace) -> int:
         check_out(args.out, "risk")
     hazard = HazardCurve.from_csv(args.hazard, period=args.hazard_period)
     drift_limit, code_share = DEFAULT_LIMIT, args.code_share
-    if is_building_file(args.file):
-        building = read_building(args.file)
+    scene, building = read_scene_or_building(args.file)
+    if building is not None:
         drift_limit = f"drift_ratio={building.drift_limit:g}"
         if code_share is None and building.present_share > 0.0:
             code_share = min(1.0, building.code.fraction / building.present_share)
@@ -105,7 +100,7 @@ def run(args: argparse.Namespace) -> int:
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     try:
         result = risk_targeted_share(
-            scene_of(args.file),
+            scene,
             suite,
             hazard,
             parse_limit(args.limit or drift_limit),

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
+    from seismass.own_building import OwnBuilding
     from seismass.scene import Scene
 
 DEFAULT_LIMIT: Final = "drift_ratio=0.02"
@@ -21,30 +22,25 @@ def add_file_argument(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def is_building_file(path: Path) -> bool:
-    """Whether a file has tables that only building files have.
+def read_scene_or_building(path: Path) -> tuple[Scene, OwnBuilding | None]:
+    """Return the scene of a scene file or a building file, and the building of the latter.
+
+    A building file has tables that no scene file has.
 
     Raises
     ------
-    InvalidSceneFile
-        It cannot be read.
-    """
-    from seismass.errors import InvalidSceneFile
-    from seismass.input_table import load_table
-
-    found = load_table(path, "scene or building file", InvalidSceneFile).values
-    return any(name in found for name in ("storeys", "goods", "site"))
-
-
-def scene_of(path: Path) -> Scene:
-    """Return the scene of a scene file or a building file.
-
-    Raises
-    ------
-    InvalidSceneFile
-        It cannot be read, or describes no scene or building.
+    InvalidSceneFile, InvalidScene
+        It cannot be read, or as for `read_scene`.
+    InvalidBuildingFile
+        As for `read_building`.
     """
     from seismass.building_file import read_building
+    from seismass.errors import InvalidSceneFile
+    from seismass.input_table import load_table
     from seismass.scene_file import scene_without_motion
 
-    return read_building(path).scene() if is_building_file(path) else scene_without_motion(path)
+    found = load_table(path, "scene or building file", InvalidSceneFile).values
+    if not any(name in found for name in ("storeys", "goods", "site")):
+        return scene_without_motion(path), None
+    building = read_building(path)
+    return building.scene(), building

@@ -15,7 +15,7 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
-from seismass.commands.scene_or_building import add_file_argument, scene_of
+from seismass.commands.scene_or_building import add_file_argument, read_scene_or_building
 from seismass.commands.study import progress_bar
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def run(args: argparse.Namespace) -> int:
     started = time.perf_counter()
     if args.out is not None:
         check_out(args.out, "slip demand")
-    scene = scene_of(args.file)
+    scene, _ = read_scene_or_building(args.file)
     blocks = len(scene.blocks)
     sizes = _per_block("size", args.size, blocks, parse_size)
     clearances = _per_block("clearance", args.clearance, blocks, parse_clearance)
