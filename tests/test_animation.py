@@ -19,8 +19,8 @@ import seismass as sm
 from seismass.animation.picture import Picture
 from seismass.animation.shown import MOST_VALUES
 from seismass.cli import main
-from seismass.records.builtin import data_directory
 from seismass.response import EVENT_KINDS
+from seismass.scene_file import example_scene
 
 BUILDING = sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.20, 0.12], heights=3.5)
 SCENE = sm.Scene(BUILDING, sm.blocks_on_floors([1.0, 0.5, 0.0], mu=0.2), name="storage <1>")
@@ -253,7 +253,7 @@ def test_command_writes_the_example(
     assert main(["animate", "--example"]) == 0
     assert "<h1>Three storeys of storage</h1>" in Path("storage.html").read_text(encoding="utf-8")
     printed = capsys.readouterr().out
-    file = sm.read_scene(data_directory() / "examples" / "storage.toml")
+    file = sm.read_scene(example_scene())
     response = sm.simulate(file.scene, file.motion)
     assert f"largest drift {1e3 * response.peak_drift.max():.3g} mm in storey 1" in printed
     assert "storage.html: " in printed

@@ -12,7 +12,7 @@ import numpy as np
 from seismass import animate, read_scene
 from seismass.animation.picture import Picture
 from seismass.animation.shown import Run
-from seismass.records.builtin import data_directory
+from seismass.scene_file import example_scene
 
 FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "animation.png"
 
@@ -27,7 +27,7 @@ def is_on(run: Run, begins: str, ends: str, times: np.ndarray) -> np.ndarray:
 
 def main() -> None:
     """Storey 1 of the real building yields and block 1 slides, while the model does not yield; where it drifts most."""
-    file = read_scene(data_directory() / "examples" / "storage.toml")
+    file = read_scene(example_scene())
     animation = animate(file.scene, file.motion)
     real, model = animation.shown.runs
     times = np.arange(0.0, file.motion.duration, 0.02)

@@ -321,16 +321,8 @@ def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | No
     if not (np.isfinite(dt_scale) and dt_scale > 0.0):
         table.refuse("dt_scale", "a positive number", f"{dt_scale:g}")
     record, in_si = None, 1.0
-    if "file" in table.values:
-        file = table.text("file")
-        dt = table.number("dt", 0.0) if "dt" in table.values else None
-        record = read_record(folder / file, dt=dt, unit=unit)
-        samples, dt = record.acceleration, record.dt
-    elif "builtin" in table.values:
-        name, (first, *others) = table.text("builtin"), builtin_names()
-        if name not in (first, *others):
-            table.refuse("builtin", f"one from {first} to {others[-1]}", brief(name))
-        record = builtin_record(name)
+    if "acceleration" not in table.values:
+        record = _record(table, folder, unit)
         samples, dt = record.acceleration, record.dt
     else:
         table.needed("dt")
@@ -339,3 +331,14 @@ def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | No
         dt = as_number(table.values["dt"], "dt", "motion", InvalidMotion)
     with np.errstate(over="ignore"):  # the motion refuses what is not finite
         return samples * in_si * scale, dt * dt_scale, record
+
+
+def _record(table: Table, folder: Path, unit: str | None) -> Record:
+    """The record that a table names: a file, or a built-in motion."""
+    if "file" in table.values:
+        dt = table.number("dt", 0.0) if "dt" in table.values else None
+        return read_record(folder / table.text("file"), dt=dt, unit=unit)
+    name, names = table.text("builtin"), builtin_names()
+    if name not in names:
+        table.refuse("builtin", f"one from {names[0]} to {names[-1]}", brief(name))
+    return builtin_record(name)
