@@ -13,7 +13,7 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
-from seismass.report.map_figures import map_figures
+from seismass.show.effective_mass.map import map_figures
 from seismass.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
@@ -187,10 +187,10 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 
 @pytest.mark.parametrize(("arguments", "message"), WRONG, ids=[message for _, message in WRONG])
 def test_wrong_parameters(arguments: dict[str, Any], message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=f"^{message}"):
+    with pytest.raises(sm.errors.InvalidOption, match=f"^{message}"):
         sm.EffectiveMassParameters(**arguments)
 
 
 def test_wrong_suite() -> None:
-    with pytest.raises(sm.InvalidMotion, match=r"^suite of effective mass map must be a Suite"):
+    with pytest.raises(sm.errors.InvalidMotion, match=r"^suite of effective mass map must be a Suite"):
         sm.effective_mass_map([1, 2, 3], TARGET, SMALL)  # type: ignore[arg-type]

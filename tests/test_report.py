@@ -15,13 +15,13 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.building_file import example_file
+from seismass.assessment.building_file import example_file
 from seismass.cli import main
-from seismass.report.slip_figure import slip_demand
-from seismass.report.study_answer import answer, compared_rules, percent
-from seismass.report.study_tables import StudyTables, read_study_tables, study_tables
-from seismass.report.study_words import assumptions
-from seismass.report.write import write_study, write_study_page
+from seismass.show.study.answer import answer, compared_rules, percent
+from seismass.show.study.slip import slip_demand
+from seismass.show.study.tables import StudyTables, read_study_tables, study_tables
+from seismass.show.study.words import assumptions
+from seismass.show.study.write import write_study, write_study_page
 from seismass.study import StudyParameters, StudyResult, run_study
 from seismass.study.example import study_example
 from seismass.validation import validate

@@ -14,8 +14,8 @@ import polars as pl
 from matplotlib.figure import Figure
 
 from seismass import design
-from seismass.plots.style import STYLE
-from seismass.report.figures import save_figure
+from seismass.media.figure_file import save_figure
+from seismass.media.style import STYLE
 
 ROOT: Final = Path(__file__).parents[1]
 PAGE: Final = ROOT / "docs" / "design.md"

@@ -16,7 +16,7 @@ from typing import Final
 
 from seismass.cli import main as seismass
 from seismass.records import read_suite
-from seismass.report.findings import findings, findings_text
+from seismass.show.study.findings import findings, findings_text
 from seismass.spectra import TargetSpectrum
 from seismass.study import run_study
 

@@ -62,8 +62,8 @@ def add_parser(subparsers: Any, help: str) -> None:
 def run(args: argparse.Namespace) -> int:
     """Make the map, write its files and print how rules do; return the exit code."""
     from seismass.effective_mass import EffectiveMassParameters, effective_mass_map
-    from seismass.report.folder import check_out, write_folder
-    from seismass.report.map_figures import map_figures
+    from seismass.media.folder import check_out, write_folder
+    from seismass.show.effective_mass.map import map_figures
 
     started = time.perf_counter()
     check_out(args.out, "map")

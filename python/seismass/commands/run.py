@@ -12,16 +12,16 @@ from typing import Any
 
 import polars as pl
 
-from seismass.block import Block
-from seismass.building import Building
-from seismass.damping import Rayleigh
-from seismass.errors import InvalidOption, SimulationError
-from seismass.files import write_table, written_whole
-from seismass.response import Response
-from seismass.scene import Scene
-from seismass.scene_file import KEYS, SceneFile, example_scene, read_scene
-from seismass.simulate import simulate
-from seismass.units import STANDARD_GRAVITY
+from seismass.base.errors import InvalidOption, SimulationError
+from seismass.base.files import write_table, written_whole
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.model.block import Block
+from seismass.model.building import Building
+from seismass.model.damping import Rayleigh
+from seismass.model.scene import Scene
+from seismass.runs.response import Response
+from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
+from seismass.runs.simulate import simulate
 
 _HISTORY_SUFFIXES = (".parquet", ".csv")
 _KEYS = "\n".join(

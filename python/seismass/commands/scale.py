@@ -8,7 +8,7 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from seismass._values import counted
+from seismass.base.values import counted
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_motion_options,
@@ -22,7 +22,7 @@ from seismass.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from seismass.building import Building
+    from seismass.model.building import Building
     from seismass.records import Pairs, Suite
     from seismass.scaling import ScalingResult, Selection
     from seismass.spectra import TargetSpectrum
@@ -95,8 +95,9 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the factors; return the exit code."""
-    from seismass.plausibility import motion_remarks, target_remarks
+    from seismass.model.plausibility import motion_remarks
     from seismass.scaling import select_records
+    from seismass.spectra.remarks import target_remarks
 
     _check_options(args)
     target = read_target(args)
@@ -114,8 +115,8 @@ def run(args: argparse.Namespace) -> int:
     if args.csv is not None:
         _write_table(args.csv, scaling)
     if args.plot is not None:
-        from seismass.files import written_whole
-        from seismass.report.figures import save_figure
+        from seismass.base.files import written_whole
+        from seismass.media.figure_file import save_figure
 
         kind: Literal["png", "svg"] = "svg" if args.plot.suffix.lower() == ".svg" else "png"
         with written_whole(args.plot) as temporary:
@@ -134,7 +135,7 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
     if not args.pairs:
         suite = read_motions(args, "eleven" if args.method == "asce7-16" else "seven")
         return suite, suite
-    from seismass.errors import InvalidMotion
+    from seismass.base.errors import InvalidMotion
     from seismass.records import Suite, find_pairs
 
     pairs = find_pairs(args.records)
@@ -146,7 +147,7 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
 
 def _check_options(args: argparse.Namespace) -> None:
     """Refuse options that the method, or a scaling without selection, does not use."""
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
 
     used = {"asce7-16": {"building", "lowest_period"}, "mps": {"building", *_PUSHOVER}}.get(args.method, set())
     for name in ("building", "lowest_period", *_PUSHOVER):
@@ -183,7 +184,7 @@ def _check_options(args: argparse.Namespace) -> None:
 def _building(args: argparse.Namespace, target: TargetSpectrum) -> Building | None:
     if args.building is None:
         return None
-    from seismass.building_file import read_building
+    from seismass.assessment.building_file import read_building
 
     return read_building(args.building).structure(target)
 
@@ -210,7 +211,7 @@ def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, buildi
 def _write_table(path: Path, scaling: ScalingResult) -> None:
     import polars as pl
 
-    from seismass.files import write_table, written_whole
+    from seismass.base.files import write_table, written_whole
 
     table = scaling.diagnostics()
     if "roots" in table.columns:

@@ -55,8 +55,8 @@ def add_parser(subparsers: Any, help: str) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the validations, write their files and print what they say; return the exit code."""
     from seismass.commands.study import progress_bar
-    from seismass.report.folder import check_out
-    from seismass.report.validation_write import validation_document, validation_text, write_validation
+    from seismass.media.folder import check_out
+    from seismass.show.validation.write import validation_document, validation_text, write_validation
     from seismass.study import study_sensitivity
     from seismass.validation import validate
 

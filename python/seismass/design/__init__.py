@@ -1,6 +1,6 @@
 """Design of shear buildings: modes, response spectrum analysis, lateral forces, weights, limits of codes, pushover.
 
-Numbers of codes have their clause and say how they were checked, in the words of `seismass.code_table`.
+Numbers of codes have their clause and say how they were checked, in the words of `seismass.codes.code_table`.
 """
 
 from seismass.design.lateral_force import (

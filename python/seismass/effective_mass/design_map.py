@@ -12,10 +12,9 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_count, as_number, brief, refusal
-from seismass.block import blocks_on_floors
-from seismass.building import Building
-from seismass.damping import DEFAULT_DAMPING
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.views import view
 from seismass.design import Combination, response_spectrum_analysis
 from seismass.effective_mass.curve import (
     DEFAULT_FRACTIONS,
@@ -28,14 +27,17 @@ from seismass.effective_mass.curve import (
 )
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, full_weight
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
-from seismass.errors import InvalidMotion, InvalidOption
-from seismass.plausibility import motion_remarks, scaling_remarks, target_remarks
+from seismass.model.block import blocks_on_floors
+from seismass.model.building import Building
+from seismass.model.damping import DEFAULT_DAMPING
+from seismass.model.plausibility import motion_remarks
+from seismass.model.scene import Scene
+from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 from seismass.records import Suite
+from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.scene import Scene
-from seismass.simulate import instruction_set
 from seismass.spectra import TargetSpectrum, mean_spectrum
-from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
+from seismass.spectra.remarks import target_remarks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -222,11 +224,10 @@ class EffectiveMassMap:
         drift: FloatArray = (1.0 - weight) * rows[case, place] + weight * rows[case, place + 1]
         return drift
 
+    @view
     def plot(self) -> Figure:
         """Return the chart: the fraction of each case against eta, with its scatter, the two rules and codes."""
-        from seismass.report.map_figures import collapse_figure
-
-        return collapse_figure(self)
+        raise NotImplementedError
 
     def rules(self, rules: Mapping[str, Callable[[FloatArray], FloatArray]] | None = None) -> pl.DataFrame:
         """Return how the models of simple rules compare with the real drift, over all cases in which goods slide.
@@ -376,7 +377,7 @@ def effective_mass_map(
             "runs": total,
             "remarks": [
                 *target_remarks(target),
-                *scaling_remarks(scaling),
+                *scaling.doubts,
                 *motion_remarks([record.motion for record in scaled]),
             ],
         },

@@ -19,16 +19,17 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_count, as_number, as_path, brief, refusal
-from seismass.distributions import Distribution
+from seismass.base.distributions import Distribution
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_count, as_number, as_path, brief, refusal
+from seismass.base.views import view
 from seismass.effective_mass.curve import check_fractions, interpolated, over_records, resampled
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
 from seismass.effective_mass.result import finite_values
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
-from seismass.errors import InvalidOption
-from seismass.motion import MotionLike
-from seismass.scene import Scene
-from seismass.simulate import instruction_set
+from seismass.model.motion import MotionLike
+from seismass.model.scene import Scene
+from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -118,11 +119,10 @@ class LiveLoadUncertainty:
         document |= {"quantiles": self.quantiles.to_dicts(), "tornado": self.tornado.to_dicts()}
         return json.dumps(finite_values(document), indent=2, allow_nan=False)
 
+    @view
     def plot(self) -> Figure:
         """Return the figure of the distribution of the share, with the tornado below it."""
-        from seismass.report.uncertainty_figure import uncertainty_figure
-
-        return uncertainty_figure(self)
+        raise NotImplementedError
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write the tables (Parquet and CSV), live_load.json and the figure (PNG and SVG) to a folder.
@@ -132,7 +132,7 @@ class LiveLoadUncertainty:
         OSError
             A file cannot be written.
         """
-        from seismass.report.folder import write_folder
+        from seismass.media.folder import write_folder
 
         return write_folder(
             as_path(folder, "live load uncertainty", InvalidOption),
@@ -190,9 +190,8 @@ def live_load_uncertainty(
     >>> building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
     >>> scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.4))
     >>> suite = [record.scaled(2.0) for record in sm.builtin_suite()]
-    >>> found = sm.live_load_uncertainty(
-    ...     scene, suite, mu=sm.lognormal(0.4, 0.25), occupancy=sm.beta(0.7, 0.15), samples=20
-    ... )
+    >>> mu, occupancy = sm.distributions.lognormal(0.4, 0.25), sm.distributions.beta(0.7, 0.15)
+    >>> found = sm.live_load_uncertainty(scene, suite, mu=mu, occupancy=occupancy, samples=20)
     >>> 0.0 <= found.share <= found.share_84 <= 1.0
     True
     """

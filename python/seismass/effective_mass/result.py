@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
-from seismass._values import as_path
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_path
+from seismass.base.views import view
 from seismass.effective_mass.curve import Kind
-from seismass.errors import InvalidOption
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -132,10 +133,9 @@ class EffectiveMass:
         ]
         return "\n".join([*lines, *(f"remark              {remark}" for remark in self.remarks)])
 
+    @view
     def _repr_html_(self) -> str:
-        from seismass.sketches.results import effective_mass_html
-
-        return effective_mass_html(self)
+        raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the curve as plain values; null for what is no finite number."""
@@ -154,6 +154,7 @@ class EffectiveMass:
         """Return the tables by name: curve, storeys, records."""
         return {"curve": self.curve, "storeys": self.storeys, "records": self.records}
 
+    @view
     def plot(self, codes: Mapping[str, float] | None = None) -> Figure:
         """Return the figure of real over model drift against the share attached, with its bootstrap band.
 
@@ -162,15 +163,12 @@ class EffectiveMass:
         codes : mapping of str to float, optional
             Shares of codes to mark, by name; by default those of four codes for storage.
         """
-        from seismass.report.effective_figures import curve_figure
+        raise NotImplementedError
 
-        return curve_figure(self, codes)
-
+    @view
     def plot_storeys(self) -> Figure:
         """Return the figure of real over model drift by storey: at 0, at the effective fraction, at 1, the envelope."""
-        from seismass.report.effective_figures import storeys_figure
-
-        return storeys_figure(self)
+        raise NotImplementedError
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write the tables (Parquet and CSV), effective_mass.json and both figures (PNG and SVG) to a folder.
@@ -180,7 +178,7 @@ class EffectiveMass:
         OSError
             A file cannot be written.
         """
-        from seismass.report.folder import write_folder
+        from seismass.media.folder import write_folder
 
         return write_folder(
             as_path(folder, "effective mass", InvalidOption),

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
-from seismass._values import as_path
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_path
+from seismass.base.views import view
 from seismass.effective_mass.result import finite_values
-from seismass.errors import InvalidOption
-from seismass.intensity.fragility import Fragility
+from seismass.fragility.fragility import Fragility
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -82,11 +83,10 @@ class SlipDemand:
     metadata: dict[str, Any] = field(repr=False)
 
     @property
+    @view
     def text(self) -> str:
         """The result as lines: slip and its scatter, the ground, clearances, size, estimates, remarks."""
-        from seismass.report.slip_demand_text import slip_demand_text
-
-        return slip_demand_text(self)
+        raise NotImplementedError
 
     def tables(self) -> dict[str, pl.DataFrame]:
         """Return the tables by name; those without rows are left out."""
@@ -120,11 +120,10 @@ class SlipDemand:
         """Return `to_dict` as JSON."""
         return json.dumps(self.to_dict(), indent=2, allow_nan=False)
 
+    @view
     def plot(self) -> Figure:
         """Return the figure of the slip of every block and motion in the building, on the ground, and its limits."""
-        from seismass.report.slip_demand_figure import slip_demand_figure
-
-        return slip_demand_figure(self)
+        raise NotImplementedError
 
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
         """Write the tables (Parquet and CSV), slip_demand.json and the figure (PNG and SVG) to a folder.
@@ -134,7 +133,7 @@ class SlipDemand:
         OSError
             A file cannot be written.
         """
-        from seismass.report.folder import write_folder
+        from seismass.media.folder import write_folder
 
         return write_folder(
             as_path(folder, "slip demand", InvalidOption),

@@ -14,16 +14,17 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass._values import FloatArray, brief, printable, refusal
-from seismass.batch import simulate_many
-from seismass.errors import InvalidMotion, InvalidOption
-from seismass.kept import NOTHING_KEPT, KeptResults
-from seismass.motion import Motion
-from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.values import FloatArray, brief, printable, refusal
+from seismass.model.motion import Motion
+from seismass.model.plausibility import motion_remarks
 from seismass.records import Suite
+from seismass.runs.batch import simulate_many
+from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.simulate import instruction_set
 from seismass.spectra import TargetSpectrum, mean_spectrum, response_spectrum
+from seismass.spectra.remarks import target_remarks
 from seismass.study.buildings import MODELS, StudyBuilding, study_buildings
 from seismass.study.fractions import effective_fractions, fractions_table
 from seismass.study.parameters import StudyParameters, code_fractions
@@ -200,8 +201,8 @@ def _remarks(
 ) -> list[str]:
     """What is unlikely about the inputs, each remark once."""
     scenes = dict.fromkeys(building.scenes["real"] for building in buildings)
-    found = [*target_remarks(target), *scaling_remarks(scaling), *motion_remarks(motions)]
-    return list(dict.fromkeys([*found, *(remark for scene in scenes for remark in scene_remarks(scene))]))
+    found = [*target_remarks(target), *scaling.doubts, *motion_remarks(motions)]
+    return list(dict.fromkeys([*found, *(remark for scene in scenes for remark in scene.remarks)]))
 
 
 def _code_metadata(chosen: StudyParameters) -> dict[str, Any]:

@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from seismass._values import brief, refusal
-from seismass.errors import InvalidMotion
+from seismass.base.errors import InvalidMotion
+from seismass.base.values import brief, refusal
 from seismass.records import Suite, builtin_suite
 from seismass.spectra import TargetSpectrum
 from seismass.study import Sensitivity, StudyResult, run_study
