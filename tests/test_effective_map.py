@@ -13,7 +13,6 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
-from seismass.show.effective_mass.map import map_figures
 from seismass.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
@@ -158,7 +157,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_figures_of_one_intensity(small: sm.EffectiveMassMap) -> None:
-    assert set(map_figures(small)) == {"collapse", "rules"}
+    assert set(small.figures()) == {"collapse", "rules"}
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [

@@ -130,7 +130,7 @@ def test_names_are_imported_when_they_are_first_used() -> None:
     program = (
         "import sys, seismass\nassert 'numpy' not in sys.modules\nseismass.Building\nassert 'numpy' in sys.modules\n"
         "import seismass.runs.batch, seismass.effective_mass.answer\n"
-        "print(callable(seismass.runs.simulate), callable(seismass.effective_mass), callable(seismass.runs.long_table))"
+        "print(callable(seismass.simulate), callable(seismass.effective_mass), callable(seismass.long_table))"
     )
     assert run_python("-c", program) == "True True True\n"
     for name in seismass.__all__:
@@ -155,6 +155,6 @@ def test_readme_scene_file_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert main(shlex.split(command)) == 0
     assert Path("out.parquet").is_file()
     file = seismass.read_scene("scene.toml")
-    counts = seismass.runs.simulate(file.scene, file.motion).counts
+    counts = seismass.simulate(file.scene, file.motion).counts
     assert counts["yield"] > 0
     assert counts["slip"] > 0

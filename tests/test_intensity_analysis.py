@@ -182,7 +182,7 @@ def test_one_motion_has_a_capacity_and_no_interval() -> None:
     assert found.comparison["median_ratio"].null_count() == 2
     assert "1 motion: few" in found.text
     found.plot()
-    found.plot_ida()
+    found.plot(found.figure_names[1])
 
 
 def test_a_limit_that_is_never_exceeded_has_no_median() -> None:
@@ -412,10 +412,10 @@ def test_what_no_analysis_can_take_is_refused() -> None:
 
 def test_results_are_written_and_say_what_they_hold(analysis: FragilityAnalysis, tmp_path: Path) -> None:
     files = {path.name for path in analysis.write(tmp_path / "out")}
-    assert {"runs.parquet", "fragilities.csv", "exceedance.csv", "intensity.json", "fragility.svg"} <= files
+    assert {"runs.parquet", "fragilities.csv", "exceedance.csv", "fragility.json", "fragility.svg"} <= files
     assert {"demand_drift_ratio.png", "demand_slip.png", "fractiles_given_demand.csv"} <= files
     assert not any("collapse" in name for name in files)
-    document = json.loads((tmp_path / "out" / "intensity.json").read_text())
+    document = json.loads((tmp_path / "out" / "fragility.json").read_text())
     assert document["metadata"]["runs"] == analysis.runs.height
     assert document["limits"][0]["name"] == "drift_ratio=0.02"
     assert len(document["fragilities"]) == analysis.fragilities.height

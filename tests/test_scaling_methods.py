@@ -145,7 +145,7 @@ def test_figure_shows_every_motion_and_what_is_compared() -> None:
     assert len(upper.lines) == 12
     assert upper.get_xlim() == pytest.approx((0.2, 1.5))
     np.testing.assert_allclose(lower.lines[0].get_ydata(), found.mean / found.target, rtol=1e-15)
-    wide = found.plot(SUITE, TARGET).axes[0]
+    wide = found.plot(records=SUITE, target=TARGET).axes[0]
     assert wide.get_xlim() == pytest.approx((0.05, 4.0))
     np.testing.assert_allclose(wide.lines[10].get_ydata(), TARGET(wide.lines[10].get_xdata()) / G, rtol=1e-12)
     labels = [text.get_text() for text in found.plot().legends[0].get_texts()]

@@ -16,10 +16,11 @@ from seismass import cli
 from seismass.show.study import write
 from seismass.show.study.captions import suite_caption
 from seismass.show.study.figures import study_figures
-from seismass.show.study.findings import findings, findings_text
+from seismass.show.study.findings import findings_text
 from seismass.show.study.tables import study_tables
 from seismass.spectra import mean_spectrum
 from seismass.study import StudyParameters, StudyResult, display_names, run_study
+from seismass.study.findings import findings
 
 TARGET = sm.TargetSpectrum.asce7()
 SMALL = StudyParameters(buildings=((2, 0.38), (3, 0.47)), response_modification=(1.0, 4.0), mass_ratios=(1.0,))

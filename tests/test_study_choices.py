@@ -12,12 +12,13 @@ import seismass as sm
 from seismass import cli
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.show.study.figures import study_figures
-from seismass.show.study.findings import findings, findings_text
+from seismass.show.study.findings import findings_text
 from seismass.show.study.sensitivity import sensitivity_markdown, sensitivity_text
 from seismass.show.study.tables import OPTIONAL_TABLES, study_tables
 from seismass.show.study.write import write_study
 from seismass.study import MODELS, StudyParameters, StudyResult, run_study, study_sensitivity
 from seismass.study.columns import TABLES
+from seismass.study.findings import findings
 from seismass.study.fractions import SHARES
 from seismass.study.sensitivity import MATCHED_TOLERANCE
 from seismass.study.tables import quantile
@@ -270,15 +271,13 @@ def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: 
             "bare",
         ]
         columns = pl.read_parquet(file).columns
-        units = json.loads(found["seismass.base.units"])
+        units = json.loads(found["seismass.units"])
         assert list(units) == columns
         described = document["tables"][file.stem]["columns"]
         assert list(described) == columns == pl.read_csv(file.with_suffix(".csv"), n_rows=1).columns
         assert {name: column["unit"] for name, column in described.items()} == units
         assert all(column["meaning"] for column in described.values())
-    assert (
-        json.loads(pl.read_parquet_metadata(tmp_path / "responses.parquet")["seismass.base.units"])["peak_drift"] == "m"
-    )
+    assert json.loads(pl.read_parquet_metadata(tmp_path / "responses.parquet")["seismass.units"])["peak_drift"] == "m"
     assert document["parameters"]["second_slope"] == 0.05
     # A study without it leaves no table of another one behind.
     write_study(study_tables(small), tmp_path, figures=False)

@@ -13,7 +13,7 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
-from seismass.show.validation.write import differences_text
+from seismass.show.validation.views import differences_text
 from seismass.study import StudyResult
 from seismass.validation import (
     STAND_INS,

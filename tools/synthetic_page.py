@@ -22,8 +22,8 @@ from seismass.media.style import BLUE, GREY, INK, STYLE, VERMILION
 from seismass.records.synthetic.files import ALL_RECIPES
 from seismass.records.synthetic.seven import Recipe
 from seismass.records.synthetic.site import SITE_RECIPES
-from seismass.show.study.findings import findings
 from seismass.study import run_study
+from seismass.study.findings import findings
 
 ROOT: Final = Path(__file__).parents[1]
 PAGE: Final = ROOT / "docs" / "synthetic.md"

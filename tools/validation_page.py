@@ -23,7 +23,7 @@ import seismass as sm
 from seismass import _kernel
 from seismass.media.figure_file import save_figure
 from seismass.show.validation.figures import platform_figure, section4_figure, sliding_figure
-from seismass.show.validation.write import claims_markdown
+from seismass.show.validation.views import claims_markdown
 from seismass.validation import Platform, Section4, Validation, components, section4_scene, validate
 from seismass.validation.paper_claims import MOST
 from seismass.validation.shaking_table import AMPLITUDES, DAMPINGS, FRICTIONS, LENGTH_RATIO, PERIODS

@@ -13,7 +13,7 @@ import seismass as sm
 from targets.base import RUNS, Section, Target, four_storeys, median_time, strong_motions, table
 
 SAMPLES: Final = 10
-USED: Final = "seismass.runs.simulate, seismass.simulate_many, seismass.effective_mass"
+USED: Final = "seismass.simulate, seismass.simulate_many, seismass.effective_mass"
 """Names are imported when they are first used: a run, a batch and an effective fraction bring most of the package."""
 IMPORT: Final = f"""
 from time import perf_counter as now

@@ -20,4 +20,4 @@ answer.plot()
 
 # %%
 # Demand against intensity, with fractiles:
-answer.plot_ida()
+answer.plot(answer.figure_names[1])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
@@ -120,7 +119,7 @@ def run(args: argparse.Namespace) -> int:
 
         kind: Literal["png", "svg"] = "svg" if args.plot.suffix.lower() == ".svg" else "png"
         with written_whole(args.plot) as temporary:
-            figure = scaling.plot() if args.pairs else scaling.plot(suite, target)
+            figure = scaling.plot() if args.pairs else scaling.plot(records=suite, target=target)
             save_figure(figure, kind, temporary)
     if args.json:
         warn_left_out(suite)
@@ -253,39 +252,12 @@ def _print(
     chosen: Selection | None,
     remarks: tuple[str, ...],
 ) -> None:
-    import numpy as np
+    from seismass.show.motions.scaling_text import factor_lines, scaling_lines
 
     print(f"suite   {suite.name}: {counted(len(suite), 'motion')}")
     for line in left_out(suite):
         print(f"        {line}")
-    print(f"target  {target.label}")
-    print(f"method  {scaling.method}, T = {scaling.period:g} s")
-    for remark in remarks:
-        print(textwrap.fill(remark, 120, initial_indent="remark  ", subsequent_indent=f"{'':8}"))
-    touches = "touches the target" if scaling.method == "ASCE 7-10" else f"is {scaling.least_ratio:.4f} of the target"
-    print(
-        f"range   {len(scaling.periods)} periods from {scaling.periods[0]:g} to {scaling.periods[-1]:g} s; "
-        f"the mean {touches} at {scaling.governing_period:.4g} s, at most {scaling.largest_ratio:.3f} of it; "
-        f"SF2 = {scaling.common:.6f}"
-    )
-    if len(suite) > 1:
-        at = float(np.interp(np.log(scaling.period), np.log(scaling.periods), scaling.log_scatter))
-        print(
-            f"scatter {float(scaling.log_scatter.mean()):.3f} between the motions over the range, {at:.3f} at T "
-            "(standard deviation of ln Sa)"
-        )
-    print()
-    print("     SF1       SF        misfit  largest record")
-    rows = zip(scaling.diagnostics().iter_rows(named=True), scaling.largest_misfit, suite, strict=True)
-    for row, largest, record in rows:
-        print(
-            f"{row['motion']:>3}  {row['individual_factor']:<8.5f}  {row['factor']:<8.5f}  {row['misfit']:<6.3f}  "
-            f"{largest:<6.3f}  {row['record']}"
-        )
-        for remark in record.remarks:
-            print(f"{'':42}{remark}")
-    print("\nSF1: each motion by itself; SF = SF1 SF2: what its accelerations are multiplied by")
-    print("misfit: root mean square, and largest, of |ln(scaled/target)| over the range")
+    print("\n".join([*scaling_lines(scaling, remarks), "", *factor_lines(scaling, [one.remarks for one in suite])]))
     if chosen is not None:
         print("\nnot chosen")
         for row in chosen.table.filter(chosen.table["step"].is_null()).iter_rows(named=True):

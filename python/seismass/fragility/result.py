@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-import json
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
 import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_path, brief, refusal
+from seismass.base.values import FloatArray, brief, refusal
 from seismass.base.views import view
-from seismass.effective_mass.result import finite_values
 from seismass.fragility.compare import reference_of
 from seismass.fragility.fragility import Fragility
 from seismass.fragility.limits import LimitState
 from seismass.fragility.measures import IntensityMeasure
 from seismass.fragility.run import check_levels
 from seismass.fragility.trace import demand_at, intensity_at
+from seismass.media.result import Result, finite_values
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,7 +35,7 @@ AnalysisMethod = Literal["hunt_fill", "stripes", "cloud"]
 
 
 @dataclass(frozen=True, eq=False)
-class FragilityAnalysis:
+class FragilityAnalysis(Result):
     """Demand by intensity of several models of a building, and the probability of exceeding limits.
 
     Attributes
@@ -78,6 +75,8 @@ class FragilityAnalysis:
     metadata : dict
         Versions, digest of the inputs, options, seed, conventions.
     """
+
+    document: ClassVar[str] = "fragility"
 
     method: AnalysisMethod
     measure: IntensityMeasure
@@ -218,8 +217,9 @@ class FragilityAnalysis:
         """The answer in lines: fragilities of all models, and what the rule does to the probability of exceedance."""
         raise NotImplementedError
 
+    @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Return the tables by name, the fractiles among them where motions are scaled."""
+        """The tables by name, the fractiles among them where motions are scaled."""
         names = ("motions", "runs", "capacities", "fragilities", "curves", "comparison", "exceedance")
         found: dict[str, pl.DataFrame] = {name: getattr(self, name) for name in names}
         if self.capacities.is_empty():
@@ -244,44 +244,29 @@ class FragilityAnalysis:
         finite: dict[str, Any] = finite_values(document | {"remarks": list(self.remarks), "metadata": self.metadata})
         return finite
 
-    def to_json(self) -> str:
-        """Return `to_dict` as JSON."""
-        return json.dumps(self.to_dict(), indent=2, allow_nan=False)
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """fragility: the curves; demand_...: demand by intensity of each motion, of each quantity of the limits."""
+        return ("fragility", *(f"demand_{column}" for column in self.demands))
+
+    @property
+    def demands(self) -> dict[str, LimitState]:
+        """The last limit of each quantity, by the column of its demand."""
+        return {each.column: each for each in self.limits if each.quantity != "collapse"}
 
     @view
-    def plot(self) -> Figure:
-        """Return the figure of the fragility curves of all models, one panel per limit, with bands and points."""
-        raise NotImplementedError
-
-    @view
-    def plot_ida(self, limit: LimitState | str | None = None) -> Figure:
-        """Return the figure of demand by intensity of each motion with its fractiles, one panel per model.
+    def plot(self, name: str | None = None) -> Figure:
+        """Return a figure of `figure_names`, by default the fragility curves.
 
         Parameters
         ----------
-        limit : LimitState or str, optional
-            Limit whose quantity is drawn; default the first.
-        """
-        raise NotImplementedError
-
-    def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-        """Write the tables (Parquet and CSV), intensity.json and the figures (PNG and SVG) to a folder.
+        name : str, optional
+            "fragility"; or "demand_" and the column of a demand, with the fractiles over the motions, one panel per
+            model.
 
         Raises
         ------
-        OSError
-            A file cannot be written.
+        InvalidOption
+            There is no such figure.
         """
-        from seismass.media.folder import write_folder
-
-        drawn: dict[str, Figure] = {}
-        if figures:
-            drawn["fragility"] = self.plot()
-            for limit in {each.column: each for each in self.limits if each.quantity != "collapse"}.values():
-                drawn[f"demand_{limit.column}"] = self.plot_ida(limit)
-        return write_folder(
-            as_path(folder, "intensity analysis", InvalidOption),
-            tables=self.tables(),
-            documents={"intensity.json": self.to_json() + "\n"},
-            figures=drawn,
-        )
+        raise NotImplementedError

@@ -45,6 +45,10 @@ class Result:
         """Return a figure by its name, one of `figure_names`; by default the first."""
         raise NotImplementedError
 
+    def figures(self) -> dict[str, Figure]:
+        """Return all figures by name."""
+        return {name: self.plot(name) for name in self.figure_names}
+
     def to_dict(self) -> dict[str, Any]:
         """Return the answer as plain values, null for what is no finite number; long tables are left to `tables`."""
         raise NotImplementedError
@@ -75,7 +79,7 @@ class Result:
             tables=tables,
             metadata=dict.fromkeys(tables, about) if about else None,
             documents={f"{self.document}.json": self.to_json() + "\n"},
-            figures={name: self.plot(name) for name in self.figure_names} if figures else None,
+            figures=self.figures() if figures else None,
         )
 
     def _table_metadata(self) -> dict[str, str]:

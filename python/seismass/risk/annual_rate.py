@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_array, as_number, brief, refusal
-from seismass.effective_mass.result import finite_values
+from seismass.media.result import finite_values
 from seismass.risk.hazard import HazardCurve, check_hazard, check_years
 
 OWNER: Final = "annual rate"

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import json
-import os
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
-from seismass.base.errors import InvalidOption
-from seismass.base.values import as_path
 from seismass.base.views import view
 from seismass.effective_mass.curve import Kind
-from seismass.effective_mass.result import EffectiveMass, finite_values
+from seismass.effective_mass.result import EffectiveMass
 from seismass.fragility.limits import LimitState
 from seismass.fragility.measures import IntensityMeasure
+from seismass.media.result import Result, finite_values
 from seismass.risk.hazard import HazardCurve
 from seismass.risk.rates import Estimator
 
@@ -30,7 +26,7 @@ SCHEMA_VERSION: Final = 1
 
 
 @dataclass(frozen=True, eq=False)
-class RiskTargetedShare:
+class RiskTargetedShare(Result):
     """The share of the live load whose attached model exceeds a drift limit as often as the real building.
 
     Attributes
@@ -83,6 +79,8 @@ class RiskTargetedShare:
         Versions, digest of the inputs, seed, conventions, counts.
     """
 
+    document: ClassVar[str] = "risk"
+
     value: float
     kind: Kind
     roots: tuple[float, ...]
@@ -113,8 +111,9 @@ class RiskTargetedShare:
         """The answer in lines: the share, annual rates, the effective fraction beside it, and what it depends on."""
         raise NotImplementedError
 
+    @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Return the tables by name."""
+        """The tables by name."""
         return {
             "risk_rates": self.rates,
             "risk_curve": self.curve,
@@ -143,34 +142,25 @@ class RiskTargetedShare:
         finite: dict[str, Any] = finite_values(document)
         return finite
 
-    def to_json(self) -> str:
-        """Return `to_dict` as JSON."""
-        return json.dumps(self.to_dict(), indent=2, allow_nan=False)
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """risk: hazard and fragilities, and the rate of the real building over that of models."""
+        return ("risk",)
 
     @view
-    def plot(self, codes: Mapping[str, float] | None = None) -> Figure:
+    def plot(self, name: str | None = None, *, codes: Mapping[str, float] | None = None) -> Figure:
         """Return the figure of hazard and fragilities, and of the rate of the real building over that of models.
 
         Parameters
         ----------
+        name : str, optional
+            "risk".
         codes : mapping of str to float, optional
             Shares of codes to mark, by name; by default those of eight codes for storage.
-        """
-        raise NotImplementedError
-
-    def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-        """Write the tables (Parquet and CSV), risk.json and the figure (PNG and SVG) to a folder.
 
         Raises
         ------
-        OSError
-            A file cannot be written.
+        InvalidOption
+            There is no such figure.
         """
-        from seismass.media.folder import write_folder
-
-        return write_folder(
-            as_path(folder, "risk-targeted share", InvalidOption),
-            tables=self.tables(),
-            documents={"risk.json": self.to_json() + "\n"},
-            figures={"risk": self.plot()} if figures else None,
-        )
+        raise NotImplementedError

@@ -310,6 +310,17 @@ class Response:
         """Work done by the kernel (intervals, steps, events, regimes), what was skipped, and the instructions used."""
         return cast(Statistics, {**self._get("statistics"), "instructions": self._get("instructions")})
 
+    @property
+    def has_energy(self) -> bool:
+        """Whether energies were asked for."""
+        return self._get("energy") is not None
+
+    @property
+    @view
+    def text(self) -> str:
+        """The run as lines: building, motion, peaks of storeys and blocks, events, energy, status."""
+        raise NotImplementedError
+
     @view
     def animate(
         self, *, code: str = "asce7-10", use: Use = "storage", fraction: float | None = None, title: str | None = None

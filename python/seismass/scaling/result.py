@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
 import polars as pl
 
 from seismass.base.values import FloatArray, frozen
 from seismass.base.views import view
+from seismass.media.result import Result, finite_values
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,7 +25,7 @@ MAX_OVERSHOOT: Final = 2.0
 
 
 @dataclass(frozen=True, eq=False)
-class ScalingResult:
+class ScalingResult(Result):
     """Factors of a suite, and the spectra that they follow from.
 
     Attributes
@@ -58,6 +59,8 @@ class ScalingResult:
     notes : tuple of str
         What the method assumes or cannot honour, as sentences.
     """
+
+    document: ClassVar[str] = "scaling"
 
     names: tuple[str, ...]
     individual: FloatArray
@@ -172,14 +175,61 @@ class ScalingResult:
             }
         )
 
+    @property
     @view
-    def plot(self, records: Iterable[GroundMotion] | None = None, target: TargetSpectrum | None = None) -> Figure:
+    def text(self) -> str:
+        """The method, how the mean fits the target, the scatter, and the factor and misfit of each motion."""
+        raise NotImplementedError
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The tables by name: scaling, one row per motion; spectrum, one row per period."""
+        return {"scaling": self.diagnostics(), "spectrum": self.spectrum_table()}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return factors, misfits and the spectrum as plain values; null for what is no finite number."""
+        document = {
+            "target": self.target_label,
+            "method": self.method,
+            "period": self.period,
+            "common_factor": self.common,
+            "governing_period": self.governing_period,
+            "least_ratio": self.least_ratio,
+            "largest_ratio": self.largest_ratio,
+            "mean_misfit": self.mean_misfit,
+            "remarks": list(self.remarks),
+            "motions": self.diagnostics().to_dicts(),
+            "spectrum": self.spectrum_table().to_dict(as_series=False),
+        }
+        finite: dict[str, Any] = finite_values(document)
+        return finite
+
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """scaling: the scaled spectra, their mean and the target."""
+        return ("scaling",)
+
+    @view
+    def plot(
+        self,
+        name: str | None = None,
+        *,
+        records: Iterable[GroundMotion] | None = None,
+        target: TargetSpectrum | None = None,
+    ) -> Figure:
         """Return a figure of the scaled spectra, their mean and scatter, and the target, as the paper's Fig. 1.
 
         Parameters
         ----------
+        name : str, optional
+            "scaling".
         records, target : optional
             The suite and the target that were scaled: spectra are then drawn beyond the range of the comparison, which
             is marked. The result itself has them within it.
+
+        Raises
+        ------
+        InvalidOption
+            There is no such figure.
         """
         raise NotImplementedError

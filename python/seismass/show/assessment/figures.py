@@ -16,6 +16,7 @@ from seismass.assessment.advice import NAMES
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
 from seismass.assessment.result import Assessment
 from seismass.base.values import FloatArray
+from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
 from seismass.show.assessment.tables import AssessmentTables, Fraction, assessment_tables
 from seismass.show.effective_mass.figures import STORAGE_CODES
@@ -43,15 +44,23 @@ MODEL_LOOKS: Final[dict[str, tuple[str, Any, str]]] = {
 
 def assessment_figures(result: AssessmentTables) -> dict[str, Figure]:
     """Return the figures of an assessment by name: effective_fraction and slip where there are goods, and drift."""
+    names = ("effective_fraction", "drift", "slip") if result.effective else ("drift",)
+    return {name: _drawn(result, name) for name in names}
+
+
+def assessment_figure(result: Assessment, name: str | None = None) -> Figure:
+    """Return a figure by its name."""
+    return _drawn(assessment_tables(result), named_figure(result, name))
+
+
+def _drawn(result: AssessmentTables, name: str) -> Figure:
+    draw = {"effective_fraction": fraction_figure, "drift": drift_figure, "slip": slip_figure}
     with mpl.rc_context(STYLE):
-        figures = {"drift": drift_figure(result)}
-        if result.effective:
-            figures = {"effective_fraction": fraction_figure(result), **figures, "slip": slip_figure(result)}
-        for figure in figures.values():
-            # Lay out once, not again for every file.
-            figure.draw_without_rendering()
-            figure.set_layout_engine("none")
-    return figures
+        figure = draw[name](result)
+        # Lay out once, not again for every file.
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")
+    return figure
 
 
 def fraction_figure(result: AssessmentTables) -> Figure:
@@ -252,8 +261,3 @@ def _caption(result: AssessmentTables) -> str:
 def _plain(text: str) -> str:
     """Return a text of the user's in which matplotlib finds no formula."""
     return text.replace("$", r"\$")
-
-
-def figures_of(result: Assessment) -> dict[str, Figure]:
-    """Return the figures of an assessment by name."""
-    return assessment_figures(assessment_tables(result))

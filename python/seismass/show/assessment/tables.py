@@ -99,7 +99,7 @@ class AssessmentTables:
 
 def assessment_tables(result: Assessment) -> AssessmentTables:
     """Return what a folder of the assessment holds."""
-    return _made(json.loads(result.to_json()), result.tables())
+    return _made(json.loads(result.to_json()), result.tables)
 
 
 def read_assessment_tables(folder: Path) -> AssessmentTables:

@@ -46,7 +46,7 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
         drawn, drawings = _drawn(tables := assessment_tables(result))
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
         documents[PAGE] = _page(tables, drawings)
-    files = write_folder(out, tables=result.tables(), documents=documents, figures=drawn, kinds=("png",))
+    files = write_folder(out, tables=result.tables, documents=documents, figures=drawn, kinds=("png",))
     ours = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
     ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
     ours.add(PAGE)

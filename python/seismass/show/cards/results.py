@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from html import escape
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.media.card import COLOUR, SECOND, card, history, line, rows, stroke, svg, text
+from seismass.media.result import Result
 
 if TYPE_CHECKING:
     from seismass.effective_mass.result import EffectiveMass
@@ -127,3 +129,10 @@ def effective_mass_html(result: EffectiveMass) -> str:
         "".join(line(said) for said in result.text.splitlines()[:4]),
         notes=result.remarks,
     )
+
+
+def result_html(result: Result) -> str:
+    """Return a card of a result: its text, and the names of its tables and figures."""
+    facts = [("tables", ", ".join(result.tables)), ("figures", ", ".join(result.figure_names))]
+    said = f'<pre style="margin:0.3em 0;overflow-x:auto;font-size:inherit">{escape(result.text)}</pre>'
+    return card(type(result).__name__, "", said, facts=facts)

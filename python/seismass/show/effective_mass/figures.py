@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from seismass.effective_mass.result import EffectiveMass
+from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
 from seismass.model.codes import code_fraction
 
@@ -37,6 +38,13 @@ def _storage_codes() -> Iterator[tuple[str, float]]:
 STORAGE_CODES: Final[Mapping[str, float]] = dict(_storage_codes())
 """Shares of codes for storage that figures mark, by the names of those that have them; see `seismass.model.codes`."""
 _RATIO_TICKS: Final = (0.25, 0.33, 0.5, 0.67, 0.8, 1.0, 1.25, 1.5, 2.0, 3.0, 4.0)
+
+
+def effective_mass_figure(
+    result: EffectiveMass, name: str | None = None, *, codes: Mapping[str, float] | None = None
+) -> Figure:
+    """Return a figure by its name."""
+    return curve_figure(result, codes) if named_figure(result, name) == "curve" else storeys_figure(result)
 
 
 def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None) -> Figure:

@@ -7,12 +7,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from seismass.effective_mass.live_load import LiveLoadUncertainty
+from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
 from seismass.show.effective_mass.figures import STORAGE_CODES
 
 
-def uncertainty_figure(result: LiveLoadUncertainty) -> Figure:
+def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> Figure:
     """Cumulative distribution of the share with codes' fractions, above the tornado of friction and occupancy."""
+    named_figure(result, name)
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 5.6), layout="constrained")
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 1.2))

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
 from seismass.effective_mass.design_map import EffectiveMassMap
+from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
 from seismass.show.effective_mass.figures import STORAGE_CODES
 
@@ -27,13 +28,11 @@ _RATIOS: Final = (0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
 _INTENSITY_LOOKS: Final = ("o", "s", "D", "^", "v", "P", "X", "<", ">", "*", "h")
 
 
-def map_figures(result: EffectiveMassMap) -> dict[str, Figure]:
-    """Return the figures of a map by name: collapse, rules, and intensity where there are several intensities."""
+def map_figure(result: EffectiveMassMap, name: str | None = None) -> Figure:
+    """Return a figure by its name."""
+    draw = {"collapse": collapse_figure, "rules": rules_figure, "intensity": intensity_figure}
     with mpl.rc_context(STYLE):
-        figures = {"collapse": collapse_figure(result), "rules": rules_figure(result)}
-        if result.table["intensity"].n_unique() > 1:
-            figures["intensity"] = intensity_figure(result)
-    return figures
+        return draw[named_figure(result, name)](result)
 
 
 def collapse_figure(result: EffectiveMassMap) -> Figure:

@@ -17,11 +17,20 @@ from seismass.base.values import FloatArray
 from seismass.fragility.limits import LimitState
 from seismass.fragility.result import FragilityAnalysis
 from seismass.media.axes import grid_lines
+from seismass.media.result import named_figure
 from seismass.media.style import GREY, INK, PAPER, SERIES, STYLE, VERMILION, plain
 
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
 _FRACTILE_LOOKS: Final[dict[str, Any]] = {"p16": (0, (1.2, 1.2)), "p50": "-", "p84": (0, (5, 2))}
 _FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
+
+
+def analysis_figure(result: FragilityAnalysis, name: str | None = None) -> Figure:
+    """Return a figure by its name."""
+    chosen = named_figure(result, name)
+    if chosen == "fragility":
+        return fragility_figure(result)
+    return demand_figure(result, result.demands[chosen.removeprefix("demand_")])
 
 
 def fragility_figure(result: FragilityAnalysis) -> Figure:

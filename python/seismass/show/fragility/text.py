@@ -19,7 +19,7 @@ _METHODS: Final = {
 }
 
 
-def text_of(result: FragilityAnalysis) -> str:
+def analysis_text(result: FragilityAnalysis) -> str:
     """Return the text of an analysis."""
     unit = f" ({result.measure.unit})" if result.measure.unit else ""
     motions = counted(result.motions.height, "motion")

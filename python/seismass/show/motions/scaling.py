@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
+from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, PERIOD_TICKS, VERMILION, plain
 from seismass.scaling.result import ScalingResult
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
@@ -22,7 +23,11 @@ _WIDER = (0.05, 4.0)
 
 
 def scaling_figure(
-    scaling: ScalingResult, records: Iterable[GroundMotion] | None = None, target: TargetSpectrum | None = None
+    scaling: ScalingResult,
+    name: str | None = None,
+    *,
+    records: Iterable[GroundMotion] | None = None,
+    target: TargetSpectrum | None = None,
 ) -> Figure:
     """Return spectra, and below them the mean over the target.
 
@@ -30,9 +35,10 @@ def scaling_figure(
     ----------
     scaling : ScalingResult
         Result of any of the methods.
-    records, target : optional
+    name, records, target : optional
         As for `ScalingResult.plot`.
     """
+    named_figure(scaling, name)
     periods, spectra, wanted = _drawn(scaling, records, target)
     mean, middle = spectra.mean(axis=0), np.exp(np.log(spectra).mean(axis=0))
     spread = np.exp(np.log(spectra).std(axis=0, ddof=1)) if len(spectra) > 1 else np.ones(len(periods))

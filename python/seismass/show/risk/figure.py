@@ -16,6 +16,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from seismass.base.values import FloatArray
 from seismass.media.axes import grid_lines
 from seismass.media.figure_file import CAPTION_CHARACTERS
+from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, LAMBDA, ORANGE, STYLE, VERMILION, plain
 from seismass.show.effective_mass.figures import STORAGE_CODES, mark_codes
 
@@ -25,8 +26,11 @@ if TYPE_CHECKING:
 _WIDTH = 10.5
 
 
-def risk_figure(result: RiskTargetedShare, codes: Mapping[str, float] | None = None) -> Figure:
+def risk_figure(
+    result: RiskTargetedShare, name: str | None = None, *, codes: Mapping[str, float] | None = None
+) -> Figure:
     """Return `RiskTargetedShare.plot`."""
+    named_figure(result, name)
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(_WIDTH, 5.0), layout="constrained")
         left, right = figure.subplots(1, 2)

@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 
 from seismass.media.axes import grid_lines
 from seismass.media.figure_file import CAPTION_CHARACTERS
+from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREY, INK, SERIES, STYLE, VERMILION, plain
 
 if TYPE_CHECKING:
@@ -22,8 +23,9 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _HEIGHT = 4.6
 
 
-def slip_demand_figure(result: SlipDemand) -> Figure:
+def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
     """Return `SlipDemand.plot`."""
+    named_figure(result, name)
     panels = 3 if result.fragilities else 2
     width = 4.2 * panels
     with mpl.rc_context(STYLE):

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
@@ -21,30 +24,35 @@ MARKERS = ("o", "s", "D", "^", "v", "P", "X")
 
 
 def study_figures(result: StudyFrames) -> dict[str, Figure]:
-    """Return the figures of a study by name.
+    """Return the figures of a study by name; see `drawings`."""
+    figures: dict[str, Figure] = {}
+    with mpl.rc_context(STYLE):
+        for name, draw in drawings(result).items():
+            # Those of all R have the same panels and texts of the same length.
+            first = next((each for each in figures if each.startswith("drift_R") and name.startswith("drift_R")), None)
+            figures[name] = lay_out(draw(), like=None if first is None else figures[first])
+    return figures
+
+
+def drawings(result: StudyFrames) -> dict[str, Callable[[], Figure]]:
+    """Return what draws each figure of a study, by its name.
 
     `spectrum`; `underestimation`, `heat`, `slip` and `drift_R...` for each R, with several friction coefficients for
     each of them with `_mu...` behind the name; `effective` where the effective fractions were computed.
     """
     frictions, factors = labels_of(result.summary["mu"]), labels_of(result.summary["R"])
-    with mpl.rc_context(STYLE):
-        figures = {"spectrum": spectrum_figure(result)}
-        if result.fractions["effective"].null_count() < result.fractions.height:
-            figures["effective"] = effective_figure(result)
-        for mu, name in frictions.items():
-            behind = f"_mu{name}" if len(frictions) > 1 else ""
-            figures[f"underestimation{behind}"] = underestimation_figure(result, mu)
-            figures[f"heat{behind}"] = heat_figure(result, mu)
-            if _has_goods(result):
-                figures[f"slip{behind}"] = slip_figure(result, mu)
-            first = None
-            for factor, label in factors.items():
-                figure = drift_figure(result, factor, mu)
-                figures[f"drift_R{label}{behind}"] = lay_out(figure, like=first)
-                first = first or figure
-        for figure in figures.values():
-            lay_out(figure)
-    return figures
+    draw: dict[str, Callable[[], Figure]] = {"spectrum": partial(spectrum_figure, result)}
+    if result.fractions["effective"].null_count() < result.fractions.height:
+        draw["effective"] = partial(effective_figure, result)
+    for mu, name in frictions.items():
+        behind = f"_mu{name}" if len(frictions) > 1 else ""
+        draw[f"underestimation{behind}"] = partial(underestimation_figure, result, mu)
+        draw[f"heat{behind}"] = partial(heat_figure, result, mu)
+        if _has_goods(result):
+            draw[f"slip{behind}"] = partial(slip_figure, result, mu)
+        for factor, label in factors.items():
+            draw[f"drift_R{label}{behind}"] = partial(drift_figure, result, factor, mu)
+    return draw
 
 
 def _has_goods(result: StudyFrames) -> bool:

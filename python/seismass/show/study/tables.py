@@ -14,11 +14,10 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import refusal
 from seismass.show.animation.html import element_content
-from seismass.show.study.findings import findings
-from seismass.show.validation.tables import platform_of, platform_tables, section4_of, section4_tables
 from seismass.study import SCHEMA_VERSION, Sensitivity, StudyResult
 from seismass.study.example import Example
 from seismass.validation import Platform, Section4, Validation, claims_table
+from seismass.validation.tables import platform_of, platform_tables, section4_of, section4_tables
 
 DOCUMENT: Final = "study.json"
 """File by which a folder is known as that of a study."""
@@ -62,8 +61,9 @@ class StudyTables:
     platform: Platform | None = field(default=None, repr=False)
     animation: dict[str, Any] | None = field(default=None, repr=False)
 
+    @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Return all tables by name, as they are written."""
+        """All tables by name, as they are written."""
         optional = {"sensitivity": self.sensitivity, "claims": self.claims}
         return {
             **{name: getattr(self, name) for name in _OWN},
@@ -89,10 +89,7 @@ def study_tables(
     sensitivity, validation, example : optional
         What was made of it besides.
     """
-    metadata = {
-        **result.metadata,
-        "findings": findings(result.summary, result.fractions, result.metadata["code"]["name"]),
-    }
+    metadata = result.to_dict()
     if validation is not None:
         metadata["validation"] = {
             **validation.metadata(),
@@ -114,7 +111,7 @@ def study_tables(
         animation=None if example is None else _animation(example),
     )
     # As they are read again, so that a page of the study and one of its folder are the same.
-    return _validated(made, made.tables())
+    return _validated(made, made.tables)
 
 
 def read_study_tables(folder: Path) -> StudyTables:

@@ -52,7 +52,7 @@ def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bo
     OSError
         A file cannot be written; then none is changed.
     """
-    tables = result.tables()
+    tables = result.tables
     documents = {"tables.json": _json(_tables_document(result.metadata, tables)), DOCUMENT: _json(result.metadata)}
     if result.animation is not None:
         documents[ANIMATION] = _json(result.animation, indent=None)

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
-from seismass.show.validation.tables import stiffest
 from seismass.validation.shaking_table import CENTRAL, DAMPINGS, FRICTIONS, MASS_RATIOS, Platform
+from seismass.validation.tables import stiffest
 from seismass.validation.three_storeys import EXACT, OPENSEES, PEAK_G, STOREYS, Section4
 
 _LINES: Final = {

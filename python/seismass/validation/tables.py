@@ -10,9 +10,8 @@ import numpy as np
 import polars as pl
 
 from seismass.base.values import FloatArray
-from seismass.validation import Band, Histories, Platform, Section4
-from seismass.validation.shaking_table import robust_numbers
-from seismass.validation.three_storeys import EXACT, FRICTION_SPRINGS, OPENSEES, STOREYS
+from seismass.validation.shaking_table import Band, Platform, robust_numbers
+from seismass.validation.three_storeys import EXACT, FRICTION_SPRINGS, OPENSEES, STOREYS, Histories, Section4
 
 MOST_INSTANTS: Final = 1000
 """Most instants that are kept of a history, for figures: a few dozen in a period."""
