@@ -9,6 +9,17 @@ import numpy as np
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_number, refusal
 
+__all__ = [
+    "Distribution",
+    "beta",
+    "lognormal",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
+
 
 @runtime_checkable
 class Distribution(Protocol):

@@ -13,6 +13,24 @@ import polars as pl
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, known_id, refusal
 
+__all__ = [
+    "CODE_IDS",
+    "CODE_NAMES",
+    "FROM_MEMORY",
+    "SECOND_HAND",
+    "VERIFIED",
+    "CodeFraction",
+    "Use",
+    "code_fraction",
+    "code_table",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
+
+
 Use: TypeAlias = Literal["storage", "ordinary"]
 """Use of a floor: storage and warehouses, or offices and dwellings."""
 

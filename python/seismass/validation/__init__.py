@@ -50,6 +50,11 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
+
+
 @dataclass(frozen=True, eq=False)
 class Validation(Result):
     """All validations.
