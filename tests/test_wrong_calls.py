@@ -74,9 +74,21 @@ LEFT_OUT: dict[str, str] = {
     "write_many": "as stream_many",
 }
 
-GROUPS = (
-    "records spectra scaling matching pulses fragility risk slip campaign codes friction distributions runs".split()
-)
+GROUPS = [
+    "records",
+    "spectra",
+    "scaling",
+    "matching",
+    "pulses",
+    "fragility",
+    "risk",
+    "slip",
+    "campaign",
+    "codes",
+    "friction",
+    "distributions",
+    "runs",
+]
 
 BUILDING = sm.Building.uniform(2, 0.3, heights=3.0, yield_shear_over_weight=[0.2, 0.12])
 SCENE = sm.Scene(BUILDING, [sm.Block(1, mass_ratio=0.5, mu=0.2)])
