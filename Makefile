@@ -67,6 +67,7 @@ lint: build
 	cargo clippy --locked -p seismass-web -- -D warnings
 	$(PYTHON) -m ruff check .
 	$(PYTHON) -m ruff format --check .
+	$(VENV)/bin/lint-imports --no-cache
 	$(PYTHON) -m mypy
 	$(PYTHON) tools/make_stubs.py --check
 	$(PYTHON) -m mypy.stubtest seismass._kernel --mypy-config-file pyproject.toml

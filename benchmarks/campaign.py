@@ -43,9 +43,9 @@ KINDS: Final[dict[str, dict[str, Any]]] = {
 """What may be kept, for the bytes of a run."""
 
 
-def campaign(runs: int, **options: Any) -> sm.Campaign:
+def campaign(runs: int, **options: Any) -> sm.campaign.Campaign:
     """Return the campaign of so many runs, or of the next cube above."""
-    return sm.Campaign(million.grid(runs), million.motion(), peaks_only=True, **options)
+    return sm.campaign.Campaign(million.grid(runs), million.motion(), peaks_only=True, **options)
 
 
 class Measured(NamedTuple):
@@ -64,7 +64,7 @@ def streamed(runs: int, threads: int) -> Measured:
     return Measured(time.perf_counter() - began[0], time.process_time() - began[1])
 
 
-def into_folder(made: sm.Campaign, **engine: Any) -> Measured:
+def into_folder(made: sm.campaign.Campaign, **engine: Any) -> Measured:
     """Measure a campaign into a new folder."""
     place = Path(tempfile.mkdtemp(prefix="campaign-", dir="."))
     try:

@@ -29,11 +29,11 @@ def records() -> tuple[str, list[sm.Record]]:
     if shared:
         page = runpy.run_path(str(Path(__file__).parents[1] / "tools" / "effective_mass_page.py"))
         suite = page["suites"](Path(shared))["far_field"]
-        factors = sm.scale_asce7_10(suite, sm.TargetSpectrum.asce7()).factors
+        factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7()).factors
     else:
         seven = list(sm.builtin_suite("seven"))
         suite = sm.Suite("built-in suite at six intensities", tuple(seven * 6))
-        once = sm.scale_asce7_10(seven, sm.TargetSpectrum.asce7()).factors
+        once = sm.scaling.scale_asce7_10(seven, sm.TargetSpectrum.asce7()).factors
         factors = np.concatenate([once * intensity for intensity in np.linspace(0.8, 1.2, 6)])
     return suite.name, [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
 
@@ -53,7 +53,10 @@ def main() -> None:
         before = time.perf_counter()
         sm.effective_mass(scene, motions)
         times.append(time.perf_counter() - before)
-    print(f"{len(motions)} records ({name}), {os.cpu_count()} cores, {sm.instruction_set()}: value {answer.value:.3f}")
+    print(
+        f"{len(motions)} records ({name}), {os.cpu_count()} cores, {sm.runs.instruction_set()}: "
+        f"value {answer.value:.3f}"
+    )
     print(
         f"effective_mass: median {statistics.median(times):.3f} s, {min(times):.3f} to {max(times):.3f} s "
         f"(target {TARGET} s on two cores)"

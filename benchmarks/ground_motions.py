@@ -39,7 +39,7 @@ Spectrum = Callable[[sm.Pair, FloatArray], FloatArray]
 
 
 def ours(pair: sm.Pair, periods: FloatArray) -> FloatArray:
-    return sm.rotd(pair, periods, (50.0,), DAMPING, angles=ANGLES, threads=1)[50]
+    return sm.records.rotd(pair, periods, (50.0,), DAMPING, angles=ANGLES, threads=1)[50]
 
 
 def with_eqsig(pair: sm.Pair, periods: FloatArray) -> FloatArray:
@@ -143,7 +143,7 @@ def text(shared: Path, *, quick: bool) -> str:
     """Return the section of the page."""
     tool = runpy.run_path(str(PAGE_TOOL))
     table = tool["table"]
-    pairs = sm.find_pairs(shared / "records")
+    pairs = sm.records.find_pairs(shared / "records")
     listed = tool["listed_pairs"](shared, pairs)[: 2 if quick else None]
     bands = (f"to {BANDS[0][1]:g} s", *(f"{low:g} to {high:g} s" for low, high in BANDS[1:]))
     spectra = table(("program", *bands, "median", "time (s)"), spectra_rows(listed, tool["signed"]))

@@ -49,7 +49,7 @@ def measured(name: str, record: sm.Record, periods: FloatArray, target: FloatArr
 
 def ours(record: sm.Record, target: sm.TargetSpectrum) -> tuple[sm.Record, float]:
     began = time.process_time()
-    matched = sm.match_spectrum(record, target, periods=RANGE, threads=1)
+    matched = sm.matching.match_spectrum(record, target, periods=RANGE, threads=1)
     return matched.record, time.process_time() - began
 
 

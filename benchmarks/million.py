@@ -109,7 +109,7 @@ def measure(sizes: tuple[int, ...] = SIZES, threads: int = THREADS) -> dict[str,
         "samples": used.samples,
         "dt": used.dt,
         "threads": threads,
-        "instructions": sm.instruction_set(),
+        "instructions": sm.runs.instruction_set(),
         "batches": batches,
     }
 

@@ -244,7 +244,7 @@ def page(table: pl.DataFrame, benches: list[BenchmarkScene], references: dict[st
         _ratios(table, benches),
         "By error level of the drift history:\n",
         _levels(table, benches),
-        NOTES.format(same_springs=same_springs(table), path=sm.instruction_set()),
+        NOTES.format(same_springs=same_springs(table), path=sm.runs.instruction_set()),
         "## Scenes\n",
         _table(("name", "scene", "motion", "samples", "events"), scene_rows),
         "![Time against error on all scenes](figures/work_precision_scenes.png)\n",

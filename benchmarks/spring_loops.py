@@ -82,7 +82,7 @@ class Case:
 
     def forces(self, drifts: FloatArray) -> FloatArray:
         """Return the kernel's forces along a list of drifts (N)."""
-        return sm.spring_forces(self.building(), 1, drifts).force
+        return sm.runs.spring_forces(self.building(), 1, drifts).force
 
 
 def path(turns: Sequence[float], start: float = 0.0) -> FloatArray:

@@ -16,11 +16,11 @@ import pytest
 from PIL import Image
 
 import seismass as sm
-from seismass.animation.picture import Picture
 from seismass.animation.shown import MOST_VALUES
 from seismass.cli import main
-from seismass.response import EVENT_KINDS
-from seismass.scene_file import example_scene
+from seismass.runs.response import EVENT_KINDS
+from seismass.runs.scene_file import example_scene
+from seismass.show.animation.picture import Picture
 
 BUILDING = sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.20, 0.12], heights=3.5)
 SCENE = sm.Scene(BUILDING, sm.blocks_on_floors([1.0, 0.5, 0.0], mu=0.2), name="storage <1>")
@@ -126,7 +126,7 @@ def test_fragments_have_identifiers_and_styles_of_their_own(animation: sm.Animat
 def test_model_is_that_of_the_code_or_of_the_share() -> None:
     for options, label, share in (
         ({}, "ASCE/SEI 7-10 model", 0.25),
-        ({"code": "nbc"}, f"{sm.code_fraction('nbc').code} model", 0.6),
+        ({"code": "nbc"}, f"{sm.codes.code_fraction('nbc').code} model", 0.6),
         ({"use": "ordinary"}, "ASCE/SEI 7-10 model", 0.0),
         ({"fraction": 1.0}, "model", 1.0),
     ):
@@ -209,7 +209,7 @@ def test_film_is_as_long_as_the_run(tmp_path: Path) -> None:
 
 def test_film_without_ffmpeg_says_what_to_do(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(sm.MissingPackage, match="ffmpeg of a film must be on the path"):
+    with pytest.raises(sm.errors.MissingPackage, match="ffmpeg of a film must be on the path"):
         sm.animate(SCENE, PULSE).write(tmp_path / "storage.mp4")
     assert list(tmp_path.iterdir()) == []
 
@@ -235,14 +235,14 @@ def test_film_that_ffmpeg_cannot_write_leaves_nothing(tmp_path: Path, monkeypatc
     ],
 )
 def test_what_cannot_be_written_is_refused(tmp_path: Path, name: str, options: dict[str, float], message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=re.escape(message)):
+    with pytest.raises(sm.errors.InvalidOption, match=re.escape(message)):
         sm.animate(SCENE, PULSE).write(tmp_path / name, **options)
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("fraction", [-0.1, 1.1, float("nan")])
 def test_share_out_of_range_is_refused(fraction: float) -> None:
-    with pytest.raises(sm.InvalidOption, match="fraction of animation must be between 0 and 1"):
+    with pytest.raises(sm.errors.InvalidOption, match="fraction of animation must be between 0 and 1"):
         sm.animate(SCENE, PULSE, fraction=fraction)
 
 

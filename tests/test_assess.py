@@ -13,10 +13,10 @@ import pytest
 from matplotlib.figure import Figure
 
 import seismass as sm
+from seismass.assessment.building_file import example_file
 from seismass.assessment.models import with_mass
 from seismass.assessment.run import advised_share
 from seismass.assessment.tables import statistics_of
-from seismass.building_file import example_file
 from seismass.cli import main
 
 G = 9.80665
@@ -108,7 +108,7 @@ def test_attached_models_are_those_of_the_effective_fraction() -> None:
 
 def test_motions_are_scaled_for_the_period_with_goods(small: sm.Assessment) -> None:
     building = sm.read_building(tables())
-    scaling = sm.scale_asce7_10(
+    scaling = sm.scaling.scale_asce7_10(
         sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods)
     )
     assert small.scaling is not None
@@ -225,7 +225,7 @@ def test_occupancy_that_differs_keeps_the_codes_mass() -> None:
 
 def test_another_code_changes_the_design_too() -> None:
     one = sm.assess(tables(), mu_factors=(1, 1), resamples=2)
-    other = sm.assess(tables(), code=sm.code_fraction("nbc"), mu_factors=(1, 1), resamples=2)
+    other = sm.assess(tables(), code=sm.codes.code_fraction("nbc"), mu_factors=(1, 1), resamples=2)
     strengths = [result.building.structure().yield_shear[0] for result in (one, other)]
     assert strengths[1] > strengths[0]
     assert any("NBC of Canada, storage, 0.6 of the design live load" in line for line in other.assumptions)
@@ -254,19 +254,23 @@ def test_what_is_unlikely_is_remarked_on() -> None:
 def test_wrong_arguments_are_refused() -> None:
     no_site = tables()
     del no_site["site"]
-    with pytest.raises(sm.InvalidOption, match=r"target of building building must be given: \[site\]"):
+    with pytest.raises(sm.errors.InvalidOption, match=r"target of building building must be given: \[site\]"):
         sm.assess(no_site)
-    with pytest.raises(sm.InvalidMotion, match="motions of assessment must be a list of Records or Motions; got 3"):
+    with pytest.raises(
+        sm.errors.InvalidMotion, match="motions of assessment must be a list of Records or Motions; got 3"
+    ):
         sm.assess(tables(), 3)  # type: ignore[arg-type]
-    with pytest.raises(sm.InvalidMotion, match="motion 1 of assessment must be a Record or Motion; got 3"):
+    with pytest.raises(sm.errors.InvalidMotion, match="motion 1 of assessment must be a Record or Motion; got 3"):
         sm.assess(tables(), [3])
-    with pytest.raises(sm.InvalidMotion, match="motions of assessment must be at least one Record or Motion; got none"):
+    with pytest.raises(
+        sm.errors.InvalidMotion, match="motions of assessment must be at least one Record or Motion; got none"
+    ):
         sm.assess(tables(), [])
-    with pytest.raises(sm.InvalidOption, match="code of assessment must be a CodeFraction"):
+    with pytest.raises(sm.errors.InvalidOption, match="code of assessment must be a CodeFraction"):
         sm.assess(tables(), code="ec8")  # type: ignore[arg-type]
-    with pytest.raises(sm.InvalidOption, match="scaling_period of assessment must be a number"):
+    with pytest.raises(sm.errors.InvalidOption, match="scaling_period of assessment must be a number"):
         sm.assess(tables(), scaling_period="1")  # type: ignore[arg-type]
-    with pytest.raises(sm.InvalidScene, match="P/h"):
+    with pytest.raises(sm.errors.InvalidScene, match="P/h"):
         sm.assess(tables(building={"gravity_load_kn": 1e9}))
     target = sm.TargetSpectrum.asce7(1.0, 0.6)
     assert sm.assess(no_site, target=target, mu_factors=(1, 1), resamples=2).target is target
@@ -280,7 +284,7 @@ def test_files_are_written_whole_and_old_ones_removed(small: sm.Assessment, tmp_
     small.write(tmp_path / "out", figures=False)
     assert not list((tmp_path / "out").glob("*.png"))
     (tmp_path / "file").write_text("")
-    with pytest.raises(sm.InvalidOption, match="must be a folder that can be written to"):
+    with pytest.raises(sm.errors.InvalidOption, match="must be a folder that can be written to"):
         small.write(tmp_path / "file")
 
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from seismass.errors import InvalidMotion, RecordFormatError, SeismassError
-from seismass.motion import Motion
+from seismass.base.errors import InvalidMotion, RecordFormatError, SeismassError
+from seismass.model.motion import Motion
 from seismass.records import Record, Suite, read_record, read_suite
 from seismass.records.formats.at2 import parse_at2
 from seismass.records.formats.columns import parse_columns

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.building_file import KEYS, example_file
-from seismass.own_building import DesignRule
+from seismass.assessment.building_file import KEYS, example_file
+from seismass.assessment.own_building import DesignRule
 
 G = 9.80665
 
@@ -257,26 +257,30 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 
 @pytest.mark.parametrize(("changes", "message"), WRONG, ids=range(len(WRONG)))
 def test_wrong_files_are_refused(changes: dict[str, Any], message: str) -> None:
-    with pytest.raises(sm.InvalidBuildingFile, match=message):
+    with pytest.raises(sm.errors.InvalidBuildingFile, match=message):
         sm.read_building(given(**changes))
 
 
 def test_files_that_cannot_be_read_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(sm.InvalidBuildingFile, match=r"building file must be a file that can be read; got .*none.toml"):
+    with pytest.raises(
+        sm.errors.InvalidBuildingFile, match=r"building file must be a file that can be read; got .*none.toml"
+    ):
         sm.read_building(tmp_path / "none.toml")
     with pytest.raises(
-        sm.InvalidBuildingFile, match=r"suffix of building file a.txt must be .toml or .json; got '.txt'"
+        sm.errors.InvalidBuildingFile, match=r"suffix of building file a.txt must be .toml or .json; got '.txt'"
     ):
         sm.read_building(tmp_path / "a.txt")
     (tmp_path / "a.toml").write_text("[building\n")
-    with pytest.raises(sm.InvalidBuildingFile, match=r"content of a.toml must be valid TOML; got"):
+    with pytest.raises(sm.errors.InvalidBuildingFile, match=r"content of a.toml must be valid TOML; got"):
         sm.read_building(tmp_path / "a.toml")
 
 
 def test_a_design_without_a_site_asks_for_one() -> None:
     tables = given(building={"yield_shear_kn": None, "design": True, "R": 4.0})
     del tables["site"]
-    with pytest.raises(sm.InvalidOption, match=r"target of building building must be given: \[site\] in the file"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match=r"target of building building must be given: \[site\] in the file"
+    ):
         sm.read_building(tables).scene()
 
 

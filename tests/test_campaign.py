@@ -45,8 +45,8 @@ def aligned() -> sm.Grid:
     )
 
 
-def campaign(**options: Any) -> sm.Campaign:
-    return sm.Campaign(product(), MOTIONS, **({"part_runs": 5} | options))
+def campaign(**options: Any) -> sm.campaign.Campaign:
+    return sm.campaign.Campaign(product(), MOTIONS, **({"part_runs": 5} | options))
 
 
 def tree(folder: Path) -> dict[str, str]:
@@ -65,7 +65,7 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("grid", [product, aligned])
 @pytest.mark.parametrize("part_runs", [1, 5, 1000])
 def test_rows_are_those_of_a_batch_with_what_varies(tmp_path: Path, grid: Any, part_runs: int) -> None:
-    made = sm.Campaign(grid(), MOTIONS, part_runs=part_runs)
+    made = sm.campaign.Campaign(grid(), MOTIONS, part_runs=part_runs)
     folder = made.run(tmp_path / "results")
     rows = folder.scan().collect()
     batch = sm.simulate_many(grid(), MOTIONS)
@@ -85,10 +85,10 @@ def test_the_folder_says_what_it_is(undisturbed: Path) -> None:
     assert (manifest["runs"], manifest["scenes"], manifest["parts"]) == (36, 18, 8) == (made.total, 18, made.parts)
     assert manifest["package_version"] == sm.__version__
     assert manifest["units"]["peak_drift"] == "m"
-    motions = sm.CampaignFolder(undisturbed).motions
+    motions = sm.campaign.CampaignFolder(undisturbed).motions
     assert motions["pga_g"].to_list() == [motion.pga_g for motion in MOTIONS]
     assert motions["sha256"].n_unique() == 2
-    folder = sm.CampaignFolder(undisturbed)
+    folder = sm.campaign.CampaignFolder(undisturbed)
     assert folder.complete
     assert folder.runs_present == 36
     assert folder.verify()["problem"].null_count() == 8
@@ -96,7 +96,7 @@ def test_the_folder_says_what_it_is(undisturbed: Path) -> None:
 
 
 def test_a_folder_makes_its_campaign_again(tmp_path: Path) -> None:
-    made = sm.Campaign(aligned(), MOTIONS, columns=["peak_slip"], single=True, name="again", part_runs=7)
+    made = sm.campaign.Campaign(aligned(), MOTIONS, columns=["peak_slip"], single=True, name="again", part_runs=7)
     again = made.run(tmp_path / "a").campaign
     assert again.sha256 == made.sha256
     assert again.name == "again"
@@ -111,14 +111,14 @@ def test_a_sample_of_a_designed_grid_makes_its_campaign_again(tmp_path: Path) ->
         storeys=[2, 3],
         period=[0.38, 0.47],
         R=[1.0, 2.0, 4.0],
-        design=sm.StrengthDesign(sm.TargetSpectrum.asce7(1.0, 0.6).tilted(0.1)),
+        design=sm.runs.StrengthDesign(sm.TargetSpectrum.asce7(1.0, 0.6).tilted(0.1)),
         mass_ratio=[0.5, 1.0],
-        occupancy=sm.beta(0.7, 0.15),
-        mu=sm.lognormal(0.4, 0.25),
+        occupancy=sm.distributions.beta(0.7, 0.15),
+        mu=sm.distributions.lognormal(0.4, 0.25),
         attached=0.25,
         attached_of="design",
     )
-    made = sm.Campaign(grid, MOTIONS, part_runs=3)
+    made = sm.campaign.Campaign(grid, MOTIONS, part_runs=3)
     folder = made.run(tmp_path / "a")
     assert folder.campaign.sha256 == made.sha256
     assert_frame_equal(folder.campaign.solve(5), made.solve(5), check_exact=True)
@@ -140,8 +140,8 @@ def test_only_what_is_missing_is_solved_and_ends_in_the_same_bytes(undisturbed: 
     for part in (1, 4, 8):
         part_path(place, part).unlink()
     kept = part_path(place, 2).stat().st_mtime_ns
-    reports: list[sm.CampaignProgress] = []
-    folder = sm.CampaignFolder(place).run(progress=reports.append)
+    reports: list[sm.campaign.CampaignProgress] = []
+    folder = sm.campaign.CampaignFolder(place).run(progress=reports.append)
     assert tree(place) == tree(undisturbed)
     assert part_path(place, 2).stat().st_mtime_ns == kept
     assert (reports[-1].parts_done, reports[-1].runs_done) == (8, 36)
@@ -182,7 +182,7 @@ class Lost(Executor):
 
 def test_lost_workers_are_an_error_that_says_how_to_go_on(tmp_path: Path) -> None:
     with pytest.raises(
-        sm.SimulationError, match=r"able to keep its workers .*the same call goes on.*BrokenProcessPool"
+        sm.errors.SimulationError, match=r"able to keep its workers .*the same call goes on.*BrokenProcessPool"
     ):
         campaign().run(tmp_path / "a", executor=Lost())
     assert campaign().run(tmp_path / "a").complete
@@ -191,13 +191,13 @@ def test_lost_workers_are_an_error_that_says_how_to_go_on(tmp_path: Path) -> Non
 def test_an_interrupt_leaves_whole_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("seismass.campaign.engine.SECONDS_BETWEEN_REPORTS", 0.0)
 
-    def interrupt(progress: sm.CampaignProgress) -> None:
+    def interrupt(progress: sm.campaign.CampaignProgress) -> None:
         if progress.parts_done:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         campaign(part_runs=1).run(tmp_path / "one", progress=interrupt)
-    folder = sm.CampaignFolder(tmp_path / "one")
+    folder = sm.campaign.CampaignFolder(tmp_path / "one")
     assert 0 < len(folder.present()) < folder.parts
     assert set(folder.verify()["problem"].to_list()) == {None}
     assert folder.run().complete
@@ -214,15 +214,18 @@ def test_an_interrupt_leaves_whole_parts(tmp_path: Path, monkeypatch: pytest.Mon
 )
 def test_a_folder_of_other_options_is_refused(undisturbed: Path, changes: dict[str, Any], differing: str) -> None:
     before = tree(undisturbed)
-    with pytest.raises(sm.InvalidOption, match=rf"one of other inputs \(they differ in {differing}\)"):
+    with pytest.raises(sm.errors.InvalidOption, match=rf"one of other inputs \(they differ in {differing}\)"):
         campaign(**changes).run(undisturbed)
     assert tree(undisturbed) == before
 
 
 def test_a_folder_of_other_scenes_or_motions_is_refused(undisturbed: Path) -> None:
     grid = sm.Grid.product(BUILDING, mass_ratio=[0.5, 1.0], mu=[0.1, 0.2, 0.31], scale=[0.5, 1.0, 2.0])
-    for made in (sm.Campaign(grid, MOTIONS, part_runs=5), sm.Campaign(product(), MOTIONS[::-1], part_runs=5)):
-        with pytest.raises(sm.InvalidOption, match="values of scenes or motions"):
+    for made in (
+        sm.campaign.Campaign(grid, MOTIONS, part_runs=5),
+        sm.campaign.Campaign(product(), MOTIONS[::-1], part_runs=5),
+    ):
+        with pytest.raises(sm.errors.InvalidOption, match="values of scenes or motions"):
             made.run(undisturbed)
 
 
@@ -241,18 +244,20 @@ def test_a_folder_of_another_version_or_instruction_set_is_refused(
     campaign().run(tmp_path / "a", shard=(1, 8))
     path = tmp_path / "a" / "manifest.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {key: value}))
-    with pytest.raises(sm.InvalidOption, match=said):
+    with pytest.raises(sm.errors.InvalidOption, match=said):
         campaign().run(tmp_path / "a")
 
 
 def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("mine")
-    with pytest.raises(sm.InvalidOption, match=r"must be a new or empty one, or one of a campaign; got .*notes\.txt"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match=r"must be a new or empty one, or one of a campaign; got .*notes\.txt"
+    ):
         campaign().run(tmp_path)
-    with pytest.raises(sm.InvalidOption, match="folder of campaign must be a folder; got the file"):
+    with pytest.raises(sm.errors.InvalidOption, match="folder of campaign must be a folder; got the file"):
         campaign().run(tmp_path / "notes.txt")
-    with pytest.raises(sm.InvalidOption, match="folder of campaign must be one of a campaign"):
-        sm.CampaignFolder(tmp_path)
+    with pytest.raises(sm.errors.InvalidOption, match="folder of campaign must be one of a campaign"):
+        sm.campaign.CampaignFolder(tmp_path)
 
 
 def test_a_damaged_part_is_found(tmp_path: Path) -> None:
@@ -271,10 +276,10 @@ def test_a_damaged_part_is_found(tmp_path: Path) -> None:
 def test_campaigns_go_beyond_32_bits(tmp_path: Path) -> None:
     many = np.linspace(0.1, 0.5, 2**17)
     grid = sm.Grid.product(BUILDING, mass_ratio=1.0, mu=many, scale=np.linspace(0.5, 2.0, 2**17))
-    made = sm.Campaign(grid, MOTIONS, part_runs=2**16)
+    made = sm.campaign.Campaign(grid, MOTIONS, part_runs=2**16)
     assert made.total == 2**35
     assert made.parts == 2**19
-    part = sm.Campaign(grid, MOTIONS, part_runs=4)
+    part = sm.campaign.Campaign(grid, MOTIONS, part_runs=4)
     rows = part.solve(part.parts)
     assert rows["scene"].to_list() == [2**34 - 1, 2**34 - 1, 2**34, 2**34]
     alone = sm.simulate(grid.scene(2**34), MOTIONS[1].scaled(2.0))
@@ -293,7 +298,7 @@ def test_campaigns_go_beyond_32_bits(tmp_path: Path) -> None:
     ],
 )
 def test_arguments_are_judged(arguments: dict[str, Any], said: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=said):
+    with pytest.raises(sm.errors.InvalidOption, match=said):
         campaign(**arguments)
 
 
@@ -310,21 +315,21 @@ def test_arguments_are_judged(arguments: dict[str, Any], said: str) -> None:
     ],
 )
 def test_engines_are_judged(tmp_path: Path, arguments: dict[str, Any], said: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=said):
+    with pytest.raises(sm.errors.InvalidOption, match=said):
         campaign().run(tmp_path / "a", **arguments)
 
 
 def test_motions_are_needed() -> None:
-    with pytest.raises(sm.InvalidOption, match="motions of campaign must be at least one; got none"):
-        sm.Campaign(product(), [])
-    with pytest.raises(sm.InvalidOption, match="grid of campaign must be a Grid"):
-        sm.Campaign(sm.Scene(BUILDING), MOTIONS)  # type: ignore[arg-type]
+    with pytest.raises(sm.errors.InvalidOption, match="motions of campaign must be at least one; got none"):
+        sm.campaign.Campaign(product(), [])
+    with pytest.raises(sm.errors.InvalidOption, match="grid of campaign must be a Grid"):
+        sm.campaign.Campaign(sm.Scene(BUILDING), MOTIONS)  # type: ignore[arg-type]
 
 
 def test_progress_estimates_what_is_left() -> None:
-    progress = sm.CampaignProgress(3, 10, 3000, 10000, 1000, 4.0)
+    progress = sm.campaign.CampaignProgress(3, 10, 3000, 10000, 1000, 4.0)
     assert progress.runs_per_second == 500.0
     assert progress.seconds_left == 14.0
     assert progress.text == "3 of 10 parts, 3000 of 10000 runs, 500 runs/s, 14 s left"
-    assert sm.CampaignProgress(0, 10, 0, 10000, 0, 0.0).text == "0 of 10 parts, 0 of 10000 runs"
+    assert sm.campaign.CampaignProgress(0, 10, 0, 10000, 0, 0.0).text == "0 of 10 parts, 0 of 10000 runs"
     assert [duration_text(s) for s in (5, 200, 7500, 360000)] == ["5 s", "3 min 20 s", "2 h 5 min", "4 d 4 h"]

@@ -27,17 +27,17 @@ PROGRAM = """
         building = sm.Building.uniform(2, 0.3, yield_shear_over_weight=[0.3, 0.18])
         mu, scale = np.linspace(0.1, 0.5, 40), np.linspace(0.5, 2, 25)
         grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=mu, scale=scale)
-        return sm.Campaign(grid, sm.builtin_suite("seven")[4].with_duration(9.0), part_runs=20)
+        return sm.campaign.Campaign(grid, sm.builtin_suite("seven")[4].with_duration(9.0), part_runs=20)
 """
 RUN = textwrap.dedent(PROGRAM) + "\ncampaign().run(sys.argv[1], threads=1)\n"
 KILLS = 20
 
 
-def made() -> sm.Campaign:
+def made() -> sm.campaign.Campaign:
     space: dict[str, object] = {}
     exec(textwrap.dedent(PROGRAM), space)
     found = space["campaign"]()  # type: ignore[operator]
-    assert isinstance(found, sm.Campaign)
+    assert isinstance(found, sm.campaign.Campaign)
     return found
 
 

@@ -12,8 +12,8 @@ import polars as pl
 import pytest
 
 import seismass as sm
+from seismass.base.errors import RecordFormatError
 from seismass.cli import main
-from seismass.errors import RecordFormatError
 from seismass.records import catalogue, find_catalogue
 from seismass.records.catalogue import RECORDINGS, SUBSTITUTES
 

@@ -52,7 +52,7 @@ def test_folders_that_are_not_utf_8_are_written_to(tmp_path: Path) -> None:
     assert cli.main(["study", "--out", str(folder / "study"), "--no-figures"]) == 0
     assert (folder / "study" / "summary.parquet").is_file()
     file = sm.read_scene(folder / "scene.toml")
-    with pytest.raises(sm.InvalidOption, match="path of batch must be in UTF-8, as Polars writes no other; got"):
+    with pytest.raises(sm.errors.InvalidOption, match="path of batch must be in UTF-8, as Polars writes no other; got"):
         sm.write_many(folder / "rows.parquet", file.scene, file.motion)
 
 

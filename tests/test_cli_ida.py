@@ -9,7 +9,7 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.building_file import example_file
+from seismass.assessment.building_file import example_file
 from seismass.cli import main
 
 SCENE = """
@@ -52,10 +52,10 @@ def test_answer_of_a_scene_file(scene: Path, tmp_path: Path, capsys: pytest.Capt
     ):
         assert part in printed.out
     # What it prints is what the function finds.
-    found = sm.intensity.incremental_dynamic_analysis(
+    found = sm.fragility.incremental_dynamic_analysis(
         sm.read_scene(scene).scene,
         sm.builtin_suite("eleven"),
-        [sm.intensity.LimitState("drift_ratio", 0.015, storey=1), sm.intensity.LimitState("slip", 0.05, block=1)],
+        [sm.fragility.LimitState("drift_ratio", 0.015, storey=1), sm.fragility.LimitState("slip", 0.05, block=1)],
         code_share=0.5,
     )
     written = pl.read_parquet(tmp_path / "out" / "fragilities.parquet")
@@ -72,8 +72,8 @@ def test_building_file_has_its_code_and_its_limit(capsys: pytest.CaptureFixture[
     scene = building.scene()
     # Of goods that are present by the same share on every floor, the code's fraction is so much.
     share = building.code.fraction / building.present_share
-    expected = sm.intensity.incremental_dynamic_analysis(
-        scene, sm.builtin_suite("eleven"), sm.intensity.LimitState("drift_ratio", 0.02), code_share=share, resamples=0
+    expected = sm.fragility.incremental_dynamic_analysis(
+        scene, sm.builtin_suite("eleven"), sm.fragility.LimitState("drift_ratio", 0.02), code_share=share, resamples=0
     )
     code = next(row for row in document["fragilities"] if row["model"] == "code")
     assert code["median"] == pytest.approx(expected.fragility(model="code").median, rel=1e-9)

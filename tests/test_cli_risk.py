@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import seismass as sm
-from seismass.building_file import example_file
+from seismass.assessment.building_file import example_file
 from seismass.cli import main
 
 SCENE = """
@@ -50,10 +50,10 @@ def test_prints_what_the_function_finds(
     printed = capsys.readouterr()
     assert printed.err == ""
     assert all(len(line) <= 120 for line in printed.out.splitlines())
-    found = sm.risk_targeted_share(
+    found = sm.risk.risk_targeted_share(
         sm.read_scene(scene).scene,
         sm.builtin_suite("seven"),
-        sm.HazardCurve.from_csv(hazard, period=0.5),
+        sm.risk.HazardCurve.from_csv(hazard, period=0.5),
         0.01,
         shares=[0.0, 0.5, 1.0],
         other_limits=[0.02],

@@ -36,23 +36,27 @@ def folder(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
-        ([], sm.scale_asce7_10(SUITE, TARGET)),
-        (["--method", "least-squares", "--period", 0.5], sm.scale_least_squares(SUITE, TARGET, 0.5)),
-        (["--method", "least-squares-linear"], sm.scale_least_squares(SUITE, TARGET, space="linear")),
-        (["--method", "sa-t1", "--period", 0.7], sm.scale_sa_t1(SUITE, TARGET, 0.7)),
+        ([], sm.scaling.scale_asce7_10(SUITE, TARGET)),
+        (["--method", "least-squares", "--period", 0.5], sm.scaling.scale_least_squares(SUITE, TARGET, 0.5)),
+        (["--method", "least-squares-linear"], sm.scaling.scale_least_squares(SUITE, TARGET, space="linear")),
+        (["--method", "sa-t1", "--period", 0.7], sm.scaling.scale_sa_t1(SUITE, TARGET, 0.7)),
         (
             ["--method", "mps", "--reduction", 4, "--overstrength", 1, "--second-slope", 0, "--deformation", "median"],
-            sm.scale_modal_pushover(SUITE, TARGET, reduction=4, overstrength=1, second_slope=0, deformation="median"),
+            sm.scaling.scale_modal_pushover(
+                SUITE, TARGET, reduction=4, overstrength=1, second_slope=0, deformation="median"
+            ),
         ),
         (
             ["--method", "mps", "--yield-coefficient", 0.2, "--target", "ec8:1:C:0.3"],
-            sm.scale_modal_pushover(SUITE, sm.TargetSpectrum.eurocode8(1, "C", agr_g=0.3), yield_coefficient=0.2),
+            sm.scaling.scale_modal_pushover(
+                SUITE, sm.TargetSpectrum.eurocode8(1, "C", agr_g=0.3), yield_coefficient=0.2
+            ),
         ),
     ],
     ids=["asce7-10", "least-squares", "linear", "sa-t1", "mps", "mps towards ec8"],
 )
 def test_methods_are_those_of_the_library(
-    capsys: pytest.CaptureFixture[str], options: list[object], expected: sm.ScalingResult
+    capsys: pytest.CaptureFixture[str], options: list[object], expected: sm.scaling.ScalingResult
 ) -> None:
     document = scaled(capsys, *options)
     assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
@@ -79,13 +83,13 @@ def test_pairs_of_a_folder_are_scaled_in_their_maximum_direction(
 ) -> None:
     folder = shared / "records" / "fema_p695_far_field"
     document = scaled(capsys, "--method", "asce7-16", "--pairs", "--records", folder)
-    pairs = sm.find_pairs(folder)
+    pairs = sm.records.find_pairs(folder)
     assert [row["record"] for row in document["motions"]] == [pair.name for pair in pairs]
-    found = sm.scale_asce7_16(pairs, TARGET)
+    found = sm.scaling.scale_asce7_16(pairs, TARGET)
     assert [row["factor"] for row in document["motions"]] == found.factors.tolist()
     assert found.least_ratio == pytest.approx(0.9, abs=1e-12)
     # RotD100 of a pair by the function of its own.
-    expected = found.factors[3] * sm.rotd(pairs[3], found.periods)[100]
+    expected = found.factors[3] * sm.records.rotd(pairs[3], found.periods)[100]
     np.testing.assert_allclose(found.spectra[3], expected, rtol=1e-12)
     assert "single components" not in " ".join(document["remarks"])
 
@@ -94,7 +98,7 @@ def test_selection_names_what_was_not_chosen(folder: Path, capsys: pytest.Captur
     document = scaled(capsys, "--records", folder, "--select", 3, "--max-per-event", 12, "--max-per-station", 12)
     steps = [row["step"] for row in document["selection"]]
     assert sorted(step for step in steps if step) == [1, 2, 3]
-    expected = sm.select_records(folder, TARGET, 3, max_per_event=12, max_per_station=12)
+    expected = sm.scaling.select_records(folder, TARGET, 3, max_per_event=12, max_per_station=12)
     assert [row["record"] for row in document["motions"]] == [record.name for record in expected.suite]
     assert main(["scale", "--records", str(folder), "--select", "3"]) == 0
     printed = capsys.readouterr().out
@@ -107,7 +111,7 @@ def test_table_and_figure_are_written(tmp_path: Path, capsys: pytest.CaptureFixt
     options = ["--method", "mps", "--reduction", "2", "--csv", str(table), "--plot", str(figure)]
     assert main(["scale", *options]) == 0
     assert "misfit: root mean square" in capsys.readouterr().out
-    expected = sm.scale_modal_pushover(SUITE, TARGET, reduction=2.0)
+    expected = sm.scaling.scale_modal_pushover(SUITE, TARGET, reduction=2.0)
     frame = pl.read_csv(table)
     np.testing.assert_allclose(frame["factor"], expected.factors, rtol=1e-14)
     roots = [[float(root) for root in str(cell).split()] for cell in frame["roots"]]
@@ -124,7 +128,7 @@ def test_a_building_gives_period_and_pushover(tmp_path: Path, capsys: pytest.Cap
     file.write_text(capsys.readouterr().out)
     own = sm.read_building(file)
     target = sm.TargetSpectrum.asce7(0.8, 0.5)
-    expected = sm.scale_modal_pushover(SUITE, target, own.structure(target))
+    expected = sm.scaling.scale_modal_pushover(SUITE, target, own.structure(target))
     document = scaled(capsys, "--method", "mps", "--building", file, "--sds", 0.8, "--sd1", 0.5)
     assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
     assert document["period"] == pytest.approx(own.period(), rel=1e-12)

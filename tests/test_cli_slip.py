@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import seismass as sm
-from seismass.building_file import example_file
+from seismass.assessment.building_file import example_file
 from seismass.cli import main
 from seismass.commands.slip import parse_clearance
 
@@ -48,11 +48,11 @@ def test_prints_what_the_function_finds(scene: Path, tmp_path: Path, capsys: pyt
     printed = capsys.readouterr()
     assert printed.err == ""
     assert all(len(line) <= 120 for line in printed.out.splitlines())
-    found = sm.slip_demand(
+    found = sm.slip.slip_demand(
         sm.read_scene(scene).scene,
         [record.scaled(2.0) for record in sm.builtin_suite("seven")],
-        clearance=[0.05, sm.Clearance(plus=0.2)],
-        sizes=sm.BlockSize(0.3, 1.2),
+        clearance=[0.05, sm.slip.Clearance(plus=0.2)],
+        sizes=sm.slip.BlockSize(0.3, 1.2),
     )
     assert found.text in printed.out
     assert "motions x 2" in printed.out
@@ -67,16 +67,16 @@ def test_building_file_and_target(capsys: pytest.CaptureFixture[str]) -> None:
     assert command(example_file(), *options) == 0
     document = json.loads(capsys.readouterr().out)
     suite = sm.builtin_suite("seven")
-    factors = sm.scale_asce7_10(suite, sm.TargetSpectrum.asce7(1.0, 0.6), period=0.6).factors
+    factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7(1.0, 0.6), period=0.6).factors
     motions = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
-    expected = sm.slip_demand(sm.read_building(example_file()).scene(), motions)
+    expected = sm.slip.slip_demand(sm.read_building(example_file()).scene(), motions)
     assert document["metadata"]["inputs_sha256"] == expected.metadata["inputs_sha256"]
 
 
 def test_clearances_from_text() -> None:
-    assert parse_clearance("0.3") == sm.Clearance(0.3, 0.3)
-    assert parse_clearance("0.3,0.1") == sm.Clearance(0.3, 0.1)
-    assert parse_clearance(",0.1") == sm.Clearance(None, 0.1)
+    assert parse_clearance("0.3") == sm.slip.Clearance(0.3, 0.3)
+    assert parse_clearance("0.3,0.1") == sm.slip.Clearance(0.3, 0.1)
+    assert parse_clearance(",0.1") == sm.slip.Clearance(None, 0.1)
 
 
 @pytest.mark.parametrize(

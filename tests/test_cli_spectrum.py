@@ -59,7 +59,7 @@ def test_true_acceleration_is_printed_in_g(folder: Path, capsys: pytest.CaptureF
 def test_inelastic_spectra_are_printed(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert spectrum(folder / "two.csv", "--ductility", 2, 4, "--overstrength", 1, "--second-slope", 0) == 0
     table = pl.read_csv(capsys.readouterr().out.encode())
-    found = sm.inelastic_spectrum(
+    found = sm.spectra.inelastic_spectrum(
         sm.Motion(SAMPLES, 0.01), PERIODS, ductility=[2, 4], overstrength=1.0, second_slope=0.0
     )
     np.testing.assert_allclose(table["strength"], found.strength.ravel(), rtol=1e-4)

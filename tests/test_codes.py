@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 import seismass as sm
-from seismass import codes
-from seismass.codes import CODE_IDS, VERIFIED
-from seismass.friction import FRICTION_IDS
-from seismass.report.effective_figures import STORAGE_CODES
+from seismass.model import codes
+from seismass.model.codes import CODE_IDS, VERIFIED
+from seismass.model.friction import FRICTION_IDS
+from seismass.show.effective_mass.figures import STORAGE_CODES
 
 
 @pytest.mark.parametrize(
@@ -34,18 +34,18 @@ from seismass.report.effective_figures import STORAGE_CODES
     ],
 )
 def test_fraction_of_a_code(code_id: str, use: codes.Use, low: float, fraction: float) -> None:
-    row = sm.code_fraction(code_id, use)
+    row = sm.codes.code_fraction(code_id, use)
     assert (row.low, row.fraction, row.high) == (low, fraction, fraction)
 
 
 def test_fractions_for_storage_spread_over_the_whole_range() -> None:
     """The spread of domain knowledge: 0, 0.10, 0.25, 0.50, 0.60, 0.67, 0.80, 1.0."""
-    storage = sm.code_table().filter(use="storage")
+    storage = sm.codes.code_table().filter(use="storage")
     assert storage["fraction"].unique().sort().to_list() == [0.0, 0.10, 0.25, 0.50, 0.60, 0.67, 0.80, 1.0]
 
 
 def test_every_row_is_in_range_and_says_how_it_was_checked() -> None:
-    table = sm.code_table()
+    table = sm.codes.code_table()
     assert table.select("code_id", "use").is_unique().all()
     assert set(table["status"]) == {VERIFIED, "second-hand", "from memory, unverified"}
     for row in table.iter_rows(named=True):
@@ -57,15 +57,15 @@ def test_every_row_is_in_range_and_says_how_it_was_checked() -> None:
 
 
 def test_codes_are_found_in_any_case_and_close_ones_are_named() -> None:
-    assert sm.code_fraction(" ASCE7-22 ").code == "ASCE/SEI 7-22"
-    with pytest.raises(sm.InvalidOption, match=re.escape("did you mean asce7-16?); got 'asce7-11'")):
-        sm.code_fraction("asce7-11")
-    with pytest.raises(sm.InvalidOption, match="use of code aashto must be storage; got ordinary"):
-        sm.code_fraction("aashto", "ordinary")
-    with pytest.raises(sm.InvalidOption, match="use of code must be one of storage, ordinary; got 'office'"):
-        sm.code_fraction("ec8", "office")  # type: ignore[arg-type]
-    with pytest.raises(sm.InvalidOption, match=r"id of code must be one of asce7-10, .*; got 7"):
-        sm.code_fraction(7)  # type: ignore[arg-type]
+    assert sm.codes.code_fraction(" ASCE7-22 ").code == "ASCE/SEI 7-22"
+    with pytest.raises(sm.errors.InvalidOption, match=re.escape("did you mean asce7-16?); got 'asce7-11'")):
+        sm.codes.code_fraction("asce7-11")
+    with pytest.raises(sm.errors.InvalidOption, match="use of code aashto must be storage; got ordinary"):
+        sm.codes.code_fraction("aashto", "ordinary")
+    with pytest.raises(sm.errors.InvalidOption, match="use of code must be one of storage, ordinary; got 'office'"):
+        sm.codes.code_fraction("ec8", "office")  # type: ignore[arg-type]
+    with pytest.raises(sm.errors.InvalidOption, match=r"id of code must be one of asce7-10, .*; got 7"):
+        sm.codes.code_fraction(7)  # type: ignore[arg-type]
     assert len(CODE_IDS) >= 15
 
 
@@ -82,7 +82,7 @@ def test_codes_are_found_in_any_case_and_close_ones_are_named() -> None:
     ],
 )
 def test_friction_of_a_contact(pair_id: str, mu_s: float, mu_k: float) -> None:
-    pair = sm.friction_pair(pair_id)
+    pair = sm.friction.friction_pair(pair_id)
     assert (pair.mu_s, pair.mu_k) == (mu_s, mu_k)
     assert pair.source
     low, high = pair.bounds()
@@ -90,7 +90,7 @@ def test_friction_of_a_contact(pair_id: str, mu_s: float, mu_k: float) -> None:
 
 
 def test_friction_table_has_bounds_by_the_factors_given() -> None:
-    table = sm.friction_table((0.8, 1.25))
+    table = sm.friction.friction_table((0.8, 1.25))
     assert table["pair_id"].to_list() == list(FRICTION_IDS)
     for row in table.iter_rows(named=True):
         assert 0.0 < row["mu_k"] <= row["mu_s"] < 1.0
@@ -98,23 +98,23 @@ def test_friction_table_has_bounds_by_the_factors_given() -> None:
 
 
 def test_contacts_that_are_none_are_refused_with_close_ones() -> None:
-    with pytest.raises(sm.InvalidOption, match=r"did you mean timber-on-steel or .*\); got 'wood-on-steel'"):
-        sm.friction_pair("wood-on-steel")
-    with pytest.raises(sm.InvalidOption, match="did you mean container-study or container-validation"):
-        sm.friction_pair("container")
+    with pytest.raises(sm.errors.InvalidOption, match=r"did you mean timber-on-steel or .*\); got 'wood-on-steel'"):
+        sm.friction.friction_pair("wood-on-steel")
+    with pytest.raises(sm.errors.InvalidOption, match="did you mean container-study or container-validation"):
+        sm.friction.friction_pair("container")
     for factors in ((1.5, 0.67), (0.0, 1.5), (0.67, float("inf")), (1.0,), "ab"):
-        with pytest.raises(sm.InvalidOption, match=r"mu_factors of friction pair must be two factors, .*; got"):
-            sm.friction_table(factors)  # type: ignore[arg-type]
+        with pytest.raises(sm.errors.InvalidOption, match=r"mu_factors of friction pair must be two factors, .*; got"):
+            sm.friction.friction_table(factors)  # type: ignore[arg-type]
 
 
 def test_the_page_has_every_row() -> None:
     page = (Path(__file__).parents[1] / "docs" / "codes.md").read_text(encoding="utf-8")
-    for row in sm.code_table().iter_rows(named=True):
+    for row in sm.codes.code_table().iter_rows(named=True):
         ranged = row["low"] < row["high"]
         fraction = f"{row['low']:g} to {row['high']:g}" if ranged else f"{row['fraction']:g}"
         cells = (f"`{row['code_id']}`", row["code"], row["use"], fraction, row["clause"], row["status"], row["note"])
         assert f"| {' | '.join(cells)} |\n" in page
-    for row in sm.friction_table().iter_rows(named=True):
+    for row in sm.friction.friction_table().iter_rows(named=True):
         numbers = (f"{row['mu_s']:g}", f"{row['mu_k']:.4g}")
         cells = (f"`{row['pair_id']}`", row["contact"], *numbers, row["source"], row["kind"])
         assert f"| {' | '.join(cells)} |\n" in page

@@ -108,20 +108,36 @@ def test_correlation_is_one_on_the_diagonal_and_fades() -> None:
 @pytest.mark.parametrize(
     ("arguments", "error", "message"),
     [
-        ({"mass": []}, sm.InvalidScene, "mass of building must be a list of at least one value; got none"),
-        ({"mass": [1.0, -1.0]}, sm.InvalidScene, "mass of storey 2 must be a positive number; got -1"),
-        ({"mass": [1.0, np.nan]}, sm.InvalidScene, "mass of storey 2 must be a positive number; got nan"),
-        ({"stiffness": [1.0, np.inf]}, sm.InvalidScene, "stiffness of storey 2 must be a positive number; got inf"),
-        ({"stiffness": [1.0]}, sm.InvalidScene, "stiffness of building must be a list of 2 values, one per storey"),
-        ({"stiffness": [[1.0], [1.0]]}, sm.InvalidScene, "stiffness of building must be a list of numbers"),
-        ({"combination": "abs"}, sm.InvalidOption, "must be srss or cqc; got 'abs'"),
+        ({"mass": []}, sm.errors.InvalidScene, "mass of building must be a list of at least one value; got none"),
+        ({"mass": [1.0, -1.0]}, sm.errors.InvalidScene, "mass of storey 2 must be a positive number; got -1"),
+        ({"mass": [1.0, np.nan]}, sm.errors.InvalidScene, "mass of storey 2 must be a positive number; got nan"),
+        (
+            {"stiffness": [1.0, np.inf]},
+            sm.errors.InvalidScene,
+            "stiffness of storey 2 must be a positive number; got inf",
+        ),
+        (
+            {"stiffness": [1.0]},
+            sm.errors.InvalidScene,
+            "stiffness of building must be a list of 2 values, one per storey",
+        ),
+        ({"stiffness": [[1.0], [1.0]]}, sm.errors.InvalidScene, "stiffness of building must be a list of numbers"),
+        ({"combination": "abs"}, sm.errors.InvalidOption, "must be srss or cqc; got 'abs'"),
         (
             {"damping": 0.0},
-            sm.InvalidOption,
+            sm.errors.InvalidOption,
             "damping of response spectrum analysis must be above 0 and below 1; got 0",
         ),
-        ({"spectrum": lambda t: -t}, sm.InvalidOption, "spectrum of response spectrum analysis must be 2 values of at"),
-        ({"spectrum": lambda t: t[:1]}, sm.InvalidOption, "spectrum of response spectrum analysis must be 2 values"),
+        (
+            {"spectrum": lambda t: -t},
+            sm.errors.InvalidOption,
+            "spectrum of response spectrum analysis must be 2 values of at",
+        ),
+        (
+            {"spectrum": lambda t: t[:1]},
+            sm.errors.InvalidOption,
+            "spectrum of response spectrum analysis must be 2 values",
+        ),
     ],
 )
 def test_bad_arguments_are_refused(arguments: dict, error: type[sm.SeismassError], message: str) -> None:

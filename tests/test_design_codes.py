@@ -12,7 +12,7 @@ import pytest
 
 import seismass as sm
 from seismass import design
-from seismass.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
+from seismass.model.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
 
 ROOT = Path(__file__).parents[1]
 
@@ -67,7 +67,7 @@ def test_response_coefficient_by_hand() -> None:
     assert c_s(1.0, 0.6, 4.0, 4.0, t_l=2.0, minimum=False) == pytest.approx(0.6 * 2.0 / 16.0 / 4.0)
     assert c_s(0.1, 0.05, 3.0, 8.0) == 0.01
     assert c_s(1.0, 0.6, 3.0, 8.0, s_1=0.7) == pytest.approx(max(0.6 / 3.0 / 8.0, 0.044, 0.5 * 0.7 / 8.0))
-    with pytest.raises(sm.InvalidOption, match="period of lateral forces must be a positive number; got 0"):
+    with pytest.raises(sm.errors.InvalidOption, match="period of lateral forces must be a positive number; got 0"):
         c_s(1.0, 0.6, 0.0, 8.0)
 
 
@@ -128,7 +128,7 @@ def test_system_factors_of_well_known_lines() -> None:
     groups = table["system_id"].str.head(1).value_counts().sort("system_id")["count"].to_list()
     assert groups == [18, 26, 12, 13, 8, 1, 6, 1]  # lines of groups A to H
     assert table["omega_0"].is_between(1.25, 3.0).all()
-    with pytest.raises(sm.InvalidOption, match=r"id of system must be one of a1, .*; got 'Z9'"):
+    with pytest.raises(sm.errors.InvalidOption, match=r"id of system must be one of a1, .*; got 'Z9'"):
         design.system_factors("Z9")
 
 
@@ -143,9 +143,11 @@ def test_importance_and_drift_limits_by_risk_category() -> None:
     assert design.drift_limit("ec8", "II", "brittle-partitions").ratio == 0.01
     assert design.drift_limit("ec8", "III").ratio == pytest.approx(0.025)
     assert design.drift_limit("nbc", "IV").ratio == 0.010
-    with pytest.raises(sm.InvalidOption, match=re.escape("risk_category of building must be one of I, II, III, IV")):
+    with pytest.raises(
+        sm.errors.InvalidOption, match=re.escape("risk_category of building must be one of I, II, III, IV")
+    ):
         design.drift_limit("asce7-10", "V")
-    with pytest.raises(sm.InvalidOption, match="structure of code nbc must be one of other; got 'masonry-wall'"):
+    with pytest.raises(sm.errors.InvalidOption, match="structure of code nbc must be one of other; got 'masonry-wall'"):
         design.drift_limit("nbc", "II", "masonry-wall")
 
 
@@ -166,7 +168,7 @@ def test_tables_say_how_each_row_was_checked() -> None:
         (design.drift_limit_table(), {"asce7-10", "bnbc2017"}),
     ):
         assert set(table.filter(status=VERIFIED)["code_id"]) == verified
-        assert set(table["code_id"]) <= set(sm.code_table()["code_id"])
+        assert set(table["code_id"]) <= set(sm.codes.code_table()["code_id"])
 
 
 def test_stability_and_drift_of_storeys_by_hand() -> None:

@@ -16,7 +16,7 @@ from seismass.scaling.oscillator import pushover_curve
 def along_the_kernel(building: sm.Building, path: design.Pushover) -> None:
     """Forces of the kernel's springs, driven along the drifts of the path, are those of the path."""
     for storey in range(building.storeys):
-        kernel = sm.spring_forces(building, storey + 1, path.drift[:, storey])
+        kernel = sm.runs.spring_forces(building, storey + 1, path.drift[:, storey])
         # Both add up a few dozen products of doubles.
         scale = np.abs(path.spring_force[:, storey]).max()
         np.testing.assert_allclose(kernel.force, path.spring_force[:, storey], rtol=0.0, atol=1e-11 * scale)
@@ -261,7 +261,7 @@ def test_table_and_figure() -> None:
     axes = own.subplots()
     assert path.plot(ax=axes) is own
     assert sm.plots.pushover(path, labels=False, ax=axes) is own
-    with pytest.raises(sm.InvalidOption, match="ax of pushover figure must be one Axes"):
+    with pytest.raises(sm.errors.InvalidOption, match="ax of pushover figure must be one Axes"):
         path.plot(ax="here")  # type: ignore[arg-type]
 
 
@@ -280,7 +280,7 @@ def test_table_and_figure() -> None:
     ],
 )
 def test_bad_arguments_are_refused(arguments: dict, message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=message):
+    with pytest.raises(sm.errors.InvalidOption, match=message):
         design.pushover(sm.Building([1.0, 1.0], 100.0), **({"drift_limit": 1.0} | arguments))
-    with pytest.raises(sm.InvalidOption, match="building of pushover must be a Building; got"):
+    with pytest.raises(sm.errors.InvalidOption, match="building of pushover must be a Building; got"):
         design.pushover(sm.Scene(sm.Building([1.0, 1.0], 100.0)))  # type: ignore[arg-type]

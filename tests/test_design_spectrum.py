@@ -47,7 +47,7 @@ def test_modes_needed_for_a_share_of_the_mass() -> None:
     modes = design.vibration_modes([1.0] * 3, [1.0] * 3)
     np.testing.assert_allclose(modes.table()["effective_share"], [0.9141, 0.0749, 0.0110], atol=5e-5)
     assert [modes.modes_needed(share) for share in (0.5, 0.9, 0.95, 0.99, 1.0)] == [1, 1, 2, 3, 3]
-    with pytest.raises(sm.InvalidOption, match=r"share of modes must be above 0 and up to 1; got 1\.2"):
+    with pytest.raises(sm.errors.InvalidOption, match=r"share of modes must be above 0 and up to 1; got 1\.2"):
         modes.modes_needed(1.2)
 
 
@@ -109,9 +109,11 @@ def test_without_heights_there_are_no_moments() -> None:
     found = design.response_spectrum_analysis([1.0, 1.0], [9.0, 9.0], lambda t: t)
     assert found.overturning is None
     assert found.table()["overturning"].null_count() == 2
-    with pytest.raises(sm.InvalidScene, match="heights of building must be one number or a list of 2 values"):
+    with pytest.raises(sm.errors.InvalidScene, match="heights of building must be one number or a list of 2 values"):
         design.response_spectrum_analysis([1.0, 1.0], [9.0, 9.0], lambda t: t, heights=[3.0])
-    with pytest.raises(sm.InvalidOption, match="periods of modal combination must be 2 values, one per mode; got 1"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match="periods of modal combination must be 2 values, one per mode; got 1"
+    ):
         design.combined_modes([[1.0], [2.0]], [1.0])
 
 
@@ -138,5 +140,5 @@ def test_demands_of_the_design_by_hand() -> None:
     assert scaled.overturning[0] == pytest.approx(3.0 * 2550.0)
     assert found.for_design(5.0, importance=1.25, base_shear=3000.0, share=1.0).shear[0] == pytest.approx(3000.0)
     assert found.for_design(5.0, importance=1.25, base_shear=2000.0).scale == 1.0
-    with pytest.raises(sm.InvalidOption, match="reduction of design must be a positive number; got 0"):
+    with pytest.raises(sm.errors.InvalidOption, match="reduction of design must be a positive number; got 0"):
         found.for_design(0.0)

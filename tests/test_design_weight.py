@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass import codes, design
-from seismass.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
+from seismass import design
+from seismass.model import codes
+from seismass.model.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
 
 
 @pytest.mark.parametrize("row", codes.code_table().to_dicts(), ids=lambda row: f"{row['code_id']}-{row['use']}")
@@ -53,7 +54,7 @@ def test_garages_are_exempt_where_the_code_says_so() -> None:
     np.testing.assert_allclose(found.weight, [1000.0, 1200.0], rtol=1e-14)
     assert found.table["exception"].to_list() == ["garage", ""]
     assert design.effective_seismic_weight([1.0], [9.0], code_id="nbc", use="garage").status == FROM_MEMORY
-    with pytest.raises(sm.InvalidOption, match="use of code ec8 must be storage or ordinary; got 'garage'"):
+    with pytest.raises(sm.errors.InvalidOption, match="use of code ec8 must be storage or ordinary; got 'garage'"):
         design.effective_seismic_weight([1.0], [9.0], code_id="ec8", use="garage")
 
 
@@ -67,7 +68,9 @@ def test_partitions_count_with_their_minimum() -> None:
         [1e6] * 3, [1.0] * 3, code_id="gb50011", use="ordinary", partitions=given
     )
     np.testing.assert_allclose(elsewhere.table["partitions"], [30e3, 60e3, 0.0])
-    with pytest.raises(sm.InvalidOption, match="area of seismic weight must be given where partitions are; got none"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match="area of seismic weight must be given where partitions are; got none"
+    ):
         design.effective_seismic_weight([1e6], [1.0], partitions=[1.0])
 
 
@@ -125,5 +128,5 @@ def test_live_load_per_area_decides_in_some_codes() -> None:
     ],
 )
 def test_bad_arguments_are_refused(arguments: dict, message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=message):
+    with pytest.raises(sm.errors.InvalidOption, match=message):
         design.effective_seismic_weight(**({"dead": [1.0, 1.0], "live": [1.0, 1.0]} | arguments))

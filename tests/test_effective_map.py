@@ -13,7 +13,6 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
-from seismass.report.map_figures import map_figures
 from seismass.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
@@ -158,7 +157,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_figures_of_one_intensity(small: sm.EffectiveMassMap) -> None:
-    assert set(map_figures(small)) == {"collapse", "rules"}
+    assert set(small.figures()) == {"collapse", "rules"}
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [
@@ -187,10 +186,10 @@ WRONG: list[tuple[dict[str, Any], str]] = [
 
 @pytest.mark.parametrize(("arguments", "message"), WRONG, ids=[message for _, message in WRONG])
 def test_wrong_parameters(arguments: dict[str, Any], message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=f"^{message}"):
+    with pytest.raises(sm.errors.InvalidOption, match=f"^{message}"):
         sm.EffectiveMassParameters(**arguments)
 
 
 def test_wrong_suite() -> None:
-    with pytest.raises(sm.InvalidMotion, match=r"^suite of effective mass map must be a Suite"):
+    with pytest.raises(sm.errors.InvalidMotion, match=r"^suite of effective mass map must be a Suite"):
         sm.effective_mass_map([1, 2, 3], TARGET, SMALL)  # type: ignore[arg-type]

@@ -13,13 +13,13 @@ import polars as pl
 import pytest
 
 import seismass as sm
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import response_spectrum_analysis
 from seismass.effective_mass.curve import interpolated
 from seismass.spectra import mean_spectrum
-from seismass.units import STANDARD_GRAVITY
 
 SUITE = sm.builtin_suite("seven")
-FACTORS = sm.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7()).factors
+FACTORS = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7()).factors
 MOTIONS = [record.scaled(factor) for record, factor in zip(SUITE, FACTORS, strict=True)]
 
 
@@ -442,47 +442,47 @@ def scene() -> sm.Scene:
 
 
 WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
-    (lambda: sm.effective_mass("scene", MOTIONS), sm.InvalidScene, "scene of effective mass must be a Scene"),
+    (lambda: sm.effective_mass("scene", MOTIONS), sm.errors.InvalidScene, "scene of effective mass must be a Scene"),
     (
         lambda: sm.effective_mass(sm.Scene(sm.Building.uniform(2, 0.4)), MOTIONS),
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         "blocks of effective mass must be at least one on a floor",
     ),
     (
         lambda: sm.effective_mass(sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)]), MOTIONS),
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         "building of effective mass must be given",
     ),
-    (lambda: sm.effective_mass(scene(), []), sm.InvalidMotion, "motions of effective mass must be at least one"),
-    (lambda: sm.effective_mass(scene(), 3), sm.InvalidMotion, "motions of effective mass must be a list"),
-    (lambda: sm.effective_mass(scene(), ["a"]), sm.InvalidMotion, "motion 1 of effective mass must be a Motion"),
+    (lambda: sm.effective_mass(scene(), []), sm.errors.InvalidMotion, "motions of effective mass must be at least one"),
+    (lambda: sm.effective_mass(scene(), 3), sm.errors.InvalidMotion, "motions of effective mass must be a list"),
+    (lambda: sm.effective_mass(scene(), ["a"]), sm.errors.InvalidMotion, "motion 1 of effective mass must be a Motion"),
     (
         lambda: sm.effective_mass(scene(), MOTIONS, statistic="mode"),
-        sm.InvalidOption,
+        sm.errors.InvalidOption,
         "statistic of effective mass must be mean or median",
     ),
     (
         lambda: sm.effective_mass(scene(), MOTIONS, damping="own"),
-        sm.InvalidOption,
+        sm.errors.InvalidOption,
         "damping of effective mass must be same or ratio",
     ),
     (
         lambda: sm.effective_mass(scene(), MOTIONS, fractions=[0.0, 0.5]),
-        sm.InvalidOption,
+        sm.errors.InvalidOption,
         "fractions of effective mass must be a list in increasing order",
     ),
     (
         lambda: sm.effective_mass(scene(), MOTIONS, confidence=90),
-        sm.InvalidOption,
+        sm.errors.InvalidOption,
         "confidence of effective mass must be above 0 and below 1",
     ),
-    (lambda: sm.effective_mass(scene(), MOTIONS, resamples=0), sm.InvalidOption, "resamples of effective mass"),
-    (lambda: sm.effective_mass(scene(), MOTIONS, threads=0), sm.InvalidOption, "threads of effective mass"),
-    (lambda: sm.effective_mass(scene(), MOTIONS, progress=1), sm.InvalidOption, "progress of effective mass"),
+    (lambda: sm.effective_mass(scene(), MOTIONS, resamples=0), sm.errors.InvalidOption, "resamples of effective mass"),
+    (lambda: sm.effective_mass(scene(), MOTIONS, threads=0), sm.errors.InvalidOption, "threads of effective mass"),
+    (lambda: sm.effective_mass(scene(), MOTIONS, progress=1), sm.errors.InvalidOption, "progress of effective mass"),
     *[
         (
             lambda fractions=fractions: sm.effective_mass(scene(), MOTIONS, fractions=fractions),
-            sm.InvalidOption,
+            sm.errors.InvalidOption,
             f"fractions of effective mass must be {requirement}",
         )
         for fractions, requirement in (
@@ -495,27 +495,43 @@ WRONG: list[tuple[Callable[[], object], type[Exception], str]] = [
     *[
         (
             lambda confidence=confidence: sm.effective_mass(scene(), MOTIONS, confidence=confidence),
-            sm.InvalidOption,
+            sm.errors.InvalidOption,
             f"confidence of effective mass must be .*got {confidence!r}",
         )
         for confidence in (0, 1, -0.5, "high", None, float("nan"))
     ],
-    (lambda: sm.effective_mass(scene(), MOTIONS, resamples=1.5), sm.InvalidOption, "resamples of .*got 1.5"),
-    (lambda: sm.effective_mass(scene(), MOTIONS, seed=-1), sm.InvalidOption, "seed of effective mass must be .*got -1"),
-    (lambda: sm.effective_mass(scene(), MOTIONS, threads="two"), sm.InvalidOption, "threads of .*got 'two'"),
-    (lambda: sm.attached_scene(scene(), 0.5, "own"), sm.InvalidOption, "damping of attached scene must be same or"),
+    (lambda: sm.effective_mass(scene(), MOTIONS, resamples=1.5), sm.errors.InvalidOption, "resamples of .*got 1.5"),
+    (
+        lambda: sm.effective_mass(scene(), MOTIONS, seed=-1),
+        sm.errors.InvalidOption,
+        "seed of effective mass must be .*got -1",
+    ),
+    (lambda: sm.effective_mass(scene(), MOTIONS, threads="two"), sm.errors.InvalidOption, "threads of .*got 'two'"),
+    (
+        lambda: sm.attached_scene(scene(), 0.5, "own"),
+        sm.errors.InvalidOption,
+        "damping of attached scene must be same or",
+    ),
     (
         lambda: sm.effective_mass_of_design(
             lambda share: sm.Building.uniform(2 if share < 0.5 else 3, 0.4), sm.blocks_on_floors([1.0], 0.2), MOTIONS
         ),
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         "design of effective mass must be a Building of the same number of storeys",
     ),
-    (lambda: sm.attached_scene(scene(), 1.5), sm.InvalidOption, "fraction of attached scene must be between 0 and 1"),
-    (lambda: sm.effective_mass_of_design(3, [], MOTIONS), sm.InvalidOption, "design of effective mass must be a"),
+    (
+        lambda: sm.attached_scene(scene(), 1.5),
+        sm.errors.InvalidOption,
+        "fraction of attached scene must be between 0 and 1",
+    ),
+    (
+        lambda: sm.effective_mass_of_design(3, [], MOTIONS),
+        sm.errors.InvalidOption,
+        "design of effective mass must be a",
+    ),
     (
         lambda: sm.effective_mass_of_design(lambda share: share, sm.blocks_on_floors([1.0], 0.2), MOTIONS),
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         "design of effective mass must be a Building",
     ),
 ]
@@ -529,5 +545,5 @@ def test_wrong_input(make: Callable[[], object], kind: type[Exception], message:
 
 def test_motions_of_zeros_are_refused() -> None:
     still = sm.Motion(np.zeros(100), 0.01)
-    with pytest.raises(sm.InvalidMotion, match=r"^motions of effective mass must be other than zero somewhere"):
+    with pytest.raises(sm.errors.InvalidMotion, match=r"^motions of effective mass must be other than zero somewhere"):
         sm.effective_mass(scene(), still)

@@ -23,14 +23,14 @@ from seismass.effective_mass.curve import bootstrap_counts
 from seismass.explore import compiled, explorer_html
 from seismass.explore.chart import BINS, CASES
 from seismass.explore.page import RESAMPLES
-from seismass.report.page import page_html
+from seismass.media.page import page_html
 from seismass.spectra import mean_spectrum
 
 ROOT = Path(__file__).parents[1]
 HERE = Path(__file__).parent / "explorer"
 TEMPLATES = ROOT / "python" / "seismass" / "explore" / "templates"
 SUITE = sm.builtin_suite("seven")
-FACTORS = sm.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7()).factors
+FACTORS = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7()).factors
 MOTIONS = [record.scaled(factor) for record, factor in zip(SUITE, FACTORS, strict=True)]
 
 Asked = dict[str, list[Any]]
@@ -267,7 +267,7 @@ def test_records_that_cannot_be_read_are_refused(in_node: Any, tmp_path: Path, t
     file = tmp_path / "file"
     file.write_text(text)
     if "other than zero" not in message:  # which the package leaves to the motion
-        with pytest.raises(sm.RecordFormatError):
+        with pytest.raises(sm.errors.RecordFormatError):
             sm.read_record(file)
 
 

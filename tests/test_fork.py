@@ -38,7 +38,7 @@ def in_child(work: Callable[[], bool]) -> bool:
 def raised(work: Callable[[], object]) -> str:
     try:
         work()
-    except sm.SimulationError as error:
+    except sm.errors.SimulationError as error:
         return str(error)
     return ""
 
@@ -96,5 +96,5 @@ def test_the_log_is_the_events_without_polars() -> None:
         assert log[name].tolist() == events[name].to_list()
     assert log["element"].tolist() == events["element"].fill_null(0).to_list()
     assert {"yield", "slip"} <= set(log["kind"].tolist())
-    with pytest.raises(sm.InvalidOption, match="events of simulate must be asked for"):
+    with pytest.raises(sm.errors.InvalidOption, match="events of simulate must be asked for"):
         sm.simulate(SCENE, MOTION, events=False).event_log  # noqa: B018

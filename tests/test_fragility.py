@@ -8,7 +8,7 @@ from scipy.optimize import minimize
 from scipy.stats import binom, norm
 
 import seismass as sm
-from seismass.intensity import fit_capacities, fit_cloud, fit_counts
+from seismass.fragility import fit_capacities, fit_cloud, fit_counts
 
 # The example that is distributed with Baker (2015), Earthquake Spectra 31:579-599: 40 motions at each intensity.
 LEVELS = np.array([0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0])
@@ -250,19 +250,19 @@ def test_what_no_fit_can_take_is_refused() -> None:
         (([1.0, 2.0], [1, 4], 3), "exceeding of fragility fit must be from 0 to total; got"),
         (([], [], []), "intensity of fragility fit must be at least one; got none"),
     ):
-        with pytest.raises(sm.InvalidOption, match=message):
+        with pytest.raises(sm.errors.InvalidOption, match=message):
             fit_counts(*arguments)
-    with pytest.raises(sm.InvalidOption, match="censored_above of fragility fit must be given where"):
+    with pytest.raises(sm.errors.InvalidOption, match="censored_above of fragility fit must be given where"):
         fit_capacities([1.0, np.inf])
-    with pytest.raises(sm.InvalidOption, match="capacities of fragility fit must be positive; got 0"):
+    with pytest.raises(sm.errors.InvalidOption, match="capacities of fragility fit must be positive; got 0"):
         fit_capacities([0.0])
-    with pytest.raises(sm.InvalidOption, match="confidence of fragility fit must be between 0 and 1; got 1"):
+    with pytest.raises(sm.errors.InvalidOption, match="confidence of fragility fit must be between 0 and 1; got 1"):
         fit_capacities([1.0], confidence=1.0)
-    with pytest.raises(sm.InvalidOption, match="demand of cloud fit must be zero or positive, and finite"):
+    with pytest.raises(sm.errors.InvalidOption, match="demand of cloud fit must be zero or positive, and finite"):
         fit_cloud([1.0, 2.0], [0.1, -0.1], 0.1)
-    with pytest.raises(sm.InvalidOption, match="probability of fragility must be between 0 and 1; got 0"):
+    with pytest.raises(sm.errors.InvalidOption, match="probability of fragility must be between 0 and 1; got 0"):
         fit_capacities([0.5, 1.0]).quantile(0.0)
-    with pytest.raises(sm.InvalidOption, match="intensity of fragility must be zero or positive; got"):
+    with pytest.raises(sm.errors.InvalidOption, match="intensity of fragility must be zero or positive; got"):
         fit_capacities([0.5, 1.0]).probability(-1.0)
 
 

@@ -18,7 +18,7 @@ import pytest
 from polars.testing import assert_frame_equal
 
 import seismass as sm
-from seismass.batch import MAX_RUNS
+from seismass.runs.batch import MAX_RUNS
 
 BUILDING = sm.Building.uniform(2, 0.3, mass=1000.0, yield_shear_over_weight=[0.2, 0.12], heights=3.0)
 LOADED = sm.Building.uniform(3, 0.6, mass=1000.0, yield_shear_over_weight=0.15, heights=3.0, gravity_load=9806.65)
@@ -178,7 +178,7 @@ def test_parquet_holds_the_same_rows_and_names_the_instructions(tmp_path: Path) 
     sm.write_many(path, grid, MOTIONS, chunk=7)
     assert_frame_equal(pl.read_parquet(path), sm.simulate_many(grid, MOTIONS), check_exact=True)
     metadata = pl.read_parquet_metadata(path)
-    assert (metadata["seismass"], metadata["instructions"]) == (sm.__version__, sm.instruction_set())
+    assert (metadata["seismass"], metadata["instructions"]) == (sm.__version__, sm.runs.instruction_set())
     assert list(tmp_path.iterdir()) == [path]
 
 
@@ -258,7 +258,7 @@ def test_a_stretch_of_runs_has_the_rows_of_the_whole(scenes: Callable[[], Any]) 
 
 @pytest.mark.parametrize("runs", [range(3), range(1, 10**6), range(1, 9, 2), 3, (1, 4), range(5, 1, -1)])
 def test_a_stretch_is_a_range_of_runs(runs: Any) -> None:
-    with pytest.raises(sm.InvalidOption, match="runs of batch must be a range of numbers of runs, from 1 to"):
+    with pytest.raises(sm.errors.InvalidOption, match="runs of batch must be a range of numbers of runs, from 1 to"):
         sm.simulate_many(aligned(), MOTIONS, runs=runs)
 
 
@@ -287,7 +287,7 @@ def test_a_scaled_motion_is_its_samples_times_the_factor() -> None:
 
 
 def test_statistics_name_the_instructions() -> None:
-    assert sm.simulate(sm.Scene(BUILDING), QUIET).statistics["instructions"] == sm.instruction_set()
+    assert sm.simulate(sm.Scene(BUILDING), QUIET).statistics["instructions"] == sm.runs.instruction_set()
     code = """
 import seismass as sm
 print(sm.simulate(sm.Scene(sm.Building(1.0, 1.0)), sm.Motion([0.0], 0.1)).statistics["instructions"])
@@ -363,69 +363,70 @@ def test_memory_does_not_grow_with_the_number_of_runs() -> None:
 
 Refused = tuple[str, Callable[[], object], type[Exception], str]
 REFUSED: list[Refused] = [
-    ("no building", lambda: sm.Grid([]), sm.InvalidScene,
+    ("no building", lambda: sm.Grid([]), sm.errors.InvalidScene,
      r"building of grid must be a Building or a list of Buildings; got \[\]"),
-    ("unequal columns", lambda: sm.Grid(BUILDING, mass_ratio=[1, 1], mu=[0.1, 0.2, 0.3]), sm.InvalidScene,
+    ("unequal columns", lambda: sm.Grid(BUILDING, mass_ratio=[1, 1], mu=[0.1, 0.2, 0.3]), sm.errors.InvalidScene,
      "mass_ratio of grid must be one value, or as many as the longest column has, 3; got 2 values"),
-    ("unequal friction", lambda: sm.Grid(BUILDING, mass_ratio=[1, 1, 1], mu=[0.1, 0.2]), sm.InvalidScene,
+    ("unequal friction", lambda: sm.Grid(BUILDING, mass_ratio=[1, 1, 1], mu=[0.1, 0.2]), sm.errors.InvalidScene,
      "mu of grid must be one value, or as many as the longest column has, 3; got 2 values"),
-    ("no friction", lambda: sm.Grid(BUILDING, mass_ratio=1.0), sm.InvalidScene,
+    ("no friction", lambda: sm.Grid(BUILDING, mass_ratio=1.0), sm.errors.InvalidScene,
      "mu of grid must be given, or mu_s; got neither"),
-    ("friction twice", lambda: sm.Grid(BUILDING, mass_ratio=1.0, mu=0.1, mu_s=0.2), sm.InvalidScene,
+    ("friction twice", lambda: sm.Grid(BUILDING, mass_ratio=1.0, mu=0.1, mu_s=0.2), sm.errors.InvalidScene,
      "mu of grid must be left out where mu_s or mu_k is given; got 0.1"),
-    ("friction of no block", lambda: sm.Grid(BUILDING, mu=0.1), sm.InvalidScene,
+    ("friction of no block", lambda: sm.Grid(BUILDING, mu=0.1), sm.errors.InvalidScene,
      "mu of grid must be left out where mass_ratio is; got 0.1"),
-    ("floors of no block", lambda: sm.Grid(BUILDING, floors=[1]), sm.InvalidScene,
+    ("floors of no block", lambda: sm.Grid(BUILDING, floors=[1]), sm.errors.InvalidScene,
      r"floors of grid must be left out where mass_ratio is; got \[1\]"),
-    ("missing floor", lambda: sm.Grid(BUILDING, floors=[3], mass_ratio=1.0, mu=0.1), sm.InvalidScene,
+    ("missing floor", lambda: sm.Grid(BUILDING, floors=[3], mass_ratio=1.0, mu=0.1), sm.errors.InvalidScene,
      "floor of block 1 of scene 1 must be a floor of the building, 1 to 2, or 0 for the ground; got 3"),
-    ("ground", lambda: sm.Grid(BUILDING, floors=[0], mass_ratio=1.0, mu=0.1), sm.InvalidScene,
+    ("ground", lambda: sm.Grid(BUILDING, floors=[0], mass_ratio=1.0, mu=0.1), sm.errors.InvalidScene,
      "floors of grid must be a whole number counted from 1, or a list of them; got 0 as value 1"),
-    ("half a floor", lambda: sm.Grid(BUILDING, floors=[0.5], mass_ratio=1.0, mu=0.1), sm.InvalidScene,
+    ("half a floor", lambda: sm.Grid(BUILDING, floors=[0.5], mass_ratio=1.0, mu=0.1), sm.errors.InvalidScene,
      r"floors of grid must be a whole number counted from 1, or a list of them; got \[0.5\]"),
-    ("negative ratio", lambda: sm.Grid(BUILDING, mass_ratio=[1, 1, -1], mu=0.1), sm.InvalidScene,
+    ("negative ratio", lambda: sm.Grid(BUILDING, mass_ratio=[1, 1, -1], mu=0.1), sm.errors.InvalidScene,
      "mass_ratio of block 1 of scene 3 must be a positive number, or 0 for no block; got -1"),
-    ("ratio of text", lambda: sm.Grid(BUILDING, mass_ratio="heavy", mu=0.1), sm.InvalidScene,
+    ("ratio of text", lambda: sm.Grid(BUILDING, mass_ratio="heavy", mu=0.1), sm.errors.InvalidScene,
      "mass_ratio of grid must be a number or a list of numbers; got 'heavy'"),
-    ("no values", lambda: sm.Grid(BUILDING, mass_ratio=[], mu=0.1), sm.InvalidScene,
+    ("no values", lambda: sm.Grid(BUILDING, mass_ratio=[], mu=0.1), sm.errors.InvalidScene,
      "mass_ratio of grid must be at least one value; got none"),
-    ("ragged", lambda: sm.Grid(BUILDING, mass_ratio=[[1, 1], [1]], mu=0.1), sm.InvalidScene,
+    ("ragged", lambda: sm.Grid(BUILDING, mass_ratio=[[1, 1], [1]], mu=0.1), sm.errors.InvalidScene,
      r"mass_ratio of grid must be a number or a list of numbers; got \[\[1, 1\], \[1\]\]"),
-    ("three per two blocks", lambda: sm.Grid(BUILDING, mass_ratio=[[1, 1, 1]], mu=0.1), sm.InvalidScene,
+    ("three per two blocks", lambda: sm.Grid(BUILDING, mass_ratio=[[1, 1, 1]], mu=0.1), sm.errors.InvalidScene,
      "mass_ratio of grid must be a list with one value per scene, or a table with one column per block, 2; got"),
     ("kinetic above static", lambda: sm.Grid.product(BUILDING, mass_ratio=[0.5, 1], mu_s=[0.2, 0.3], mu_k=[0.1, 0.4]),
-     sm.InvalidScene, "mu_k of block 1 of scene 2 must be at most mu_s = 0.3; got 0.4"),
+     sm.errors.InvalidScene, "mu_k of block 1 of scene 2 must be at most mu_s = 0.3; got 0.4"),
     ("unequal friction axis", lambda: sm.Grid.product(BUILDING, mass_ratio=1, mu_s=[0.2, 0.3], mu_k=[0.1] * 3),
-     sm.InvalidScene, "mu_k of grid must be one value, or as many as mu_s has, 2; got 3 values"),
-    ("too heavy", lambda: sm.Grid.product(LOADED, mass_ratio=[1, 1e6], mu=[0.1, 0.2], scale=[1, 2]), sm.InvalidScene,
+     sm.errors.InvalidScene, "mu_k of grid must be one value, or as many as mu_s has, 2; got 3 values"),
+    ("too heavy", lambda: sm.Grid.product(LOADED, mass_ratio=[1, 1e6], mu=[0.1, 0.2], scale=[1, 2]),
+     sm.errors.InvalidScene,
      "geometric stiffness P/h of storey 1 of scene 5 must be below its stiffness .*; got"),
     ("too many", lambda: sm.Grid.product(BUILDING, mass_ratio=[1] * 2**18, mu=[0.1] * 2**18, scale=[1] * 2**18),
-     sm.InvalidOption, f"scenes of grid must be at most {MAX_RUNS}; got {2**54}"),
-    ("which building", lambda: sm.Grid([BUILDING, LOADED], scale=[1, 2]), sm.InvalidScene,
+     sm.errors.InvalidOption, f"scenes of grid must be at most {MAX_RUNS}; got {2**54}"),
+    ("which building", lambda: sm.Grid([BUILDING, LOADED], scale=[1, 2]), sm.errors.InvalidScene,
      "building_index of grid must be given where there are several buildings; got none"),
-    ("missing building", lambda: sm.Grid([BUILDING, LOADED], building_index=[1, 3]), sm.InvalidScene,
+    ("missing building", lambda: sm.Grid([BUILDING, LOADED], building_index=[1, 3]), sm.errors.InvalidScene,
      "building_index of grid must be the number of a building, counted from 1 to 2; got 3 as value 2"),
-    ("infinite factor", lambda: sm.Grid(BUILDING, scale=[1, np.inf]), sm.InvalidMotion,
+    ("infinite factor", lambda: sm.Grid(BUILDING, scale=[1, np.inf]), sm.errors.InvalidMotion,
      "scale of grid must be a finite number; got inf as value 2"),
-    ("motion zero", lambda: sm.Grid(BUILDING, motion=[1, 0]), sm.InvalidOption,
+    ("motion zero", lambda: sm.Grid(BUILDING, motion=[1, 0]), sm.errors.InvalidOption,
      "motion of grid must be a whole number counted from 1, or a list of them; got 0 as value 2"),
-    ("missing motion", lambda: sm.stream_many(sm.Grid(BUILDING, motion=[1, 2]), QUIET), sm.InvalidOption,
+    ("missing motion", lambda: sm.stream_many(sm.Grid(BUILDING, motion=[1, 2]), QUIET), sm.errors.InvalidOption,
      "motion of grid must be the number of a motion, counted from 1 to 1; got 2 as value 2"),
-    ("collapse at no drift", lambda: sm.Grid(BUILDING, collapse_drift=0.0), sm.InvalidScene,
+    ("collapse at no drift", lambda: sm.Grid(BUILDING, collapse_drift=0.0), sm.errors.InvalidScene,
      "collapse_drift of storey 1 of scene 1 must be a positive number; got 0"),
-    ("missing scene", lambda: sm.Grid(BUILDING).scene(2), sm.InvalidOption,
+    ("missing scene", lambda: sm.Grid(BUILDING).scene(2), sm.errors.InvalidOption,
      "number of grid must be that of a scene, counted from 1 to 1; got 2"),
-    ("scene zero", lambda: sm.Grid(BUILDING).scene(0), sm.InvalidOption,
+    ("scene zero", lambda: sm.Grid(BUILDING).scene(0), sm.errors.InvalidOption,
      "number of grid must be a whole number of at least 1; got 0"),
-    ("pair zero", lambda: sm.simulate_many(sm.Scene(BUILDING), QUIET, pairs=[(1, 1), (0, 1)]), sm.InvalidOption,
+    ("pair zero", lambda: sm.simulate_many(sm.Scene(BUILDING), QUIET, pairs=[(1, 1), (0, 1)]), sm.errors.InvalidOption,
      "pairs of batch must be the number of a scene, counted from 1 to 1; got 0 in pair 2"),
-    ("building of two", lambda: sm.Grid(BUILDING, storeys=2, period=0.3), sm.InvalidScene,
+    ("building of two", lambda: sm.Grid(BUILDING, storeys=2, period=0.3), sm.errors.InvalidScene,
      "building of grid must be given either as building or as storeys; got both"),
-    ("pairs of a grid", lambda: sm.simulate_many(sm.Grid(BUILDING), QUIET, pairs=[(0, 0)]), sm.InvalidOption,
+    ("pairs of a grid", lambda: sm.simulate_many(sm.Grid(BUILDING), QUIET, pairs=[(0, 0)]), sm.errors.InvalidOption,
      r"pairs of batch must be left out with a Grid, which has a column of motions; got \[\(0, 0\)\]"),
-    ("chunks of nothing", lambda: sm.stream_many(sm.Grid(BUILDING), QUIET, chunk=0), sm.InvalidOption,
+    ("chunks of nothing", lambda: sm.stream_many(sm.Grid(BUILDING), QUIET, chunk=0), sm.errors.InvalidOption,
      "chunk of batch must be a whole number of at least 1; got 0"),
-    ("motion scaled by nothing", lambda: shaking().scaled(float("nan")), sm.InvalidMotion,
+    ("motion scaled by nothing", lambda: shaking().scaled(float("nan")), sm.errors.InvalidMotion,
      "factor of scaled motion must be a finite number; got NaN"),
 ]  # fmt: skip
 

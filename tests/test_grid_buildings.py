@@ -192,16 +192,18 @@ REFUSED = [
 @pytest.mark.parametrize(("given", "message"), REFUSED)
 @pytest.mark.parametrize("make", [sm.Grid, sm.Grid.product])
 def test_wrong_values_are_refused_by_name(make: type[sm.Grid], given: dict[str, object], message: str) -> None:
-    with pytest.raises(sm.InvalidScene, match=f"^{message}"):
+    with pytest.raises(sm.errors.InvalidScene, match=f"^{message}"):
         make(BASE, **given)
 
 
 def test_storeys_need_a_period_and_strength_needs_a_yield() -> None:
-    with pytest.raises(sm.InvalidScene, match="period of grid must be given where storeys is; got none"):
+    with pytest.raises(sm.errors.InvalidScene, match="period of grid must be given where storeys is; got none"):
         sm.Grid(storeys=2)
-    with pytest.raises(sm.InvalidScene, match="period of grid must be one value, or as many as storeys has, 2; got 3"):
+    with pytest.raises(
+        sm.errors.InvalidScene, match="period of grid must be one value, or as many as storeys has, 2; got 3"
+    ):
         sm.Grid.product(storeys=[2, 3], period=[0.1, 0.2, 0.3])
-    with pytest.raises(sm.InvalidScene, match="strength of grid must be left out where buildings are elastic"):
+    with pytest.raises(sm.errors.InvalidScene, match="strength of grid must be left out where buildings are elastic"):
         sm.Grid(sm.Building.uniform(2, 0.3), strength=0.5)
-    with pytest.raises(sm.InvalidScene, match="storeys of grid must be a whole number counted from 1"):
+    with pytest.raises(sm.errors.InvalidScene, match="storeys of grid must be a whole number counted from 1"):
         sm.Grid(storeys=[0, 2], period=0.3)

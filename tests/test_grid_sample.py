@@ -12,7 +12,7 @@ from polars.testing import assert_frame_equal
 from scipy import stats
 
 import seismass as sm
-from seismass.grid_sample import METHODS, points
+from seismass.runs.grid.sample import METHODS, points
 from seismass.spectra.stored import target_of_parameters
 from seismass.study import StudyParameters
 from seismass.study.buildings import study_buildings
@@ -57,7 +57,7 @@ def test_what_slides_is_a_share_of_what_is_present() -> None:
 
 def test_strengths_by_r_are_those_of_the_study() -> None:
     parameters = StudyParameters(occupancies=(("storage", 0.25),))
-    design = sm.StrengthDesign(TARGET, share=0.25)
+    design = sm.runs.StrengthDesign(TARGET, share=0.25)
     grid = sm.Grid.product(
         storeys=[2, 3, 4],
         period=[0.38, 0.47, 0.57],
@@ -84,7 +84,7 @@ def test_strengths_by_r_are_those_of_the_study() -> None:
 
 
 def test_r_of_one_may_yield() -> None:
-    design = sm.StrengthDesign(TARGET, share=0.0, elastic_at_one=False)
+    design = sm.runs.StrengthDesign(TARGET, share=0.0, elastic_at_one=False)
     yields = sm.Grid(storeys=2, period=0.3, R=[1.0, 2.0], design=design)
     first, second = (yields.scene(number).building for number in (1, 2))
     assert first is not None
@@ -97,24 +97,32 @@ def test_r_of_one_may_yield() -> None:
 @pytest.mark.parametrize(
     ("arguments", "kind", "said"),
     [
-        ({"R": 2.0}, sm.InvalidScene, "design of grid must be given where R is; got none"),
-        ({"design": sm.StrengthDesign(TARGET)}, sm.InvalidScene, "design of grid must be left out where R is"),
-        ({"R": 2.0, "design": TARGET}, sm.InvalidScene, "design of grid must be a StrengthDesign"),
+        ({"R": 2.0}, sm.errors.InvalidScene, "design of grid must be given where R is; got none"),
         (
-            {"R": 2.0, "design": sm.StrengthDesign(TARGET), "strength": 2.0},
-            sm.InvalidScene,
+            {"design": sm.runs.StrengthDesign(TARGET)},
+            sm.errors.InvalidScene,
+            "design of grid must be left out where R is",
+        ),
+        ({"R": 2.0, "design": TARGET}, sm.errors.InvalidScene, "design of grid must be a StrengthDesign"),
+        (
+            {"R": 2.0, "design": sm.runs.StrengthDesign(TARGET), "strength": 2.0},
+            sm.errors.InvalidScene,
             "R of grid must be left out where strength is given",
         ),
-        ({"R": 0.0, "design": sm.StrengthDesign(TARGET)}, sm.InvalidScene, "R of grid must be a positive number"),
-        ({"occupancy": 0.5}, sm.InvalidScene, "occupancy of grid must be left out where mass_ratio is"),
+        (
+            {"R": 0.0, "design": sm.runs.StrengthDesign(TARGET)},
+            sm.errors.InvalidScene,
+            "R of grid must be a positive number",
+        ),
+        ({"occupancy": 0.5}, sm.errors.InvalidScene, "occupancy of grid must be left out where mass_ratio is"),
         (
             {"mass_ratio": 1.0, "mu": 0.2, "occupancy": -0.1},
-            sm.InvalidScene,
+            sm.errors.InvalidScene,
             "occupancy of grid must be a number",
         ),
         (
             {"mass_ratio": 1.0, "mu": 0.2, "attached_of": "all"},
-            sm.InvalidScene,
+            sm.errors.InvalidScene,
             "attached_of of grid must be present",
         ),
     ],
@@ -136,8 +144,8 @@ def test_arguments_are_judged(arguments: dict[str, Any], kind: type[Exception], 
     ],
 )
 def test_designs_are_judged(arguments: dict[str, Any], said: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=said):
-        sm.StrengthDesign(**arguments)
+    with pytest.raises(sm.errors.InvalidOption, match=said):
+        sm.runs.StrengthDesign(**arguments)
 
 
 @pytest.mark.parametrize(
@@ -166,17 +174,19 @@ def test_a_csv_is_made_again_and_a_mean_is_refused(tmp_path: Any) -> None:
     assert again == target
     assert again([0.2, 1.0]).tolist() == target([0.2, 1.0]).tolist()
     mean = sm.TargetSpectrum.mean_of(MOTION)
-    with pytest.raises(sm.InvalidOption, match="target of stored spectrum must be made of numbers"):
+    with pytest.raises(sm.errors.InvalidOption, match="target of stored spectrum must be made of numbers"):
         target_of_parameters(mean.parameters)
-    with pytest.raises(sm.InvalidOption, match="target of stored spectrum must be of a kind that is known; got 'x'"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match="target of stored spectrum must be of a kind that is known; got 'x'"
+    ):
         target_of_parameters({"shape": "x"})
 
 
 def sample(**changes: Any) -> sm.Grid:
     axes = {
         "mass_ratio": 1.0,
-        "occupancy": sm.beta(0.7, 0.15),
-        "mu": sm.lognormal(0.4, 0.25),
+        "occupancy": sm.distributions.beta(0.7, 0.15),
+        "mu": sm.distributions.lognormal(0.4, 0.25),
         "scale": [0.5, 1.0, 2.0],
     }
     return sm.Grid.sample(BUILDING, **({"samples": 1024, "seed": 5} | axes | changes))
@@ -185,7 +195,10 @@ def sample(**changes: Any) -> sm.Grid:
 @pytest.mark.parametrize("method", METHODS)
 def test_samples_have_the_distributions_that_were_asked_for(method: Any) -> None:
     table = sample(method=method).table()
-    for name, distribution in (("mu_s", sm.lognormal(0.4, 0.25)), ("occupancy", sm.beta(0.7, 0.15))):
+    for name, distribution in (
+        ("mu_s", sm.distributions.lognormal(0.4, 0.25)),
+        ("occupancy", sm.distributions.beta(0.7, 0.15)),
+    ):
         # The distance of Kolmogorov of 1024 independent points is below 0.051 in 99 % of samples.
         distance = stats.kstest(table[name].to_numpy(), distribution.cdf).statistic  # type: ignore[attr-defined]
         assert distance < (0.051 if method == "random" else 0.006)
@@ -220,7 +233,10 @@ def test_sobol_is_balanced_at_powers_of_two() -> None:
 
 
 def test_blocks_may_have_distributions_of_their_own() -> None:
-    grid = sample(mass_ratio=[sm.lognormal(1.0, 0.2), 0.5], mu=[sm.lognormal(0.4, 0.25), sm.lognormal(0.3, 0.1)])
+    grid = sample(
+        mass_ratio=[sm.distributions.lognormal(1.0, 0.2), 0.5],
+        mu=[sm.distributions.lognormal(0.4, 0.25), sm.distributions.lognormal(0.3, 0.1)],
+    )
     table = grid.table()
     ratio, mu = (np.array(table[name].to_list()) for name in ("mass_ratio", "mu_s"))
     assert (ratio[:, 1] == 0.5).all()
@@ -230,11 +246,13 @@ def test_blocks_may_have_distributions_of_their_own() -> None:
 
 
 def test_kinetic_friction_may_be_drawn_over_static() -> None:
-    table = sample(mu=None, mu_s=sm.lognormal(0.4, 0.25), mu_k_over_mu_s=sm.beta(0.75, 0.1)).table()
+    table = sample(
+        mu=None, mu_s=sm.distributions.lognormal(0.4, 0.25), mu_k_over_mu_s=sm.distributions.beta(0.75, 0.1)
+    ).table()
     ratio = (table["mu_k"] / table["mu_s"]).to_numpy()
     assert ratio.max() <= 1.0
     np.testing.assert_allclose(ratio.mean(), 0.75, atol=0.005)
-    half = sample(mu=[sm.lognormal(0.4, 0.25), 0.3], mu_k_over_mu_s=0.5).table()
+    half = sample(mu=[sm.distributions.lognormal(0.4, 0.25), 0.3], mu_k_over_mu_s=0.5).table()
     assert np.array_equal(np.array(half["mu_k"].to_list()), 0.5 * np.array(half["mu_s"].to_list()))
 
 
@@ -262,20 +280,28 @@ def test_constants_alone_are_equal_scenes() -> None:
 @pytest.mark.parametrize(
     ("changes", "kind", "said"),
     [
-        ({"samples": 0}, sm.InvalidOption, "samples of sample must be a whole number of at least 1"),
-        ({"samples": 2**31}, sm.InvalidOption, "samples of sample must be at most"),
-        ({"method": "halton"}, sm.InvalidOption, "method of sample must be one of sobol, latin_hypercube, random"),
-        ({"seed": -1}, sm.InvalidOption, "seed of sample must be a whole number"),
-        ({"motions": 0}, sm.InvalidOption, "motions of sample must be a whole number of at least 1"),
-        ({"mu": "high"}, sm.InvalidScene, "mu of sample must be a number, a distribution or a list of values"),
-        ({"scale": [sm.beta(0.5, 0.1), 1.0]}, sm.InvalidScene, "scale of sample must be one distribution"),
-        ({"mu": stats.norm(0.1, 0.2)}, sm.InvalidScene, "mu_s of block 1 of scene 2 must be finite"),
+        ({"samples": 0}, sm.errors.InvalidOption, "samples of sample must be a whole number of at least 1"),
+        ({"samples": 2**31}, sm.errors.InvalidOption, "samples of sample must be at most"),
+        (
+            {"method": "halton"},
+            sm.errors.InvalidOption,
+            "method of sample must be one of sobol, latin_hypercube, random",
+        ),
+        ({"seed": -1}, sm.errors.InvalidOption, "seed of sample must be a whole number"),
+        ({"motions": 0}, sm.errors.InvalidOption, "motions of sample must be a whole number of at least 1"),
+        ({"mu": "high"}, sm.errors.InvalidScene, "mu of sample must be a number, a distribution or a list of values"),
+        (
+            {"scale": [sm.distributions.beta(0.5, 0.1), 1.0]},
+            sm.errors.InvalidScene,
+            "scale of sample must be one distribution",
+        ),
+        ({"mu": stats.norm(0.1, 0.2)}, sm.errors.InvalidScene, "mu_s of block 1 of scene 2 must be finite"),
         (
             {"mu_k": 0.1, "mu": None, "mu_s": 0.3, "mu_k_over_mu_s": 0.5},
-            sm.InvalidScene,
+            sm.errors.InvalidScene,
             "left out where mu_k is given",
         ),
-        ({"mu": None, "mu_k_over_mu_s": 0.5}, sm.InvalidScene, "mu of grid must be given, or mu_s"),
+        ({"mu": None, "mu_k_over_mu_s": 0.5}, sm.errors.InvalidScene, "mu of grid must be given, or mu_s"),
     ],
 )
 def test_samples_are_judged(changes: dict[str, Any], kind: type[Exception], said: str) -> None:
@@ -319,7 +345,7 @@ def test_one_table_has_at_most_32_bits_of_rows_and_scenes_may_be_far_apart() -> 
     many = np.linspace(0.1, 0.5, 2**17)
     grid = sm.Grid.product(BUILDING, mass_ratio=1.0, mu=many, scale=np.linspace(0.5, 2.0, 2**17))
     for solve in (sm.simulate_many, lambda *given: sm.write_many("rows.parquet", *given)):
-        with pytest.raises(sm.InvalidOption, match=r"runs of batch must be at most 4294967295 for one table"):
+        with pytest.raises(sm.errors.InvalidOption, match=r"runs of batch must be at most 4294967295 for one table"):
             solve(grid, MOTION)
     ends = [sm.simulate_many(grid, MOTION, runs=range(number, number + 1)) for number in (1, 2**34)]
     long = sm.long_table(pl.concat(ends), grid)

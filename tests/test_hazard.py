@@ -12,8 +12,8 @@ from scipy.integrate import quad
 from scipy.stats import norm
 
 import seismass as sm
-from seismass.intensity.annual_rate import annual_rate, capacity_rates, lognormal_rates
-from seismass.intensity.hazard import HazardCurve
+from seismass.risk.annual_rate import annual_rate, capacity_rates, lognormal_rates
+from seismass.risk.hazard import HazardCurve
 
 BAKER = Path(__file__).parent / "data" / "hazard_baker.csv"
 CURVE = HazardCurve([0.05, 0.1, 0.3, 1.0, 2.0], [0.02, 0.007, 8e-4, 4e-5, 3e-6], label="test")
@@ -165,13 +165,13 @@ def test_files_with_and_without_headers(tmp_path: Path, text: str) -> None:
 def test_files_that_are_refused_name_their_line(tmp_path: Path, text: str, message: str) -> None:
     file = tmp_path / "site.csv"
     file.write_text(text, encoding="utf-8")
-    with pytest.raises(sm.RecordFormatError) as error:
+    with pytest.raises(sm.errors.RecordFormatError) as error:
         HazardCurve.from_csv(file)
     assert message in str(error.value)
 
 
 def test_what_is_refused() -> None:
-    with pytest.raises(sm.RecordFormatError, match="must be a file of text that can be read"):
+    with pytest.raises(sm.errors.RecordFormatError, match="must be a file of text that can be read"):
         HazardCurve.from_csv("missing.csv")
     for sa, rate, message in (
         ([0.1], [0.1], "points of hazard curve must be at least two; got 1"),
@@ -180,16 +180,16 @@ def test_what_is_refused() -> None:
         ([0.1, 0.2], [0.1, 0.1], "rate of hazard curve must be strictly decreasing"),
         ([0.0, 0.2], [0.1, 0.1], "sa_g of hazard curve must be positive numbers; got 0 in point 1"),
     ):
-        with pytest.raises(sm.InvalidOption) as error:
+        with pytest.raises(sm.errors.InvalidOption) as error:
             HazardCurve(sa, rate)
         assert message in str(error.value)
-    with pytest.raises(sm.InvalidOption, match=r"within the curve, 0.05 to 2 g, or extrapolate=True; got 3"):
+    with pytest.raises(sm.errors.InvalidOption, match=r"within the curve, 0.05 to 2 g, or extrapolate=True; got 3"):
         CURVE.rate(3.0)
-    with pytest.raises(sm.InvalidOption, match="rate of hazard curve must be within the curve"):
+    with pytest.raises(sm.errors.InvalidOption, match="rate of hazard curve must be within the curve"):
         CURVE.intensity(1.0)
-    with pytest.raises(sm.InvalidOption, match="median of fragility must be a positive number; got inf"):
+    with pytest.raises(sm.errors.InvalidOption, match="median of fragility must be a positive number; got inf"):
         annual_rate(Lognormal(np.inf, 0.4), CURVE)
-    with pytest.raises(sm.InvalidOption, match="must be a Fragility, or the positive capacities of motions"):
+    with pytest.raises(sm.errors.InvalidOption, match="must be a Fragility, or the positive capacities of motions"):
         annual_rate([], CURVE)
-    with pytest.raises(sm.InvalidOption, match="hazard of annual rate must be a HazardCurve; got 3"):
+    with pytest.raises(sm.errors.InvalidOption, match="hazard of annual rate must be a HazardCurve; got 3"):
         annual_rate([0.1], 3)  # type: ignore[arg-type]

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seismass.cli import COMMANDS, main
+from seismass.cli import main
+from seismass.commands.parser import COMMANDS
 from seismass.explore import compiled
 from seismass.records.builtin import data_directory
 

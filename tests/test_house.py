@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 import seismass
-from seismass.cli import COMMANDS, build_parser, main
+from seismass.cli import main
+from seismass.commands.parser import COMMANDS, build_parser
 from seismass.records.builtin import data_directory
 
 ROOT = Path(__file__).parents[1]
@@ -35,16 +36,19 @@ def test_package_is_typed_and_finds_its_data() -> None:
 
 def test_every_error_is_a_seismass_error_and_the_builtin_one() -> None:
     for name in ("InvalidScene", "InvalidMotion", "InvalidOption", "RecordFormatError", "InvalidSceneFile"):
-        error = getattr(seismass, name)
+        error = getattr(seismass.errors, name)
         assert issubclass(error, seismass.SeismassError)
         assert issubclass(error, ValueError)
-    assert issubclass(seismass.SimulationError, seismass.SeismassError)
-    assert issubclass(seismass.SimulationError, RuntimeError)
+    assert issubclass(seismass.errors.SimulationError, seismass.SeismassError)
+    assert issubclass(seismass.errors.SimulationError, RuntimeError)
 
 
 def test_import_leaves_what_is_slow_to_import_for_when_it_is_used() -> None:
     """Names of batches and studies bring NumPy and Polars, and no SciPy, Matplotlib or PyWavelets."""
-    names = "seismass.simulate_many, seismass.Campaign, seismass.effective_mass, seismass.intensity, seismass.assess"
+    names = (
+        "seismass.simulate_many, seismass.campaign.Campaign, seismass.effective_mass, "
+        "seismass.fragility, seismass.assess"
+    )
     program = f"import sys, seismass; {names}; print(*sorted({{name.partition('.')[0] for name in sys.modules}}))"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
     assert {"numpy", "polars"} <= set(found)
@@ -125,7 +129,7 @@ def test_the_package_and_its_command_line_can_be_run_as_modules() -> None:
 def test_names_are_imported_when_they_are_first_used() -> None:
     program = (
         "import sys, seismass\nassert 'numpy' not in sys.modules\nseismass.Building\nassert 'numpy' in sys.modules\n"
-        "import seismass.batch, seismass.effective_mass.answer\n"
+        "import seismass.runs.batch, seismass.effective_mass.answer\n"
         "print(callable(seismass.simulate), callable(seismass.effective_mass), callable(seismass.long_table))"
     )
     assert run_python("-c", program) == "True True True\n"

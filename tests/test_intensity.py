@@ -17,7 +17,8 @@ from matplotlib.figure import Figure
 
 import seismass as sm
 from seismass.records import Record, intensity_table
-from seismass.records.intensity import MEASURES, drift_remarks, integrals, peak_displacement, peak_velocity
+from seismass.records.intensity import integrals, peak_displacement, peak_velocity
+from seismass.records.measures import MEASURES, drift_remarks
 
 G = sm.STANDARD_GRAVITY
 ARIAS = math.pi / (2.0 * G)
@@ -191,21 +192,33 @@ def test_table_has_a_row_per_record() -> None:
     [
         (
             lambda r: r.significant_duration(-0.1, 0.9),
-            sm.InvalidOption,
+            sm.errors.InvalidOption,
             "start of significant duration must be a share",
         ),
-        (lambda r: r.significant_duration(0.5, 0.4), sm.InvalidOption, "end of significant duration must be a share"),
-        (lambda r: r.significant_duration(0.5, float("nan")), sm.InvalidOption, "end of significant duration"),
-        (lambda r: r.bracketed_duration(0.0), sm.InvalidOption, "threshold_g of bracketed duration must be a positive"),
+        (
+            lambda r: r.significant_duration(0.5, 0.4),
+            sm.errors.InvalidOption,
+            "end of significant duration must be a share",
+        ),
+        (lambda r: r.significant_duration(0.5, float("nan")), sm.errors.InvalidOption, "end of significant duration"),
+        (
+            lambda r: r.bracketed_duration(0.0),
+            sm.errors.InvalidOption,
+            "threshold_g of bracketed duration must be a positive",
+        ),
         (
             lambda r: r.bracketed_duration("much"),
-            sm.InvalidOption,
+            sm.errors.InvalidOption,
             "threshold_g of bracketed duration must be a number",
         ),
-        (lambda r: intensity_table([r, 3]), sm.InvalidMotion, "record 2 of intensity table must be a Record; got 3"),
-        (lambda r: intensity_table(7), sm.InvalidMotion, "records of intensity table must be Records; got 7"),
-        (lambda r: r.plot(axes=[]), sm.InvalidOption, "axes of plot must be 4 Axes"),
-        (lambda r: r.plot(axes=[], figure=Figure()), sm.InvalidOption, "axes of plot must be left out where"),
+        (
+            lambda r: intensity_table([r, 3]),
+            sm.errors.InvalidMotion,
+            "record 2 of intensity table must be a Record; got 3",
+        ),
+        (lambda r: intensity_table(7), sm.errors.InvalidMotion, "records of intensity table must be Records; got 7"),
+        (lambda r: r.plot(axes=[]), sm.errors.InvalidOption, "axes of plot must be 4 Axes"),
+        (lambda r: r.plot(axes=[], figure=Figure()), sm.errors.InvalidOption, "axes of plot must be left out where"),
     ],
 )
 def test_wrong_input(wrong: Any, kind: type[Exception], message: str) -> None:

@@ -10,9 +10,10 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.intensity import (
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.fragility import (
+    FragilityAnalysis,
     HuntAndFill,
-    IntensityAnalysis,
     IntensityMeasure,
     LimitState,
     cloud_analysis,
@@ -24,7 +25,6 @@ from seismass.intensity import (
     multiple_stripes,
     solve_grid,
 )
-from seismass.units import STANDARD_GRAVITY
 
 SUITE = list(sm.builtin_suite("eleven"))
 DRIFT = LimitState("drift_ratio", 0.02)
@@ -39,7 +39,7 @@ def warehouse(**changes: object) -> sm.Scene:
 
 
 @pytest.fixture(scope="module")
-def analysis() -> IntensityAnalysis:
+def analysis() -> FragilityAnalysis:
     """Three models, eleven motions, five limits."""
     limits = [DRIFT, SLIP, LimitState("collapse"), LimitState("floor_acceleration_g", 0.6, storey=3)]
     return incremental_dynamic_analysis(warehouse(), SUITE, limits, at=[1.0], resamples=200)
@@ -182,7 +182,7 @@ def test_one_motion_has_a_capacity_and_no_interval() -> None:
     assert found.comparison["median_ratio"].null_count() == 2
     assert "1 motion: few" in found.text
     found.plot()
-    found.plot_ida()
+    found.plot(found.figure_names[1])
 
 
 def test_a_limit_that_is_never_exceeded_has_no_median() -> None:
@@ -218,7 +218,7 @@ def test_models_are_paired_in_the_bootstrap() -> None:
     assert at["reference"] == pytest.approx(float(real.probability(1.0)))
 
 
-def test_capacities_and_comparison_of_the_models(analysis: IntensityAnalysis) -> None:
+def test_capacities_and_comparison_of_the_models(analysis: FragilityAnalysis) -> None:
     for model in ("real", "code", "attached"):
         rows = analysis.capacities.filter(limit=DRIFT.name, model=model)
         assert rows["motion"].to_list() == list(range(1, 12))
@@ -252,7 +252,7 @@ def test_the_three_models_are_those_of_effective_mass() -> None:
     assert ratio == sm.attached_scene(scene, 0.3, "ratio")
 
 
-def test_fractiles_of_demand_count_collapse_as_infinite(analysis: IntensityAnalysis) -> None:
+def test_fractiles_of_demand_count_collapse_as_infinite(analysis: FragilityAnalysis) -> None:
     levels = [0.5, 1.0, 1.5]
     found = analysis.fractiles("intensity", levels).filter(model="real", demand_column="drift_ratio")
     exact = solve_grid({"real": warehouse()}, SUITE, DRIFT, levels)
@@ -301,7 +301,7 @@ def test_stripes_of_other_motions() -> None:
     assert fit.kind == expected.kind
     assert fit.median == pytest.approx(expected.median)
     assert found.capacities.is_empty()
-    with pytest.raises(sm.InvalidOption, match="analysis of fractiles must be those of motions that are scaled"):
+    with pytest.raises(sm.errors.InvalidOption, match="analysis of fractiles must be those of motions that are scaled"):
         found.fractiles()
     one_event = multiple_stripes(warehouse(), {0.9: SUITE[0], 1.2: SUITE[:6], 1.5: SUITE}, DRIFT)
     assert one_event.fragility(DRIFT).median_interval is None
@@ -315,12 +315,12 @@ def test_clouds_are_regressed() -> None:
     found = cloud_analysis(warehouse(), motions, limits, measure="sa_avg", resamples=100)
     assert (found.runs["scale"].round(12) == 1.0).all()
     rows = found.runs.filter(model="real")
-    expected = sm.intensity.fit_cloud(rows["intensity"], rows["drift_ratio"], 0.02, resamples=0)
+    expected = sm.fragility.fit_cloud(rows["intensity"], rows["drift_ratio"], 0.02, resamples=0)
     assert found.fragility(DRIFT).median == pytest.approx(expected.median, rel=1e-12)
     fell = (rows["status"] == "collapsed").to_numpy()
     by_run = fit_counts(rows["intensity"], fell.astype(float), np.ones(11), resamples=0)
     assert found.fragility("collapse").kind == by_run.kind
-    with pytest.raises(sm.InvalidOption, match="measure of cloud analysis must be other than scale"):
+    with pytest.raises(sm.errors.InvalidOption, match="measure of cloud analysis must be other than scale"):
         cloud_analysis(warehouse(), motions, limits, measure="scale")
 
 
@@ -375,7 +375,7 @@ def test_what_no_analysis_can_take_is_refused() -> None:
         (lambda: LimitState("drift", 0.0), "value of limit state must be positive for what is no slip; got 0"),
         (lambda: LimitState("slip", 0.1, storey=1), "storey of limit state must be left out for a slip"),
         (lambda: LimitState("drift", 0.1, collapsed="peak"), "collapsed of limit state must be exceeds for drift"),
-        (lambda: sm.intensity.parse_limit("drift"), "limit of limit state must be QUANTITY=VALUE"),
+        (lambda: sm.fragility.parse_limit("drift"), "limit of limit state must be QUANTITY=VALUE"),
         (lambda: HuntAndFill(tolerance=0.0), "tolerance of hunt and fill must be from 1e-14 to below 1; got 0"),
         (lambda: IntensityMeasure("sa_t1"), "period of intensity measure must be given for sa_t1; got None"),
         (
@@ -396,24 +396,26 @@ def test_what_no_analysis_can_take_is_refused() -> None:
         ),
         (lambda: multiple_stripes(scene, {}, DRIFT), "stripes of multiple stripes must be a mapping"),
     ):
-        with pytest.raises(sm.InvalidOption, match=message):
+        with pytest.raises(sm.errors.InvalidOption, match=message):
             call()
     without = sm.Scene(sm.Building.uniform(1, 0.5))
-    with pytest.raises(sm.InvalidScene, match="heights of building must be given for a limit of drift_ratio; got None"):
+    with pytest.raises(
+        sm.errors.InvalidScene, match="heights of building must be given for a limit of drift_ratio; got None"
+    ):
         incremental_dynamic_analysis(without, SUITE, DRIFT)
-    with pytest.raises(sm.InvalidScene, match="model code of incremental dynamic analysis must be of 3 storeys"):
+    with pytest.raises(sm.errors.InvalidScene, match="model code of incremental dynamic analysis must be of 3 storeys"):
         incremental_dynamic_analysis({"real": scene, "code": without}, SUITE, SLIP)
 
 
 # Results
 
 
-def test_results_are_written_and_say_what_they_hold(analysis: IntensityAnalysis, tmp_path: Path) -> None:
+def test_results_are_written_and_say_what_they_hold(analysis: FragilityAnalysis, tmp_path: Path) -> None:
     files = {path.name for path in analysis.write(tmp_path / "out")}
-    assert {"runs.parquet", "fragilities.csv", "exceedance.csv", "intensity.json", "fragility.svg"} <= files
+    assert {"runs.parquet", "fragilities.csv", "exceedance.csv", "fragility.json", "fragility.svg"} <= files
     assert {"demand_drift_ratio.png", "demand_slip.png", "fractiles_given_demand.csv"} <= files
     assert not any("collapse" in name for name in files)
-    document = json.loads((tmp_path / "out" / "intensity.json").read_text())
+    document = json.loads((tmp_path / "out" / "fragility.json").read_text())
     assert document["metadata"]["runs"] == analysis.runs.height
     assert document["limits"][0]["name"] == "drift_ratio=0.02"
     assert len(document["fragilities"]) == analysis.fragilities.height

@@ -11,7 +11,7 @@ import pytest
 from polars.testing import assert_frame_equal
 
 import seismass as sm
-from seismass.kept import KeptResults, digest_of, kept_folder
+from seismass.base.kept import KeptResults, digest_of, kept_folder
 from seismass.study import StudyParameters, run_study
 
 
@@ -62,7 +62,7 @@ def test_a_process_that_works_on_the_same_has_a_folder_of_its_own(tmp_path: Path
 @pytest.mark.skipif(sys.platform != "linux", reason="the start of a process is read from /proc")
 def test_parts_of_a_killed_process_are_taken(tmp_path: Path) -> None:
     program = (
-        "import os, sys\nfrom pathlib import Path\nfrom seismass.kept import kept_folder\n"
+        "import os, sys\nfrom pathlib import Path\nfrom seismass.base.kept import kept_folder\n"
         "with kept_folder(Path(sys.argv[1]), 'rows', 'a') as folder:\n"
         "    (folder / 'part').write_text('1')\n    os.kill(os.getpid(), 9)\n"
     )

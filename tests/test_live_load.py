@@ -20,25 +20,29 @@ ROOT = Path(__file__).parents[1]
 BUILDING = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
 SCENE = sm.Scene(BUILDING, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.4, mu_k=0.3))
 MOTIONS = [record.scaled(2.0) for record in sm.builtin_suite("seven")]
-SOME = {"mu": sm.lognormal(0.4, 0.25), "occupancy": sm.beta(0.7, 0.15)}
+SOME = {"mu": sm.distributions.lognormal(0.4, 0.25), "occupancy": sm.distributions.beta(0.7, 0.15)}
 
 
 def test_distributions() -> None:
-    mu, occupancy = stats.lognorm(s=0.25, scale=0.4), sm.beta(0.7, 0.15)
-    assert sm.lognormal(0.4, 0.25).ppf(0.9) == pytest.approx(mu.ppf(0.9))
+    mu, occupancy = stats.lognorm(s=0.25, scale=0.4), sm.distributions.beta(0.7, 0.15)
+    assert sm.distributions.lognormal(0.4, 0.25).ppf(0.9) == pytest.approx(mu.ppf(0.9))
     assert occupancy.mean() == pytest.approx(0.7)  # type: ignore[attr-defined]
     assert occupancy.std() == pytest.approx(0.15)  # type: ignore[attr-defined]
 
 
 def test_samples_are_single_answers() -> None:
     """With all goods present the share of a sample is the effective fraction; with fewer, that of a lighter scene."""
-    full = sm.live_load_uncertainty(SCENE, MOTIONS, mu=sm.lognormal(0.2, 0.5), occupancy=1.0, samples=4, seed=2)
+    full = sm.live_load_uncertainty(
+        SCENE, MOTIONS, mu=sm.distributions.lognormal(0.2, 0.5), occupancy=1.0, samples=4, seed=2
+    )
     for row in full.samples.iter_rows(named=True):
         blocks = sm.blocks_on_floors([1.0, 1.0, 0.0], mu=row["mu"], mu_k=0.75 * row["mu"])
         answer = sm.effective_mass(sm.Scene(BUILDING, blocks), MOTIONS)
         assert row["real_drift"] == pytest.approx(answer.real, rel=1e-12)
         assert row["share"] == pytest.approx(answer.value, abs=5e-4)
-    half = sm.live_load_uncertainty(SCENE, MOTIONS, mu=sm.lognormal(0.2, 0.5), occupancy=0.5, samples=3, seed=2)
+    half = sm.live_load_uncertainty(
+        SCENE, MOTIONS, mu=sm.distributions.lognormal(0.2, 0.5), occupancy=0.5, samples=3, seed=2
+    )
     for row in half.samples.iter_rows(named=True):
         blocks = sm.blocks_on_floors([0.5, 0.5, 0.0], mu=row["mu"], mu_k=0.75 * row["mu"])
         peaks = [sm.simulate(sm.Scene(BUILDING, blocks), motion).peak_drift.max() for motion in MOTIONS]
@@ -47,7 +51,9 @@ def test_samples_are_single_answers() -> None:
 
 def test_glued_goods_have_the_share_that_is_present() -> None:
     """Goods that never slide are mass: an occupancy of 0.6 asks for 0.6 of the design live load."""
-    found = sm.live_load_uncertainty(SCENE, MOTIONS, mu=sm.lognormal(50.0, 0.01), occupancy=0.6, samples=3)
+    found = sm.live_load_uncertainty(
+        SCENE, MOTIONS, mu=sm.distributions.lognormal(50.0, 0.01), occupancy=0.6, samples=3
+    )
     # The model with share 0.6 is the same building; the drift is monotonic enough there for the largest crossing.
     model = found.curve.filter((pl.col("fraction") - 0.6).abs() < 1e-9)["model_drift"][0]
     np.testing.assert_allclose(found.samples["real_drift"], model, rtol=1e-12)
@@ -76,7 +82,7 @@ def test_same_seed_same_answer_and_files(tmp_path: Path) -> None:
 def test_reference_on_recordings(shared: Path, reduction: float, share: float, quantiles: tuple[float, ...]) -> None:
     """Values of another sampling of the same distributions: equal expected drift, 5, 50 and 95 %."""
     suite = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))["suites"](shared)["far_field"]
-    factors = sm.scale_asce7_10(suite, sm.TargetSpectrum.asce7()).factors
+    factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7()).factors
     motions = [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)]
     bare = sm.Building.uniform(3, 0.47, mass=1.0)
     shear = response_spectrum_analysis(
@@ -105,12 +111,12 @@ WRONG: list[tuple[Callable[[], object], str]] = [
         "occupancy of live load uncertainty must be a distribution of values from 0 to 1",
     ),
     (lambda: sm.live_load_uncertainty(SCENE, MOTIONS, **SOME, samples=1), "samples of live load uncertainty"),
-    (lambda: sm.lognormal(-1.0, 0.2), "median and sigma of lognormal must be positive"),
-    (lambda: sm.beta(0.7, 0.9), "mean of beta must be between 0 and 1"),
+    (lambda: sm.distributions.lognormal(-1.0, 0.2), "median and sigma of lognormal must be positive"),
+    (lambda: sm.distributions.beta(0.7, 0.9), "mean of beta must be between 0 and 1"),
 ]
 
 
 @pytest.mark.parametrize(("make", "message"), WRONG, ids=[message for _, message in WRONG])
 def test_wrong_input(make: Callable[[], object], message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=f"^{message}"):
+    with pytest.raises(sm.errors.InvalidOption, match=f"^{message}"):
         make()

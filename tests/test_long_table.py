@@ -16,7 +16,7 @@ PER_BLOCK = ("peak_slip", "peak_slip_time", "residual_slip", "slip_path")
 
 def test_motions_of_batches_join_with_their_factors() -> None:
     """One convention, from 1: the factor beside a row is that by which its motion was scaled."""
-    scaling = sm.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7())
+    scaling = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7())
     motions = [record.scaled(factor) for record, factor in zip(SUITE, scaling.factors, strict=True)]
     table = sm.simulate_many(sm.Scene(BASE), motions)
     joined = table.join(scaling.table(), on="motion", suffix="_of_scaling", maintain_order="left")
@@ -120,14 +120,16 @@ def test_no_runs_are_no_rows() -> None:
 def test_wrong_tables_are_refused() -> None:
     grid = sm.Grid(BASE, mass_ratio=[1.0, 2.0], mu=0.2)
     batch = sm.simulate_many(grid, SUITE)
-    with pytest.raises(sm.InvalidOption, match="table of long_table must be rows of a batch; got none of slip_path"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match="table of long_table must be rows of a batch; got none of slip_path"
+    ):
         sm.long_table(batch.drop("slip_path"), grid)
-    with pytest.raises(sm.InvalidOption, match="table of long_table must be rows of a batch; got 3"):
+    with pytest.raises(sm.errors.InvalidOption, match="table of long_table must be rows of a batch; got 3"):
         sm.long_table(3, grid)  # type: ignore[arg-type]
     message = "scene of long_table must be the number of a scene that is given, counted from 1 to 1; got 2"
-    with pytest.raises(sm.InvalidOption, match=message):
+    with pytest.raises(sm.errors.InvalidOption, match=message):
         sm.long_table(batch, grid.scene(1))
-    with pytest.raises(sm.InvalidScene, match="scene 1 of long_table must be a Scene; got 'a'"):
+    with pytest.raises(sm.errors.InvalidScene, match="scene 1 of long_table must be a Scene; got 'a'"):
         sm.long_table(batch, ["a"])  # type: ignore[list-item]
 
 
@@ -140,7 +142,7 @@ def test_a_run_beyond_the_range_of_numbers_takes_no_other_with_it() -> None:
     for number in (0, 3):
         alone = sm.simulate(scene, SUITE[0].scaled(factors[number]))
         assert batch["peak_drift"][number].to_list() == alone.peak_drift.tolist()
-    with pytest.raises(sm.SimulationError, match="the response left the range of numbers at t = ") as raised:
+    with pytest.raises(sm.errors.SimulationError, match="the response left the range of numbers at t = ") as raised:
         sm.simulate(scene, SUITE[0].scaled(1e155))
     assert str(raised.value) == batch["reason"][1]
     assert np.isfinite(batch["end_time"][0])

@@ -40,7 +40,9 @@ def test_strengths_may_be_replaced_as_fractions() -> None:
     assert RATIOS.replace(yield_shear=np.inf) == elastic
     heavy = STATED.replace(mass=1e5, yield_shear_over_weight=0.2)
     np.testing.assert_allclose(heavy.yield_shear, 0.2 * 3e5 * sm.STANDARD_GRAVITY, rtol=1e-15)
-    with pytest.raises(sm.InvalidScene, match="yield_shear_over_weight of building must be left out where yield_shear"):
+    with pytest.raises(
+        sm.errors.InvalidScene, match="yield_shear_over_weight of building must be left out where yield_shear"
+    ):
         RATIOS.replace(yield_shear=1.0, yield_shear_over_weight=0.2)
 
 
@@ -56,7 +58,7 @@ def test_forces_are_for_floors_of_one_kilogram() -> None:
 def test_blocks_are_ratios_but_for_those_on_the_ground() -> None:
     heavy = sm.Block(1, mass=440_000.0, mu=0.4)
     message = "mass of block 2 must be given as mass_ratio where the mass of the building is not stated; got 440000 kg"
-    with pytest.raises(sm.InvalidScene, match=f"^{message}"):
+    with pytest.raises(sm.errors.InvalidScene, match=f"^{message}"):
         sm.Scene(RATIOS, [sm.Block(0, mass=100.0, mu=0.1), heavy])
     assert sm.Scene(STATED, [heavy]).block_mass.tolist() == [440_000.0]
     assert sm.Scene(RATIOS, [sm.Block(1, mass_ratio=2.0, mu=0.4)]).block_mass.tolist() == [2.0]

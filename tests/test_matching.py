@@ -30,8 +30,8 @@ def record() -> sm.Record:
 
 
 @pytest.fixture(scope="module")
-def matched(record: sm.Record) -> sm.MatchedRecord:
-    return sm.match_spectrum(record, TARGET)
+def matched(record: sm.Record) -> sm.matching.MatchedRecord:
+    return sm.matching.match_spectrum(record, TARGET)
 
 
 def noise(samples: int, dt: float = 0.01, seed: int = 1) -> sm.Record:
@@ -151,21 +151,21 @@ def test_products_and_systems_in_pieces_are_those_of_numpy() -> None:
 
 
 def test_record_matched_to_its_own_spectrum_is_itself(record: sm.Record) -> None:
-    own = sm.match_spectrum(record, lambda periods: sm.response_spectrum(record, periods)[0])
+    own = sm.matching.match_spectrum(record, lambda periods: sm.response_spectrum(record, periods)[0])
     assert own.record is record
     assert (own.factor, own.iterations, own.converged) == (1.0, 0, True)
     assert own.misfit.largest < 1e-12
     assert own.husid_difference == 0.0
     assert own.remarks == ()
-    mean = sm.match_spectrum(record, sm.TargetSpectrum.mean_of([record]))
+    mean = sm.matching.match_spectrum(record, sm.TargetSpectrum.mean_of([record]))
     assert mean.record.acceleration.tobytes() == record.acceleration.tobytes()
 
 
-def test_record_matched_twice_is_itself(matched: sm.MatchedRecord) -> None:
-    assert sm.match_spectrum(matched.record, TARGET).record is matched.record
+def test_record_matched_twice_is_itself(matched: sm.matching.MatchedRecord) -> None:
+    assert sm.matching.match_spectrum(matched.record, TARGET).record is matched.record
 
 
-def test_misfit_is_within_the_tolerance_between_the_periods(matched: sm.MatchedRecord) -> None:
+def test_misfit_is_within_the_tolerance_between_the_periods(matched: sm.matching.MatchedRecord) -> None:
     """By the public spectrum at other periods than those judged; a tenth of the tolerance for what lies between."""
     assert matched.converged
     assert matched.misfit.largest <= 0.03
@@ -181,7 +181,7 @@ def test_misfit_is_within_the_tolerance_between_the_periods(matched: sm.MatchedR
     )
 
 
-def test_matching_leaves_no_drift(matched: sm.MatchedRecord, record: sm.Record) -> None:
+def test_matching_leaves_no_drift(matched: sm.matching.MatchedRecord, record: sm.Record) -> None:
     before, after = record.scaled(matched.factor), matched.record
     assert np.array_equal(matched.original.acceleration, before.acceleration)
     assert (after.samples, after.dt) == (record.samples, record.dt)
@@ -194,13 +194,13 @@ def test_matching_leaves_no_drift(matched: sm.MatchedRecord, record: sm.Record) 
     assert after.pgd < 1.25 * before.pgd
 
 
-def test_factor_is_the_least_squares_one(matched: sm.MatchedRecord, record: sm.Record) -> None:
+def test_factor_is_the_least_squares_one(matched: sm.matching.MatchedRecord, record: sm.Record) -> None:
     ratios = sm.response_spectrum(record, matched.periods)[0] / matched.ordinates
     assert matched.factor == pytest.approx(np.exp(-np.mean(np.log(ratios))), rel=1e-12)
     assert np.mean(np.log(matched.ratio_before)) == pytest.approx(0.0, abs=1e-12)
 
 
-def test_record_says_what_was_done(matched: sm.MatchedRecord, record: sm.Record) -> None:
+def test_record_says_what_was_done(matched: sm.matching.MatchedRecord, record: sm.Record) -> None:
     after = matched.record
     assert after.history[0] == "made"
     assert after.history[-1].startswith("matched to ASCE 7 shape")
@@ -211,36 +211,36 @@ def test_record_says_what_was_done(matched: sm.MatchedRecord, record: sm.Record)
     assert record.history == ("made",)  # the given one is unchanged
 
 
-def test_result_does_not_depend_on_the_number_of_threads(record: sm.Record, matched: sm.MatchedRecord) -> None:
-    one = sm.match_spectrum(record, TARGET, threads=1)
+def test_result_does_not_depend_on_the_number_of_threads(record: sm.Record, matched: sm.matching.MatchedRecord) -> None:
+    one = sm.matching.match_spectrum(record, TARGET, threads=1)
     assert one.record.acceleration.tobytes() == matched.record.acceleration.tobytes()
 
 
 def test_what_is_not_reached_is_said(record: sm.Record) -> None:
-    given_up = sm.match_spectrum(record, TARGET, max_iterations=1)
+    given_up = sm.matching.match_spectrum(record, TARGET, max_iterations=1)
     assert not given_up.converged
     assert given_up.iterations == 1
     assert given_up.remarks[0].startswith("not matched within 3 %: the largest misfit is ")
     assert given_up.misfit.rms < given_up.misfit_before.rms
     assert "NOT within 3 %" in given_up.text
     assert "not converged" in repr(given_up)
-    scaled = sm.match_spectrum(record, TARGET, max_iterations=0)
+    scaled = sm.matching.match_spectrum(record, TARGET, max_iterations=0)
     assert scaled.record.acceleration.tobytes() == record.scaled(scaled.factor).acceleration.tobytes()
     # Ordinates that no wavelet can reach end in a remark, not in an error.
-    rising = sm.match_spectrum(noise(2000), lambda periods: 0.5 * periods**2, max_iterations=12)
+    rising = sm.matching.match_spectrum(noise(2000), lambda periods: 0.5 * periods**2, max_iterations=12)
     assert rising.remarks[0].startswith("not matched within 3 %") or rising.converged
     # Its strongest oscillators answer after its end: no wavelet within it can do what is asked.
-    short = sm.match_spectrum(noise(20), TARGET, max_iterations=15)
+    short = sm.matching.match_spectrum(noise(20), TARGET, max_iterations=15)
     assert not short.converged
     assert any("made narrower" in remark for remark in short.remarks)
 
 
 def test_scaling_and_padding_are_as_asked(record: sm.Record) -> None:
-    none = sm.match_spectrum(record, TARGET, scale="none", max_iterations=0)
+    none = sm.matching.match_spectrum(record, TARGET, scale="none", max_iterations=0)
     assert none.factor == 1.0
     assert none.record is record
-    assert sm.match_spectrum(record, TARGET, scale=-2.5, max_iterations=0).factor == -2.5
-    padded = sm.match_spectrum(record, TARGET, padding=(1.0, 2.0), max_iterations=0)
+    assert sm.matching.match_spectrum(record, TARGET, scale=-2.5, max_iterations=0).factor == -2.5
+    padded = sm.matching.match_spectrum(record, TARGET, padding=(1.0, 2.0), max_iterations=0)
     before, behind = round(1.0 / record.dt), round(2.0 / record.dt)
     assert padded.record.samples == record.samples + before + behind
     assert not padded.record.acceleration[:before].any()
@@ -252,7 +252,7 @@ def test_scaling_and_padding_are_as_asked(record: sm.Record) -> None:
 
 def test_list_of_periods_and_other_damping(record: sm.Record) -> None:
     at = np.geomspace(0.3, 1.0, 60)
-    listed = sm.match_spectrum(record, TARGET, periods=at, damping=0.1, tolerance=0.05)
+    listed = sm.matching.match_spectrum(record, TARGET, periods=at, damping=0.1, tolerance=0.05)
     assert listed.converged
     assert np.array_equal(listed.matched_periods, at)
     periods = np.geomspace(0.3, 1.0, 200)
@@ -260,9 +260,9 @@ def test_list_of_periods_and_other_damping(record: sm.Record) -> None:
     assert np.abs(ratios / TARGET(periods) - 1.0).max() < 0.055
 
 
-def test_suite_is_matched_one_by_one(record: sm.Record, matched: sm.MatchedRecord, tmp_path: Path) -> None:
+def test_suite_is_matched_one_by_one(record: sm.Record, matched: sm.matching.MatchedRecord, tmp_path: Path) -> None:
     suite = sm.Suite("two", (record, matched.record), remarks=("of a test",))
-    both = sm.match_suite(suite, TARGET)
+    both = sm.matching.match_suite(suite, TARGET)
     assert both[0].record == matched.record
     assert both[1].record is matched.record
     assert len(both.suite) == len(both) == 2
@@ -274,10 +274,10 @@ def test_suite_is_matched_one_by_one(record: sm.Record, matched: sm.MatchedRecor
     assert [row["motion"] for row in rows] == [1, 2]
     assert rows[0]["pgv_after"] == matched.record.pgv
     assert rows[1]["iterations"] == 0
-    with pytest.raises(sm.InvalidMotion, match="at least one Record"):
-        sm.match_suite([], TARGET)
-    with pytest.raises(sm.InvalidMotion, match="records of matching must be Records; got 3"):
-        sm.match_suite(3, TARGET)  # type: ignore[arg-type]
+    with pytest.raises(sm.errors.InvalidMotion, match="at least one Record"):
+        sm.matching.match_suite([], TARGET)
+    with pytest.raises(sm.errors.InvalidMotion, match="records of matching must be Records; got 3"):
+        sm.matching.match_suite(3, TARGET)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -302,26 +302,28 @@ def test_suite_is_matched_one_by_one(record: sm.Record, matched: sm.MatchedRecor
     ],
 )
 def test_options_out_of_range_are_refused(record: sm.Record, options: dict[str, object], words: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=words):
-        sm.match_spectrum(record, TARGET, **options)  # type: ignore[arg-type]
+    with pytest.raises(sm.errors.InvalidOption, match=words):
+        sm.matching.match_spectrum(record, TARGET, **options)  # type: ignore[arg-type]
 
 
 def test_targets_and_records_that_are_none_are_refused(record: sm.Record) -> None:
-    with pytest.raises(sm.InvalidOption, match=r"target of matching must be a TargetSpectrum or a function .*; got 3"):
-        sm.match_spectrum(record, 3)  # type: ignore[arg-type]
-    with pytest.raises(sm.InvalidOption, match=r"positive number at every period; got -1 at 0\.2 s"):
-        sm.match_spectrum(record, lambda periods: -np.ones(len(periods)))
-    with pytest.raises(sm.InvalidOption, match="one ordinate per period; got 3 for "):
-        sm.match_spectrum(record, lambda periods: np.ones(3))
-    with pytest.raises(sm.InvalidMotion, match="record of matching must be a Record"):
-        sm.match_spectrum([1.0, 2.0], TARGET)  # type: ignore[arg-type]
-    with pytest.raises(sm.InvalidMotion, match="samples of record noise must be at least 8; got 7"):
-        sm.match_spectrum(noise(7), TARGET)
-    with pytest.raises(sm.InvalidMotion, match="other than zero somewhere; got zero throughout"):
-        sm.match_spectrum(sm.Record(np.zeros(100), 0.01), TARGET)
+    with pytest.raises(
+        sm.errors.InvalidOption, match=r"target of matching must be a TargetSpectrum or a function .*; got 3"
+    ):
+        sm.matching.match_spectrum(record, 3)  # type: ignore[arg-type]
+    with pytest.raises(sm.errors.InvalidOption, match=r"positive number at every period; got -1 at 0\.2 s"):
+        sm.matching.match_spectrum(record, lambda periods: -np.ones(len(periods)))
+    with pytest.raises(sm.errors.InvalidOption, match="one ordinate per period; got 3 for "):
+        sm.matching.match_spectrum(record, lambda periods: np.ones(3))
+    with pytest.raises(sm.errors.InvalidMotion, match="record of matching must be a Record"):
+        sm.matching.match_spectrum([1.0, 2.0], TARGET)  # type: ignore[arg-type]
+    with pytest.raises(sm.errors.InvalidMotion, match="samples of record noise must be at least 8; got 7"):
+        sm.matching.match_spectrum(noise(7), TARGET)
+    with pytest.raises(sm.errors.InvalidMotion, match="other than zero somewhere; got zero throughout"):
+        sm.matching.match_spectrum(sm.Record(np.zeros(100), 0.01), TARGET)
 
 
-def test_tables_text_and_figure_say_the_same(matched: sm.MatchedRecord, tmp_path: Path) -> None:
+def test_tables_text_and_figure_say_the_same(matched: sm.matching.MatchedRecord, tmp_path: Path) -> None:
     table = {row["quantity"]: row for row in matched.table().to_dicts()}
     assert table["pgd"]["before"] == matched.original.pgd
     assert table["largest_misfit"]["after"] == matched.misfit.largest
@@ -341,7 +343,7 @@ def test_tables_text_and_figure_say_the_same(matched: sm.MatchedRecord, tmp_path
     figure.savefig(tmp_path / "figure.png")
 
 
-def test_files_are_read_back(matched: sm.MatchedRecord, tmp_path: Path) -> None:
+def test_files_are_read_back(matched: sm.matching.MatchedRecord, tmp_path: Path) -> None:
     matched.write(tmp_path / "matched.csv")
     matched.write(tmp_path / "matched.AT2")
     exact, rounded = sm.read_record(tmp_path / "matched.csv"), sm.read_record(tmp_path / "matched.AT2")
@@ -354,7 +356,7 @@ def test_files_are_read_back(matched: sm.MatchedRecord, tmp_path: Path) -> None:
     assert (tmp_path / "matched.AT2").read_text().startswith("SPECTRALLY MATCHED MOTION, NOT AS RECORDED")
     for name in ("matched.AT2", "matched.csv"):
         assert "its header says that it is not as recorded" in sm.read_record(tmp_path / name).remarks
-    with pytest.raises(sm.InvalidOption, match=r"ends in \.AT2 or \.csv; got 'matched\.txt'"):
+    with pytest.raises(sm.errors.InvalidOption, match=r"ends in \.AT2 or \.csv; got 'matched\.txt'"):
         matched.write(tmp_path / "matched.txt")
 
 
@@ -362,7 +364,7 @@ def test_files_are_read_back(matched: sm.MatchedRecord, tmp_path: Path) -> None:
 
 
 def test_command_writes_what_the_function_gives(
-    record: sm.Record, matched: sm.MatchedRecord, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    record: sm.Record, matched: sm.matching.MatchedRecord, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     rows = "".join(
         f"{number * record.dt:.10g},{value!r}\n" for number, value in enumerate(record.acceleration.tolist())
@@ -416,7 +418,7 @@ def test_outputs_are_judged_before_records_are_matched(
 
 def test_progress_counts_records(record: sm.Record) -> None:
     told: list[tuple[int, int]] = []
-    sm.match_suite([record, record], TARGET, max_iterations=0, progress=lambda *counts: told.append(counts))
+    sm.matching.match_suite([record, record], TARGET, max_iterations=0, progress=lambda *counts: told.append(counts))
     assert told == [(0, 2), (1, 2), (2, 2)]
 
 
@@ -430,7 +432,7 @@ def test_seven_records_are_matched_without_drift_and_the_page_says_so(shared: Pa
     periods = np.geomspace(*RANGE, 300)
     ordinates = TARGET(periods)
     for record in sm.read_suite(shared / "records" / "paper_seven.csv"):
-        one = sm.match_spectrum(record, TARGET)
+        one = sm.matching.match_spectrum(record, TARGET)
         ratios = sm.response_spectrum(one.record, periods)[0] / ordinates
         assert np.abs(ratios - 1.0).max() < 0.05
         assert np.sqrt(np.mean((ratios - 1.0) ** 2)) < 0.02

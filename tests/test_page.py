@@ -12,8 +12,8 @@ import pytest
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from seismass.errors import InvalidOption
-from seismass.report.page import Section, facts_html, figure_html, page_html, table_html, text_html
+from seismass.base.errors import InvalidOption
+from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
 
 VOID = {"meta", "link", "input", "br", "hr", "img"}
 

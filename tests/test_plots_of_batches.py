@@ -98,9 +98,11 @@ def test_scatter_has_the_rows_by_column(runs: tuple[pl.DataFrame, pl.DataFrame])
     assert len(of(axes, "collapse")[0]) == long.filter(pl.col("status") == "collapsed", pl.col("storey") < 3).height
     lists = sm.plots.scatter(table, "peak_base_shear", "peak_drift").axes[0]
     np.testing.assert_array_equal(of(lists, "points")[0][:, 1], [1e3 * max(row) for row in table["peak_drift"]])
-    with pytest.raises(sm.InvalidOption, match="by of scatter figure must be a column of at most 7 values; got 28"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match="by of scatter figure must be a column of at most 7 values; got 28"
+    ):
         sm.plots.scatter(table.with_row_index("row"), "peak_base_shear", "peak_drift", by="row")
-    with pytest.raises(sm.InvalidOption, match="column of scatter figure must be one of scene, motion"):
+    with pytest.raises(sm.errors.InvalidOption, match="column of scatter figure must be one of scene, motion"):
         sm.plots.scatter(table, "speed", "peak_drift")
 
 
@@ -114,16 +116,22 @@ def test_drift_profiles_have_runs_and_fractiles(runs: tuple[pl.DataFrame, pl.Dat
     np.testing.assert_array_equal(of(figure.axes[0], "median")[0][:, 0], np.median(values, axis=0))
     other = sm.plots.drift_profiles(long.filter(scene=2))
     np.testing.assert_array_equal(of(other.axes[0], "84 %")[0], of(figure.axes[0], "84 %")[0])
-    with pytest.raises(sm.InvalidOption, match=r"table of drift profiles must be runs of buildings with equally many"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match=r"table of drift profiles must be runs of buildings with equally many"
+    ):
         sm.plots.drift_profiles(one.with_columns(peak_drift=pl.col("peak_drift").list.head(pl.col("motion"))))
 
 
 def test_figures_of_batches_refuse_what_they_cannot_draw(runs: tuple[pl.DataFrame, pl.DataFrame]) -> None:
     _, long = runs
-    with pytest.raises(sm.InvalidOption, match=r"table of IDA figure must be a polars\.DataFrame of runs; got None"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match=r"table of IDA figure must be a polars\.DataFrame of runs; got None"
+    ):
         sm.plots.ida(None)  # type: ignore[arg-type]
-    with pytest.raises(sm.InvalidOption, match="table of IDA figure must be one with every motion at every intensity"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match="table of IDA figure must be one with every motion at every intensity"
+    ):
         sm.plots.ida(long.filter((pl.col("scale") < 1.0) | (pl.col("motion") > 2)))
     failed = long.with_columns(status=pl.lit("failed"))
-    with pytest.raises(sm.InvalidOption, match="table of fragility must be one with runs that did not fail"):
+    with pytest.raises(sm.errors.InvalidOption, match="table of fragility must be one with runs that did not fail"):
         sm.plots.fragility(failed, 0.02)

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
 import seismass as sm
-from seismass.errors import InvalidMotion, InvalidOption, MissingPackage
+from seismass.base.errors import InvalidMotion, InvalidOption, MissingPackage
+from seismass.media.figure_file import save_figure
 from seismass.pulses import (
     baker2007,
     baker2007_orientations,
@@ -27,7 +28,6 @@ from seismass.pulses import (
 )
 from seismass.pulses.extraction import scale_range
 from seismass.records import Pair
-from seismass.report.figures import save_figure
 
 DT, SAMPLES = 0.01, 6000
 TIME = np.arange(SAMPLES) * DT

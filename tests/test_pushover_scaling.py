@@ -17,10 +17,10 @@ STEP = sm.Motion(np.ones(600), 0.01)
 
 @pytest.mark.parametrize("reduction", [1.0, 0.5])
 def test_elastic_oscillator_gives_the_elastic_ratio(reduction: float) -> None:
-    found = sm.scale_modal_pushover(SUITE, TARGET, period=0.7, reduction=reduction)
+    found = sm.scaling.scale_modal_pushover(SUITE, TARGET, period=0.7, reduction=reduction)
     ratio = float(TARGET(0.7)) / sm.response_spectrum(SUITE, [0.7])[:, 0]
     np.testing.assert_allclose(found.factors, ratio, rtol=1e-12)
-    np.testing.assert_allclose(found.factors, sm.scale_sa_t1(SUITE, TARGET, 0.7).factors, rtol=1e-12)
+    np.testing.assert_allclose(found.factors, sm.scaling.scale_sa_t1(SUITE, TARGET, 0.7).factors, rtol=1e-12)
     assert found.deformation_ratio == 1.0
     assert [len(roots) for roots in found.roots] == [1] * 7
 
@@ -28,7 +28,7 @@ def test_elastic_oscillator_gives_the_elastic_ratio(reduction: float) -> None:
 @pytest.mark.parametrize("reduction", [1.5, 3.0, 6.0])
 def test_elastoplastic_oscillator_under_a_step(reduction: float) -> None:
     # mu = (A_y/2)/(A_y - s a) under a step s a; so s = A_y (1 - 1/(2 mu))/a, and mu = C_R R is the target.
-    found = sm.scale_modal_pushover(
+    found = sm.scaling.scale_modal_pushover(
         STEP, TARGET, period=0.5, reduction=reduction, overstrength=1.0, second_slope=0.0, damping=0.0
     )
     strength = float(TARGET(0.5)) / reduction
@@ -52,7 +52,7 @@ def test_deformation_ratio_by_hand() -> None:
 
 @pytest.mark.parametrize("deformation", ["ratio", "median"])
 def test_scaled_motions_reach_the_target_in_a_simulation(deformation: str) -> None:
-    found = sm.scale_modal_pushover(SUITE, TARGET, period=1.0, reduction=4.0, deformation=deformation)
+    found = sm.scaling.scale_modal_pushover(SUITE, TARGET, period=1.0, reduction=4.0, deformation=deformation)
     assert found.reduction == pytest.approx(4.0, rel=1e-14)
     strength = float(TARGET(1.0)) / 4.0 / G
     assert found.oscillator.yield_coefficient == pytest.approx(strength, rel=1e-14)
@@ -67,9 +67,9 @@ def test_scaled_motions_reach_the_target_in_a_simulation(deformation: str) -> No
 
 
 def test_median_is_that_of_the_suite_at_the_elastic_target() -> None:
-    found = sm.scale_modal_pushover(SUITE, TARGET, period=1.0, reduction=4.0, deformation="median")
+    found = sm.scaling.scale_modal_pushover(SUITE, TARGET, period=1.0, reduction=4.0, deformation="median")
     building = sm.Building.uniform(1, 1.0, yield_shear_over_weight=float(TARGET(1.0)) / 4.0 / G)
-    factors = sm.scale_sa_t1(SUITE, TARGET, 1.0).factors
+    factors = sm.scaling.scale_sa_t1(SUITE, TARGET, 1.0).factors
     drifts = [
         sm.simulate(sm.Scene(building), record.scaled(factor).with_duration(record.duration + 6.0).motion).peak_drift[0]
         for record, factor in zip(SUITE, factors, strict=True)
@@ -78,9 +78,9 @@ def test_median_is_that_of_the_suite_at_the_elastic_target() -> None:
 
 
 def test_strength_by_coefficient_or_reduction() -> None:
-    one = sm.scale_modal_pushover(SUITE, TARGET, period=0.8, reduction=3.0)
+    one = sm.scaling.scale_modal_pushover(SUITE, TARGET, period=0.8, reduction=3.0)
     coefficient = float(TARGET(0.8)) / 3.0 / G
-    other = sm.scale_modal_pushover(SUITE, TARGET, period=0.8, yield_coefficient=coefficient)
+    other = sm.scaling.scale_modal_pushover(SUITE, TARGET, period=0.8, yield_coefficient=coefficient)
     np.testing.assert_allclose(one.factors, other.factors, rtol=1e-9)
 
 
@@ -95,7 +95,9 @@ def motions_of_several_roots() -> list[sm.Motion]:
 
 def test_several_factors_are_all_reported_and_the_nearest_1_is_taken() -> None:
     motions = motions_of_several_roots()
-    found = sm.scale_modal_pushover(motions, TARGET, period=0.6, reduction=1.5, overstrength=1.0, second_slope=0.0)
+    found = sm.scaling.scale_modal_pushover(
+        motions, TARGET, period=0.6, reduction=1.5, overstrength=1.0, second_slope=0.0
+    )
     several = [number for number, roots in enumerate(found.roots) if len(roots) > 1]
     assert several
     spring = {"overstrength": 1.0, "second_slope": 0.0}
@@ -106,7 +108,7 @@ def test_several_factors_are_all_reported_and_the_nearest_1_is_taken() -> None:
         assert found.factors[number] == roots[np.argmin(np.abs(np.log(roots)))]
         # Each of them, by a spectrum of constant strength: the motion times s, or the strength over s.
         strengths = oscillator.yield_coefficient / roots
-        spectrum = sm.inelastic_spectrum(motions[number], [0.6], strength=strengths, **spring)
+        spectrum = sm.spectra.inelastic_spectrum(motions[number], [0.6], strength=strengths, **spring)
         reached = spectrum.displacement[0, :, 0] * roots
         np.testing.assert_allclose(reached, found.target_deformation, rtol=1e-8)
         remark = f"motion {number + 1} (motion {number + 1}) reaches the target deformation at several factors"
@@ -116,14 +118,16 @@ def test_several_factors_are_all_reported_and_the_nearest_1_is_taken() -> None:
     # A fine search by another path finds no other, in the range of all roots of the first such motion.
     number = several[0]
     factors = np.geomspace(0.5 * found.roots[number][0], 2.0 * found.roots[number][-1], 1500)
-    spectrum = sm.inelastic_spectrum(motions[number], [0.6], strength=oscillator.yield_coefficient / factors, **spring)
+    spectrum = sm.spectra.inelastic_spectrum(
+        motions[number], [0.6], strength=oscillator.yield_coefficient / factors, **spring
+    )
     above = spectrum.displacement[0, :, 0] * factors >= found.target_deformation
     assert np.count_nonzero(above[:-1] != above[1:]) == len(found.roots[number])
 
 
 def test_oscillator_of_one_storey_is_the_storey() -> None:
     building = sm.Building.uniform(1, 0.6, yield_shear_over_weight=0.2, overstrength=1.7, second_slope=0.1)
-    found = sm.first_mode_oscillator(building)
+    found = sm.scaling.first_mode_oscillator(building)
     assert found.period == pytest.approx(0.6, rel=1e-14)
     assert found.yield_coefficient == pytest.approx(0.2, rel=1e-12)
     assert (found.overstrength, found.second_slope) == pytest.approx((1.7, 0.1), rel=1e-12)
@@ -148,7 +152,7 @@ def test_storeys_that_yield_at_once_give_the_exact_curve() -> None:
     shares, modal_mass, _ = shares_of(elastic)
     base_shear = 0.15 * elastic.weight
     building = elastic.replace(yield_shear=shares * base_shear, overstrength=2.0, second_slope=0.05, third_slope=0.01)
-    found = sm.first_mode_oscillator(building)
+    found = sm.scaling.first_mode_oscillator(building)
     assert found.period == pytest.approx(0.8, rel=1e-12)
     assert found.yield_acceleration == pytest.approx(base_shear / modal_mass, rel=1e-9)
     assert found.overstrength == pytest.approx(2.0, rel=1e-9)
@@ -165,7 +169,7 @@ def test_idealised_curve_has_the_corner_and_the_area_of_the_pushover() -> None:
         second_slope=[0.05, 0.1, 0.03],
     )
     shares, modal_mass, w = shares_of(building)
-    found = sm.first_mode_oscillator(building)
+    found = sm.scaling.first_mode_oscillator(building)
     assert found.frequency == pytest.approx(w, rel=1e-12)
 
     def force(i: int, drift: float) -> float:
@@ -197,7 +201,7 @@ def test_idealised_curve_has_the_corner_and_the_area_of_the_pushover() -> None:
 def test_elastoplastic_storeys_give_an_elastoplastic_oscillator() -> None:
     building = sm.Building.uniform(3, 0.6, yield_shear_over_weight=0.2, overstrength=1.0, second_slope=0.0)
     modal_mass = shares_of(building)[1]
-    found = sm.first_mode_oscillator(building)
+    found = sm.scaling.first_mode_oscillator(building)
     # Equal strengths: the first storey, of the largest shear, forms the mechanism.
     assert found.yield_acceleration == pytest.approx(0.2 * building.weight / modal_mass, rel=1e-12)
     assert (found.overstrength, found.second_slope, found.third_slope) == (1.0, 0.0, 0.0)
@@ -206,22 +210,22 @@ def test_elastoplastic_storeys_give_an_elastoplastic_oscillator() -> None:
 def test_p_delta_is_left_out_and_said() -> None:
     plain = sm.Building.uniform(2, 0.5, mass=1e5, yield_shear_over_weight=0.2)
     heavy = plain.replace(geometric_stiffness=[0.02 * plain.stiffness[0], 0.01 * plain.stiffness[1]])
-    assert sm.first_mode_oscillator(heavy) == sm.first_mode_oscillator(plain)
+    assert sm.scaling.first_mode_oscillator(heavy) == sm.scaling.first_mode_oscillator(plain)
     note = "P-Delta is left out of the pushover: P/h is up to 2 % of k (storey 1)"
-    assert note in sm.scale_modal_pushover(SUITE[:2], TARGET, heavy).remarks
-    assert not any("P-Delta" in remark for remark in sm.scale_modal_pushover(SUITE[:2], TARGET, plain).remarks)
+    assert note in sm.scaling.scale_modal_pushover(SUITE[:2], TARGET, heavy).remarks
+    assert not any("P-Delta" in remark for remark in sm.scaling.scale_modal_pushover(SUITE[:2], TARGET, plain).remarks)
 
 
 def test_damping_of_the_first_mode() -> None:
     building = sm.Building.uniform(3, 0.6, mass=1e5, damping=sm.Rayleigh(0.03, (1, 3)))
-    assert sm.first_mode_oscillator(building).damping == pytest.approx(0.03, rel=1e-9)
+    assert sm.scaling.first_mode_oscillator(building).damping == pytest.approx(0.03, rel=1e-9)
 
 
 def test_scaling_by_a_building_is_that_of_its_oscillator() -> None:
     building = sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.20, 0.12])
-    found = sm.scale_modal_pushover(SUITE, TARGET, building)
+    found = sm.scaling.scale_modal_pushover(SUITE, TARGET, building)
     oscillator = found.oscillator
-    again = sm.scale_modal_pushover(
+    again = sm.scaling.scale_modal_pushover(
         SUITE,
         TARGET,
         period=oscillator.period,
@@ -238,36 +242,56 @@ def test_scaling_by_a_building_is_that_of_its_oscillator() -> None:
     # The damping of the oscillator is 0.05 but for rounding.
     np.testing.assert_allclose(found.second_mode_ratio, expected, rtol=1e-10)
     assert found.diagnostics()["second_mode_ratio"].to_list() == found.second_mode_ratio.tolist()
-    elastic = sm.scale_modal_pushover(SUITE, TARGET, sm.Building.uniform(3, 0.6))
-    np.testing.assert_allclose(elastic.factors, sm.scale_sa_t1(SUITE, TARGET, 0.6).factors, rtol=1e-10)
+    elastic = sm.scaling.scale_modal_pushover(SUITE, TARGET, sm.Building.uniform(3, 0.6))
+    np.testing.assert_allclose(elastic.factors, sm.scaling.scale_sa_t1(SUITE, TARGET, 0.6).factors, rtol=1e-10)
 
 
 @pytest.mark.parametrize(
     ("arguments", "error", "message"),
     [
-        ({}, sm.InvalidOption, "yield_coefficient of scaling must be given, or reduction, not both, where there is no"),
-        ({"reduction": 2.0, "yield_coefficient": 0.1}, sm.InvalidOption, "no building; got both"),
-        ({"reduction": 0.0}, sm.InvalidOption, "reduction of scaling must be a positive number; got 0"),
-        ({"yield_coefficient": -1.0}, sm.InvalidOption, "yield_coefficient of scaling must be a positive number"),
-        ({"reduction": 2.0, "period": "T"}, sm.InvalidOption, "period of scaling must be a number; got 'T'"),
-        ({"reduction": 2.0, "deformation": "x"}, sm.InvalidOption, "deformation of scaling must be one of ratio, med"),
-        ({"reduction": 2.0, "corner_period": 0.0}, sm.InvalidOption, "corner_period of scaling must be a positive"),
-        ({"reduction": 2.0, "second_slope": "x"}, sm.InvalidOption, "second_slope of scaling must be a number"),
-        ({"reduction": 2.0, "overstrength": 0.5}, sm.InvalidScene, "overstrength of storey 1"),
-        ({"building": 1.0}, sm.InvalidOption, "building of scaling must be a Building; got 1.0"),
+        (
+            {},
+            sm.errors.InvalidOption,
+            "yield_coefficient of scaling must be given, or reduction, not both, where there is no",
+        ),
+        ({"reduction": 2.0, "yield_coefficient": 0.1}, sm.errors.InvalidOption, "no building; got both"),
+        ({"reduction": 0.0}, sm.errors.InvalidOption, "reduction of scaling must be a positive number; got 0"),
+        (
+            {"yield_coefficient": -1.0},
+            sm.errors.InvalidOption,
+            "yield_coefficient of scaling must be a positive number",
+        ),
+        ({"reduction": 2.0, "period": "T"}, sm.errors.InvalidOption, "period of scaling must be a number; got 'T'"),
+        (
+            {"reduction": 2.0, "deformation": "x"},
+            sm.errors.InvalidOption,
+            "deformation of scaling must be one of ratio, med",
+        ),
+        (
+            {"reduction": 2.0, "corner_period": 0.0},
+            sm.errors.InvalidOption,
+            "corner_period of scaling must be a positive",
+        ),
+        ({"reduction": 2.0, "second_slope": "x"}, sm.errors.InvalidOption, "second_slope of scaling must be a number"),
+        ({"reduction": 2.0, "overstrength": 0.5}, sm.errors.InvalidScene, "overstrength of storey 1"),
+        ({"building": 1.0}, sm.errors.InvalidOption, "building of scaling must be a Building; got 1.0"),
         (
             {"building": sm.Building.uniform(2, 0.5), "reduction": 2.0},
-            sm.InvalidOption,
+            sm.errors.InvalidOption,
             "reduction of scaling must be left out where a building is given; got 2.0",
         ),
-        ({"records": [], "reduction": 2.0}, sm.InvalidMotion, "motions of scaling must be at least one Record or"),
+        (
+            {"records": [], "reduction": 2.0},
+            sm.errors.InvalidMotion,
+            "motions of scaling must be at least one Record or",
+        ),
         (
             {"records": sm.Motion([0.0, 0.0], 0.01), "reduction": 2.0},
-            sm.InvalidMotion,
+            sm.errors.InvalidMotion,
             "acceleration of motion 1 must be other than zero somewhere; got zero throughout",
         ),
     ],
 )
 def test_bad_arguments_are_refused(arguments: dict, error: type[sm.SeismassError], message: str) -> None:
     with pytest.raises(error, match=re.escape(message)):
-        sm.scale_modal_pushover(**({"records": SUITE, "target": TARGET} | arguments))
+        sm.scaling.scale_modal_pushover(**({"records": SUITE, "target": TARGET} | arguments))

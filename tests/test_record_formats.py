@@ -21,14 +21,14 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import STANDARD_GRAVITY, unit_by_name
 from seismass.records import Record, read_record, read_records, read_suite
 from seismass.records.checks import suspicions
 from seismass.records.formats import FORMATS, NotRead, recognise
 from seismass.records.formats.directions import azimuth_of, is_vertical
 from seismass.records.formats.fixed import layout_of
 from seismass.records.suite import suite_of_file
-from seismass.units import STANDARD_GRAVITY, unit_by_name
 
 ROOT = Path(__file__).parents[1]
 MADE = runpy.run_path(str(ROOT / "tools" / "record_files.py"))

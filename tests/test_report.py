@@ -15,13 +15,13 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.building_file import example_file
+from seismass.assessment.building_file import example_file
 from seismass.cli import main
-from seismass.report.slip_figure import slip_demand
-from seismass.report.study_answer import answer, compared_rules, percent
-from seismass.report.study_tables import StudyTables, read_study_tables, study_tables
-from seismass.report.study_words import assumptions
-from seismass.report.write import write_study, write_study_page
+from seismass.show.study.answer import answer, compared_rules, percent
+from seismass.show.study.slip import slip_demand
+from seismass.show.study.tables import StudyTables, read_study_tables, study_tables
+from seismass.show.study.words import assumptions
+from seismass.show.study.write import write_study, write_study_page
 from seismass.study import StudyParameters, StudyResult, run_study
 from seismass.study.example import study_example
 from seismass.validation import validate
@@ -49,7 +49,7 @@ def folder(tables: StudyTables, tmp_path_factory: pytest.TempPathFactory) -> Pat
     return out
 
 
-def text_of(page: str) -> str:
+def analysis_text(page: str) -> str:
     """What a reader sees, on one line."""
     body = re.sub(r"<(style|script|svg)\b.*?</\1>", " ", page, flags=re.DOTALL)
     return " ".join(html.unescape(re.sub(r"<[^>]*>", " ", body)).split())
@@ -104,7 +104,7 @@ def test_page_has_every_part(folder: Path) -> None:
 
 
 def test_page_says_what_the_tables_say(folder: Path, result: StudyResult) -> None:
-    text = text_of((folder / "report.html").read_text(encoding="utf-8"))
+    text = analysis_text((folder / "report.html").read_text(encoding="utf-8"))
     worst = (
         result.summary.filter(pl.col("R") > 1.0, occupancy="storage")
         .sort("underestimation_percent")
@@ -192,8 +192,8 @@ def test_tables_of_a_folder_are_those_of_the_study(folder: Path, tables: StudyTa
     read = read_study_tables(folder)
     assert read.metadata == json.loads(json.dumps(tables.metadata))
     assert read.animation == tables.animation
-    for name, table in tables.tables().items():
-        assert read.tables()[name].equals(table), name
+    for name, table in tables.tables.items():
+        assert read.tables[name].equals(table), name
 
 
 def test_page_of_a_study_of_several_frictions_without_validation(tmp_path: Path) -> None:
@@ -264,7 +264,7 @@ def test_page_of_a_building_has_every_part_and_the_numbers_of_the_assessment(bui
         "Limits of this page",
         "Provenance",
     ]
-    text = text_of(page)
+    text = analysis_text(page)
     document = json.loads((building / "assessment.json").read_text())
     for part in (*document["advice"], *document["assumptions"], document["metadata"]["inputs_sha256"]):
         assert part in text
@@ -292,8 +292,8 @@ def test_checks_that_fail_are_said_first(tmp_path: Path) -> None:
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     failed = pl.read_parquet(tmp_path / "checks.parquet").filter(met=False)
     assert failed.height > 0
-    assert f"{failed.height} of " in text_of(page)
-    assert "checks are not met." in text_of(page)
+    assert f"{failed.height} of " in analysis_text(page)
+    assert "checks are not met." in analysis_text(page)
 
 
 def test_page_of_a_building_without_heights_and_goods(tmp_path: Path) -> None:

@@ -10,14 +10,16 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.intensity import IntensityMeasure, solve_grid
-from seismass.intensity.annual_rate import annual_rate
-from seismass.intensity.exact_capacities import STEP, exact_capacities
-from seismass.intensity.risk_rates import RateCurve
-from seismass.intensity.run import setting_of
+from seismass.fragility import IntensityMeasure, solve_grid
+from seismass.fragility.exact_capacities import STEP, exact_capacities
+from seismass.fragility.run import setting_of
+from seismass.risk.annual_rate import annual_rate
+from seismass.risk.rates import RateCurve
 
 G = sm.STANDARD_GRAVITY
-HAZARD = sm.HazardCurve([0.02, 0.05, 0.1, 0.3, 1.0, 2.0, 4.0], [0.1, 0.04, 0.015, 2e-3, 1e-4, 8e-6, 4e-7], label="test")
+HAZARD = sm.risk.HazardCurve(
+    [0.02, 0.05, 0.1, 0.3, 1.0, 2.0, 4.0], [0.1, 0.04, 0.015, 2e-3, 1e-4, 8e-6, 4e-7], label="test"
+)
 SHARES = [0.0, 0.25, 0.5, 0.75, 1.0]
 
 
@@ -32,8 +34,8 @@ def suite() -> list[sm.Record]:
 
 
 @pytest.fixture(scope="module")
-def found(suite: list[sm.Record]) -> sm.RiskTargetedShare:
-    return sm.risk_targeted_share(storage(0.15), suite, HAZARD, 0.01, resamples=400)
+def found(suite: list[sm.Record]) -> sm.risk.RiskTargetedShare:
+    return sm.risk.risk_targeted_share(storage(0.15), suite, HAZARD, 0.01, resamples=400)
 
 
 @pytest.mark.parametrize("eta", [0.5, 1.0, 1.5])
@@ -50,7 +52,7 @@ def test_step_motion_has_the_closed_form(eta: float) -> None:
     building = sm.Building.uniform(1, period, damping=0.0)
     scene = sm.Scene(building, [sm.Block(1, mass_ratio=alpha, mu=eta * acceleration / G)])
     step = sm.Motion(np.full(401, 0.1 * G), 0.005)
-    result = sm.risk_targeted_share(scene, step, HAZARD, limit, measure="pga", shares=SHARES, extrapolate=True)
+    result = sm.risk.risk_targeted_share(scene, step, HAZARD, limit, measure="pga", shares=SHARES, extrapolate=True)
     assert result.kind == "root"
     assert result.value == pytest.approx(share, rel=1e-7)
     # One motion: the rate is that of the hazard curve at its capacity.
@@ -67,7 +69,9 @@ def test_elastic_storey_has_capacities_of_its_spectrum(suite: list[sm.Record]) -
     alpha, period, damping, limit = 0.8, 0.5, 0.05, 0.02
     scene = sm.Scene(sm.Building.uniform(1, period, damping=damping), [sm.Block(1, mass_ratio=alpha, mu=90.0)])
     motions = [record.with_duration(record.duration + 3.0) for record in suite]
-    result = sm.risk_targeted_share(scene, motions, HAZARD, limit, measure="pga", shares=[0.0, 1.0], extrapolate=True)
+    result = sm.risk.risk_targeted_share(
+        scene, motions, HAZARD, limit, measure="pga", shares=[0.0, 1.0], extrapolate=True
+    )
     for name, rate, share in (
         ("code", result.code, 0.25),
         ("attached", result.attached, 1.0),
@@ -76,16 +80,16 @@ def test_elastic_storey_has_capacities_of_its_spectrum(suite: list[sm.Record]) -
         heavier = np.sqrt(1.0 + share * alpha)  # the same C: the ratio falls as the period grows
         ordinates = sm.response_spectrum(motions, [period * heavier], damping / heavier, "displacement")[:, 0]
         capacities = limit / ordinates * np.array([record.pga_g for record in motions])
-        fit = sm.intensity.fit_capacities(capacities, resamples=0)
+        fit = sm.fragility.fit_capacities(capacities, resamples=0)
         assert rate == pytest.approx(annual_rate(fit, HAZARD, extrapolate=True).value, rel=1e-7), name
     assert (result.kind, result.value, result.interval) == ("stuck", 1.0, (1.0, 1.0))
 
 
 def test_limits_of_friction(suite: list[sm.Record]) -> None:
-    stuck = sm.risk_targeted_share(storage(50.0), suite, HAZARD, 0.01, shares=SHARES, resamples=100)
+    stuck = sm.risk.risk_targeted_share(storage(50.0), suite, HAZARD, 0.01, shares=SHARES, resamples=100)
     assert (stuck.kind, stuck.value, stuck.interval) == ("stuck", 1.0, (1.0, 1.0))
     assert stuck.real == pytest.approx(stuck.attached, rel=1e-8)
-    free = sm.risk_targeted_share(storage(0.0), suite, HAZARD, 0.01, shares=SHARES, resamples=100)
+    free = sm.risk.risk_targeted_share(storage(0.0), suite, HAZARD, 0.01, shares=SHARES, resamples=100)
     assert (free.kind, free.value, free.interval) == ("zero", 0.0, (0.0, 0.0))
     assert free.real == pytest.approx(float(free.curve["rate"][0]), rel=1e-8)
     assert free.attached == pytest.approx(stuck.attached, rel=1e-12)
@@ -93,7 +97,7 @@ def test_limits_of_friction(suite: list[sm.Record]) -> None:
 
 def test_capacities_are_first_crossings(suite: list[sm.Record]) -> None:
     """The demand passes the limit within 1e-7 of the capacity, and is below it on the ladder up to there."""
-    limit = sm.LimitState("drift_ratio", 0.01)
+    limit = sm.fragility.LimitState("drift_ratio", 0.01)
     models = {"real": storage(0.15), "full": sm.attached_scene(storage(0.15), 1.0)}
     setting = setting_of(models, suite, [limit], "sa_t1", None, "test")
     capacities = exact_capacities(setting, limit)
@@ -120,7 +124,7 @@ def test_capacities_are_first_crossings(suite: list[sm.Record]) -> None:
 )
 def test_operator_on_rates(rates: list[float], kind: str, value: float) -> None:
     """Rates of models at shares 0, 1/2 and 1 where the real building has 1 a year; linear between them."""
-    hazard = sm.HazardCurve([1e-3, 1e3], [1e3, 1e-3])  # the rate is 1 over the capacity
+    hazard = sm.risk.HazardCurve([1e-3, 1e3], [1e3, 1e-3])  # the rate is 1 over the capacity
     capacities = 1.0 / np.array(rates)[:, None]
     shares = np.array([0.0, 0.5, 1.0])
     curve = RateCurve.of(shares, np.array([1.0]), capacities, hazard, "empirical", True, np.ones((1, 1)))
@@ -133,21 +137,21 @@ def test_operator_on_rates(rates: list[float], kind: str, value: float) -> None:
 def test_collapse_is_a_capacity(suite: list[sm.Record]) -> None:
     """A limit above the drift of collapse is reached where the building collapses, to the same digits."""
     collapsing = storage(0.15, collapse_drift=0.045)  # 0.015 of the height
-    limits = [sm.LimitState("drift_ratio", 0.02), sm.LimitState("drift_ratio", 0.015)]
+    limits = [sm.fragility.LimitState("drift_ratio", 0.02), sm.fragility.LimitState("drift_ratio", 0.015)]
     setting = setting_of(collapsing, suite, limits, "pga", None, "test")
     above, at = (exact_capacities(setting, limit) for limit in limits)
     np.testing.assert_allclose(above, at, rtol=1e-7)
 
 
-def test_root_has_the_rate_of_the_real_building(found: sm.RiskTargetedShare, suite: list[sm.Record]) -> None:
+def test_root_has_the_rate_of_the_real_building(found: sm.risk.RiskTargetedShare, suite: list[sm.Record]) -> None:
     assert found.kind == "root"
     assert found.excess == pytest.approx(0.0, abs=1e-7)
     # The whole computation once more for that share, with capacities found by hunt and fill.
     scene = storage(0.15)
     models = {"real": scene, "model": sm.attached_scene(scene, found.value)}
-    hunt = sm.intensity.HuntAndFill(tolerance=1e-7)
-    limit = sm.LimitState("drift_ratio", 0.01)
-    analysis = sm.incremental_dynamic_analysis(models, suite, limit, hunt=hunt, resamples=10)
+    hunt = sm.fragility.HuntAndFill(tolerance=1e-7)
+    limit = sm.fragility.LimitState("drift_ratio", 0.01)
+    analysis = sm.fragility.incremental_dynamic_analysis(models, suite, limit, hunt=hunt, resamples=10)
     for name in models:
         fit = analysis.fragility(limit, name)
         assert annual_rate(fit, HAZARD).value == pytest.approx(found.real, rel=1e-5)
@@ -159,30 +163,30 @@ def test_root_has_the_rate_of_the_real_building(found: sm.RiskTargetedShare, sui
     assert ratio[k - 1] > 1.0 > ratio[k]
 
 
-def test_scaled_motions_change_nothing(found: sm.RiskTargetedShare, suite: list[sm.Record]) -> None:
+def test_scaled_motions_change_nothing(found: sm.risk.RiskTargetedShare, suite: list[sm.Record]) -> None:
     factors = [0.5, 2.0, 3.0, 0.7, 1.1, 1.0, 5.0]
     scaled = [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)]
-    again = sm.risk_targeted_share(storage(0.15), scaled, HAZARD, 0.01, resamples=400)
+    again = sm.risk.risk_targeted_share(storage(0.15), scaled, HAZARD, 0.01, resamples=400)
     assert again.value == pytest.approx(found.value, abs=1e-6)
     assert again.code == pytest.approx(found.code, rel=1e-7)
     assert again.interval == pytest.approx(found.interval, abs=1e-6)
 
 
-def test_effective_fraction_at_the_design_intensity(found: sm.RiskTargetedShare, suite: list[sm.Record]) -> None:
+def test_effective_fraction_at_the_design_intensity(found: sm.risk.RiskTargetedShare, suite: list[sm.Record]) -> None:
     level = HAZARD.intensity(1.0 / 475.0)
     measure = IntensityMeasure("sa_t1", storage(0.15).building.periods[0])  # type: ignore[union-attr]
     motions = [record.scaled(level / unit) for record, unit in zip(suite, measure.of(suite).tolist(), strict=True)]
     expected = sm.effective_mass(storage(0.15), motions, fractions=found.curve["fraction"].to_numpy(), resamples=400)
     assert found.effective is not None
     assert found.effective.value == pytest.approx(expected.value, abs=1e-12)
-    beyond = sm.risk_targeted_share(
+    beyond = sm.risk.risk_targeted_share(
         storage(0.15), suite, HAZARD, 0.01, shares=SHARES, other_limits=[], design_rate=1e-9, resamples=50
     )
     assert beyond.effective is None
     assert any("does not reach the design rate" in remark for remark in beyond.remarks)
 
 
-def test_what_it_depends_on(found: sm.RiskTargetedShare) -> None:
+def test_what_it_depends_on(found: sm.risk.RiskTargetedShare) -> None:
     rows = found.sensitivity
     assert rows["parameter"].to_list() == ["as asked for", *["limit"] * 3, *["hazard slope"] * 2, "fragility"]
     assert rows["setting"].to_list()[1:4] == ["0.25 %", "0.5 %", "1.5 %"]
@@ -191,7 +195,7 @@ def test_what_it_depends_on(found: sm.RiskTargetedShare) -> None:
     assert rows.filter(parameter="limit")["real_rate"].is_sorted(descending=True)
     tilted = HAZARD.tilted(0.75)
     median, dispersion = found.fragilities.filter(model="real").select("median", "dispersion").row(0)
-    fit = sm.intensity.fit_capacities([median * np.exp(-dispersion), median * np.exp(dispersion)], resamples=0)
+    fit = sm.fragility.fit_capacities([median * np.exp(-dispersion), median * np.exp(dispersion)], resamples=0)
     slope = rows.filter(parameter="hazard slope", setting="x 0.75")["real_rate"][0]
     assert slope == pytest.approx(annual_rate(fit, tilted).value, rel=1e-9)
     capacities = found.capacities.filter(model="real")["capacity"].to_numpy()
@@ -200,7 +204,7 @@ def test_what_it_depends_on(found: sm.RiskTargetedShare) -> None:
 
 
 def test_empirical_estimator_is_the_mean_hazard_at_the_capacities(suite: list[sm.Record]) -> None:
-    result = sm.risk_targeted_share(
+    result = sm.risk.risk_targeted_share(
         storage(0.15), suite, HAZARD, 0.01, shares=SHARES, other_limits=[], estimator="empirical", resamples=50
     )
     capacities = result.capacities.filter(pl.col("share") == 0.25)["capacity"].to_numpy()
@@ -209,16 +213,16 @@ def test_empirical_estimator_is_the_mean_hazard_at_the_capacities(suite: list[sm
 
 
 def test_hazard_that_ends_early_is_said(suite: list[sm.Record]) -> None:
-    short = sm.HazardCurve([0.05, 0.1, 0.6], [0.04, 0.015, 4e-4])
+    short = sm.risk.HazardCurve([0.05, 0.1, 0.6], [0.04, 0.015, 4e-4])
     options = {"shares": SHARES, "other_limits": [], "design_rate": 2e-3, "resamples": 50}
-    cut = sm.risk_targeted_share(storage(0.15), suite, short, 0.01, **options)  # type: ignore[arg-type]
-    longer = sm.risk_targeted_share(storage(0.15), suite, short, 0.01, extrapolate=True, **options)  # type: ignore[arg-type]
+    cut = sm.risk.risk_targeted_share(storage(0.15), suite, short, 0.01, **options)  # type: ignore[arg-type]
+    longer = sm.risk.risk_targeted_share(storage(0.15), suite, short, 0.01, extrapolate=True, **options)  # type: ignore[arg-type]
     assert cut.real < longer.real
     assert any("the hazard curve ends at 0.6 g: stronger motions would add" in remark for remark in cut.remarks)
     assert not any("the hazard curve ends" in remark for remark in longer.remarks)
 
 
-def test_text_tables_json_and_files(tmp_path: Path, found: sm.RiskTargetedShare) -> None:
+def test_text_tables_json_and_files(tmp_path: Path, found: sm.risk.RiskTargetedShare) -> None:
     for words in ("risk-targeted share", "in 50 years", "code, 0.25", "all attached", "hazard slope x 1.25", "remark"):
         assert words in found.text
     files = found.write(tmp_path / "out")
@@ -233,11 +237,11 @@ def test_text_tables_json_and_files(tmp_path: Path, found: sm.RiskTargetedShare)
 def test_recordings_of_one_event_are_drawn_together(shared: Path) -> None:
     records = sm.read_suite(shared / "records" / "paper_seven.csv")
     seen: list[tuple[int, int]] = []
-    result = sm.risk_targeted_share(
+    result = sm.risk.risk_targeted_share(
         storage(0.15),
         records,
         HAZARD,
-        sm.LimitState("drift_ratio", 0.01),
+        sm.fragility.LimitState("drift_ratio", 0.01),
         shares=SHARES,
         other_limits=[],
         resamples=100,
@@ -252,7 +256,7 @@ def test_recordings_of_one_event_are_drawn_together(shared: Path) -> None:
     ("options", "message"),
     [
         (
-            {"limit": sm.LimitState("slip", 0.1)},
+            {"limit": sm.fragility.LimitState("slip", 0.1)},
             "limit of risk-targeted share must be a number, or a LimitState of drift",
         ),
         ({"measure": "scale"}, "measure of risk-targeted share must be an acceleration in g, as the hazard curve is"),
@@ -270,22 +274,24 @@ def test_recordings_of_one_event_are_drawn_together(shared: Path) -> None:
 )
 def test_what_is_refused(suite: list[sm.Record], options: dict[str, object], message: str) -> None:
     given: dict[str, object] = {"hazard": HAZARD, "limit": 0.01, **options}
-    with pytest.raises(sm.InvalidOption) as error:
-        sm.risk_targeted_share(storage(0.15), suite, **given)  # type: ignore[arg-type]
+    with pytest.raises(sm.errors.InvalidOption) as error:
+        sm.risk.risk_targeted_share(storage(0.15), suite, **given)  # type: ignore[arg-type]
     assert message in str(error.value)
 
 
 def test_scenes_that_do_not_start_at_rest_are_refused(suite: list[sm.Record]) -> None:
-    with pytest.raises(sm.InvalidScene, match="initial state of risk-targeted share must be at rest"):
-        sm.risk_targeted_share(storage(0.15, initial_drift=[0.001, 0.0]), suite, HAZARD, 0.01)
+    with pytest.raises(sm.errors.InvalidScene, match="initial state of risk-targeted share must be at rest"):
+        sm.risk.risk_targeted_share(storage(0.15, initial_drift=[0.001, 0.0]), suite, HAZARD, 0.01)
     pushed = sm.Block(1, mass_ratio=1.0, mu=0.1, velocity=0.1)
-    with pytest.raises(sm.InvalidScene, match="must be at rest"):
-        sm.risk_targeted_share(sm.Scene(storage(0.15).building, [pushed]), suite, HAZARD, 0.01)
+    with pytest.raises(sm.errors.InvalidScene, match="must be at rest"):
+        sm.risk.risk_targeted_share(sm.Scene(storage(0.15).building, [pushed]), suite, HAZARD, 0.01)
 
 
 def test_limit_beyond_the_hazard_curve_is_refused(suite: list[sm.Record]) -> None:
-    weak = sm.HazardCurve([1e-4, 2e-4], [0.1, 0.05])
-    with pytest.raises(sm.InvalidOption, match="must be exceeded within the hazard curve; got a rate of 0 a year"):
-        sm.risk_targeted_share(
+    weak = sm.risk.HazardCurve([1e-4, 2e-4], [0.1, 0.05])
+    with pytest.raises(
+        sm.errors.InvalidOption, match="must be exceeded within the hazard curve; got a rate of 0 a year"
+    ):
+        sm.risk.risk_targeted_share(
             storage(0.15), suite, weak, 0.01, shares=[0.0, 1.0], other_limits=[], estimator="empirical"
         )

@@ -11,7 +11,7 @@ import sys
 import numpy as np
 import pytest
 
-from seismass import _elementary as elementary
+from seismass.base import elementary
 
 AVX512 = ("X86_V4", "AVX512_ICL", "AVX512_SPR", "AVX512_SKX", "AVX512_CLX", "AVX512_CNL", "AVX512F", "AVX512CD")
 """What NumPy calls features of processors with AVX-512, in old and new versions."""
@@ -23,7 +23,7 @@ import sys
 import numpy as np
 
 import seismass as sm
-from seismass import _elementary as elementary
+from seismass.base import elementary
 
 if sys.argv[1] == "functions":
     x = np.random.default_rng(1).uniform(-1.0, 1.0, 10**6)
@@ -37,7 +37,7 @@ if sys.argv[1] == "functions":
     ]
 else:
     record = sm.builtin_suite()[0]
-    found = sm.match_spectrum(record, sm.TargetSpectrum.asce7().tilted(0.1), max_iterations=8)
+    found = sm.matching.match_spectrum(record, sm.TargetSpectrum.asce7().tilted(0.1), max_iterations=8)
     parts = [found.record.acceleration]
 digest = hashlib.sha256()
 for part in parts:

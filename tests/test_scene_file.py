@@ -16,8 +16,8 @@ import pytest
 
 import seismass as sm
 from seismass._kernel import MAX_STOREYS
-from seismass.scene_file import KEYS, scene_without_motion
-from seismass.springs import SHAPE_FIELDS, SPRING_FIELDS
+from seismass.model.springs import SHAPE_FIELDS, SPRING_FIELDS
+from seismass.runs.scene_file import KEYS, scene_without_motion
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "scene_file.md").read_text(encoding="utf-8")
@@ -210,11 +210,11 @@ def test_built_in_motions_by_name(write: Write) -> None:
 
 def test_scene_is_read_without_its_motion(write: Write) -> None:
     path = write(motion={"file": "missing.AT2"}, initial={"velocity": [0.1, 0.2]}, name="without")
-    with pytest.raises(sm.RecordFormatError, match=r"missing\.AT2"):
+    with pytest.raises(sm.errors.RecordFormatError, match=r"missing\.AT2"):
         sm.read_scene(path)
     scene = scene_without_motion(path)
     assert scene == sm.read_scene(write(motion=MOTION, initial={"velocity": [0.1, 0.2]}, name="without")).scene
-    with pytest.raises(sm.InvalidSceneFile, match="did you mean blocks"):
+    with pytest.raises(sm.errors.InvalidSceneFile, match="did you mean blocks"):
         scene_without_motion(write(motion={}, block=[]))
 
 
@@ -225,283 +225,283 @@ def changed(base: dict[str, Any], without: tuple[str, ...] = (), **changes: Any)
 REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     (
         {"bulding": {}},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"bulding of scene.json must be one of the keys .* \(did you mean building\?\); got an unknown key",
     ),
     (
         {"building": changed(BUILDING, stifness=1.0)},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.stifness of scene.json must be one of .* \(did you mean building.stiffness\?\); got an unknown key",
     ),
     (
         {"blocks": [BLOCK, changed(BLOCK, colour="red")]},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"blocks\[2\].colour of scene.json must be one of the keys floor, .*; got an unknown key",
     ),
     (
         {"motion": changed(MOTION, units="g")},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.units of .* \(did you mean motion.unit\?\); got an unknown key",
     ),
     (
         {"motion": {"builtin": "synthetic-12"}},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.builtin of .* from synthetic-1 to synthetic-11",
     ),
     (
         {"motion": {"builtin": "synthetic-1", "dt": 0.01}},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.dt of .* left out where motion.bui",
     ),
-    ({"motion": {"builtin": 1}}, sm.InvalidSceneFile, r"motion.builtin of .* must be text; got 1"),
+    ({"motion": {"builtin": 1}}, sm.errors.InvalidSceneFile, r"motion.builtin of .* must be text; got 1"),
     (
         {"initial": {"drifts": [0, 0]}},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"initial.drifts of .* \(did you mean initial.drift\?\); got an unknown key",
     ),
     (
         {"building": changed(BUILDING, damping={"kind": "modal", "ratio": 0.05, "modes": [1, 2]})},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.damping.modes of .* must be one of the keys kind, ratio; got an unknown key",
     ),
     (
         {"building": changed(BUILDING, damping={"kind": "viscous", "ratio": 0.05})},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.damping.kind of .* must be one of modal, rayleigh, matrix; got 'viscous'",
     ),
     (
         {"building": changed(BUILDING, damping={"ratio": 0.05})},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.damping.kind of .* must be one of .*; got nothing",
     ),
     (
         {"building": changed(BUILDING, damping={"kind": "rayleigh", "ratio": 0.05})},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.damping.modes of .* must be given; got nothing",
     ),
     (
         {"building": changed(BUILDING, damping={"kind": "rayleigh", "ratio": 0.05, "modes": 1})},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"modes of Rayleigh damping must be two mode numbers; got 1",
     ),
     (
         {"building": changed(BUILDING, damping="5 %")},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"damping of building must be a number; got '5 %'",
     ),
     (
         {"building": changed(BUILDING, yield_shear=1.0, yield_shear_over_weight=0.1)},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.yield_shear_over_weight of .* must be left out where building.yield_shear is given; got both",
     ),
     (
         {"building": changed(BUILDING, heights=3.0, gravity_load=1.0, geometric_stiffness=1.0)},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.geometric_stiffness of .* must be left out where building.gravity_load is given; got both",
     ),
     (
         {"building": changed(BUILDING, gravity_load=1.0)},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.heights of .* must be given; got nothing",
     ),
     (
         {"building": changed(BUILDING, storeys=2)},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.storeys of .* must be left out where mass or stiffness is a list; got 2",
     ),
     (
         {"building": changed(BUILDING, storeys=2, period=0.5)},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.stiffness of .* must be left out where building.period is given; got both",
     ),
     (
         {"building": {"mass": [1.0, 1.0], "storeys": 2, "period": 0.5}},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.mass of .* must be one number where building.period is given; got \[1.0, 1.0\]",
     ),
     *(
         (
             {"building": {"mass": 1.0, "stiffness": 1.0, "storeys": storeys}},
-            sm.InvalidScene,
+            sm.errors.InvalidScene,
             f"storeys of building must be at most 1000; got {storeys}",
         )
         for storeys in (MAX_STOREYS + 1, 300_000_000_000)
     ),
     (
         {"building": {"mass": 1.0, "stiffness": 1.0, "storeys": 3, "yield_shear_over_weight": [0.2, 0.1]}},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"yield_shear_over_weight of building must be .* a list of 3 values, one per storey; got 2 values",
     ),
-    ({"building": {"period": 0.5}}, sm.InvalidSceneFile, r"building.storeys of .* must be given; got nothing"),
+    ({"building": {"period": 0.5}}, sm.errors.InvalidSceneFile, r"building.storeys of .* must be given; got nothing"),
     (
         {"building": {"mass": [1.0]}},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.stiffness of .* must be given, or building.period, or building.backbone; got nothing",
     ),
-    ({"building": {"stiffness": [1.0]}}, sm.InvalidSceneFile, r"building.mass of .* must be given; got nothing"),
+    ({"building": {"stiffness": [1.0]}}, sm.errors.InvalidSceneFile, r"building.mass of .* must be given; got nothing"),
     (
         {"building": {"storeys": "two", "period": 0.5}},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"storeys of building must be a whole number of at least 1; got 'two'",
     ),
-    ({"building": []}, sm.InvalidSceneFile, r"building of .* must be a table of keys; got \[\]"),
+    ({"building": []}, sm.errors.InvalidSceneFile, r"building of .* must be a table of keys; got \[\]"),
     (
         {"building": changed(BUILDING, mass="heavy")},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"mass of building must be a number or a list of numbers; got 'heavy'",
     ),
     (
         {"building": changed(BUILDING, mass=[1e3, None])},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"mass of building must be a number or a list of numbers; got \[1000.0, None\]",
     ),
-    ({"blocks": BLOCK}, sm.InvalidSceneFile, r"blocks of .* must be a list of tables; got"),
-    ({"blocks": [1]}, sm.InvalidSceneFile, r"blocks\[1\] of .* must be a table of keys; got 1"),
+    ({"blocks": BLOCK}, sm.errors.InvalidSceneFile, r"blocks of .* must be a list of tables; got"),
+    ({"blocks": [1]}, sm.errors.InvalidSceneFile, r"blocks\[1\] of .* must be a table of keys; got 1"),
     (
         {"blocks": [changed(BLOCK, ("floor",))]},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"blocks\[1\].floor of .* must be given; got nothing",
     ),
     (
         {"blocks": [changed(BLOCK, ("mass",))]},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"blocks\[1\].mass of .* must be given, or blocks\[1\].mass_ratio; got nothing",
     ),
     (
         {"blocks": [changed(BLOCK, mass_ratio=1.0)]},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"blocks\[1\].mass_ratio of .* must be left out where blocks\[1\].mass is given; got both",
     ),
     (
         {"blocks": [changed(BLOCK, mu_k=0.2)]},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"blocks\[1\].mu of .* must be left out where blocks\[1\].mu_k is given; got both",
     ),
     (
         {"blocks": [changed(BLOCK, ("mu",), mu_k=0.2)]},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"blocks\[1\].mu of .* must be given, or blocks\[1\].mu_s; got nothing",
     ),
     (
         {"blocks": [changed(BLOCK, floor=7)]},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"floor of block 1 must be a floor of the building, 1 to 2, .*; got 7",
     ),
     (
         {"blocks": [BLOCK, changed(BLOCK, floor="two")]},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"floor of block 2 must be a whole number of at least 0; got 'two'",
     ),
     (
         {"blocks": [BLOCK, changed(BLOCK, mass="heavy")]},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"mass of block 2 must be a number; got 'heavy'",
     ),
     (
         {"blocks": [BLOCK, changed(BLOCK, mu=-0.3)]},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"mu of block 2 must be finite and not negative; got -0.3",
     ),
     (
         {"initial": {"drift": "a"}, "building": BUILDING},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"initial.drift of .* must be a number or a list of numbers; got 'a'",
     ),
     (
         {"motion": changed(MOTION, scale=1e308)},
-        sm.InvalidMotion,
+        sm.errors.InvalidMotion,
         r"acceleration of motion must be finite at every sample; got -inf at sample 2",
     ),
     (
         {"blocks": [changed(BLOCK, ("mass",), floor=0, mass_ratio=1.0)]},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"mass_ratio of block 1 must be left out on the ground; got 1",
     ),
-    ({"motion": None}, sm.InvalidSceneFile, r"motion of .* must be given; got nothing"),
+    ({"motion": None}, sm.errors.InvalidSceneFile, r"motion of .* must be given; got nothing"),
     (
         {"motion": {"dt": 0.01}},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.file of .* must be given, or motion.builtin, or motion.acceleration; got nothing",
     ),
     (
         {"motion": changed(MOTION, file="a.AT2")},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.file of .* must be left out where motion.acceleration is given; got both",
     ),
-    ({"motion": changed(MOTION, ("dt",))}, sm.InvalidSceneFile, r"motion.dt of .* must be given; got nothing"),
+    ({"motion": changed(MOTION, ("dt",))}, sm.errors.InvalidSceneFile, r"motion.dt of .* must be given; got nothing"),
     (
         {"motion": changed(MOTION, unit="ft/s2")},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.unit of .* must be one of g, m/s2, cm/s2, gal; got 'ft/s2'",
     ),
     (
         {"motion": changed(MOTION, unit=["g"])},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.unit of .* must be one of g, m/s2, cm/s2, gal; got \['g'\]",
     ),
     (
         {"building": changed(BUILDING, damping={"kind": ["modal"]})},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"building.damping.kind of .* must be one of .*; got \['modal'\]",
     ),
     (
         {"motion": changed(MOTION, scale="double")},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.scale of .* must be a number; got 'double'",
     ),
     (
         {"motion": changed(MOTION, scale=math.inf)},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.scale of .* must be a finite number; got inf",
     ),
     (
         {"motion": changed(MOTION, dt_scale=0)},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"motion.dt_scale of .* must be a positive number; got 0",
     ),
-    ({"motion": changed(MOTION, dt=0)}, sm.InvalidMotion, r"dt of motion must be a positive number; got 0"),
+    ({"motion": changed(MOTION, dt=0)}, sm.errors.InvalidMotion, r"dt of motion must be a positive number; got 0"),
     (
         {"motion": changed(MOTION, acceleration=[])},
-        sm.InvalidMotion,
+        sm.errors.InvalidMotion,
         r"acceleration of motion must be .* samples; got 0 samples",
     ),
     (
         {"motion": changed(MOTION, acceleration=[0.0, "x"])},
-        sm.InvalidMotion,
+        sm.errors.InvalidMotion,
         r"acceleration of motion must be a list of numbers; got \[0.0, 'x'\]",
     ),
     (
         {"motion": {"file": "missing.AT2"}},
-        sm.RecordFormatError,
+        sm.errors.RecordFormatError,
         r"record file must be a file that can be read; got .*missing.AT2",
     ),
-    ({"motion": {"file": 3}}, sm.InvalidSceneFile, r"motion.file of .* must be text; got 3"),
+    ({"motion": {"file": 3}}, sm.errors.InvalidSceneFile, r"motion.file of .* must be text; got 3"),
     (
         {"vertical_motion": changed(MOTION, dt=0.02)},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"vertical_motion of .* must be at the time step of the horizontal motion, 0.01 s; got 0.02 s",
     ),
-    ({"duration": "long"}, sm.InvalidSceneFile, r"duration of .* must be a number; got 'long'"),
-    ({"duration": -1.0}, sm.InvalidMotion, r"duration of motion must be .*; got -1"),
+    ({"duration": "long"}, sm.errors.InvalidSceneFile, r"duration of .* must be a number; got 'long'"),
+    ({"duration": -1.0}, sm.errors.InvalidMotion, r"duration of motion must be .*; got -1"),
     (
         {"initial": {"drift": [0.0]}},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"drift of initial state must be a list of 2 values, one per storey; got 1 values",
     ),
     (
         {"building": None, "initial": {"drift": 0.1}},
-        sm.InvalidSceneFile,
+        sm.errors.InvalidSceneFile,
         r"initial.drift of .* must be left out where there is no building; got 0.1",
     ),
     (
         {"building": None, "collapse_drift": 0.3},
-        sm.InvalidScene,
+        sm.errors.InvalidScene,
         r"collapse_drift of scene must be left out where there is no building; got 0.3",
     ),
     *(
         (
             {"building": building | {"yield_shear_over_weight": strength}},
-            sm.InvalidScene,
+            sm.errors.InvalidScene,
             rf"yield_shear_over_weight of building must be {requirement}; got {got}",
         )
         for building in (BUILDING, {"storeys": 2, "period": 0.3})
@@ -512,8 +512,12 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
             ([0.2] * 3, "one number or a list of 2 values, one per storey", "3 values"),
         )
     ),
-    ({"name": 5}, sm.InvalidSceneFile, r"name of .* must be text; got 5"),
-    ({"collapse_drift": [0.1, 0.0]}, sm.InvalidScene, r"collapse_drift of storey 2 must be a positive number; got 0"),
+    ({"name": 5}, sm.errors.InvalidSceneFile, r"name of .* must be text; got 5"),
+    (
+        {"collapse_drift": [0.1, 0.0]},
+        sm.errors.InvalidScene,
+        r"collapse_drift of storey 2 must be a positive number; got 0",
+    ),
 ]
 
 
@@ -586,10 +590,12 @@ def test_the_example_of_the_page_is_what_it_says(tmp_path: Path) -> None:
 def test_files_that_are_not_scenes(tmp_path: Path, name: str, content: bytes, message: str) -> None:
     path = tmp_path / name
     path.write_bytes(content)
-    with pytest.raises(sm.InvalidSceneFile, match=f"^{message}"):
+    with pytest.raises(sm.errors.InvalidSceneFile, match=f"^{message}"):
         sm.read_scene(path)
 
 
 def test_missing_file(tmp_path: Path) -> None:
-    with pytest.raises(sm.InvalidSceneFile, match=r"scene file must be a file that can be read; got .*nowhere.toml"):
+    with pytest.raises(
+        sm.errors.InvalidSceneFile, match=r"scene file must be a file that can be read; got .*nowhere.toml"
+    ):
         sm.read_scene(tmp_path / "nowhere.toml")

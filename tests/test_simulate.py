@@ -17,7 +17,7 @@ import pytest
 from polars.testing import assert_frame_equal
 
 import seismass as sm
-from seismass.response import EVENT_KINDS
+from seismass.runs.response import EVENT_KINDS
 
 
 def shaking(seed: int = 1, samples: int = 2000, pga: float = 6.0) -> sm.Motion:
@@ -160,7 +160,7 @@ def test_histories_of_displacements_alone_are_those_of_all() -> None:
         np.testing.assert_array_equal(displacements.drift, everything.drift)
         np.testing.assert_array_equal(displacements.slip, everything.slip)
         np.testing.assert_array_equal(displacements.time, everything.time)
-        with pytest.raises(sm.InvalidOption, match="displacements_only of simulate must be False"):
+        with pytest.raises(sm.errors.InvalidOption, match="displacements_only of simulate must be False"):
             displacements.storey_force  # noqa: B018
 
 

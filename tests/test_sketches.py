@@ -45,7 +45,7 @@ VALUES: dict[str, Any] = {
 }
 
 
-def text_of(name: str) -> str:
+def analysis_text(name: str) -> str:
     return "".join(ET.fromstring(VALUES[name]._repr_html_()).itertext()).replace("\N{NO-BREAK SPACE}", " ")
 
 
@@ -83,14 +83,14 @@ def test_coordinates_are_inside_their_drawing() -> None:
 
 
 def test_scene_says_what_it_is_made_of() -> None:
-    text = text_of("scene")
+    text = analysis_text("scene")
     assert "<script>alert(1)</script>: 3 storeys, T1 = 0.6 s, 4 blocks" in text
     assert 'a "note" & more' in text
     for part in ("0.5 of the floor's", "30000 kg", "0.4, kinetic 0.3", "ground", "V_y/W = 0.24", "3.5 m", "mass 60 t"):
         assert part in text
     assert len(list(ET.fromstring(SCENE._repr_html_()).iter("rect"))) == 4
-    assert "and 18 more" in text_of("tall")
-    assert "springs elastic" in text_of("elastic")
+    assert "and 18 more" in analysis_text("tall")
+    assert "springs elastic" in analysis_text("elastic")
 
 
 def test_areas_of_goods_are_as_their_mass() -> None:
@@ -101,29 +101,29 @@ def test_areas_of_goods_are_as_their_mass() -> None:
 
 
 def test_response_says_its_peaks() -> None:
-    response, text = VALUES["response"], text_of("response")
+    response, text = VALUES["response"], analysis_text("response")
     assert text.startswith("Response, completed at 36 s: <script>alert(1)</script>, synthetic-1")
     for number in range(3):
         assert f"storey {number + 1}{1e3 * response.peak_drift[number]:.4g} mm" in text
     for number in range(4):
         assert f"{1e3 * response.peak_slip[number]:.4g} mm" in text
     assert f"drift of storey 1 over 36 s, peak {1e3 * response.peak_drift[0]:.3g} mm" in text
-    assert "slip of block 1 over 36 s" in text_of("block")
-    assert "the 12 that drift most of 30" in text_of("storeys")
+    assert "slip of block 1 over 36 s" in analysis_text("block")
+    assert "the 12 that drift most of 30" in analysis_text("storeys")
 
 
 def test_suite_has_a_row_and_a_curve_for_each_record() -> None:
     root = ET.fromstring(VALUES["suite"]._repr_html_())
     assert len(list(root.iter("svg"))) == len(VALUES["suite"]) == 11
     for record in VALUES["suite"]:
-        assert record.name in text_of("suite")
-        assert f"{record.pga_g:.3f} g" in text_of("suite")
+        assert record.name in analysis_text("suite")
+        assert f"{record.pga_g:.3f} g" in analysis_text("suite")
 
 
 def test_target_says_its_ordinates() -> None:
     target = VALUES["target"]
-    assert f"Sa(1 s) {target([1.0])[0] / G:.3g} g" in text_of("target")
-    assert target.label in text_of("target")
+    assert f"Sa(1 s) {target([1.0])[0] / G:.3g} g" in analysis_text("target")
+    assert target.label in analysis_text("target")
 
 
 def test_effective_mass_shows_its_answer_on_a_line() -> None:

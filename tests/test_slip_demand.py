@@ -325,18 +325,18 @@ def test_progress_and_recordings(shared: Path) -> None:
     ],
 )
 def test_what_is_refused(options: dict[str, object], message: str) -> None:
-    with pytest.raises(sm.InvalidOption) as error:
+    with pytest.raises(sm.errors.InvalidOption) as error:
         slip_demand(storage(), sm.builtin_suite("seven"), **options)  # type: ignore[arg-type]
     assert message in str(error.value)
 
 
 def test_scenes_and_sizes_that_are_refused() -> None:
-    with pytest.raises(sm.InvalidScene, match="blocks of slip demand must be at least one; got none"):
+    with pytest.raises(sm.errors.InvalidScene, match="blocks of slip demand must be at least one; got none"):
         slip_demand(sm.Scene(building()), sm.builtin_suite("seven"))
-    with pytest.raises(sm.InvalidOption, match="plus of clearance must be given, or minus; got neither"):
+    with pytest.raises(sm.errors.InvalidOption, match="plus of clearance must be given, or minus; got neither"):
         Clearance()
-    with pytest.raises(sm.InvalidOption, match="centre of block size must be at most the height, 1 m; got 2"):
+    with pytest.raises(sm.errors.InvalidOption, match="centre of block size must be at most the height, 1 m; got 2"):
         BlockSize(1.0, 1.0, 2.0)
     for text in ("1x", "axb", "1x2x3", ""):
-        with pytest.raises(sm.InvalidOption, match=r"size of block must be WIDTHxHEIGHT"):
+        with pytest.raises(sm.errors.InvalidOption, match=r"size of block must be WIDTHxHEIGHT"):
             parse_size(text)

@@ -185,21 +185,23 @@ def test_csv_target_is_interpolated_in_logarithms(tmp_path: Path, text: str) -> 
 def test_bad_target_files_are_refused(tmp_path: Path, text: str, message: str) -> None:
     file = tmp_path / "uhs.csv"
     file.write_text(text)
-    with pytest.raises(sm.RecordFormatError, match=re.escape(message)):
+    with pytest.raises(sm.errors.RecordFormatError, match=re.escape(message)):
         sm.TargetSpectrum.from_csv(file)
 
 
 def test_missing_or_binary_target_file_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(sm.RecordFormatError, match="path of target spectrum must be a file of text"):
+    with pytest.raises(sm.errors.RecordFormatError, match="path of target spectrum must be a file of text"):
         sm.TargetSpectrum.from_csv(tmp_path / "none.csv")
     (tmp_path / "binary.csv").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(sm.RecordFormatError, match="path of target spectrum must be a file of text"):
+    with pytest.raises(sm.errors.RecordFormatError, match="path of target spectrum must be a file of text"):
         sm.TargetSpectrum.from_csv(tmp_path / "binary.csv")
 
 
 @pytest.mark.parametrize("path", [None, 3, "a\0b"])
 def test_target_path_that_is_none_is_refused(path: object) -> None:
-    with pytest.raises(sm.RecordFormatError, match=re.escape(f"path of target spectrum must be a path; got {path!r}")):
+    with pytest.raises(
+        sm.errors.RecordFormatError, match=re.escape(f"path of target spectrum must be a path; got {path!r}")
+    ):
         sm.TargetSpectrum.from_csv(path)  # type: ignore[arg-type]
 
 
@@ -208,37 +210,53 @@ def test_csv_target_is_refused_outside_its_range(tmp_path: Path) -> None:
     file.write_text("0.1,0.4\n2.0,0.05\n")
     target = sm.TargetSpectrum.from_csv(file)
     for period in (0.09, 2.1, np.nan):
-        with pytest.raises(sm.InvalidOption, match=r"must be from 0.1 s to 2 s, the range of uhs; got"):
+        with pytest.raises(sm.errors.InvalidOption, match=r"must be from 0.1 s to 2 s, the range of uhs; got"):
             target([1.0, period])
 
 
 @pytest.mark.parametrize(
     ("arguments", "error", "message"),
     [
-        ({"periods": [1.0, 0.0]}, sm.InvalidOption, "period of oscillator 2 must be a positive number; got 0"),
-        ({"periods": [np.nan]}, sm.InvalidOption, "period of oscillator 1 must be a positive number; got NaN"),
-        ({"periods": []}, sm.InvalidOption, "periods of spectrum must be a list of at least one period; got none"),
-        ({"periods": "1.0"}, sm.InvalidOption, "periods of spectrum must be a list of numbers; got '1.0'"),
-        ({"periods": [1e-6]}, sm.InvalidOption, "for the time step of motion 1"),
-        ({"damping": 1.0}, sm.InvalidOption, "damping of spectrum 1 must be at least 0 and below 1; got 1"),
-        ({"damping": [0.05, -0.01]}, sm.InvalidOption, "damping of spectrum 2 must be at least 0 and below 1"),
-        ({"damping": []}, sm.InvalidOption, "damping of spectrum must be a number or a list of at least one ratio"),
+        ({"periods": [1.0, 0.0]}, sm.errors.InvalidOption, "period of oscillator 2 must be a positive number; got 0"),
+        ({"periods": [np.nan]}, sm.errors.InvalidOption, "period of oscillator 1 must be a positive number; got NaN"),
+        (
+            {"periods": []},
+            sm.errors.InvalidOption,
+            "periods of spectrum must be a list of at least one period; got none",
+        ),
+        ({"periods": "1.0"}, sm.errors.InvalidOption, "periods of spectrum must be a list of numbers; got '1.0'"),
+        ({"periods": [1e-6]}, sm.errors.InvalidOption, "for the time step of motion 1"),
+        ({"damping": 1.0}, sm.errors.InvalidOption, "damping of spectrum 1 must be at least 0 and below 1; got 1"),
+        ({"damping": [0.05, -0.01]}, sm.errors.InvalidOption, "damping of spectrum 2 must be at least 0 and below 1"),
+        (
+            {"damping": []},
+            sm.errors.InvalidOption,
+            "damping of spectrum must be a number or a list of at least one ratio",
+        ),
         (
             {"motions": SimpleNamespace(acceleration="loud", dt=0.01)},
-            sm.InvalidMotion,
+            sm.errors.InvalidMotion,
             "acceleration of motion 1 of spectrum must be a list of numbers; got 'loud'",
         ),
         (
             {"motions": [noise(), SimpleNamespace(acceleration=[1.0], dt="short")]},
-            sm.InvalidMotion,
+            sm.errors.InvalidMotion,
             "dt of motion 2 of spectrum must be a number; got 'short'",
         ),
-        ({"damping": "five"}, sm.InvalidOption, "damping of spectrum must be a number or a list of numbers"),
-        ({"kind": "absolute"}, sm.InvalidOption, "kind of spectrum must be one of pseudo_acceleration"),
-        ({"threads": 0}, sm.InvalidOption, "threads of spectrum must be a whole number of at least 1; got 0"),
-        ({"motions": []}, sm.InvalidMotion, "motions of spectrum must be at least one Record or Motion; got none"),
-        ({"motions": 3.0}, sm.InvalidMotion, "motions of spectrum must be Records or Motions; got 3.0"),
-        ({"motions": [noise(), "x"]}, sm.InvalidMotion, "motion 2 of spectrum must be a Record or Motion; got 'x'"),
+        ({"damping": "five"}, sm.errors.InvalidOption, "damping of spectrum must be a number or a list of numbers"),
+        ({"kind": "absolute"}, sm.errors.InvalidOption, "kind of spectrum must be one of pseudo_acceleration"),
+        ({"threads": 0}, sm.errors.InvalidOption, "threads of spectrum must be a whole number of at least 1; got 0"),
+        (
+            {"motions": []},
+            sm.errors.InvalidMotion,
+            "motions of spectrum must be at least one Record or Motion; got none",
+        ),
+        ({"motions": 3.0}, sm.errors.InvalidMotion, "motions of spectrum must be Records or Motions; got 3.0"),
+        (
+            {"motions": [noise(), "x"]},
+            sm.errors.InvalidMotion,
+            "motion 2 of spectrum must be a Record or Motion; got 'x'",
+        ),
     ],
 )
 def test_bad_arguments_are_refused(arguments: dict, error: type[sm.SeismassError], message: str) -> None:
@@ -256,15 +274,15 @@ def test_bad_arguments_are_refused(arguments: dict, error: type[sm.SeismassError
     ],
 )
 def test_bad_target_parameters_are_refused(arguments: dict, message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=re.escape(message)):
+    with pytest.raises(sm.errors.InvalidOption, match=re.escape(message)):
         sm.TargetSpectrum.asce7(**arguments)
 
 
 def test_mean_spectrum_refuses_factors_that_do_not_fit() -> None:
-    with pytest.raises(sm.InvalidOption, match="factors of mean spectrum must be a list of 1 values"):
+    with pytest.raises(sm.errors.InvalidOption, match="factors of mean spectrum must be a list of 1 values"):
         mean_spectrum([noise()], [1.0, 2.0], [1.0])
 
 
 def test_mean_spectrum_is_of_one_damping() -> None:
-    with pytest.raises(sm.InvalidOption, match=r"damping of mean spectrum must be a number; got \[0.05\]"):
+    with pytest.raises(sm.errors.InvalidOption, match=r"damping of mean spectrum must be a number; got \[0.05\]"):
         mean_spectrum([noise()], [1.0], [1.0, 2.0], [0.05])  # type: ignore[arg-type]

@@ -23,7 +23,7 @@ def storey(**arguments: Any) -> sm.Building:
 
 
 def forces(building: sm.Building, *drifts: float) -> list[float]:
-    return sm.spring_forces(building, 1, drifts).force.tolist()
+    return sm.runs.spring_forces(building, 1, drifts).force.tolist()
 
 
 def test_multilinear_loop_is_masing() -> None:
@@ -32,14 +32,14 @@ def test_multilinear_loop_is_masing() -> None:
     found = forces(building, 0.005, 0.05, 0.03, -0.01, -0.05, 0.05)
     assert found == pytest.approx([30e3, 94e3, -26e3, -86e3, -94e3, 94e3], rel=1e-12)
     # Area of a closed Masing loop of amplitude A: 8 times that below the backbone, 3640 J to 0.05 m, less 4 A F(A).
-    path = sm.spring_forces(building, 1, [0.05, -0.05, 0.05])
+    path = sm.runs.spring_forces(building, 1, [0.05, -0.05, 0.05])
     assert path.dissipated[2] - path.dissipated[0] == pytest.approx(8 * 3640.0 - 4 * 0.05 * 94e3, rel=1e-12)
     assert path.stored[0] + path.dissipated[0] == pytest.approx(3640.0, rel=1e-12)
 
 
 def test_a_stop_acts_beyond_its_clearance_on_both_sides() -> None:
     building = storey(clearance=0.01, stop_stiffness=4e6)
-    path = sm.spring_forces(building, 1, [0.01, 0.02, 0.0, -0.02])
+    path = sm.runs.spring_forces(building, 1, [0.01, 0.02, 0.0, -0.02])
     assert path.force.tolist() == pytest.approx([1e4, 6e4, 0.0, -6e4], abs=1e-9)  # k d + k_s (|d| - c)
     assert path.events["kind"].to_list() == ["close", "open", "close"]
     assert path.events["sign"].to_list() == [1, 1, -1]
@@ -76,7 +76,7 @@ def test_free_vibration_between_stops_has_its_period() -> None:
 def test_peak_oriented_loop_aims_at_the_largest_drifts() -> None:
     # Unloading with k from (0.03, 1e4) to zero at 0.02; to the virgin yield point (-0.01, -1e4); from -0.02 unloading
     # to zero at -0.01; to (0.03, 1e4).
-    path = sm.spring_forces(storey(**PEAK), 1, [0.03, 0.025, 0.0, -0.02, -0.01, 0.01, 0.03])
+    path = sm.runs.spring_forces(storey(**PEAK), 1, [0.03, 0.025, 0.0, -0.02, -0.01, 0.01, 0.03])
     assert path.force.tolist() == pytest.approx([1e4, 5e3, -2e4 / 3.0, -1e4, 0.0, 5e3, 1e4], abs=1e-8)
     assert path.events["kind"].to_list()[:4] == ["yield", "unload", "reload", "yield"]
 
@@ -97,7 +97,7 @@ def test_softening_ends_at_the_residual_strength() -> None:
 
 def test_strength_is_lost_by_the_energy_of_half_cycles() -> None:
     # The first half cycle dissipates 200 J of 10 V_y d_y = 1000 J: the next aims at V_y (1 - 200/(1000 - 200)), 7.5 kN.
-    found = sm.spring_forces(storey(**PEAK, energy_capacity=10.0), 1, [0.03, 0.02, 0.0])
+    found = sm.runs.spring_forces(storey(**PEAK, energy_capacity=10.0), 1, [0.03, 0.02, 0.0])
     assert found.dissipated[1] == pytest.approx(200.0, rel=1e-12)
     assert found.force[2] == pytest.approx(-7.5e3 * 0.02 / 0.03, rel=1e-12)
 
@@ -105,7 +105,7 @@ def test_strength_is_lost_by_the_energy_of_half_cycles() -> None:
 def test_flag_shaped_loop_comes_back_to_the_origin() -> None:
     # Slopes k and 0.1 k; unloading falls by 0.6 V_y and 0.6 d_y to the line through (0.004, 4e3).
     building = storey(yield_shear=V_Y, second_slope=0.1, hysteresis="flag-shaped", flag_height=0.6)
-    path = sm.spring_forces(building, 1, [0.01, 0.03, 0.024, 0.014, 0.017, 0.024, 0.0, -0.03, 0.0])
+    path = sm.runs.spring_forces(building, 1, [0.01, 0.03, 0.024, 0.014, 0.017, 0.024, 0.0, -0.03, 0.0])
     assert path.force.tolist() == pytest.approx([1e4, 12e3, 6e3, 5e3, 8e3, 11.4e3, 0.0, -12e3, 0.0], abs=1e-8)
     kinds = ["yield", "unload", "yield", "reload", "yield", "unload", "yield", "unload"]
     assert path.events["kind"].to_list() == [*kinds, "yield", "unload", "yield", "unload"]
@@ -114,7 +114,7 @@ def test_flag_shaped_loop_comes_back_to_the_origin() -> None:
     assert path.dissipated[-1] == pytest.approx(5.4e3 * 0.044, rel=1e-12)
     assert path.stored[-1] == pytest.approx(0.0, abs=1e-9)
     # With beta = 0 there is one line, and nothing is lost.
-    line = sm.spring_forces(building.replace(flag_height=0.0), 1, [0.03, 0.02, 0.03, -0.03])
+    line = sm.runs.spring_forces(building.replace(flag_height=0.0), 1, [0.03, 0.02, 0.03, -0.03])
     assert line.force.tolist() == pytest.approx([12e3, 11e3, 12e3, -12e3], rel=1e-12)
     assert line.dissipated[-1] == 0.0
 
@@ -143,5 +143,5 @@ def test_spring_paths_are_refused_by_name() -> None:
         ((building, 1, 0.0), "drifts of spring path must be a list of numbers; got 0.0"),
         ((building, 1, [0.0, math.nan]), "drift of entry 2 of the path must be a finite number; got NaN"),
     ):
-        with pytest.raises(sm.InvalidOption, match=f"^{message}"):
-            sm.spring_forces(*arguments)
+        with pytest.raises(sm.errors.InvalidOption, match=f"^{message}"):
+            sm.runs.spring_forces(*arguments)

@@ -13,13 +13,14 @@ import pytest
 
 import seismass as sm
 from seismass import cli
-from seismass.report import write
-from seismass.report.figures import suite_caption
-from seismass.report.findings import findings, findings_text
-from seismass.report.study_figures import study_figures
-from seismass.report.study_tables import study_tables
+from seismass.show.study import write
+from seismass.show.study.captions import suite_caption
+from seismass.show.study.figures import study_figures
+from seismass.show.study.findings import findings_text
+from seismass.show.study.tables import study_tables
 from seismass.spectra import mean_spectrum
 from seismass.study import StudyParameters, StudyResult, display_names, run_study
+from seismass.study.findings import findings
 
 TARGET = sm.TargetSpectrum.asce7()
 SMALL = StudyParameters(buildings=((2, 0.38), (3, 0.47)), response_modification=(1.0, 4.0), mass_ratios=(1.0,))
@@ -343,7 +344,7 @@ def test_growth_is_not_counted_over_a_gap(missing: float | None) -> None:
     ],
 )
 def test_bad_parameters_are_refused(arguments: dict, message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=re.escape(message)):
+    with pytest.raises(sm.errors.InvalidOption, match=re.escape(message)):
         StudyParameters(**arguments)
 
 
@@ -356,7 +357,7 @@ def test_numbers_of_any_kind_are_the_same_parameters() -> None:
 
 
 def test_a_suite_is_asked_for() -> None:
-    with pytest.raises(sm.InvalidMotion, match="suite of study must be a Suite of records; got 3"):
+    with pytest.raises(sm.errors.InvalidMotion, match="suite of study must be a Suite of records; got 3"):
         run_study(3, TARGET)  # type: ignore[arg-type]
 
 
@@ -371,7 +372,7 @@ def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -
     assert document["schema_version"] == 2
     assert document["package_version"] == sm.__version__
     assert document["parameters"]["second_slope"] == 0.05
-    assert document["instructions"] == sm.instruction_set()
+    assert document["instructions"] == sm.runs.instruction_set()
     assert document["suite"]["synthetic"] == 7
     for name in ("spectrum", "underestimation", "heat", "slip", "drift_R1", "drift_R4"):
         assert (out / f"{name}.png").read_bytes().startswith(b"\x89PNG")
@@ -394,7 +395,7 @@ def test_figures_of_an_earlier_study_do_not_stay(
         raise OSError("disk full")
 
     with monkeypatch.context() as patch:
-        patch.setattr("seismass.report.figures.save_figure", failing)
+        patch.setattr("seismass.media.figure_file.save_figure", failing)
         with pytest.raises(OSError, match="disk full"):
             write.write_study(study_tables(small), tmp_path, png=True)
     assert {file.name for file in tmp_path.iterdir()} == earlier | others
@@ -488,7 +489,7 @@ def test_nothing_is_left_when_writing_stops(
     def failing(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr("seismass.report.figures.save_figure", failing)
+    monkeypatch.setattr("seismass.media.figure_file.save_figure", failing)
     with pytest.raises(type(error)):
         write.write_study(study_tables(small), tmp_path / "out", png=True)
     assert list((tmp_path / "out").iterdir()) == []
@@ -643,7 +644,7 @@ def test_version_spectrum_and_scale_commands(capsys: pytest.CaptureFixture[str],
 
     assert command("scale", "--json") == 0
     document = json.loads(capsys.readouterr().out)
-    expected = sm.scale_asce7_10(sm.builtin_suite("seven"), TARGET)
+    expected = sm.scaling.scale_asce7_10(sm.builtin_suite("seven"), TARGET)
     assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
     assert document["motions"][0]["remarks"] == list(sm.builtin_suite("seven")[0].remarks)
     assert command("scale") == 0

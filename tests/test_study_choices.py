@@ -10,17 +10,18 @@ import pytest
 
 import seismass as sm
 from seismass import cli
-from seismass.report.findings import findings, findings_text
-from seismass.report.sensitivity import sensitivity_markdown, sensitivity_text
-from seismass.report.study_figures import study_figures
-from seismass.report.study_tables import OPTIONAL_TABLES, study_tables
-from seismass.report.write import write_study
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.show.study.figures import study_figures
+from seismass.show.study.findings import findings_text
+from seismass.show.study.sensitivity import sensitivity_markdown, sensitivity_text
+from seismass.show.study.tables import OPTIONAL_TABLES, study_tables
+from seismass.show.study.write import write_study
 from seismass.study import MODELS, StudyParameters, StudyResult, run_study, study_sensitivity
 from seismass.study.columns import TABLES
+from seismass.study.findings import findings
 from seismass.study.fractions import SHARES
 from seismass.study.sensitivity import MATCHED_TOLERANCE
 from seismass.study.tables import quantile
-from seismass.units import STANDARD_GRAVITY
 from seismass.validation import validate
 
 TARGET = sm.TargetSpectrum.asce7()
@@ -237,7 +238,7 @@ def test_quantiles_of_infinite_values() -> None:
 
 def test_any_code_takes_the_place_of_asce() -> None:
     result = run_study(sm.builtin_suite("seven"), TARGET, replace(SMALL, code="ec8"))
-    storage, ordinary = (sm.code_fraction("ec8", use) for use in ("storage", "ordinary"))
+    storage, ordinary = (sm.codes.code_fraction("ec8", use) for use in ("storage", "ordinary"))
     assert result.metadata["code"]["name"] == storage.code
     assert result.metadata["code"]["fractions"]["storage"]["status"] == storage.status
     shares = dict(result.summary.select("occupancy", "lambda_analysis").unique().rows())
@@ -327,10 +328,10 @@ def test_sensitivity_changes_one_choice_at_a_time() -> None:
         assert row(choice, setting)["most_R_percent"] == pytest.approx(expected, rel=1e-12), choice
     expected = headline(run_study(suite, TARGET.tilted(0.3), chosen))
     assert row("target shape", "times (T/1 s)^0.3")["most_R_percent"] == pytest.approx(expected, rel=1e-12)
-    mps = sm.scale_modal_pushover(suite, TARGET, period=chosen.scaling_period, reduction=4.0)
+    mps = sm.scaling.scale_modal_pushover(suite, TARGET, period=chosen.scaling_period, reduction=4.0)
     expected = headline(run_study(suite, TARGET, chosen, scaling=mps))
     assert row("motions", "modal pushover, R_y = 4")["most_R_percent"] == pytest.approx(expected, rel=1e-12)
-    matched = sm.match_suite(suite, TARGET, periods=(0.2, 1.5), tolerance=MATCHED_TOLERANCE)
+    matched = sm.matching.match_suite(suite, TARGET, periods=(0.2, 1.5), tolerance=MATCHED_TOLERANCE)
     assert all(one.converged for one in matched)
     expected = headline(run_study(matched.suite, TARGET, chosen))
     assert row("motions", "matched, 10 %, 0.2 to 1.5 s")["most_R_percent"] == pytest.approx(expected, rel=1e-12)
@@ -352,14 +353,16 @@ def test_a_study_takes_factors_of_another_scaling() -> None:
     """The same factors give the same drifts; other factors, another digest; a wrong number of them is refused."""
     suite = sm.builtin_suite("seven")
     own = run_study(suite, TARGET, SMALL)
-    scaling = sm.scale_asce7_10(suite, TARGET, SMALL.scaling_period)
+    scaling = sm.scaling.scale_asce7_10(suite, TARGET, SMALL.scaling_period)
     given = run_study(suite, TARGET, SMALL, scaling=scaling)
     assert given.responses.equals(own.responses)
-    other = run_study(suite, TARGET, SMALL, scaling=sm.scale_asce7_10(suite, TARGET, 0.5))
+    other = run_study(suite, TARGET, SMALL, scaling=sm.scaling.scale_asce7_10(suite, TARGET, 0.5))
     assert other.responses.equals(run_study(suite, TARGET, replace(SMALL, scaling_period=0.5)).responses)
     assert other.metadata["inputs_sha256"] != given.metadata["inputs_sha256"]
-    with pytest.raises(sm.InvalidOption, match="scaling of study must be a ScalingResult of 7 motions; got one of 3"):
-        run_study(suite, TARGET, SMALL, scaling=sm.scale_asce7_10(suite[:3], TARGET))
+    with pytest.raises(
+        sm.errors.InvalidOption, match="scaling of study must be a ScalingResult of 7 motions; got one of 3"
+    ):
+        run_study(suite, TARGET, SMALL, scaling=sm.scaling.scale_asce7_10(suite[:3], TARGET))
 
 
 def test_commands_of_the_choices(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

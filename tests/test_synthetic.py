@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.cli import main
 from seismass.records import Record, builtin_record, builtin_suite
 from seismass.records.builtin import data_directory
@@ -21,7 +22,6 @@ from seismass.records.synthetic.near_fault import pulse
 from seismass.records.synthetic.seven import RECIPES, Recipe, envelope
 from seismass.records.synthetic.shaping import asce7_shape, spectrum
 from seismass.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
-from seismass.units import STANDARD_GRAVITY
 
 STORED = data_directory() / "synthetic"
 
@@ -56,13 +56,13 @@ def test_a_motion_by_its_name() -> None:
 
 @pytest.mark.parametrize("name", ["synthetic-12", "suite", "../examples/warehouse", "", 3, None])
 def test_names_that_no_motion_has(name: object) -> None:
-    with pytest.raises(sm.InvalidOption, match="one from synthetic-1 to synthetic-11; got"):
+    with pytest.raises(sm.errors.InvalidOption, match="one from synthetic-1 to synthetic-11; got"):
         builtin_record(name)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("name", ["six", 7, ["seven"], None])
 def test_suites_that_there_are_not(name: object) -> None:
-    with pytest.raises(sm.InvalidOption, match="suite of built-in motions must be 'eleven' or 'seven'; got"):
+    with pytest.raises(sm.errors.InvalidOption, match="suite of built-in motions must be 'eleven' or 'seven'; got"):
         builtin_suite(name)  # type: ignore[arg-type]
 
 

@@ -15,7 +15,9 @@ from seismass.records.synthetic.noise import normals
 from seismass.records.synthetic.process import LEAST_FREQUENCY, filtered_noise, high_passed
 
 G = sm.STANDARD_GRAVITY
-USUAL = sm.SyntheticParameters(arias=1.5, d5_95=9.0, t_mid=6.0, frequency=4.0, frequency_rate=-0.15, damping=0.3)
+USUAL = sm.records.SyntheticParameters(
+    arias=1.5, d5_95=9.0, t_mid=6.0, frequency=4.0, frequency_rate=-0.15, damping=0.3
+)
 STEADY = dataclasses.replace(USUAL, frequency_rate=0.0)
 
 
@@ -134,10 +136,10 @@ def test_high_pass_takes_off_long_periods_only() -> None:
         assert np.max(np.abs(steady)) == pytest.approx(frequency**2 / (frequency**2 + 0.04), rel=2e-3)
 
 
-@pytest.mark.parametrize("pulse", [None, sm.NearFaultPulse(2.0, 0.4, 5.0)], ids=["no pulse", "pulse"])
+@pytest.mark.parametrize("pulse", [None, sm.records.NearFaultPulse(2.0, 0.4, 5.0)], ids=["no pulse", "pulse"])
 @pytest.mark.parametrize("seed", [0, 1, 2, 3])
-def test_motion_ends_at_rest_where_it_started(seed: int, pulse: sm.NearFaultPulse | None) -> None:
-    record = sm.synthetic_motion(dataclasses.replace(USUAL, pulse=pulse), seed, 0.01)
+def test_motion_ends_at_rest_where_it_started(seed: int, pulse: sm.records.NearFaultPulse | None) -> None:
+    record = sm.records.synthetic_motion(dataclasses.replace(USUAL, pulse=pulse), seed, 0.01)
     velocity = np.concatenate(
         ([0.0], np.cumsum(0.5 * record.dt * (record.acceleration[1:] + record.acceleration[:-1])))
     )
@@ -152,7 +154,7 @@ def test_motion_ends_at_rest_where_it_started(seed: int, pulse: sm.NearFaultPuls
 
 
 def test_motion_is_labelled_and_the_same_for_the_same_seed() -> None:
-    record, again, other = (sm.synthetic_motion(USUAL, seed, 0.01) for seed in (7, 7, 8))
+    record, again, other = (sm.records.synthetic_motion(USUAL, seed, 0.01) for seed in (7, 7, 8))
     assert record == again
     assert not np.array_equal(record.acceleration, other.acceleration)
     assert record.synthetic and record.event == "synthetic"
@@ -162,9 +164,9 @@ def test_motion_is_labelled_and_the_same_for_the_same_seed() -> None:
 
 
 def test_pulse_adds_its_velocity_and_nothing_after_it() -> None:
-    pulse = sm.NearFaultPulse(period=2.0, velocity=0.5, centre=6.0)
+    pulse = sm.records.NearFaultPulse(period=2.0, velocity=0.5, centre=6.0)
     quiet = dataclasses.replace(USUAL, arias=1e-9)
-    record = sm.synthetic_motion(dataclasses.replace(quiet, pulse=pulse), 1, 0.01)
+    record = sm.records.synthetic_motion(dataclasses.replace(quiet, pulse=pulse), 1, 0.01)
     velocity = np.cumsum(record.acceleration) * 0.01
     # 0.8696 of its amplitude (tests/test_synthetic.py); the process is 1e-4 of a usual one.
     assert np.max(np.abs(velocity)) == pytest.approx(0.8696 * 0.5, rel=2e-3)
@@ -182,7 +184,7 @@ def test_intensity_after_the_high_pass_is_a_little_less() -> None:
     assert 0.94 < left < 0.98
     measured = []
     for seed in range(60):
-        record = sm.synthetic_motion(STEADY, seed, 0.02)
+        record = sm.records.synthetic_motion(STEADY, seed, 0.02)
         measured.append(np.sum(record.acceleration**2) * 0.02 * math.pi / (2.0 * G))
     error = 4.0 * np.std(measured, ddof=1) / math.sqrt(60.0)
     assert abs(np.mean(measured) - left * 1.5) < error
@@ -207,7 +209,7 @@ def test_intensity_after_the_high_pass_is_a_little_less() -> None:
     ],
 )
 def test_parameters_out_of_range_are_refused(change: dict[str, Any], message: str) -> None:
-    with pytest.raises(sm.InvalidMotion) as error:
+    with pytest.raises(sm.errors.InvalidMotion) as error:
         dataclasses.replace(USUAL, **change)
     assert str(error.value) == message
 
@@ -227,8 +229,8 @@ def test_parameters_out_of_range_are_refused(change: dict[str, Any], message: st
     ],
 )
 def test_motions_that_cannot_be_made_are_refused(arguments: tuple[Any, ...], message: str) -> None:
-    with pytest.raises(sm.InvalidMotion) as error:
-        sm.synthetic_motion(*arguments)
+    with pytest.raises(sm.errors.InvalidMotion) as error:
+        sm.records.synthetic_motion(*arguments)
     assert str(error.value).startswith(message)
 
 
@@ -241,8 +243,8 @@ def test_motions_that_cannot_be_made_are_refused(arguments: tuple[Any, ...], mes
     ],
 )
 def test_pulses_out_of_range_are_refused(arguments: tuple[float, float, float], message: str) -> None:
-    with pytest.raises(sm.InvalidMotion) as error:
-        sm.NearFaultPulse(*arguments)
+    with pytest.raises(sm.errors.InvalidMotion) as error:
+        sm.records.NearFaultPulse(*arguments)
     assert str(error.value).startswith(message)
 
 

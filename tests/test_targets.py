@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.commands.targets import target_of
-from seismass.plausibility import target_remarks
+from seismass.scaling.target_text import target_of
 from seismass.spectra import MULTI_PERIODS
+from seismass.spectra.remarks import target_remarks
 
 G = 9.80665
 SUITE = sm.builtin_suite("seven")
@@ -68,7 +68,7 @@ def test_multi_period_is_linear_in_period() -> None:
     # Halfway between 7.5 and 10 s, and between 0 and 0.01 s.
     np.testing.assert_allclose(target([8.75, 0.005]) / G, [table[-2:].mean(), table[:2].mean()], rtol=1e-15)
     assert target.label == "ASCE 7-22 multi-period spectrum, 22 periods to 10 s"
-    with pytest.raises(sm.InvalidOption, match="period of target spectrum must be from 0 s to 10 s"):
+    with pytest.raises(sm.errors.InvalidOption, match="period of target spectrum must be from 0 s to 10 s"):
         target(10.1)
     other = sm.TargetSpectrum.asce7_multi_period([0.1, 1.0], [1.0, 0.5])
     assert other.label.endswith("2 periods from 0.1 to 1 s, not the standard's 22")
@@ -161,12 +161,12 @@ def test_mean_of_a_suite_is_solved_for_at_each_period() -> None:
     factors = np.linspace(0.5, 2.0, len(SUITE))
     periods = np.array([0.1234, 0.777, 3.21])
     target = sm.TargetSpectrum.mean_of(SUITE, factors, damping=0.02)
-    np.testing.assert_array_equal(target(periods), sm.mean_spectrum(SUITE, factors, periods, 0.02))
+    np.testing.assert_array_equal(target(periods), sm.spectra.mean_spectrum(SUITE, factors, periods, 0.02))
     assert target(0.777) == target(periods)[1]
     assert target.label == "mean spectrum of 7 motions, 2 % damping"
     assert sm.TargetSpectrum.mean_of(STEP, label="a step").label == "a step"
     # A suite is scaled to its own mean by factors whose common part is 1 over the mean of fitted shapes.
-    own = sm.scale_asce7_10(SUITE, sm.TargetSpectrum.mean_of(SUITE))
+    own = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.mean_of(SUITE))
     assert own.least_ratio == pytest.approx(1.0, abs=1e-12)
 
 
@@ -209,12 +209,14 @@ def test_corner_period_of_asce7_is_t_s() -> None:
     ],
 )
 def test_bad_arguments_are_refused(make, message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=re.escape(message)):
+    with pytest.raises(sm.errors.InvalidOption, match=re.escape(message)):
         make(sm.TargetSpectrum)
 
 
 def test_mean_of_nothing_is_refused() -> None:
-    with pytest.raises(sm.InvalidMotion, match="motions of target spectrum must be at least one Record or Motion"):
+    with pytest.raises(
+        sm.errors.InvalidMotion, match="motions of target spectrum must be at least one Record or Motion"
+    ):
         sm.TargetSpectrum.mean_of([])
 
 
@@ -237,7 +239,9 @@ def test_an_option_names_a_file(tmp_path) -> None:
     file = tmp_path / "site.csv"
     file.write_text("T,Sa (g)\n0,0.4\n0.1,1.0\n10,0.02\n")
     assert target_of(f"asce7-22:{file}").parameters["period"] == [0.0, 0.1, 10.0]
-    with pytest.raises(sm.RecordFormatError, match=r"period of site.csv, point 1, must be a positive number; got '0'"):
+    with pytest.raises(
+        sm.errors.RecordFormatError, match=r"period of site.csv, point 1, must be a positive number; got '0'"
+    ):
         target_of(str(file))
     assert SUITE[0].source is not None
     assert target_of(f"mean:{SUITE[0].source}").parameters["records"] == [SUITE[0].name]
@@ -257,5 +261,5 @@ def test_an_option_names_a_file(tmp_path) -> None:
     ],
 )
 def test_an_option_that_is_incomplete_is_refused(text: str, message: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=re.escape(message)):
+    with pytest.raises(sm.errors.InvalidOption, match=re.escape(message)):
         target_of(text)

@@ -14,8 +14,8 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.files import polars_writing, written_whole
-from seismass.temporary import PREFIX, remove_left_behind, temporary_folder, temporary_path
+from seismass.base.files import polars_writing, written_whole
+from seismass.base.temporary import PREFIX, remove_left_behind, temporary_folder, temporary_path
 
 GRID = sm.Grid.product(sm.Building.uniform(1, 0.3), mass_ratio=1.0, mu=np.linspace(0.1, 0.5, 50))
 MOTION = sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1)
@@ -132,6 +132,6 @@ def test_what_the_system_does_not_write_is_its_own_error(tmp_path: Path, chunk: 
 
 @pytest.mark.parametrize("name", ["rows.csv", "rows", "rows.parquet.gz"])
 def test_no_parquet_is_written_under_another_suffix(tmp_path: Path, name: str) -> None:
-    with pytest.raises(sm.InvalidOption, match=r"path of batch must be one with the suffix \.parquet"):
+    with pytest.raises(sm.errors.InvalidOption, match=r"path of batch must be one with the suffix \.parquet"):
         sm.write_many(tmp_path / name, GRID, MOTION)
     assert list(tmp_path.iterdir()) == []

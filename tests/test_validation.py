@@ -13,7 +13,7 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
-from seismass.report.validation_write import differences_text
+from seismass.show.validation.views import differences_text
 from seismass.study import StudyResult
 from seismass.validation import (
     STAND_INS,
@@ -241,7 +241,7 @@ def test_claims_of_a_study_alone_are_those_on_the_study(built_in: Validation) ->
 
 
 def test_a_suite_must_be_one() -> None:
-    with pytest.raises(sm.InvalidMotion, match=r"^suite of validation must be a Suite of records; got 3"):
+    with pytest.raises(sm.errors.InvalidMotion, match=r"^suite of validation must be a Suite of records; got 3"):
         validate(3)  # type: ignore[arg-type]
 
 

@@ -14,8 +14,8 @@ import polars as pl
 from matplotlib.figure import Figure
 
 from seismass import design
-from seismass.plots.style import STYLE
-from seismass.report.figures import save_figure
+from seismass.media.figure_file import save_figure
+from seismass.media.style import STYLE
 
 ROOT: Final = Path(__file__).parents[1]
 PAGE: Final = ROOT / "docs" / "design.md"
@@ -92,7 +92,7 @@ def page(names: dict[str, Any]) -> str:
     texts = {
         "example": EXAMPLE.rstrip(),
         "printed": printed,
-        "checks": text_of(names["checks"]),
+        "checks": analysis_text(names["checks"]),
         "periods": table_of(periods),
         "distributions": table_of(
             design.distribution_table().select("code_id", pl.col("exponent").alias("k"), "top", "clause", "status")
@@ -113,7 +113,7 @@ def table_of(frame: pl.DataFrame) -> str:
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
-def text_of(frame: pl.DataFrame) -> str:
+def analysis_text(frame: pl.DataFrame) -> str:
     """A table in plain text, in columns."""
     rows = [frame.columns, *([_cell(value) for value in row] for row in frame.iter_rows())]
     widths = [max(len(row[i]) for row in rows) for i in range(frame.width)]

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import polars as pl
 
-from seismass.commands.effective_map import bins_text, rules_text
 from seismass.effective_mass import EffectiveMassMap, effective_mass_map
+from seismass.media.figure_file import save_figure
 from seismass.records import Suite, builtin_suite, read_record, read_suite
-from seismass.report.figures import save_figure
-from seismass.report.map_figures import collapse_figure, rules_figure
+from seismass.show.effective_mass.map import collapse_figure, rules_figure
+from seismass.show.effective_mass.map_text import bins_text, rules_text
 from seismass.spectra import TargetSpectrum
 
 ROOT = Path(__file__).parents[1]

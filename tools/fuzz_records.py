@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
 from seismass.records import Record, read_records
 from seismass.records.formats.columns import NO_COUNT
 

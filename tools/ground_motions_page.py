@@ -41,7 +41,7 @@ class Listed:
     peaks: dict[str, float]
 
 
-def listed_pairs(shared: Path, pairs: sm.Pairs) -> list[Listed]:
+def listed_pairs(shared: Path, pairs: sm.records.Pairs) -> list[Listed]:
     """Return the pairs that the flatfile lists, by record sequence number."""
     flat = pl.read_csv(shared / FLATFILE, infer_schema_length=0)
     columns = [column for column in flat.columns if re.fullmatch(r"T\d+\.\d+S", column)]
@@ -73,7 +73,7 @@ def table(header: tuple[str, ...], rows: list[tuple[str, ...]], left: int = 1) -
 
 def measures_table(shared: Path) -> str:
     """Return the measures of the paper's components."""
-    measured = sm.intensity_table(sm.read_suite(shared / "records" / "paper_seven.csv"))
+    measured = sm.records.intensity_table(sm.read_suite(shared / "records" / "paper_seven.csv"))
     header = ("record", "PGA (g)", "PGV (m/s)", "PGD (m)", "Arias (m/s)", "D5-75 (s)", "D5-95 (s)", "CAV (m/s)",
               "bracketed (s)")  # fmt: skip
     names = ("pga_g", "pgv", "pgd", "arias", "d5_75", "d5_95", "cav", "bracketed")
@@ -85,7 +85,7 @@ def measures_table(shared: Path) -> str:
     return table(header, rows)
 
 
-def pairs_table(pairs: sm.Pairs) -> str:
+def pairs_table(pairs: sm.records.Pairs) -> str:
     """Return the pairs that were found."""
     rows = []
     for pair in pairs:
@@ -102,7 +102,7 @@ def flatfile_tables(listed: list[Listed]) -> str:
     """Return the differences by record and by period, with the words on them."""
     rows, differences = [], []
     for item in listed:
-        ours = sm.rotd(item.pair, item.periods)
+        ours = sm.records.rotd(item.pair, item.periods)
         apart = 100.0 * (ours[50] / item.spectrum - 1.0)
         peaks = [100.0 * (ours.peaks[name][1] / item.peaks[name] - 1.0) for name in ("pga", "pgv", "pgd")]
         differences.append(apart)
@@ -206,7 +206,7 @@ def with_tables(page: str, tables: dict[str, str]) -> str:
 
 def page(shared: Path) -> str:
     """Return the page with its tables made anew."""
-    pairs = sm.find_pairs(shared / "records")
+    pairs = sm.records.find_pairs(shared / "records")
     return with_tables(
         PAGE.read_text(encoding="utf-8"),
         {

@@ -14,8 +14,8 @@ from typing import Any, Final
 import polars as pl
 
 import seismass as sm
-from seismass.intensity import IntensityAnalysis, LimitState, cloud_analysis, incremental_dynamic_analysis
-from seismass.report.figures import save_figure
+from seismass.fragility import FragilityAnalysis, LimitState, cloud_analysis, incremental_dynamic_analysis
+from seismass.media.figure_file import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
 PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
@@ -42,7 +42,7 @@ def choices(scene: sm.Scene, suite: sm.Suite) -> list[str]:
     return [*lines, choice(f"cloud, {cloud.measure.label}", cloud)]
 
 
-def choice(name: str, found: IntensityAnalysis) -> str:
+def choice(name: str, found: FragilityAnalysis) -> str:
     """Return one row of `choices`."""
     real = found.fragilities.row(by_predicate=pl.col("model") == "real", named=True)
     code = found.comparison.row(by_predicate=pl.col("model") == "code", named=True)
@@ -105,7 +105,7 @@ def main(shared: Path | None) -> None:
         page = with_block(page, "far_field", far_field(names, shared))
     PAGE.write_text(page, encoding="utf-8")
     save_figure(names["figure"], "png", ROOT / "docs" / "figures" / "fragility.png")
-    save_figure(names["answer"].plot_ida(), "png", ROOT / "docs" / "figures" / "ida_models.png")
+    save_figure(names["answer"].plot("demand_peak_drift_ratio"), "png", ROOT / "docs" / "figures" / "ida_models.png")
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from typing import Final
 import numpy as np
 
 import seismass as sm
-from seismass.report.figures import save_figure
+from seismass.media.figure_file import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
 PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
@@ -40,7 +40,7 @@ def table(header: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
-def misfit_row(matched: sm.MatchedRecord) -> tuple[str, ...]:
+def misfit_row(matched: sm.matching.MatchedRecord) -> tuple[str, ...]:
     """Return the row of a record in the table of misfits."""
     before, after = matched.misfit_before, matched.misfit
     return (
@@ -56,7 +56,7 @@ def misfit_row(matched: sm.MatchedRecord) -> tuple[str, ...]:
     )
 
 
-def motion_row(matched: sm.MatchedRecord) -> tuple[str, ...]:
+def motion_row(matched: sm.matching.MatchedRecord) -> tuple[str, ...]:
     """Return the row of a record in the table of what else changed."""
     before, after = matched.original, matched.record
     return (
@@ -79,7 +79,7 @@ def power(value: float) -> str:
 
 def seven(shared: Path) -> str:
     """Return both tables of the seven records."""
-    matched = sm.match_suite(sm.read_suite(shared / "records" / "paper_seven.csv"), sm.TargetSpectrum.asce7())
+    matched = sm.matching.match_suite(sm.read_suite(shared / "records" / "paper_seven.csv"), sm.TargetSpectrum.asce7())
     misfits = table(
         (
             "record",
@@ -114,7 +114,7 @@ def seven(shared: Path) -> str:
 def far_field(shared: Path) -> str:
     """Return the table of the distribution over the far-field components."""
     suite = sm.read_suite(shared / "records" / "fema_p695_far_field")
-    matched = sm.match_suite(suite, sm.TargetSpectrum.asce7())
+    matched = sm.matching.match_suite(suite, sm.TargetSpectrum.asce7())
     rows = []
     for name, values in (
         ("largest misfit before (%)", [100.0 * one.misfit_before.largest for one in matched]),
@@ -151,7 +151,7 @@ def other(shared: Path) -> str:
             if options.get("periods", (0.2, 1.5))[0] < 4.0 * record.dt:
                 cells.append("refused: below four steps")
                 continue
-            one = sm.match_spectrum(record, sm.TargetSpectrum.asce7(), **options)
+            one = sm.matching.match_spectrum(record, sm.TargetSpectrum.asce7(), **options)
             state = "" if one.converged else ", not converged"
             cells.append(f"{100.0 * one.misfit.largest:.1f}, {100.0 * one.misfit.rms:.1f}, {one.iterations}{state}")
         rows.append((name, *cells))
@@ -161,7 +161,7 @@ def other(shared: Path) -> str:
 def draw(shared: Path) -> None:
     """Draw the second of the seven records, before and after."""
     record = sm.read_suite(shared / "records" / "paper_seven.csv")[1]
-    save_figure(sm.match_spectrum(record, sm.TargetSpectrum.asce7()).plot(), "png", FIGURE)
+    save_figure(sm.matching.match_spectrum(record, sm.TargetSpectrum.asce7()).plot(), "png", FIGURE)
 
 
 TABLES: Final[dict[str, Callable[[Path], str]]] = {"seven": seven, "far_field": far_field, "other": other}

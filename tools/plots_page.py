@@ -9,7 +9,7 @@ import re
 from pathlib import Path
 from typing import Any, Final
 
-from seismass.report.figures import save_figure
+from seismass.media.figure_file import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
 FIGURES: Final = {

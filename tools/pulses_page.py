@@ -19,10 +19,10 @@ import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
 import seismass as sm
-from seismass._values import FloatArray
+from seismass.base.values import FloatArray
+from seismass.media.figure_file import save_figure
 from seismass.pulses import OrientationScan, PulseResult, baker2007, baker2007_orientations, shahi_baker2014
 from seismass.records import Pair, catalogue, find_pairs
-from seismass.report.figures import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
 PAGE: Final = ROOT / "docs" / "pulses.md"

@@ -16,9 +16,10 @@ from typing import Final
 
 from seismass.cli import main as seismass
 from seismass.records import read_suite
-from seismass.report.findings import findings, findings_text
+from seismass.show.study.findings import findings_text
 from seismass.spectra import TargetSpectrum
 from seismass.study import run_study
+from seismass.study.findings import findings
 
 ROOT: Final = Path(__file__).parents[1]
 PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))

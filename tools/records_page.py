@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
 from seismass.records import Record, read_records
 
 ROOT = Path(__file__).parents[1]

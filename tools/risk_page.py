@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 
 import seismass as sm
-from seismass.report.figures import save_figure
+from seismass.media.figure_file import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
 PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
@@ -27,7 +27,7 @@ SHARES: Final = np.linspace(0.0, 1.0, 11)
 example, with_block = PARTS["example"], PARTS["with_block"]
 
 
-def limits(building: sm.Building, motions: Any, hazard: sm.HazardCurve, frictions: tuple[float, ...]) -> list[str]:
+def limits(building: sm.Building, motions: Any, hazard: sm.risk.HazardCurve, frictions: tuple[float, ...]) -> list[str]:
     """Return rows of the share and of rates by friction and limit."""
     lines = [
         f"{'mu':>4}{'drift ratio':>13}{'share':>20}{'kind':>10}{'rate, goods slide':>20}{'real over code, 0.25':>23}"
@@ -35,7 +35,7 @@ def limits(building: sm.Building, motions: Any, hazard: sm.HazardCurve, friction
     for mu in frictions:
         scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=mu))
         for limit in LIMITS:
-            found = sm.risk_targeted_share(scene, motions, hazard, limit, shares=SHARES, other_limits=[])
+            found = sm.risk.risk_targeted_share(scene, motions, hazard, limit, shares=SHARES, other_limits=[])
             low, high = found.interval or (np.nan, np.nan)
             code = found.rates.row(1, named=True)
             share = f"{found.value:.2f} [{low:.2f}, {high:.2f}]"

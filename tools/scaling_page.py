@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 import seismass as sm
-from seismass.report.figures import save_figure
+from seismass.media.figure_file import save_figure
 from seismass.scaling.oscillator import deformation_ratio
 from seismass.scaling.pushover import PushoverScaling
 from seismass.spectra.oscillators import Oscillators
@@ -32,15 +32,15 @@ METHODS: Final = (
 )
 
 
-def by_method(suite: sm.Suite) -> dict[str, sm.ScalingResult]:
+def by_method(suite: sm.Suite) -> dict[str, sm.scaling.ScalingResult]:
     """Results of the methods that take any number of records."""
-    results: tuple[sm.ScalingResult, ...] = (
-        sm.scale_asce7_10(suite, TARGET),
-        sm.scale_least_squares(suite, TARGET),
-        sm.scale_least_squares(suite, TARGET, space="linear"),
-        sm.scale_sa_t1(suite, TARGET),
-        sm.scale_modal_pushover(suite, TARGET, reduction=REDUCTION),
-        sm.scale_modal_pushover(suite, TARGET, reduction=REDUCTION, deformation="median"),
+    results: tuple[sm.scaling.ScalingResult, ...] = (
+        sm.scaling.scale_asce7_10(suite, TARGET),
+        sm.scaling.scale_least_squares(suite, TARGET),
+        sm.scaling.scale_least_squares(suite, TARGET, space="linear"),
+        sm.scaling.scale_sa_t1(suite, TARGET),
+        sm.scaling.scale_modal_pushover(suite, TARGET, reduction=REDUCTION),
+        sm.scaling.scale_modal_pushover(suite, TARGET, reduction=REDUCTION, deformation="median"),
     )
     return dict(zip(METHODS, results, strict=True))
 
@@ -51,7 +51,7 @@ def markdown(header: list[str], rows: list[list[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-def factors_table(suite: sm.Suite, results: dict[str, sm.ScalingResult]) -> str:
+def factors_table(suite: sm.Suite, results: dict[str, sm.scaling.ScalingResult]) -> str:
     """Factors of each record by each method."""
     rows = [
         [str(number + 1), record.name, *(f"{result.factors[number]:.3f}" for result in results.values())]
@@ -67,7 +67,7 @@ def deformations(suite: sm.Suite, pushover: PushoverScaling, factors: np.ndarray
     return runner.peaks(np.zeros(len(suite), dtype=np.int64), np.arange(len(suite)), factors)
 
 
-def quality_table(suite: sm.Suite, results: dict[str, sm.ScalingResult]) -> str:
+def quality_table(suite: sm.Suite, results: dict[str, sm.scaling.ScalingResult]) -> str:
     """What each method makes of the suite."""
     pushover = results["pushover, C_R"]
     assert isinstance(pushover, PushoverScaling)
@@ -91,7 +91,7 @@ def quality_table(suite: sm.Suite, results: dict[str, sm.ScalingResult]) -> str:
     return markdown(header, rows)
 
 
-def remarks(results: dict[str, sm.ScalingResult]) -> str:
+def remarks(results: dict[str, sm.scaling.ScalingResult]) -> str:
     """Remarks of each method, those of several methods once."""
     found = dict.fromkeys(f"- {name}: {remark}." for name, result in results.items() for remark in result.remarks)
     return "Remarks that `seismass scale` prints:\n\n" + "\n".join(found)
@@ -99,8 +99,8 @@ def remarks(results: dict[str, sm.ScalingResult]) -> str:
 
 def selected_table(folder: sm.Suite) -> str:
     """The selection of eleven, with the factors of ASCE 7-16."""
-    chosen = sm.select_records(folder, TARGET, 11, period_range=(0.2, 2.0))
-    scaling = sm.scale_asce7_16(chosen.suite, TARGET)
+    chosen = sm.scaling.select_records(folder, TARGET, 11, period_range=(0.2, 2.0))
+    scaling = sm.scaling.scale_asce7_16(chosen.suite, TARGET)
     steps = chosen.table.drop_nulls("step").sort("number")
     rows = [
         [
@@ -127,7 +127,7 @@ def ambiguous_table(folder: sm.Suite) -> str:
     rows = []
     for period in (1.0, 2.0):
         for reduction in (2.0, 4.0, 6.0):
-            result = sm.scale_modal_pushover(folder, TARGET, period=period, reduction=reduction)
+            result = sm.scaling.scale_modal_pushover(folder, TARGET, period=period, reduction=reduction)
             several = [number for number, roots in enumerate(result.roots) if len(roots) > 1]
             listed = [
                 f"{result.names[number]}: {', '.join(f'{root:.3f}' for root in result.roots[number])}"
@@ -143,7 +143,7 @@ def ratios_table(folder: sm.Suite) -> str:
     corner = TARGET.corner_period()
     rows = []
     for period in periods:
-        elastic = sm.inelastic_spectrum(folder, [period], ductility=1.0, overstrength=1.0, second_slope=0.0)
+        elastic = sm.spectra.inelastic_spectrum(folder, [period], ductility=1.0, overstrength=1.0, second_slope=0.0)
         building = sm.Building.uniform(1, period, yield_shear_over_weight=1.0, overstrength=1.0, second_slope=0.0)
         strengths = elastic.elastic_strength[:, 0]
         runner = Oscillators([building], list(folder), float(max(reductions) / strengths.min()), None)
@@ -161,7 +161,7 @@ def ratios_table(folder: sm.Suite) -> str:
 def ductility_table(suite: sm.Suite) -> str:
     """Strength for a ductility of 4."""
     periods = [0.2, 0.5, 1.0, 2.0]
-    found = sm.inelastic_spectrum(suite, periods, ductility=4.0, overstrength=1.0, second_slope=0.0)
+    found = sm.spectra.inelastic_spectrum(suite, periods, ductility=4.0, overstrength=1.0, second_slope=0.0)
     rows = [
         [
             f"{period:g}",
@@ -199,7 +199,7 @@ def write(shared: Path) -> None:
     """Write page and figure."""
     PAGE.write_text(page(shared), encoding="utf-8")
     seven = sm.read_suite(shared / "records" / "paper_seven.csv")
-    save_figure(sm.scale_asce7_10(seven, TARGET).plot(seven, TARGET), "png", FIGURE)
+    save_figure(sm.scaling.scale_asce7_10(seven, TARGET).plot(seven, TARGET), "png", FIGURE)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import seismass as sm
-from seismass.report.figures import save_figure
+from seismass.media.figure_file import save_figure
 
 ROOT: Final = Path(__file__).parents[1]
 PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
@@ -32,7 +32,7 @@ def floors(motions: list[sm.Record]) -> list[str]:
         building = sm.Building.uniform(4, 0.57, yield_shear_over_weight=strength)
         for mu in FRICTIONS:
             goods = [sm.Block(0, mass=1.0, mu=mu), *sm.blocks_on_floors([0.5] * 4, mu=mu)]
-            found = sm.slip_demand(sm.Scene(building, goods), motions)
+            found = sm.slip.slip_demand(sm.Scene(building, goods), motions)
             for row in found.blocks.iter_rows(named=True):
                 place = f"floor {row['floor']}" if row["floor"] else "ground"
                 ends = row["amplification_low"], row["amplification_high"]

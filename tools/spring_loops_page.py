@@ -17,8 +17,8 @@ from matplotlib.figure import Figure
 ROOT: Final = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 
-from seismass.plots.style import BLUE, GREY, STYLE, VERMILION  # noqa: E402
-from seismass.report.figures import save_figure  # noqa: E402
+from seismass.media.figure_file import save_figure  # noqa: E402
+from seismass.media.style import BLUE, GREY, STYLE, VERMILION  # noqa: E402
 from spring_loops import CASES, DATA, FULL, PARTIAL, YIELD, YIELD_DRIFT, Case, FloatArray, drifts, kept  # noqa: E402
 
 PAGE: Final = ROOT / "docs" / "spring_loops.md"

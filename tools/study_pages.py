@@ -14,13 +14,14 @@ from typing import Any, Final
 
 import polars as pl
 
+from seismass.media.figure_file import save_figure
 from seismass.records import Suite, builtin_suite, read_suite
-from seismass.report.figures import save_figure
-from seismass.report.findings import findings, findings_text
-from seismass.report.sensitivity import sensitivity_markdown
-from seismass.report.study_figures import study_figures
+from seismass.show.study.figures import study_figures
+from seismass.show.study.findings import findings_text
+from seismass.show.study.sensitivity import sensitivity_markdown
 from seismass.spectra import TargetSpectrum
 from seismass.study import StudyResult, motions_text, run_study, study_sensitivity
+from seismass.study.findings import findings
 
 ROOT: Final = Path(__file__).parents[1]
 SUITE: Final = Path("records/paper_seven.csv")

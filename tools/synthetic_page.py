@@ -17,13 +17,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import seismass as sm
-from seismass.plots.style import BLUE, GREY, INK, STYLE, VERMILION
+from seismass.media.figure_file import save_figure
+from seismass.media.style import BLUE, GREY, INK, STYLE, VERMILION
 from seismass.records.synthetic.files import ALL_RECIPES
 from seismass.records.synthetic.seven import Recipe
 from seismass.records.synthetic.site import SITE_RECIPES
-from seismass.report.figures import save_figure
-from seismass.report.findings import findings
 from seismass.study import run_study
+from seismass.study.findings import findings
 
 ROOT: Final = Path(__file__).parents[1]
 PAGE: Final = ROOT / "docs" / "synthetic.md"
@@ -47,7 +47,7 @@ def motions_table(suite: sm.Suite, target: sm.TargetSpectrum) -> str:
             made = recipe.pulse_period
         else:
             made = None if recipe.parameters.pulse is None else recipe.parameters.pulse.period
-        found = sm.baker2007(record)
+        found = sm.pulses.baker2007(record)
         judged = "ambiguous" if found.ambiguous else f"{found.period:.2f} s" if found.is_pulse else "none"
         rows.append(
             (

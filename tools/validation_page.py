@@ -21,9 +21,9 @@ import polars as pl
 
 import seismass as sm
 from seismass import _kernel
-from seismass.report.figures import save_figure
-from seismass.report.validation_figures import platform_figure, section4_figure, sliding_figure
-from seismass.report.validation_write import claims_markdown
+from seismass.media.figure_file import save_figure
+from seismass.show.validation.figures import platform_figure, section4_figure, sliding_figure
+from seismass.show.validation.views import claims_markdown
 from seismass.validation import Platform, Section4, Validation, components, section4_scene, validate
 from seismass.validation.paper_claims import MOST
 from seismass.validation.shaking_table import AMPLITUDES, DAMPINGS, FRICTIONS, LENGTH_RATIO, PERIODS

@@ -9,7 +9,7 @@ The share of the live load to count as mass, for the warehouse of four storeys t
 # A building file states the building, its goods, its site and its code. ``seismass building --example`` prints this
 # one.
 import seismass as sm
-from seismass.building_file import example_file
+from seismass.assessment.building_file import example_file
 
 answer = sm.assess(example_file())
 print(answer.text)

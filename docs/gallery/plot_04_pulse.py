@@ -10,11 +10,11 @@ A synthetic motion with a pulse of three seconds, and what the method of Baker (
 import seismass as sm
 
 quiet = sm.builtin_record("synthetic-2")
-pulse = sm.NearFaultPulse(period=3.0, velocity=1.2, centre=8.0)
+pulse = sm.records.NearFaultPulse(period=3.0, velocity=1.2, centre=8.0)
 time = quiet.motion.time
 acceleration = quiet.acceleration + pulse.acceleration(time)
 record = quiet.replace(acceleration=acceleration, name="synthetic-2 with a pulse of 3 s")
-found = sm.baker2007(record)
+found = sm.pulses.baker2007(record)
 print(found.text)
 
 # %%

@@ -21,10 +21,10 @@ grid = sm.Grid.sample(
     seed=1,
     roof="bare",
     mass_ratio=1.0,
-    occupancy=sm.beta(0.7, 0.15),
-    mu=sm.lognormal(0.3, 0.25),
+    occupancy=sm.distributions.beta(0.7, 0.15),
+    mu=sm.distributions.lognormal(0.3, 0.25),
 )
-campaign = sm.Campaign(grid, sm.builtin_suite("seven"), part_runs=512, peaks_only=True)
+campaign = sm.campaign.Campaign(grid, sm.builtin_suite("seven"), part_runs=512, peaks_only=True)
 campaign
 
 # %%

@@ -26,7 +26,7 @@ building = sm.Building(
 )
 turns = 0.03 * np.array([1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 0])
 drifts = np.concatenate([np.linspace(a, b, 60) for a, b in zip([0.0, *turns[:-1]], turns, strict=True)])
-path = sm.spring_forces(building, 1, drifts)
+path = sm.runs.spring_forces(building, 1, drifts)
 figure = Figure(figsize=(6.0, 4.0), layout="constrained")
 axes = figure.subplots()
 axes.plot(1e3 * drifts, 1e-3 * path.force)

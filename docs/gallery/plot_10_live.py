@@ -15,7 +15,7 @@ the site was built with the compiled kernel, it is below.
 import seismass as sm
 
 suite = sm.builtin_suite("seven")
-factors = sm.scale_asce7_10(suite, sm.TargetSpectrum.asce7()).factors
+factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7()).factors
 building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.341, 0.265, 0.134], heights=3.5)
 scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2))
 response = sm.simulate(scene, suite[0].scaled(factors[0]), histories=True)

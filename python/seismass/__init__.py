@@ -1,8 +1,14 @@
-"""How much of a building's live load acts as mass in an earthquake: exact sliding-block shear-building simulation."""
+"""How much of a building's live load acts as mass in an earthquake: exact sliding-block shear-building simulation.
+
+At the top stands what a first hour needs. The rest is in modules: `records`, `spectra`, `scaling`, `matching`,
+`pulses`, `design`, `runs`, `fragility`, `slip`, `risk`, `campaign`, `study`, `validation`, `plots`, `explore`, `codes`,
+`friction`, `distributions` and `errors`.
+"""
 
 import lazy_loader
 
-from seismass import _kernel, forks
+from seismass import _kernel
+from seismass.base import forks, views
 
 # Names are those of __init__.pyi. NumPy, Polars and matplotlib are imported when a name needs them: a command that
 # prints its help does not wait for them.
@@ -10,4 +16,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 __all__ += ["__version__"]
 __version__ = _kernel.VERSION
 
-del forks, lazy_loader  # `forks` watches for forks from here on
+# Values are declared below what shows them; this is where the declarations find it.
+views.made_in("seismass.show")
+
+del forks, lazy_loader, views  # `forks` watches for forks from here on

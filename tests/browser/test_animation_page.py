@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import seismass as sm
-from seismass.report.page import Section, page_html, text_html
+from seismass.media.page import Section, page_html, text_html
 
 SCENE = sm.Scene(
     sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.20, 0.12], heights=3.5),

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 import seismass as sm
-from seismass.report.page import Section, facts_html, figure_html, page_html, table_html, text_html
+from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
 
 CLAIMS = pl.DataFrame(
     {

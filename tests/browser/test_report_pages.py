@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import seismass as sm
-from seismass.building_file import example_file
+from seismass.assessment.building_file import example_file
 from seismass.cli import main
 
 

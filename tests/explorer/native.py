@@ -11,7 +11,7 @@ import numpy as np
 
 import seismass as sm
 from seismass.effective_mass.models import attached_scene
-from seismass.response import EVENT_KINDS
+from seismass.runs.response import EVENT_KINDS
 
 
 def scene_of(case: dict[str, Any]) -> sm.Scene:

@@ -1,4 +1,4 @@
-//! Kernel errors as the exceptions of `seismass.errors`.
+//! Kernel errors as the exceptions of `seismass.base.errors`.
 
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -6,9 +6,9 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 use seismass::{Domain, Error};
 
-/// An exception of `seismass.errors` with a message.
+/// An exception of `seismass.base.errors` with a message.
 fn exception(py: Python<'_>, cell: &'static PyOnceLock<Py<PyType>>, name: &str, message: String) -> PyErr {
-    match cell.import(py, "seismass.errors", name) {
+    match cell.import(py, "seismass.base.errors", name) {
         Ok(class) => PyErr::from_type(class.clone(), (message,)),
         Err(import_error) => import_error,
     }

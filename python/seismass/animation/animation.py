@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass._values import as_number, as_path, brief, refusal
 from seismass.animation.shown import Shown, shown
-from seismass.codes import Use, code_fraction
+from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.values import as_number, brief, refusal
+from seismass.base.views import view
 from seismass.effective_mass.models import attached_scene
-from seismass.errors import InvalidOption, InvalidScene
-from seismass.files import written_whole
-from seismass.motion import MotionLike, as_motion
-from seismass.scene import Scene
+from seismass.model.codes import Use, code_fraction
+from seismass.model.motion import MotionLike, as_motion
+from seismass.model.scene import Scene
+from seismass.runs.response import Response
 
 if TYPE_CHECKING:
     from markupsafe import Markup
 
-SUFFIXES: Final = (".html", ".gif", ".mp4")
-"""Kinds of files that an animation is written as."""
 DEFAULT_CODE: Final = "asce7-10"
 """Code whose share of the live load is attached where none is chosen."""
 
@@ -44,22 +42,21 @@ class Animation:
     scene: Scene
     shown: Shown
 
+    @view
     def fragment(self) -> Markup:
         """Return a part of a page, with its style and script; any number of them may be in one page.
 
         Its style applies to it alone, and its script to the element that the script stands in. `page_html` of
-        `seismass.report.page` names the script in the policy of the page.
+        `seismass.media.page` names the script in the policy of the page.
         """
-        from seismass.animation.html import fragment
+        raise NotImplementedError
 
-        return fragment(self)
-
+    @view
     def html(self) -> str:
         """Return a page that needs nothing but itself: play, pause, scrub, speed, and the same by keys."""
-        from seismass.animation.html import page
+        raise NotImplementedError
 
-        return page(self)
-
+    @view
     def write(self, path: str | Path, *, frames_per_second: float | None = None, speed: float = 1.0) -> None:
         """Write a page (.html), a GIF (.gif) or a film (.mp4, which needs ffmpeg).
 
@@ -81,27 +78,12 @@ class Animation:
         OSError
             The file cannot be written.
         """
-        target = as_path(path, "animation", InvalidOption)
-        suffix = target.suffix.lower()
-        if suffix not in SUFFIXES:
-            raise refusal(InvalidOption, "suffix", "animation", f"one of {', '.join(SUFFIXES)}", brief(target.suffix))
-        if suffix == ".html":
-            if frames_per_second is not None or speed != 1.0:
-                requirement = "left out for a page, which has a choice of speeds"
-                raise refusal(InvalidOption, "frames_per_second or speed", "animation", requirement, "a number")
-            with written_whole(target) as temporary:
-                temporary.write_text(self.html(), encoding="utf-8")
-            return
-        from seismass.animation.film import write_film
+        raise NotImplementedError
 
-        write_film(self, target, frames_per_second, speed)
-
+    @view
     def _repr_html_(self) -> str:
         """A frame of its own, so that a notebook's style and script and those of the page do not meet."""
-        return (
-            f'<iframe srcdoc="{escape(self.html())}" sandbox="allow-scripts" title="{escape(self.title)}" '
-            'style="width:100%;height:56rem;border:0"></iframe>'
-        )
+        raise NotImplementedError
 
     def __repr__(self) -> str:
         runs = " and ".join(run.label for run in self.shown.runs)
@@ -178,3 +160,17 @@ def animate(
         scene=scene,
         shown=shown(scenes, chosen),
     )
+
+
+def animation_of(
+    response: Response,
+    *,
+    code: str = DEFAULT_CODE,
+    use: Use = "storage",
+    fraction: float | None = None,
+    title: str | None = None,
+) -> Animation:
+    """Return the animation of a run, with the name of its record; see `Response.animate`."""
+    name = "" if response.record is None else response.record.name
+    note = ", ".join(part for part in (response.scene.note, name) if part)
+    return animate(response.scene, response.motion, code=code, use=use, fraction=fraction, title=title, note=note)

@@ -8,12 +8,12 @@ from typing import Final
 
 import numpy as np
 
-from seismass._values import FloatArray
-from seismass.motion import Motion
-from seismass.response import Response
-from seismass.scene import Scene
-from seismass.simulate import simulate
-from seismass.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
+from seismass.model.motion import Motion
+from seismass.model.scene import Scene
+from seismass.runs.response import Response
+from seismass.runs.simulate import simulate
 
 ROWS_PER_SECOND: Final = 30.0
 """Rows that are kept of a second; a player draws between them."""

@@ -1,6 +1,8 @@
 """Assessment of one's own building: how much of its live load to count as mass, and what its drifts and slips are."""
 
+from seismass.assessment.building_file import read_building
+from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.result import Assessment
 from seismass.assessment.run import assess
 
-__all__ = ["Assessment", "assess"]
+__all__ = ["Assessment", "OwnBuilding", "assess", "read_building"]

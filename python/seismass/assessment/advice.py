@@ -8,14 +8,15 @@ from typing import Any, Final
 import polars as pl
 
 from seismass.assessment.models import ADVISED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW, REALS
+from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.design import THETA_THRESHOLD
 from seismass.effective_mass import EffectiveMass
-from seismass.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
-from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
-from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
+from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
+from seismass.model.plausibility import motion_remarks
+from seismass.model.scene import Scene
 from seismass.scaling import ScalingResult
-from seismass.scene import Scene
 from seismass.spectra import TargetSpectrum
+from seismass.spectra.remarks import target_remarks
 
 SHORT: Final = 1.05
 """A storey whose goods-slide drift is more than so many times the model's is not covered by it."""
@@ -180,7 +181,7 @@ def remarks_of(
     suite: dict[str, Any],
 ) -> tuple[str, ...]:
     """Return what is unlikely about the input and what to know about the numbers, each sentence once."""
-    found = [*scene_remarks(real), *motion_remarks(motions)]
+    found = [*real.remarks, *motion_remarks(motions)]
     heavy = float(building.goods.sum() / building.mass.sum())
     if heavy > MOST_GOODS:
         found.append(
@@ -191,7 +192,7 @@ def remarks_of(
     if target is not None:
         found += target_remarks(target)
     if scaling is not None:
-        found += scaling_remarks(scaling)
+        found += scaling.doubts
     if suite["synthetic"] == len(suite["motions"]):
         found.append("all motions are synthetic: give recordings of the site's hazard (--records) for a decision")
     for name, result in effective.items():

@@ -8,10 +8,10 @@ import numpy as np
 import polars as pl
 
 from seismass.assessment.models import ADVISED, REALS
+from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import THETA_THRESHOLD, drift_limit
-from seismass.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.spectra import TargetSpectrum
-from seismass.units import STANDARD_GRAVITY
 
 
 def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[str, int]) -> pl.DataFrame:

@@ -8,12 +8,12 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray
-from seismass.batch import simulate_many
-from seismass.errors import SimulationError
-from seismass.motion import Motion
-from seismass.own_building import OwnBuilding
-from seismass.scene import Scene
+from seismass.assessment.own_building import OwnBuilding
+from seismass.base.errors import SimulationError
+from seismass.base.values import FloatArray
+from seismass.model.motion import Motion
+from seismass.model.scene import Scene
+from seismass.runs.batch import simulate_many
 from seismass.spectra import TargetSpectrum
 
 REAL: Final = "real"

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
 from seismass.assessment.checks import checks_table, input_document
+from seismass.assessment.own_building import OwnBuilding
+from seismass.base.views import view
 from seismass.effective_mass import EffectiveMass
-from seismass.effective_mass.result import finite_values
-from seismass.own_building import OwnBuilding
+from seismass.media.result import Result, finite_values
 from seismass.scaling import ScalingResult
 from seismass.spectra import TargetSpectrum
 
@@ -25,7 +25,7 @@ SCHEMA_VERSION: Final = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Assessment:
+class Assessment(Result):
     """How much of a building's live load acts as mass, and how the building and its goods move.
 
     Attributes
@@ -62,6 +62,8 @@ class Assessment:
         Schema and package version, digest of the inputs, seed, conventions.
     """
 
+    document: ClassVar[str] = "assessment"
+
     building: OwnBuilding
     target: TargetSpectrum | None
     advised: float | None
@@ -83,14 +85,14 @@ class Assessment:
         return None if self.advised is None else self.advised * self.building.present_share
 
     @property
+    @view
     def text(self) -> str:
         """What `seismass building` prints, the answer first."""
-        from seismass.report.assess_text import assessment_text
+        raise NotImplementedError
 
-        return assessment_text(self)
-
+    @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Return the tables by name: storeys, slip, runs, checks; curve of the fraction and scaling where known."""
+        """The tables by name: storeys, slip, runs, checks; curve of the fraction and scaling where known."""
         tables = {
             "storeys": self.storeys,
             "slip": self.slip,
@@ -106,12 +108,27 @@ class Assessment:
             tables["scaling"] = self.scaling.table()
         return tables
 
-    def figures(self) -> dict[str, Figure]:
-        """Return the figures by name: effective_fraction, drift and slip; without goods the drift alone."""
-        from seismass.report.assess_figures import assessment_figures
-        from seismass.report.assess_tables import assessment_tables
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """effective_fraction, drift, slip; without goods drift alone."""
+        return ("effective_fraction", "drift", "slip") if self.effective else ("drift",)
 
-        return assessment_figures(assessment_tables(self))
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return a figure of `figure_names`, by default the first.
+
+        Parameters
+        ----------
+        name : str, optional
+            "effective_fraction": real over model drift against the share, by friction; "drift": drift by storey and
+            model, beside the limit; "slip": slip demand by floor.
+
+        Raises
+        ------
+        InvalidOption
+            There is no such figure.
+        """
+        raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the runs as plain values in SI units; null for what is no finite number."""
@@ -142,10 +159,7 @@ class Assessment:
         finite: dict[str, Any] = finite_values(document)
         return finite
 
-    def to_json(self) -> str:
-        """Return `to_dict` as JSON."""
-        return json.dumps(self.to_dict(), indent=2, allow_nan=False)
-
+    @view
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
         """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder.
 
@@ -161,6 +175,4 @@ class Assessment:
         OSError
             A file cannot be written; then none is changed.
         """
-        from seismass.report.assess_write import write_assessment
-
-        return write_assessment(self, folder, figures=figures)
+        raise NotImplementedError

@@ -13,21 +13,21 @@ from typing import Any, Final
 import numpy as np
 
 from seismass import _kernel
-from seismass._values import as_number, brief, refusal
 from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
+from seismass.assessment.building_file import read_building
 from seismass.assessment.models import compared_models, friction_factors, solve_models
+from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
-from seismass.building_file import read_building
-from seismass.codes import CodeFraction
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import as_number, brief, refusal
 from seismass.effective_mass import EffectiveMass, effective_mass
-from seismass.errors import InvalidMotion, InvalidOption
-from seismass.friction import bound_factors
-from seismass.own_building import OwnBuilding
+from seismass.model.codes import CodeFraction
+from seismass.model.friction import bound_factors
+from seismass.model.scene import Scene
 from seismass.records import Suite, builtin_suite
+from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.scene import Scene
-from seismass.simulate import instruction_set
 from seismass.spectra import TargetSpectrum
 
 ROUNDING_STEP: Final = 0.05

@@ -7,11 +7,11 @@ from typing import Any, Final, Literal
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray
 from seismass.assessment.models import REALS, friction_factors
-from seismass.own_building import OwnBuilding
-from seismass.scene import Scene
-from seismass.units import STANDARD_GRAVITY
+from seismass.assessment.own_building import OwnBuilding
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
+from seismass.model.scene import Scene
 
 QUANTILES: Final = {"p16": 0.16, "median": 0.50, "p84": 0.84}
 """Quantiles over the motions; 16 and 84 % are one standard deviation of a normal distribution from the median."""

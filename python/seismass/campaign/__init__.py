@@ -9,3 +9,8 @@ from seismass.campaign.folder import CampaignFolder
 from seismass.campaign.progress import CampaignProgress
 
 __all__ = ["Campaign", "CampaignFolder", "CampaignProgress", "example_description", "read_campaign"]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

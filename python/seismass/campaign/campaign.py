@@ -15,19 +15,19 @@ import numpy as np
 import polars as pl
 
 from seismass import _kernel
-from seismass._values import as_count, as_path, brief, printable, refusal
-from seismass.batch import checked_motions
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_count, as_path, brief, printable, refusal
 from seismass.campaign.columns import chosen_columns, stored
 from seismass.campaign.motions import NamedMotion, named_motions
-from seismass.errors import InvalidOption
-from seismass.grid import Grid
-from seismass.grid_content import axes_table, grid_document
-from seismass.motion import MotionLike
+from seismass.model.motion import MotionLike
+from seismass.runs.batch import checked_motions
+from seismass.runs.grid.content import axes_table, grid_document
+from seismass.runs.grid.grid import Grid
 
 if TYPE_CHECKING:
-    from seismass.batch import Progress
     from seismass.campaign.folder import CampaignFolder
     from seismass.campaign.progress import Report
+    from seismass.runs.batch import Progress
 
 SCHEMA_VERSION: Final = 1
 """Version of the folder of a campaign; see docs/campaign.md."""
@@ -82,7 +82,7 @@ class Campaign:
     >>> import seismass as sm
     >>> building = sm.Building.uniform(2, 0.3, yield_shear_over_weight=[0.2, 0.12])
     >>> grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=[0.1, 0.2, 0.3, 0.4, 0.5])
-    >>> campaign = sm.Campaign(grid, sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1), part_runs=4)
+    >>> campaign = sm.campaign.Campaign(grid, sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1), part_runs=4)
     >>> campaign.total, campaign.parts
     (10, 3)
     >>> folder = campaign.run(mkdtemp())
@@ -173,7 +173,7 @@ class Campaign:
         KeyboardInterrupt
             Ctrl-C was pressed.
         """
-        from seismass.batch import stream_many
+        from seismass.runs.batch import stream_many
 
         frames = stream_many(
             self.grid,

@@ -7,8 +7,8 @@ from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
 from typing import Any, Final
 
-from seismass._values import as_count, brief, refusal
-from seismass.errors import InvalidOption, MissingPackage
+from seismass.base.errors import InvalidOption, MissingPackage
+from seismass.base.values import as_count, brief, refusal
 
 RETRIES: Final = 3
 """How often a part is given again after an error of a worker; a lost worker's parts are given again by dask itself."""

@@ -8,8 +8,8 @@ from typing import Any, Final
 
 import polars as pl
 
-from seismass._values import brief, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import brief, refusal
 
 KEYS: Final = ("scene", "motion", "status")
 """Columns that every part has: the numbers of scene and motion, from 1, and how the run ended."""

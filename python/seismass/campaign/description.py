@@ -7,16 +7,16 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
-from seismass._values import as_count, as_path, brief
+from seismass.base.errors import InvalidCampaignFile
+from seismass.base.input_table import Table, load_table
+from seismass.base.values import as_count, as_path, brief
 from seismass.campaign.campaign import Campaign
 from seismass.campaign.values import axis_values
-from seismass.errors import InvalidCampaignFile
-from seismass.grid import Grid
-from seismass.grid_sample import SAMPLED
-from seismass.input_table import Table, load_table
 from seismass.records import Record, Suite, builtin_suite, read_suite
 from seismass.records.builtin import data_directory
-from seismass.scene_file import building_of_table
+from seismass.runs.grid.grid import Grid
+from seismass.runs.grid.sample import SAMPLED
+from seismass.runs.scene_file import building_of_table
 from seismass.spectra import TargetSpectrum
 
 SCALINGS: Final = ("none", "asce7-10", "asce7-16")
@@ -59,7 +59,7 @@ def read_campaign(source: str | os.PathLike[str] | Mapping[str, Any]) -> Campaig
     Examples
     --------
     >>> import seismass as sm
-    >>> campaign = sm.read_campaign({
+    >>> campaign = sm.campaign.read_campaign({
     ...     "motions": {"builtin": "seven"},
     ...     "building": {"storeys": 2, "period": 0.3, "yield_shear_over_weight": [0.2, 0.12]},
     ...     "grid": {"mass_ratio": [0.5, 1.0], "mu": {"from": 0.1, "to": 0.5, "count": 5}, "scale": [0.5, 1.0]},
@@ -129,7 +129,7 @@ def _suite(table: Table | None, folder: Path, top: Table) -> list[Record]:
 
 
 def _target(table: Table, folder: Path) -> TargetSpectrum:
-    from seismass.commands.targets import target_of
+    from seismass.scaling.target_text import target_of
 
     text = table.text("target")
     file = folder / text
@@ -168,7 +168,7 @@ def _grid(top: Table, folder: Path, motions: int) -> Grid:
 
 
 def _design(table: Table, folder: Path) -> Any:
-    from seismass.grid_design import StrengthDesign
+    from seismass.runs.grid.design import StrengthDesign
 
     table.known(KEYS["grid.design"])
     table.needed("target")

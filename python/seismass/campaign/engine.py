@@ -11,14 +11,14 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, Final
 
-from seismass._values import as_count, brief, refusal
+from seismass.base.errors import InvalidOption, SeismassError, SimulationError
+from seismass.base.temporary import remove_left_behind
+from seismass.base.values import as_count, brief, refusal
 from seismass.campaign.campaign import Campaign
 from seismass.campaign.cluster import dask_executor
 from seismass.campaign.folder import PARTS, CampaignFolder
 from seismass.campaign.progress import CampaignProgress, Report
 from seismass.campaign.work import Done, solve_part, write_part
-from seismass.errors import InvalidOption, SeismassError, SimulationError
-from seismass.temporary import remove_left_behind
 
 IN_FLIGHT: Final = 1024
 """Most tasks that an executor is given at once: enough for as many workers, and few to take back."""

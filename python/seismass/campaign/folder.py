@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 import polars as pl
 
-from seismass._values import as_path, refusal
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_path, refusal
 from seismass.campaign.campaign import Campaign
 from seismass.campaign.columns import KEYS
 from seismass.campaign.manifest import check_same, manifest_of, read_manifest
 from seismass.campaign.motions import motions_of
-from seismass.errors import InvalidOption
-from seismass.grid_content import grid_of
+from seismass.runs.grid.content import grid_of
 
 if TYPE_CHECKING:
     from seismass.campaign.progress import Report

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any, Final
 
 from seismass import _kernel
-from seismass._values import refusal
+from seismass.base.errors import InvalidOption
+from seismass.base.values import refusal
 from seismass.campaign.campaign import SCHEMA_VERSION, Campaign
 from seismass.campaign.columns import UNITS
-from seismass.errors import InvalidOption
-from seismass.simulate import instruction_set
+from seismass.runs.simulate import instruction_set
 
 MANIFEST: Final = "manifest.json"
 """Name of the file; it is the last one that is written before the parts."""

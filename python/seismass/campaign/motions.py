@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import polars as pl
 
-from seismass._values import printable
-from seismass.motion import Motion
+from seismass.base.values import printable
+from seismass.model.motion import Motion
 
 
 @dataclass(frozen=True)

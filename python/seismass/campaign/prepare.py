@@ -9,14 +9,14 @@ from typing import Final
 
 import polars as pl
 
-from seismass._values import refusal
+from seismass.base.errors import InvalidOption
+from seismass.base.files import polars_writing, written_whole
+from seismass.base.temporary import PREFIX, remove_left_behind
+from seismass.base.values import refusal
 from seismass.campaign.campaign import Campaign
 from seismass.campaign.folder import AXES, MOTIONS, PARTS, CampaignFolder
 from seismass.campaign.manifest import MANIFEST, check_same, manifest_of, read_manifest
 from seismass.campaign.motions import motions_table
-from seismass.errors import InvalidOption
-from seismass.files import polars_writing, written_whole
-from seismass.temporary import PREFIX, remove_left_behind
 
 _OURS: Final = (MANIFEST, AXES, MOTIONS, PARTS)
 

@@ -6,10 +6,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from seismass._values import as_count, as_number, brief
-from seismass.distributions import beta, lognormal
-from seismass.errors import InvalidCampaignFile, InvalidOption
-from seismass.input_table import Table
+from seismass.base.distributions import beta, lognormal
+from seismass.base.errors import InvalidCampaignFile, InvalidOption
+from seismass.base.input_table import Table
+from seismass.base.values import as_count, as_number, brief
 
 _RANGE: Final = ("from", "to", "count", "spacing")
 

@@ -11,12 +11,12 @@ from typing import NamedTuple
 
 import polars as pl
 
-from seismass._values import refusal
+from seismass.base.errors import InvalidOption
+from seismass.base.files import polars_writing, written_whole
+from seismass.base.forks import require_polars
+from seismass.base.values import refusal
 from seismass.campaign.campaign import Campaign
 from seismass.campaign.folder import CampaignFolder, part_path
-from seismass.errors import InvalidOption
-from seismass.files import polars_writing, written_whole
-from seismass.forks import require_polars
 
 _lock = threading.Lock()
 _last: tuple[str, str, Campaign] | None = None

@@ -7,9 +7,9 @@ import sys
 from pathlib import Path
 from typing import Any, get_args
 
-from seismass.codes import Use
+from seismass.base.errors import InvalidOption, SimulationError
 from seismass.commands.options import check_files, positive_option
-from seismass.errors import InvalidOption, SimulationError
+from seismass.model.codes import Use
 
 _EPILOG = """examples:
   seismass animate --example
@@ -56,7 +56,7 @@ def add_parser(subparsers: Any, help: str) -> None:
 def run(args: argparse.Namespace) -> int:
     """Write the animation; return the exit code: 1 if a run failed. Bad input is raised."""
     from seismass.animation import animate
-    from seismass.scene_file import example_scene, read_scene
+    from seismass.runs.scene_file import example_scene, read_scene
 
     if args.fraction is not None and (args.code is not None or args.use is not None):
         raise InvalidOption("--fraction of seismass animate must be left out with --code or --use; got both")

@@ -20,7 +20,7 @@ from seismass.commands.options import (
 from seismass.commands.study import progress_bar
 
 if TYPE_CHECKING:
-    from seismass.codes import CodeFraction
+    from seismass.model.codes import CodeFraction
     from seismass.spectra import TargetSpectrum
 
 _EPILOG = """examples:
@@ -91,9 +91,9 @@ def run(args: argparse.Namespace) -> int:
         print(_listing(args), end="")
         return 0
     from seismass.assessment import assess
-    from seismass.building_file import read_building
-    from seismass.errors import SimulationError
-    from seismass.report.folder import PAGE, check_out
+    from seismass.assessment.building_file import read_building
+    from seismass.base.errors import SimulationError
+    from seismass.media.folder import PAGE, check_out
 
     started = time.perf_counter()
     check_out(args.out, "assessment")
@@ -130,18 +130,18 @@ def run(args: argparse.Namespace) -> int:
 def _listing(args: argparse.Namespace) -> str:
     """Return the example file, or the requested table."""
     if args.example:
-        from seismass.building_file import example_file
+        from seismass.assessment.building_file import example_file
 
         return example_file().read_text(encoding="utf-8")
     if args.codes:
-        from seismass.codes import code_table
+        from seismass.model.codes import code_table
 
         rows = [["id", "use", "fraction", "clause", "status", "code"]]
         for row in code_table().iter_rows(named=True):
             fraction = f"{row['low']:g} to {row['high']:g}" if row["low"] < row["high"] else f"{row['fraction']:g}"
             rows.append([row["code_id"], row["use"], fraction, row["clause"], row["status"], row["code"]])
     else:
-        from seismass.friction import friction_table
+        from seismass.model.friction import friction_table
 
         rows = [["id", "mu_s", "mu_k", "contact", "source"]]
         for row in friction_table().iter_rows(named=True):
@@ -160,8 +160,8 @@ def _code(args: argparse.Namespace) -> CodeFraction | None:
     InvalidOption
         The code is not known, or a use is given without one.
     """
-    from seismass.codes import code_fraction
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
+    from seismass.model.codes import code_fraction
 
     if args.code is None:
         if args.use is not None:
@@ -178,7 +178,7 @@ def _target(args: argparse.Namespace) -> TargetSpectrum | None:
     InvalidOption
         One of S_DS and S_D1 is given without the other, or a CSV beside them.
     """
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
 
     if args.target is None:
         if args.sds is args.sd1 is args.tl is None:

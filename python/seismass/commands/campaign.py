@@ -25,7 +25,7 @@ _EPILOG = """examples:
   seismass campaign campaign.toml --out /shared/results --shard 3/20
 
 The third line goes on after an interruption. Results are read by
-seismass.CampaignFolder("results").scan() or by any reader of Parquet.
+seismass.campaign.CampaignFolder("results").scan() or by any reader of Parquet.
 docs/campaign.md explains every key of a campaign file.
 
 exit codes: 0 done, 1 a run failed (its rows say why) or a part is damaged, 2 bad input, 130 interrupted"""
@@ -61,9 +61,9 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the campaign, or say how far it is; return the exit code."""
-    from seismass._values import refusal
+    from seismass.base.errors import InvalidOption
+    from seismass.base.values import refusal
     from seismass.campaign import CampaignFolder, example_description, read_campaign
-    from seismass.errors import InvalidOption
 
     if args.example:
         print(example_description().read_text(encoding="utf-8"), end="")
@@ -130,9 +130,9 @@ def _failed(folder: CampaignFolder, damaged: set[int]) -> int:
     """Number of runs that failed, in the parts that can be read."""
     import polars as pl
 
-    from seismass._values import refusal
+    from seismass.base.errors import InvalidOption
+    from seismass.base.values import refusal
     from seismass.campaign.folder import part_path
-    from seismass.errors import InvalidOption
 
     paths = [part_path(folder.path, part) for part in sorted(folder.present() - damaged)]
     if not paths:

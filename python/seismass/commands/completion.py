@@ -31,7 +31,7 @@ def run(args: argparse.Namespace) -> int:
     """Print the script; return the exit code."""
     import shtab
 
-    from seismass.cli import build_parser
+    from seismass.commands.parser import build_parser
 
     print(shtab.complete(build_parser(), shell=args.shell))
     return 0

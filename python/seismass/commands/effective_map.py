@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,7 +19,7 @@ from seismass.commands.options import (
 from seismass.commands.study import progress_bar
 
 if TYPE_CHECKING:
-    import polars as pl
+    pass
 
 _EPILOG = """examples:
   seismass map
@@ -62,8 +61,7 @@ def add_parser(subparsers: Any, help: str) -> None:
 def run(args: argparse.Namespace) -> int:
     """Make the map, write its files and print how rules do; return the exit code."""
     from seismass.effective_mass import EffectiveMassParameters, effective_mass_map
-    from seismass.report.folder import check_out, write_folder
-    from seismass.report.map_figures import map_figures
+    from seismass.media.folder import check_out
 
     started = time.perf_counter()
     check_out(args.out, "map")
@@ -81,62 +79,17 @@ def run(args: argparse.Namespace) -> int:
     target = read_target(args)
     suite = read_motions(args)
     result = effective_mass_map(suite, target, parameters, threads=args.jobs, progress=progress_bar())
-    rules, bins = result.rules(), result.by_eta()
-    document = {**result.metadata, "rules": rules.to_dicts(), "by_eta": bins.to_dicts()}
-    tables = {"map": result.table, "rules": rules, "by_eta": bins, "scaling": result.scaling.table()}
-    about = {f"seismass.{key}": json.dumps(value) for key, value in result.metadata.items()}
-    files = write_folder(
-        args.out,
-        tables=tables,
-        metadata=dict.fromkeys(tables, about),
-        documents={"map.json": json.dumps(document, indent=2) + "\n"},
-        figures=None if args.no_figures else map_figures(result),
-    )
+    files = result.write(args.out, figures=not args.no_figures)
     if args.json:
         warn_left_out(suite)
-        print(json.dumps(document, indent=2))
+        print(result.to_json())
         return 0
-    sliding = int(result.table["slides"].sum())
     print(f"suite    {suite.name}: {len(suite)} motions")
     for line in left_out(suite):
         print(f"         {line}")
-    print(f"target   {target.label}")
-    for remark in result.metadata["remarks"]:
-        print(f"remark   {remark}")
-    print(f"cases    {result.table.height}, goods slide in {sliding}; {result.metadata['runs']} runs\n")
-    print("\n".join(rules_text(rules)))
-    print()
-    print("\n".join(bins_text(bins)))
+    print(f"target   {target.label}\n{result.text}")
     print(f"\n{len(files)} files in {args.out}, {time.perf_counter() - started:.1f} s")
     return 0
-
-
-def rules_text(rules: pl.DataFrame) -> list[str]:
-    """Return the table of rules as lines."""
-    lines = [
-        "Largest drift of the model with the share of a rule, over that of the real building",
-        f"{'rule':30}{'mean':>7}{'log scatter':>13}{'5 to 95 %':>16}{'unsafe':>9}",
-    ]
-    for row in rules.iter_rows(named=True):
-        interval = f"{row['low']:.2f} to {row['high']:.2f}"
-        lines.append(
-            f"{row['rule']:30}{row['bias']:>7.3f}{row['log_scatter']:>13.3f}{interval:>16}{100 * row['unsafe']:>7.0f} %"
-        )
-    return [
-        *lines,
-        "mean: geometric; unsafe: share of cases in which the real building drifts more than 1.05 x the model",
-    ]
-
-
-def bins_text(bins: pl.DataFrame) -> list[str]:
-    """Return the scatter of the fraction in bins of eta as lines."""
-    lines = ["Effective fraction by eta = mu_k/C1", f"{'eta':14}{'cases':>7}{'16 %':>8}{'median':>9}{'84 %':>8}"]
-    for row in bins.iter_rows(named=True):
-        end = "and more" if row["eta_to"] is None else f"to {row['eta_to']:g}"
-        lines.append(
-            f"{row['eta_from']:<4g} {end:9}{row['cases']:>7}{row['p16']:>8.2f}{row['median']:>9.2f}{row['p84']:>8.2f}"
-        )
-    return lines
 
 
 def numbers_option(text: str) -> tuple[float, ...]:

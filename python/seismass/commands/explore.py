@@ -7,8 +7,8 @@ import webbrowser
 from pathlib import Path
 from typing import Any
 
+from seismass.base.files import written_whole
 from seismass.commands.options import check_files
-from seismass.files import written_whole
 
 _EPILOG = """examples:
   seismass explore

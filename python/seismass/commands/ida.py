@@ -15,7 +15,7 @@ from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument
 from seismass.commands.study import progress_bar
 
 if TYPE_CHECKING:
-    from seismass.scene import Scene
+    from seismass.model.scene import Scene
 
 _EPILOG = """examples:
   seismass ida warehouse.toml
@@ -76,9 +76,9 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the analysis, print its answer and write its files; return the exit code."""
-    from seismass.errors import InvalidOption, SimulationError
-    from seismass.intensity import HuntAndFill, cloud_analysis, incremental_dynamic_analysis, parse_limit
-    from seismass.report.folder import check_out
+    from seismass.base.errors import InvalidOption, SimulationError
+    from seismass.fragility import HuntAndFill, cloud_analysis, incremental_dynamic_analysis, parse_limit
+    from seismass.media.folder import check_out
 
     started = time.perf_counter()
     if args.out is not None:
@@ -120,8 +120,8 @@ def models_of(path: Path, code_share: float | None) -> tuple[dict[str, Scene], s
     The code's model of a building file has its code's fraction of the design live load, whatever is present.
     """
     from seismass.assessment.models import with_mass
-    from seismass.intensity import compared_models
-    from seismass.intensity.models import CODE, DEFAULT_CODE_SHARE, REAL
+    from seismass.fragility import compared_models
+    from seismass.fragility.models import CODE, DEFAULT_CODE_SHARE, REAL
 
     scene, building = read_scene_or_building(path)
     share = DEFAULT_CODE_SHARE if code_share is None else code_share

@@ -15,7 +15,6 @@ from seismass.commands.options import (
     add_target_options,
     check_files,
     positive_option,
-    read_records,
     read_target,
     warn_left_out,
     warn_remarks,
@@ -92,10 +91,11 @@ def add_parser(subparsers: Any, help: str) -> None:
 def run(args: argparse.Namespace) -> int:
     """Match, print and write; return the exit code."""
     from seismass.matching import match_suite
+    from seismass.records.named import records_named
 
     _check_outputs(args)
     target = read_target(args)
-    suite = read_records(args.records, dt=args.dt, unit=args.unit)
+    suite = records_named(args.records, dt=args.dt, unit=args.unit)
     _check_out(args.out, args.records, suite)
     matched = match_suite(
         suite,
@@ -139,7 +139,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _check_outputs(args: argparse.Namespace) -> None:
     """Refuse names of files that cannot be meant, before anything is computed."""
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
 
     if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
         raise InvalidOption(f"--plot of match must be a name that ends in .png or .svg; got {args.plot.name}")
@@ -156,7 +156,7 @@ def _check_out(out: Path | None, given: Path, suite: Suite) -> None:
     OSError
         The folder of a file is missing.
     """
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
     from seismass.matching.files import SUFFIXES
 
     if out is None:
@@ -188,7 +188,7 @@ def _write(matched: MatchedSuite, out: Path) -> None:
     """One record to the file that is named, or all to a folder with a list."""
     import polars as pl
 
-    from seismass.files import write_table, written_whole
+    from seismass.base.files import write_table, written_whole
     from seismass.matching.files import SUFFIXES
 
     if out.suffix.lower() in SUFFIXES:
@@ -208,8 +208,8 @@ def _write(matched: MatchedSuite, out: Path) -> None:
 
 def _plot(matched: MatchedSuite, path: Path) -> None:
     """Draw each record, to files with a number where there are several."""
-    from seismass.files import written_whole
-    from seismass.report.figures import save_figure
+    from seismass.base.files import written_whole
+    from seismass.media.figure_file import save_figure
 
     for number, one in enumerate(matched, start=1):
         file = path if len(matched) == 1 else path.with_name(f"{path.stem}_{number:03d}{path.suffix}")

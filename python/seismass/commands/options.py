@@ -11,9 +11,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from seismass.commands.targets import TARGET_HELP, target_of
-from seismass.springs import SHAPE_FIELDS
-from seismass.units import ACCELERATION_UNITS
+from seismass.base.units import ACCELERATION_UNITS
+from seismass.model.springs import SHAPE_FIELDS
+from seismass.scaling.target_text import TARGET_HELP, target_of
 
 if TYPE_CHECKING:
     from seismass.records import Suite
@@ -98,7 +98,7 @@ def read_motions(args: argparse.Namespace, default: BuiltinName = "seven") -> Su
     RecordFormatError
         As for `read_suite`.
     """
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
     from seismass.records import builtin_suite, read_suite
 
     if args.records is None:
@@ -106,40 +106,6 @@ def read_motions(args: argparse.Namespace, default: BuiltinName = "seven") -> Su
     if args.suite is not None:
         raise InvalidOption(f"suite of motions must be left out where --records is given; got {args.suite}")
     return read_suite(args.records)
-
-
-def read_records(path: Path, *, dt: float | None = None, unit: str | None = None) -> Suite:
-    """Return the records that a path names: a folder, a CSV with a column `file`, or else one file.
-
-    Raises
-    ------
-    InvalidOption
-        A step or a unit is given for more than one record: a list has columns for them.
-    RecordFormatError
-        As for `read_suite` and `read_records`.
-    """
-    from seismass.errors import InvalidOption
-    from seismass.records import read_suite
-    from seismass.records.suite import suite_of_file
-
-    if not (path.is_dir() or is_list(path)):
-        return suite_of_file(path, dt=dt, unit=unit)
-    for name, value in (("--dt", dt), ("--unit", unit)):
-        if value is not None:
-            raise InvalidOption(
-                f"{name} of {path.name} must be left out for a folder or a list of records; got {value}"
-            )
-    return read_suite(path)
-
-
-def is_list(path: Path) -> bool:
-    """Whether a .csv file lists records; one that is a record has no column `file`."""
-    from seismass.records.read import read_text
-
-    if path.suffix.lower() != ".csv":
-        return False
-    header = read_text(path).partition("\n")[0]
-    return "file" in (column.strip().strip('"') for column in header.split(","))
 
 
 def check_files(*paths: Path | None) -> None:
@@ -177,7 +143,7 @@ def left_out(suite: Suite) -> list[str]:
 
     More than a few files are counted by reason.
     """
-    from seismass._values import printable
+    from seismass.base.values import printable
 
     if len(suite.excluded) <= _LISTED_SINGLY:
         lines = [f"left out {printable(item.file.name)}: {item.reason}" for item in suite.excluded]
@@ -203,7 +169,7 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
     InvalidOption
         --target is given together with a number of the ASCE 7 shape, T_L is below T_S, or as `target_of` says.
     """
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
     from seismass.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
 
     given = {"sds": args.sds, "sd1": args.sd1, "tl": args.tl}
@@ -240,7 +206,7 @@ def positive_count(text: str) -> int:
 
 def threads_option(text: str) -> int:
     """Return a number of threads."""
-    from seismass.batch import MAX_THREADS
+    from seismass.runs.batch import MAX_THREADS
 
     number = int(text) if text.isdecimal() else 0
     if not 1 <= number <= MAX_THREADS:

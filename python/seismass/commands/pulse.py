@@ -67,7 +67,7 @@ def run(args: argparse.Namespace) -> int:
     InvalidOption
         Options that do not go together, or a figure of another suffix.
     """
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
 
     if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
         raise InvalidOption(f"--plot of seismass pulse must be a .png or .svg file; got {args.plot}")
@@ -80,8 +80,8 @@ def run(args: argparse.Namespace) -> int:
     if args.plot is not None:
         if len(results) != 1:
             raise InvalidOption(f"--plot of seismass pulse must be of one result; got {len(results)}")
-        from seismass.files import written_whole
-        from seismass.report.figures import save_figure
+        from seismass.base.files import written_whole
+        from seismass.media.figure_file import save_figure
 
         with written_whole(args.plot) as temporary:
             save_figure(results[0].plot(), "svg" if args.plot.suffix.lower() == ".svg" else "png", temporary)
@@ -102,7 +102,7 @@ def _groups(args: argparse.Namespace) -> list[Record | Pair]:
     InvalidMotion
         A folder without a pair.
     """
-    from seismass.errors import InvalidMotion, InvalidOption
+    from seismass.base.errors import InvalidMotion, InvalidOption
     from seismass.records import Pair, Suite, find_pairs, read_record
 
     if args.first.is_dir():
@@ -132,7 +132,7 @@ def _warn_remarks(groups: list[Record | Pair]) -> None:
 
 def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
     """The one record of a file, or the pair of its two horizontal channels."""
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
     from seismass.records import Pair, read_records
     from seismass.records.formats.directions import is_vertical
 
@@ -150,7 +150,7 @@ def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
 
 
 def _judged(given: Record | Pair, args: argparse.Namespace) -> list[PulseResult | OrientationScan]:
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
     from seismass.pulses import baker2007, baker2007_orientations, shahi_baker2014
     from seismass.records import Record
 

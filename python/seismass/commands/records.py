@@ -8,7 +8,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.options import add_reading_options, is_list, read_records
+from seismass.commands.options import add_reading_options
 
 if TYPE_CHECKING:
     from seismass.records import Record, Suite
@@ -53,7 +53,7 @@ def run(args: argparse.Namespace) -> int:
     InvalidOption
         Both a path and --find are given, or --dt or --unit without a path.
     """
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
 
     if args.path is not None and args.find is not None:
         raise InvalidOption(f"PATH of seismass records must be left out where --find is given; got {args.path}")
@@ -77,15 +77,16 @@ def _read(path: Path, dt: float | None, unit: str | None) -> Suite:
 
     What cannot be read stands among what is left out, since the command is there to look.
     """
-    from seismass._values import printable
-    from seismass.errors import InvalidOption, RecordFormatError
+    from seismass.base.errors import InvalidOption, RecordFormatError
+    from seismass.base.values import printable
     from seismass.records import Excluded, Suite
     from seismass.records import read_records as read_channels
+    from seismass.records.named import is_list, records_named
     from seismass.records.suite import files_below
 
     if not path.is_dir():
         if is_list(path):
-            return read_records(path, dt=dt, unit=unit)
+            return records_named(path, dt=dt, unit=unit)
         return Suite(path.stem, read_channels(path, dt=dt, unit=unit))
     for name, value in (("--dt", dt), ("--unit", unit)):
         if value is not None:
@@ -129,7 +130,7 @@ def _rows(suite: Suite) -> list[dict[str, Any]]:
 
 
 def _table(suite: Suite) -> list[str]:
-    from seismass._values import printable
+    from seismass.base.values import printable
 
     rows = _rows(suite)
     width = max(len("record"), *(len(printable(row["name"])) for row in rows))

@@ -34,10 +34,10 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the page; return the exit code. Bad input is raised."""
-    from seismass.report.assess_tables import DOCUMENT
-    from seismass.report.assess_write import write_assessment_page
-    from seismass.report.folder import PAGE
-    from seismass.report.write import write_study_page
+    from seismass.media.folder import PAGE
+    from seismass.show.assessment.tables import DOCUMENT
+    from seismass.show.assessment.write import write_assessment_page
+    from seismass.show.study.write import write_study_page
 
     started = time.perf_counter()
     target = args.out or args.folder / PAGE

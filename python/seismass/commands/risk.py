@@ -79,11 +79,11 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Find the share, print the answer and write its files; return the exit code."""
-    from seismass.errors import SimulationError
-    from seismass.intensity import parse_limit
-    from seismass.intensity.hazard import HazardCurve
-    from seismass.intensity.risk import risk_targeted_share
-    from seismass.report.folder import check_out
+    from seismass.base.errors import SimulationError
+    from seismass.fragility import parse_limit
+    from seismass.media.folder import check_out
+    from seismass.risk.hazard import HazardCurve
+    from seismass.risk.targeted_share import risk_targeted_share
 
     started = time.perf_counter()
     if args.out is not None:

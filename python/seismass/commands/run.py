@@ -12,16 +12,12 @@ from typing import Any
 
 import polars as pl
 
-from seismass.block import Block
-from seismass.building import Building
-from seismass.damping import Rayleigh
-from seismass.errors import InvalidOption, SimulationError
-from seismass.files import write_table, written_whole
-from seismass.response import Response
-from seismass.scene import Scene
-from seismass.scene_file import KEYS, SceneFile, example_scene, read_scene
-from seismass.simulate import simulate
-from seismass.units import STANDARD_GRAVITY
+from seismass.base.errors import InvalidOption, SimulationError
+from seismass.base.files import write_table, written_whole
+from seismass.runs.response import Response
+from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
+from seismass.runs.simulate import simulate
+from seismass.show.response_text import run_text
 
 _HISTORY_SUFFIXES = (".parquet", ".csv")
 _KEYS = "\n".join(
@@ -82,7 +78,11 @@ def run(args: argparse.Namespace) -> int:
         return 1
     if args.histories is not None:
         _write_histories(response, args.histories)
-    print(json.dumps(as_json(file, response), indent=2, allow_nan=False) if args.json else summary(file, response))
+    if args.json:
+        print(json.dumps(as_json(file, response), indent=2, allow_nan=False))
+        return 0
+    title, source = file.name or file.path.stem, "".join(record.name for record in file.records[:1])
+    print(run_text(response, title=title, note=file.note, source=source, remarks=file.remarks))
     return 0
 
 
@@ -146,134 +146,3 @@ def _finite(value: Any) -> Any:
     if isinstance(value, list):
         return [_finite(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def summary(file: SceneFile, response: Response) -> str:
-    """Return the readable summary that `seismass run` prints."""
-    scene, motion = file.scene, file.motion
-    lines = [file.name or file.path.stem]
-    if file.note:
-        lines.append(f"  {file.note}")
-    lines += [f"  {line}" for line in ([] if scene.building is None else _building_lines(scene.building, scene))]
-    vertical = "" if motion.vertical is None else f", vertical {max(abs(motion.vertical)) / STANDARD_GRAVITY:.3f} g"
-    source = "".join(f"{record.name}, " for record in file.records[:1])
-    lines.append(
-        f"  motion    {source}{motion.samples} samples at {motion.dt:g} s ({motion.duration:g} s), "
-        f"PGA {motion.pga_g:.3f} g{vertical}"
-    )
-    lines += [f"            {remark}" for remark in file.remarks]
-    if scene.building is not None:
-        lines += ["", *_aligned(_storey_table(scene.building, response))]
-    if scene.blocks:
-        lines += ["", *_aligned(_block_table(scene, response))]
-    counts = ", ".join(f"{count} {kind}" for kind, count in response.counts.items() if count) or "none"
-    end = f"{response.status} at {response.end_time:g} s"
-    if response.collapsed_storey is not None:
-        end += f": storey {response.collapsed_storey} reached its collapse drift; peaks are those until then"
-    return "\n".join(
-        [
-            *lines,
-            "",
-            f"  events    {counts}",
-            f"  energy    residual {response.energy['relative_residual']:.1e} of the input",
-            f"  status    {end}",
-        ]
-    )
-
-
-def _building_lines(building: Building, scene: Scene) -> list[str]:
-    noun = "storey" if building.storeys == 1 else "storeys"
-    periods = ", ".join(f"{period:.3f}" for period in building.periods[:3])
-    more = ", ..." if building.storeys > 3 else ""
-    lines = [
-        f"building  {building.storeys} {noun}, periods {periods}{more} s, {_weight_text(building)}, "
-        f"damping {_damping_text(building)}"
-    ]
-    parameters = ", ".join(f"{symbol} {_listed(values)}" for symbol, values in building.spring_summary().items())
-    elastic = math.isinf(building.yield_shear.min()) and not building.laws
-    lines.append(f"springs   {'elastic' if elastic else ', '.join([parameters, *building.laws])}")
-    if scene.geometric_stiffness.any():
-        lines.append(f"P-Delta   P/(h k) {_listed(scene.geometric_stiffness / building.stiffness)}")
-    return lines
-
-
-def _weight_text(building: Building) -> str:
-    """The weight; where no mass is stated, that forces are fractions of it."""
-    if building.mass_is_stated:
-        return f"weight {building.weight / 1000.0:.5g} kN"
-    return "no mass stated (forces over the weight W)"
-
-
-def _damping_text(building: Building) -> str:
-    damping = building.damping
-    if isinstance(damping, Rayleigh):
-        return f"{100.0 * damping.ratio:g} % in modes {damping.modes[0]} and {damping.modes[1]} (Rayleigh)"
-    return f"{100.0 * damping:g} % in every mode" if isinstance(damping, float) else "by a given matrix"
-
-
-def _listed(values: Any) -> str:
-    numbers = [f"{value:.4g}" for value in values]
-    return numbers[0] if len(set(numbers)) == 1 else " ".join(numbers)
-
-
-def _storey_table(building: Building, response: Response) -> list[list[str]]:
-    stated = building.mass_is_stated
-    unit, force = ("kN", 1000.0) if stated else ("/ W", building.weight)
-    header = ["storey", "peak drift mm", "at s", "residual mm", f"peak shear {unit}", "floor acceleration g"]
-    ratios = response.peak_drift_ratio
-    if ratios is not None:
-        header.insert(2, "of height %")
-    rows = []
-    for i in range(len(response.peak_drift)):
-        row = [
-            str(i + 1),
-            f"{1000.0 * response.peak_drift[i]:.3f}",
-            f"{response.peak_drift_time[i]:.3f}",
-            f"{1000.0 * response.residual_drift[i]:.3f}",
-            f"{response.peak_storey_shear[i] / force:.4g}",
-            f"{response.peak_floor_acceleration[i] / STANDARD_GRAVITY:.4f}",
-        ]
-        if ratios is not None:
-            row.insert(2, f"{100.0 * ratios[i]:.3f}")
-        rows.append(row)
-    return [header, *rows]
-
-
-def _block_table(scene: Scene, response: Response) -> list[list[str]]:
-    stated = scene.building is None or scene.building.mass_is_stated
-    header = [
-        "block",
-        "floor",
-        "mass kg" if stated else "of floor mass",
-        "mu",
-        "peak slip mm",
-        "at s",
-        "residual mm",
-        "slip path mm",
-    ]
-    rows = [
-        [
-            str(j + 1),
-            str(block.floor) if block.floor else "ground",
-            _mass_text(block, mass, stated),
-            f"{block.mu_s:g}" if block.mu_s == block.mu_k else f"{block.mu_s:g}/{block.mu_k:g}",
-            f"{1000.0 * response.peak_slip[j]:.3f}",
-            f"{response.peak_slip_time[j]:.3f}",
-            f"{1000.0 * response.residual_slip[j]:.3f}",
-            f"{1000.0 * response.slip_path[j]:.3f}",
-        ]
-        for j, (block, mass) in enumerate(zip(scene.blocks, scene.block_mass, strict=True))
-    ]
-    return [header, *rows]
-
-
-def _mass_text(block: Block, mass: float, stated: bool) -> str:
-    """The mass of a block; over that of its floor where that is not stated, but for blocks on the ground."""
-    if stated:
-        return f"{mass:.5g}"
-    return f"{mass:.5g} kg" if block.mass_ratio is None else f"{block.mass_ratio:.5g}"
-
-
-def _aligned(rows: list[list[str]]) -> list[str]:
-    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
-    return ["  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]

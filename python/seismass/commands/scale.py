@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
-import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from seismass._values import counted
+from seismass.base.values import counted
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_motion_options,
@@ -22,7 +21,7 @@ from seismass.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from seismass.building import Building
+    from seismass.model.building import Building
     from seismass.records import Pairs, Suite
     from seismass.scaling import ScalingResult, Selection
     from seismass.spectra import TargetSpectrum
@@ -95,8 +94,9 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the factors; return the exit code."""
-    from seismass.plausibility import motion_remarks, target_remarks
+    from seismass.model.plausibility import motion_remarks
     from seismass.scaling import select_records
+    from seismass.spectra.remarks import target_remarks
 
     _check_options(args)
     target = read_target(args)
@@ -114,12 +114,12 @@ def run(args: argparse.Namespace) -> int:
     if args.csv is not None:
         _write_table(args.csv, scaling)
     if args.plot is not None:
-        from seismass.files import written_whole
-        from seismass.report.figures import save_figure
+        from seismass.base.files import written_whole
+        from seismass.media.figure_file import save_figure
 
         kind: Literal["png", "svg"] = "svg" if args.plot.suffix.lower() == ".svg" else "png"
         with written_whole(args.plot) as temporary:
-            figure = scaling.plot() if args.pairs else scaling.plot(suite, target)
+            figure = scaling.plot() if args.pairs else scaling.plot(records=suite, target=target)
             save_figure(figure, kind, temporary)
     if args.json:
         warn_left_out(suite)
@@ -134,7 +134,7 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
     if not args.pairs:
         suite = read_motions(args, "eleven" if args.method == "asce7-16" else "seven")
         return suite, suite
-    from seismass.errors import InvalidMotion
+    from seismass.base.errors import InvalidMotion
     from seismass.records import Suite, find_pairs
 
     pairs = find_pairs(args.records)
@@ -146,7 +146,7 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
 
 def _check_options(args: argparse.Namespace) -> None:
     """Refuse options that the method, or a scaling without selection, does not use."""
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
 
     used = {"asce7-16": {"building", "lowest_period"}, "mps": {"building", *_PUSHOVER}}.get(args.method, set())
     for name in ("building", "lowest_period", *_PUSHOVER):
@@ -183,7 +183,7 @@ def _check_options(args: argparse.Namespace) -> None:
 def _building(args: argparse.Namespace, target: TargetSpectrum) -> Building | None:
     if args.building is None:
         return None
-    from seismass.building_file import read_building
+    from seismass.assessment.building_file import read_building
 
     return read_building(args.building).structure(target)
 
@@ -210,7 +210,7 @@ def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, buildi
 def _write_table(path: Path, scaling: ScalingResult) -> None:
     import polars as pl
 
-    from seismass.files import write_table, written_whole
+    from seismass.base.files import write_table, written_whole
 
     table = scaling.diagnostics()
     if "roots" in table.columns:
@@ -252,39 +252,12 @@ def _print(
     chosen: Selection | None,
     remarks: tuple[str, ...],
 ) -> None:
-    import numpy as np
+    from seismass.show.motions.scaling_text import factor_lines, scaling_lines
 
     print(f"suite   {suite.name}: {counted(len(suite), 'motion')}")
     for line in left_out(suite):
         print(f"        {line}")
-    print(f"target  {target.label}")
-    print(f"method  {scaling.method}, T = {scaling.period:g} s")
-    for remark in remarks:
-        print(textwrap.fill(remark, 120, initial_indent="remark  ", subsequent_indent=f"{'':8}"))
-    touches = "touches the target" if scaling.method == "ASCE 7-10" else f"is {scaling.least_ratio:.4f} of the target"
-    print(
-        f"range   {len(scaling.periods)} periods from {scaling.periods[0]:g} to {scaling.periods[-1]:g} s; "
-        f"the mean {touches} at {scaling.governing_period:.4g} s, at most {scaling.largest_ratio:.3f} of it; "
-        f"SF2 = {scaling.common:.6f}"
-    )
-    if len(suite) > 1:
-        at = float(np.interp(np.log(scaling.period), np.log(scaling.periods), scaling.log_scatter))
-        print(
-            f"scatter {float(scaling.log_scatter.mean()):.3f} between the motions over the range, {at:.3f} at T "
-            "(standard deviation of ln Sa)"
-        )
-    print()
-    print("     SF1       SF        misfit  largest record")
-    rows = zip(scaling.diagnostics().iter_rows(named=True), scaling.largest_misfit, suite, strict=True)
-    for row, largest, record in rows:
-        print(
-            f"{row['motion']:>3}  {row['individual_factor']:<8.5f}  {row['factor']:<8.5f}  {row['misfit']:<6.3f}  "
-            f"{largest:<6.3f}  {row['record']}"
-        )
-        for remark in record.remarks:
-            print(f"{'':42}{remark}")
-    print("\nSF1: each motion by itself; SF = SF1 SF2: what its accelerations are multiplied by")
-    print("misfit: root mean square, and largest, of |ln(scaled/target)| over the range")
+    print("\n".join([*scaling_lines(scaling, remarks), "", *factor_lines(scaling, [one.remarks for one in suite])]))
     if chosen is not None:
         print("\nnot chosen")
         for row in chosen.table.filter(chosen.table["step"].is_null()).iter_rows(named=True):

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
-    from seismass.own_building import OwnBuilding
-    from seismass.scene import Scene
+    from seismass.assessment.own_building import OwnBuilding
+    from seismass.model.scene import Scene
 
 DEFAULT_LIMIT: Final = "drift_ratio=0.02"
 """Limit state of a scene file: the allowable drift of ASCE/SEI 7-10, table 12.12-1, other structures of risk category I
@@ -34,10 +34,10 @@ def read_scene_or_building(path: Path) -> tuple[Scene, OwnBuilding | None]:
     InvalidBuildingFile
         As for `read_building`.
     """
-    from seismass.building_file import read_building
-    from seismass.errors import InvalidSceneFile
-    from seismass.input_table import load_table
-    from seismass.scene_file import scene_without_motion
+    from seismass.assessment.building_file import read_building
+    from seismass.base.errors import InvalidSceneFile
+    from seismass.base.input_table import load_table
+    from seismass.runs.scene_file import scene_without_motion
 
     found = load_table(path, "scene or building file", InvalidSceneFile).values
     if not any(name in found for name in ("storeys", "goods", "site")):

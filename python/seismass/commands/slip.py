@@ -69,8 +69,8 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Solve the runs, print the slip demand and write its files; return the exit code."""
-    from seismass.errors import SimulationError
-    from seismass.report.folder import check_out
+    from seismass.base.errors import SimulationError
+    from seismass.media.folder import check_out
     from seismass.slip import parse_size, slip_demand
 
     started = time.perf_counter()
@@ -109,8 +109,8 @@ def parse_clearance(text: str) -> Clearance:
     InvalidOption
         It cannot be read.
     """
-    from seismass._values import brief, refusal
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
+    from seismass.base.values import brief, refusal
     from seismass.slip import Clearance
 
     sides = text.split(",")
@@ -132,8 +132,8 @@ def _per_block(name: str, given: list[str], blocks: int, parse: Any) -> list[Any
     InvalidOption
         A block is not there or named twice.
     """
-    from seismass._values import refusal
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
+    from seismass.base.values import refusal
 
     if not given:
         return None
@@ -157,7 +157,7 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, str, list[Any]]:
     InvalidOption
         A factor stands beside a target, or a period without one.
     """
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
     from seismass.scaling import scale_asce7_10
 
     suite = read_motions(args)

@@ -12,7 +12,6 @@ from seismass.commands.options import (
     add_reading_options,
     add_spring_options,
     positive_option,
-    read_records,
     warn_left_out,
     warn_remarks,
 )
@@ -79,7 +78,8 @@ def run(args: argparse.Namespace) -> int:
     """Print the table; return the exit code."""
     import numpy as np
 
-    from seismass.errors import InvalidOption
+    from seismass.base.errors import InvalidOption
+    from seismass.records.named import records_named
 
     inelastic = args.strength is not None or args.ductility is not None
     unused = ("kind",) if inelastic else tuple(SPRING_OPTIONS)
@@ -88,7 +88,7 @@ def run(args: argparse.Namespace) -> int:
             when = "with --strength or --ductility" if inelastic else "without --strength or --ductility"
             option = name.replace("_", "-")
             raise InvalidOption(f"--{option} of spectrum must be left out {when}; got {getattr(args, name)}")
-    suite = read_records(args.records, dt=args.dt, unit=args.unit)
+    suite = records_named(args.records, dt=args.dt, unit=args.unit)
     warn_left_out(suite)
     warn_remarks(suite)
     periods = np.geomspace(0.01, 10.0, 100) if args.periods is None else np.array(args.periods)
@@ -101,8 +101,8 @@ def _elastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataFra
     import numpy as np
     import polars as pl
 
+    from seismass.base.units import STANDARD_GRAVITY
     from seismass.spectra import response_spectrum
-    from seismass.units import STANDARD_GRAVITY
 
     kind = args.kind or "psa"
     spectra = response_spectrum(suite, periods, args.damping, _KINDS[kind])

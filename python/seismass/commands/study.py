@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass import __version__
+from seismass._kernel import VERSION
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_motion_options,
@@ -102,13 +102,13 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
-    from seismass.kept import KeptResults, kept_folder
-    from seismass.report.findings import findings_text
-    from seismass.report.folder import PAGE, check_out, folder_for
-    from seismass.report.sensitivity import sensitivity_text
-    from seismass.report.study_tables import study_tables
-    from seismass.report.write import write_study
-    from seismass.simulate import instruction_set
+    from seismass.base.kept import KeptResults, kept_folder
+    from seismass.media.folder import PAGE, check_out, folder_for
+    from seismass.runs.simulate import instruction_set
+    from seismass.show.study.findings import findings_text
+    from seismass.show.study.sensitivity import sensitivity_text
+    from seismass.show.study.tables import study_tables
+    from seismass.show.study.write import write_study
     from seismass.study import StudyParameters, run_study, study_sensitivity
     from seismass.study.example import study_example
     from seismass.study.run import inputs_digest
@@ -134,7 +134,7 @@ def run(args: argparse.Namespace) -> int:
     suite = read_motions(args)
     # The scenes of section 4 keep one core busy, and what is solved meanwhile the others. The stiffest friction springs
     # are left to `seismass validate`: they take four times as long as all others.
-    inputs = f"{inputs_digest(suite, target, parameters)} {__version__} {instruction_set()}"
+    inputs = f"{inputs_digest(suite, target, parameters)} {VERSION} {instruction_set()}"
     with folder_for(args.out), kept_folder(args.out, "study", inputs) as folder, ThreadPoolExecutor(1) as pool:
         kept = KeptResults(folder)
         scenes = pool.submit(paper_scenes, suite, springs=SPRINGS[:-1])
@@ -181,7 +181,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _print_inputs(suite: Suite, metadata: dict[str, Any]) -> None:
     """Print the motions and what the numbers depend on."""
-    from seismass.report.study_words import DAMPING_TEXTS
+    from seismass.show.study.words import DAMPING_TEXTS
     from seismass.study import motions_text
 
     counts, chosen = metadata["counts"], metadata["parameters"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import time
 from pathlib import Path
 from typing import Any
@@ -55,8 +54,7 @@ def add_parser(subparsers: Any, help: str) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the validations, write their files and print what they say; return the exit code."""
     from seismass.commands.study import progress_bar
-    from seismass.report.folder import check_out
-    from seismass.report.validation_write import validation_document, validation_text, write_validation
+    from seismass.media.folder import check_out
     from seismass.study import study_sensitivity
     from seismass.validation import validate
 
@@ -72,11 +70,11 @@ def run(args: argparse.Namespace) -> int:
         else None
     )
     result = validate(suite, target, sensitivity=sensitivity, threads=args.jobs, progress=progress_bar())
-    files = [] if args.out is None else write_validation(result, args.out, figures=not args.no_figures)
+    files = [] if args.out is None else result.write(args.out, figures=not args.no_figures)
     if args.json:
-        print(json.dumps(validation_document(result), indent=2, allow_nan=False))
+        print(result.to_json())
     else:
-        print(validation_text(result))
+        print(result.text)
         if files:
             print(f"\n{len(files)} files in {args.out}, {time.perf_counter() - started:.1f} s")
     return 0

@@ -1,6 +1,6 @@
 """Design of shear buildings: modes, response spectrum analysis, lateral forces, weights, limits of codes, pushover.
 
-Numbers of codes have their clause and say how they were checked, in the words of `seismass.code_table`.
+Numbers of codes have their clause and say how they were checked, in the words of `seismass.codes.code_table`.
 """
 
 from seismass.design.lateral_force import (
@@ -85,3 +85,8 @@ __all__ = [
     "upper_limit_coefficient",
     "vibration_modes",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

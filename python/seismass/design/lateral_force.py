@@ -9,11 +9,11 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_positive, frozen, known_id
-from seismass.codes import CODE_NAMES, FROM_MEMORY, VERIFIED
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_positive, frozen, known_id
 from seismass.design.modes import positive, positive_of_length
 from seismass.design.spectrum_analysis import moments
-from seismass.errors import InvalidOption
+from seismass.model.codes import CODE_NAMES, FROM_MEMORY, VERIFIED
 
 Exponent: TypeAlias = Literal["period", "one", "two"]
 Top: TypeAlias = Literal["none", "period", "eight-percent"]

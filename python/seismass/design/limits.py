@@ -9,11 +9,11 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_positive, brief, frozen, known_id, refusal
-from seismass.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_array, as_positive, brief, frozen, known_id, refusal
 from seismass.design.modes import positive, positive_of_length
 from seismass.design.systems import known_category
-from seismass.errors import InvalidOption
+from seismass.model.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
 
 THETA_THRESHOLD: Final = 0.10
 """Stability coefficient up to which P-Delta need not be considered: ASCE/SEI 7-10, 12.8.7 (verified)."""

@@ -9,8 +9,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_number, brief, frozen, refusal
-from seismass.errors import InvalidOption, InvalidScene
+from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.values import FloatArray, as_array, as_number, brief, frozen, refusal
 
 Combination: TypeAlias = Literal["srss", "cqc"]
 """How modal peaks are combined: root of the sum of squares, or complete quadratic combination."""

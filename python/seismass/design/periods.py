@@ -8,9 +8,9 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 import polars as pl
 
-from seismass._values import as_count, as_number, brief, known_id, refusal
-from seismass.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_count, as_number, brief, known_id, refusal
+from seismass.model.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
 
 Variable: TypeAlias = Literal["height", "storeys"]
 """What a formula takes: the height above the base (m), or the number of storeys."""

@@ -9,12 +9,13 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, brief, frozen, refusal
-from seismass.building import Building
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_array, brief, frozen, refusal
+from seismass.base.views import view
 from seismass.design.lateral_force import exponent_k
 from seismass.design.modes import positive_of_length, vibration_modes
 from seismass.design.storey_springs import StoreySpring, storey_spring
-from seismass.errors import InvalidOption
+from seismass.model.building import Building
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -127,11 +128,10 @@ class Pushover:
             columns |= {f"drift_ratio_{i}": ratio for i, ratio in enumerate((self.drift / self.heights).T, start=1)}
         return pl.DataFrame(columns, schema_overrides={"point": pl.UInt32})
 
-    def plot(self, *, ax: Axes | None = None) -> Figure:
+    @view
+    def plot(self, *, labels: bool = True, ax: Axes | None = None) -> Figure:
         """Return a figure of base shear over roof displacement; see `seismass.plots.pushover`."""
-        from seismass.plots import pushover as draw  # matplotlib is slow to import
-
-        return draw(self, ax=ax)
+        raise NotImplementedError
 
 
 def pushover(

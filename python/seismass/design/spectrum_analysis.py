@@ -10,7 +10,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_positive, brief, frozen, refusal
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_array, as_positive, brief, frozen, refusal
 from seismass.design.modes import (
     Combination,
     Modes,
@@ -19,7 +20,6 @@ from seismass.design.modes import (
     positive_of_length,
     vibration_modes,
 )
-from seismass.errors import InvalidOption
 
 MODAL_BASE_SHEAR_SHARE: Final = 0.85
 """Share of the base shear of lateral forces that a modal one must reach: ASCE/SEI 7-10, 12.9.4.1 (verified)."""

@@ -9,8 +9,8 @@ from typing import Protocol
 
 import numpy as np
 
-from seismass._values import FloatArray
-from seismass.building import Building
+from seismass.base.values import FloatArray
+from seismass.model.building import Building
 
 _SNAP = 1e-12
 """Rounding of a step, over the drift, up to which it reaches the end of a segment."""

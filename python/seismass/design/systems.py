@@ -7,9 +7,9 @@ from typing import Final
 
 import polars as pl
 
-from seismass._values import known_id, refusal
-from seismass.codes import VERIFIED
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import known_id, refusal
+from seismass.model.codes import VERIFIED
 
 
 @dataclass(frozen=True)

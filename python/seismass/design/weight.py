@@ -10,10 +10,10 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_number, brief, frozen, known_id, refusal
-from seismass.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, code_fraction
-from seismass.errors import InvalidOption
-from seismass.units import STANDARD_GRAVITY
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_array, as_number, brief, frozen, known_id, refusal
+from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, code_fraction
 
 FloorUse: TypeAlias = Literal["storage", "ordinary", "garage"]
 """Use of a floor: storage and warehouses, offices and dwellings, or garages and open parking structures."""
@@ -110,7 +110,7 @@ def effective_seismic_weight(
     dead, live : array_like, shape (floors,)
         Dead load and design live load of each floor (N), floor 1 first. Dead load is without what follows.
     code_id : str
-        One of `seismass.codes.CODE_IDS`, in any case.
+        One of `seismass.model.codes.CODE_IDS`, in any case.
     use : {"storage", "ordinary", "garage"} or list of them, optional
         Use of all floors, or of each. By default "storage"; for codes that decide by the live load per area (BNBC 2017,
         IS 1893), that decides where areas are given.

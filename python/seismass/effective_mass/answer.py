@@ -12,17 +12,17 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from seismass._values import as_count, as_number, brief, refusal
-from seismass.block import Block
-from seismass.building import Building
+from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.values import as_count, as_number, brief, refusal
 from seismass.effective_mass.curve import Statistic, check_fractions, check_statistic
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
 from seismass.effective_mass.result import EffectiveMass
 from seismass.effective_mass.runs import Peaks, Progress, Stages, named_motions, solve
 from seismass.effective_mass.search import Options, Search
-from seismass.errors import InvalidOption, InvalidScene
-from seismass.motion import MotionLike
-from seismass.scene import Scene
+from seismass.model.block import Block
+from seismass.model.building import Building
+from seismass.model.motion import MotionLike
+from seismass.model.scene import Scene
 
 
 def effective_mass(

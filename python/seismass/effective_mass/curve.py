@@ -12,8 +12,8 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._values import FloatArray, as_array, brief, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_array, brief, refusal
 
 Statistic: TypeAlias = Literal["mean", "median"]
 """What is taken of the largest drifts over the records."""

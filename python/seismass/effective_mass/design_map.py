@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_count, as_number, brief, refusal
-from seismass.block import blocks_on_floors
-from seismass.building import Building
-from seismass.damping import DEFAULT_DAMPING
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.views import view
 from seismass.design import Combination, response_spectrum_analysis
 from seismass.effective_mass.curve import (
     DEFAULT_FRACTIONS,
@@ -28,14 +28,18 @@ from seismass.effective_mass.curve import (
 )
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, full_weight
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
-from seismass.errors import InvalidMotion, InvalidOption
-from seismass.plausibility import motion_remarks, scaling_remarks, target_remarks
+from seismass.media.result import Result
+from seismass.model.block import blocks_on_floors
+from seismass.model.building import Building
+from seismass.model.damping import DEFAULT_DAMPING
+from seismass.model.plausibility import motion_remarks
+from seismass.model.scene import Scene
+from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 from seismass.records import Suite
+from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.scene import Scene
-from seismass.simulate import instruction_set
 from seismass.spectra import TargetSpectrum, mean_spectrum
-from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
+from seismass.spectra.remarks import target_remarks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -182,7 +186,7 @@ class EffectiveMassParameters:
 
 
 @dataclass(frozen=True, eq=False)
-class EffectiveMassMap:
+class EffectiveMassMap(Result):
     """The effective fraction at every point of a grid.
 
     Attributes
@@ -205,6 +209,8 @@ class EffectiveMassMap:
         Versions, parameters, target, motions.
     """
 
+    document: ClassVar[str] = "map"
+
     table: pl.DataFrame
     curve_of: NDArray[np.int64]
     curves: FloatArray
@@ -222,11 +228,45 @@ class EffectiveMassMap:
         drift: FloatArray = (1.0 - weight) * rows[case, place] + weight * rows[case, place + 1]
         return drift
 
-    def plot(self) -> Figure:
-        """Return the chart: the fraction of each case against eta, with its scatter, the two rules and codes."""
-        from seismass.report.map_figures import collapse_figure
+    @property
+    @view
+    def text(self) -> str:
+        """Cases and runs, how simple rules and codes do, and the scatter of the fraction by eta."""
+        raise NotImplementedError
 
-        return collapse_figure(self)
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The tables by name: map, rules, by_eta, scaling."""
+        return {"map": self.table, "rules": self.rules(), "by_eta": self.by_eta(), "scaling": self.scaling.table()}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the metadata with the rules and the scatter by eta as plain values."""
+        return {**self.metadata, "rules": self.rules().to_dicts(), "by_eta": self.by_eta().to_dicts()}
+
+    def _table_metadata(self) -> dict[str, str]:
+        return {f"seismass.{key}": json.dumps(value) for key, value in self.metadata.items()}
+
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """collapse: the fraction against eta; rules: how rules do; intensity, where there are several intensities."""
+        several = self.table["intensity"].n_unique() > 1
+        return ("collapse", "rules", "intensity") if several else ("collapse", "rules")
+
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return a figure of `figure_names`, by default the chart: the fraction of each case against eta.
+
+        Parameters
+        ----------
+        name : str, optional
+            "collapse": every case with its scatter, the two rules and codes; "rules"; "intensity".
+
+        Raises
+        ------
+        InvalidOption
+            There is no such figure.
+        """
+        raise NotImplementedError
 
     def rules(self, rules: Mapping[str, Callable[[FloatArray], FloatArray]] | None = None) -> pl.DataFrame:
         """Return how the models of simple rules compare with the real drift, over all cases in which goods slide.
@@ -376,7 +416,7 @@ def effective_mass_map(
             "runs": total,
             "remarks": [
                 *target_remarks(target),
-                *scaling_remarks(scaling),
+                *scaling.doubts,
                 *motion_remarks([record.motion for record in scaled]),
             ],
         },

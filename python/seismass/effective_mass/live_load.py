@@ -6,29 +6,27 @@ are solved once; the real building is solved for every sample of occupancy and f
 
 from __future__ import annotations
 
-import json
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from numbers import Real
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_count, as_number, as_path, brief, refusal
-from seismass.distributions import Distribution
+from seismass.base.distributions import Distribution
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.views import view
 from seismass.effective_mass.curve import check_fractions, interpolated, over_records, resampled
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
-from seismass.effective_mass.result import finite_values
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
-from seismass.errors import InvalidOption
-from seismass.motion import MotionLike
-from seismass.scene import Scene
-from seismass.simulate import instruction_set
+from seismass.media.result import Result, finite_values
+from seismass.model.motion import MotionLike
+from seismass.model.scene import Scene
+from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,7 +42,7 @@ RESAMPLES: Final = 2000
 
 
 @dataclass(frozen=True, eq=False)
-class LiveLoadUncertainty:
+class LiveLoadUncertainty(Result):
     """The share phi of the design live load to attach as mass, with what is known of occupancy and friction.
 
     Attributes
@@ -72,6 +70,8 @@ class LiveLoadUncertainty:
     metadata : dict
         Versions, seed, conventions, counts.
     """
+
+    document: ClassVar[str] = "live_load"
 
     share: float
     interval: tuple[float, float] | None
@@ -107,39 +107,34 @@ class LiveLoadUncertainty:
             )
         return "\n".join([*lines, *(f"remark                          {remark}" for remark in self.remarks)])
 
+    @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Return the tables by name."""
+        """The tables by name."""
         return {"quantiles": self.quantiles, "tornado": self.tornado, "samples": self.samples, "curve": self.curve}
 
-    def to_json(self) -> str:
-        """Return everything but the samples and the curve as JSON; null for what is no finite number."""
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything but the samples and the curve as plain values; null for what is no finite number."""
         names = ("share", "interval", "share_84", "unit", "remarks", "metadata")
         document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
         document |= {"quantiles": self.quantiles.to_dicts(), "tornado": self.tornado.to_dicts()}
-        return json.dumps(finite_values(document), indent=2, allow_nan=False)
+        finite: dict[str, Any] = finite_values(document)
+        return finite
 
-    def plot(self) -> Figure:
-        """Return the figure of the distribution of the share, with the tornado below it."""
-        from seismass.report.uncertainty_figure import uncertainty_figure
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """live_load: the distribution of the share, with the tornado below it."""
+        return ("live_load",)
 
-        return uncertainty_figure(self)
-
-    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write the tables (Parquet and CSV), live_load.json and the figure (PNG and SVG) to a folder.
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return the figure of the distribution of the share, with the tornado below it.
 
         Raises
         ------
-        OSError
-            A file cannot be written.
+        InvalidOption
+            `name` is given and is not "live_load".
         """
-        from seismass.report.folder import write_folder
-
-        return write_folder(
-            as_path(folder, "live load uncertainty", InvalidOption),
-            tables=self.tables(),
-            documents={"live_load.json": self.to_json() + "\n"},
-            figures={"live_load": self.plot()},
-        )
+        raise NotImplementedError
 
 
 def live_load_uncertainty(
@@ -190,9 +185,8 @@ def live_load_uncertainty(
     >>> building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
     >>> scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.4))
     >>> suite = [record.scaled(2.0) for record in sm.builtin_suite()]
-    >>> found = sm.live_load_uncertainty(
-    ...     scene, suite, mu=sm.lognormal(0.4, 0.25), occupancy=sm.beta(0.7, 0.15), samples=20
-    ... )
+    >>> mu, occupancy = sm.distributions.lognormal(0.4, 0.25), sm.distributions.beta(0.7, 0.15)
+    >>> found = sm.live_load_uncertainty(scene, suite, mu=mu, occupancy=occupancy, samples=20)
     >>> 0.0 <= found.share <= found.share_84 <= 1.0
     True
     """

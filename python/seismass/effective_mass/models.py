@@ -6,11 +6,11 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from seismass._values import FloatArray, as_number, brief, refusal
-from seismass.building import Building
-from seismass.errors import InvalidOption, InvalidScene
-from seismass.scene import Scene
-from seismass.units import STANDARD_GRAVITY
+from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_number, brief, refusal
+from seismass.model.building import Building
+from seismass.model.scene import Scene
 
 ModelDamping: TypeAlias = Literal["same", "ratio"]
 """Damping of a model with attached mass: the matrix C of the real building, or its ratio in the model's own modes."""

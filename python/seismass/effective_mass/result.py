@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import math
-import os
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
-from seismass._values import as_path
+from seismass.base.views import view
 from seismass.effective_mass.curve import Kind
-from seismass.errors import InvalidOption
+from seismass.media.result import Result, finite_values
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -35,7 +31,7 @@ KIND_TEXTS: Final[dict[Kind, str]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class EffectiveMass:
+class EffectiveMass(Result):
     """The effective fraction of the live load of a building under a suite of motions.
 
     Attributes
@@ -91,6 +87,8 @@ class EffectiveMass:
         Schema and package version, digest of the inputs, seed, conventions, counts.
     """
 
+    document: ClassVar[str] = "effective_mass"
+
     value: float
     kind: Kind
     roots: tuple[float, ...]
@@ -132,10 +130,9 @@ class EffectiveMass:
         ]
         return "\n".join([*lines, *(f"remark              {remark}" for remark in self.remarks)])
 
+    @view
     def _repr_html_(self) -> str:
-        from seismass.sketches.results import effective_mass_html
-
-        return effective_mass_html(self)
+        raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the curve as plain values; null for what is no finite number."""
@@ -146,54 +143,30 @@ class EffectiveMass:
         finite: dict[str, Any] = finite_values(document)
         return finite
 
-    def to_json(self) -> str:
-        """Return `to_dict` as JSON."""
-        return json.dumps(self.to_dict(), indent=2, allow_nan=False)
-
+    @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Return the tables by name: curve, storeys, records."""
+        """The tables by name: curve, storeys, records."""
         return {"curve": self.curve, "storeys": self.storeys, "records": self.records}
 
-    def plot(self, codes: Mapping[str, float] | None = None) -> Figure:
-        """Return the figure of real over model drift against the share attached, with its bootstrap band.
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """curve: real over model drift against the share attached; storeys: by storey, at 0, at the value, at 1."""
+        return ("curve", "storeys")
+
+    @view
+    def plot(self, name: str | None = None, *, codes: Mapping[str, float] | None = None) -> Figure:
+        """Return a figure of `figure_names`, by default real over model drift against the share, with its band.
 
         Parameters
         ----------
+        name : str, optional
+            "curve" or "storeys".
         codes : mapping of str to float, optional
-            Shares of codes to mark, by name; by default those of four codes for storage.
-        """
-        from seismass.report.effective_figures import curve_figure
-
-        return curve_figure(self, codes)
-
-    def plot_storeys(self) -> Figure:
-        """Return the figure of real over model drift by storey: at 0, at the effective fraction, at 1, the envelope."""
-        from seismass.report.effective_figures import storeys_figure
-
-        return storeys_figure(self)
-
-    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write the tables (Parquet and CSV), effective_mass.json and both figures (PNG and SVG) to a folder.
+            Shares of codes to mark in the curve, by name; by default those of four codes for storage.
 
         Raises
         ------
-        OSError
-            A file cannot be written.
+        InvalidOption
+            There is no such figure.
         """
-        from seismass.report.folder import write_folder
-
-        return write_folder(
-            as_path(folder, "effective mass", InvalidOption),
-            tables=self.tables(),
-            documents={"effective_mass.json": self.to_json() + "\n"},
-            figures={"curve": self.plot(), "storeys": self.plot_storeys()},
-        )
-
-
-def finite_values(value: Any) -> Any:
-    """Return nested values with null in place of infinities and NaN, which JSON has not."""
-    if isinstance(value, dict):
-        return {key: finite_values(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [finite_values(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+        raise NotImplementedError

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass._values import FloatArray, brief, refusal
-from seismass.errors import InvalidMotion, SimulationError
-from seismass.motion import HasMotion, Motion, as_motion
-from seismass.scene import Scene
+from seismass.base.errors import InvalidMotion, SimulationError
+from seismass.base.values import FloatArray, brief, refusal
+from seismass.model.motion import HasMotion, Motion, as_motion
+from seismass.model.scene import Scene
 
 Progress: TypeAlias = Callable[[int, int], object]
 """Called with (runs done, runs in all)."""

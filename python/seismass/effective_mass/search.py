@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seismass import _kernel
-from seismass._values import FloatArray
+from seismass.base.values import FloatArray
 from seismass.effective_mass.curve import (
     Kind,
     Statistic,
@@ -25,9 +25,9 @@ from seismass.effective_mass.models import ModelDamping, attached, building_of, 
 from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
 from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
-from seismass.scene import Scene
-from seismass.simulate import instruction_set
-from seismass.springs import SHAPE_FIELDS
+from seismass.model.scene import Scene
+from seismass.model.springs import SHAPE_FIELDS
+from seismass.runs.simulate import instruction_set
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,10 +11,10 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray
+from seismass.base.values import FloatArray
 from seismass.effective_mass.curve import Kind, Statistic, interpolated_roots, is_below, kind_of, over_records
 from seismass.effective_mass.runs import NamedMotions, Peaks
-from seismass.scene import Scene
+from seismass.model.scene import Scene
 
 STOREY_REMARK: Final = 1.05
 """A storey that drifts more than so many times the model is named in the remarks."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from seismass.errors import MissingPackage
+from seismass.base.errors import MissingPackage
 
 NAME: Final = "seismass_web.wasm"
 """Name of the compiled kernel, as `tools/make-web-kernel` writes it."""

@@ -14,15 +14,15 @@ from jinja2 import ChoiceLoader, Environment, PackageLoader
 from markupsafe import Markup
 
 from seismass import _kernel
-from seismass.animation.html import SPEEDS, element_html
 from seismass.animation.shown import FACTORS
-from seismass.codes import code_fraction
 from seismass.effective_mass.curve import bootstrap_counts
 from seismass.explore.chart import BINS, CASES
 from seismass.explore.compiled import kernel_file
+from seismass.media.page import page_html, templates
+from seismass.model.codes import code_fraction
 from seismass.records.builtin import builtin_suite
-from seismass.report.page import page_html, templates
 from seismass.scaling import scale_asce7_10
+from seismass.show.animation.html import SPEEDS, element_html
 from seismass.spectra import TargetSpectrum
 
 RESAMPLES: Final = 2000
@@ -113,7 +113,7 @@ def explorer_html(kernel: Path | None = None) -> str:
 def _templates() -> Environment:
     """The templates of the live page, with those of the other pages behind them."""
     own = templates().overlay()
-    own.loader = ChoiceLoader([PackageLoader("seismass.explore"), PackageLoader("seismass.report")])
+    own.loader = ChoiceLoader([PackageLoader("seismass.explore"), PackageLoader("seismass.media")])
     return own
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from seismass._values import as_path, brief, refusal
-from seismass.errors import InvalidOption
-from seismass.files import written_whole
+from seismass.base.errors import InvalidOption
+from seismass.base.files import written_whole
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import as_path, brief, refusal
 from seismass.records.record import Record
-from seismass.units import STANDARD_GRAVITY
 
 SUFFIXES = (".at2", ".csv")
 

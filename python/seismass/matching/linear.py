@@ -15,7 +15,7 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from seismass._values import FloatArray
+from seismass.base.values import FloatArray
 
 Halves: TypeAlias = tuple[FloatArray, FloatArray]
 

@@ -9,9 +9,9 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seismass._elementary import exp, geomspace, log, rounded
-from seismass._values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, refusal
-from seismass.errors import InvalidMotion, InvalidOption
+from seismass.base.elementary import exp, geomspace, log, rounded
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, refusal
 from seismass.matching.remarks import matching_remarks
 from seismass.matching.result import MatchedRecord, MatchedSuite
 from seismass.matching.solver import Ratios, adjust
@@ -122,7 +122,7 @@ def match_spectrum(
     Examples
     --------
     >>> import seismass as sm
-    >>> matched = sm.match_spectrum(sm.builtin_suite()[0], sm.TargetSpectrum.asce7(), tolerance=0.05)
+    >>> matched = sm.matching.match_spectrum(sm.builtin_suite()[0], sm.TargetSpectrum.asce7(), tolerance=0.05)
     >>> matched.converged, bool(abs(matched.ratio_after - 1.0).max() <= 0.05)
     (True, True)
     """

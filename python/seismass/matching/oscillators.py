@@ -12,7 +12,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._elementary import (
+from seismass.base.elementary import (
     complex_exp,
     complex_series,
     complex_sinh,
@@ -23,7 +23,7 @@ from seismass._elementary import (
     series_real,
     times,
 )
-from seismass._values import FloatArray
+from seismass.base.values import FloatArray
 
 UNDERSHOOT: Final = 0.6
 """Share of an extremum that the samples beside it reach at least, with four samples or more in a period."""

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from seismass._values import counted
-from seismass.plausibility import FACTOR_RANGE
+from seismass.base.values import counted
+from seismass.scaling.result import FACTOR_RANGE
 
 if TYPE_CHECKING:
     from seismass.matching.result import MatchedRecord

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass._elementary import power
-from seismass._values import FloatArray
+from seismass.base.elementary import power
+from seismass.base.values import FloatArray
 from seismass.matching.linear import coarse, exact_product, halves, product, solved
 from seismass.matching.oscillators import Extrema, Oscillators
 from seismass.matching.wavelets import Placed, half_width, place

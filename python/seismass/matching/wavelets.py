@@ -11,8 +11,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._elementary import complex_series, joined, power, series_real
-from seismass._values import FloatArray
+from seismass.base.elementary import complex_series, joined, power, series_real
+from seismass.base.values import FloatArray
 
 WINDOW_POWER: Final = 6
 """The window is (1 - x^2) to this power: close to a Gaussian exp(-6 x^2), with five derivatives that close."""

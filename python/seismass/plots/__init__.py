@@ -3,6 +3,7 @@
 Each takes `ax`, axes to draw into. `figure_svg` and `inline_svg` give figures as text.
 """
 
+from seismass.media.svg import DARK_CSS, figure_svg, inline_svg
 from seismass.plots.batches import fragility, fragility_fit, ida, scatter
 from seismass.plots.drift_profiles import drift_profiles
 from seismass.plots.growth import energy, slip_path
@@ -10,7 +11,6 @@ from seismass.plots.histories import acceleration, drift, slip
 from seismass.plots.hysteresis import loops
 from seismass.plots.profiles import floor_spectra, profile
 from seismass.plots.pushover import pushover
-from seismass.plots.svg import DARK_CSS, figure_svg, inline_svg
 from seismass.plots.timeline import events
 
 __all__ = [
@@ -33,3 +33,8 @@ __all__ = [
     "slip",
     "slip_path",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

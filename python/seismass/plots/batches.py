@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_number, refusal
-from seismass.errors import InvalidOption
-from seismass.intensity.fragility import fit_counts
-from seismass.plots.axes import grid_lines, single
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_number, refusal
+from seismass.fragility.fragility import fit_counts
+from seismass.media.axes import grid_lines, single
+from seismass.media.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, plain
 from seismass.plots.columns import checked_table, demand_of, in_unit, label_of, one_value
-from seismass.plots.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, plain
 from seismass.study.tables import quantile
 
 FRACTILES: Final[tuple[tuple[float, str, dict[str, Any]], ...]] = (
@@ -206,7 +206,7 @@ def fragility_fit(intensity: ArrayLike, exceeded: ArrayLike, number: ArrayLike) 
 
     Notes
     -----
-    It is `seismass.intensity.fit_counts` without its interval.
+    It is `seismass.fragility.fit_counts` without its interval.
     """
     fit = fit_counts(intensity, exceeded, number, resamples=0)
     return (fit.median, fit.dispersion) if fit.kind == "fitted" else None

@@ -8,10 +8,10 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass._values import FloatArray, brief, refusal
-from seismass.errors import InvalidOption
-from seismass.plots.style import ALPHA, MU, plain
-from seismass.units import STANDARD_GRAVITY
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, brief, refusal
+from seismass.media.style import ALPHA, MU, plain
 
 _LABELS: Final[dict[str, tuple[str, float]]] = {
     "peak_drift": ("peak drift (mm)", 1e3),

@@ -9,12 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass._values import FloatArray, refusal
-from seismass.errors import InvalidOption
-from seismass.plots.axes import grid_lines, single
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, refusal
+from seismass.media.axes import grid_lines, single
+from seismass.media.style import GREY, STYLE
 from seismass.plots.batches import FRACTILES
 from seismass.plots.columns import checked_table, in_unit, label_of
-from seismass.plots.style import GREY, STYLE
 from seismass.study.tables import quantile
 
 

@@ -11,17 +11,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from seismass._values import FloatArray, as_count
-from seismass.errors import InvalidOption
-from seismass.plots.axes import grid_lines, single
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_count
+from seismass.media.axes import grid_lines, single
+from seismass.media.style import BLUE, GREEN, GREY, INK, SERIES, STYLE, VERMILION
 from seismass.plots.histories import numbers
-from seismass.plots.style import BLUE, GREEN, GREY, INK, SERIES, STYLE, VERMILION
 from seismass.plots.timeline import floor_name
-from seismass.response import Response
-from seismass.simulate import simulate
-
-DEFAULT_POINTS: Final = 200
-"""Times at which a run is looked at."""
+from seismass.runs.response import Response
+from seismass.runs.response_views import DEFAULT_POINTS
+from seismass.runs.simulate import simulate
 
 _BANDS: Final = (
     ("viscous", BLUE, "///"),

@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass._values import FloatArray, as_count, brief, refusal
-from seismass.errors import InvalidOption
-from seismass.plots.axes import RING, Panels, grid_lines, panels, ring, zero_line
-from seismass.plots.style import BLUE, INK, SERIES, STYLE
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_count, brief, refusal
+from seismass.media.axes import RING, Panels, grid_lines, panels, ring, zero_line
+from seismass.media.style import BLUE, INK, SERIES, STYLE
 from seismass.plots.timeline import (
     chosen_kinds,
     event_times,
@@ -21,8 +22,7 @@ from seismass.plots.timeline import (
     mark_events,
     mark_handles,
 )
-from seismass.response import Response
-from seismass.units import STANDARD_GRAVITY
+from seismass.runs.response import Response
 
 
 def drift(

@@ -11,14 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass._values import FloatArray, refusal
-from seismass.building import Building
-from seismass.errors import InvalidOption
-from seismass.plots.axes import columns, grid_lines
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, refusal
+from seismass.media.axes import columns, grid_lines
+from seismass.media.style import BLUE, GREY, STYLE, VERMILION
+from seismass.model.building import Building
 from seismass.plots.histories import numbers
-from seismass.plots.style import BLUE, GREY, STYLE, VERMILION
 from seismass.plots.timeline import chosen_kinds, event_times, has_events, mark_events, mark_handles
-from seismass.response import Response
+from seismass.runs.response import Response
 
 BACKBONE_POINTS: Final = 121
 """Drifts to one side at which a backbone is computed, beside its corners."""

@@ -13,15 +13,15 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
-from seismass._values import as_number, brief, refusal
-from seismass.errors import InvalidOption
-from seismass.motion import Motion
-from seismass.plots.axes import columns, grid_lines, single
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import as_number, brief, refusal
+from seismass.media.axes import columns, grid_lines, single
+from seismass.media.style import BLUE, GREY, INK, PERIOD_TICKS, SERIES, STYLE, VERMILION
+from seismass.model.motion import Motion
 from seismass.plots.histories import numbers
-from seismass.plots.style import BLUE, GREY, INK, PERIOD_TICKS, SERIES, STYLE, VERMILION
-from seismass.response import Response
+from seismass.runs.response import Response
 from seismass.spectra import response_spectrum
-from seismass.units import STANDARD_GRAVITY
 
 SPECTRUM_PERIODS: Final = np.geomspace(0.03, 4.0, 160)
 """Periods of floor spectra (s)."""

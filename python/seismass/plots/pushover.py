@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass._values import FloatArray
+from seismass.base.values import FloatArray
 from seismass.design import Pushover
-from seismass.plots.axes import grid_lines, single
-from seismass.plots.style import BLUE, INK, STYLE, VERMILION
+from seismass.media.axes import grid_lines, single
+from seismass.media.style import BLUE, INK, STYLE, VERMILION
 
 _MARKS: Final[dict[str, dict[str, Any]]] = {
     "yield": {"marker": "o", "markersize": 5.5, "markerfacecolor": "white", "color": INK},

@@ -11,11 +11,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass._values import FloatArray, brief, refusal
-from seismass.errors import InvalidOption
-from seismass.plots.axes import grid_lines, single
-from seismass.plots.style import BLUE, GREEN, INK, PAPER, PURPLE, STYLE, VERMILION
-from seismass.response import EVENT_KINDS, Response
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, brief, refusal
+from seismass.media.axes import grid_lines, single
+from seismass.media.style import BLUE, GREEN, INK, PAPER, PURPLE, STYLE, VERMILION
+from seismass.runs.response import EVENT_KINDS, Response
 
 MARKS: Final[dict[str, dict[str, Any]]] = {
     "yield": {"marker": "^", "color": VERMILION, "markersize": 4.5},

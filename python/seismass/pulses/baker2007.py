@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from seismass._values import FloatArray, as_count, frozen
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_count, frozen
 from seismass.pulses.extraction import (
     CENTIMETRES,
     cumulative_share,

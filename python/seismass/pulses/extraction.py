@@ -12,10 +12,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from seismass._values import FloatArray, brief, refusal
-from seismass.errors import InvalidMotion
+from seismass.base.errors import InvalidMotion
+from seismass.base.values import FloatArray, brief, refusal
 from seismass.pulses.wavelet import PERIOD_OF_SCALE, coefficient, transform_near, wavelet_history
-from seismass.records.intensity import drift_remarks
+from seismass.records.measures import drift_remarks
 from seismass.records.pair import Pair
 from seismass.records.record import Record
 

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from seismass._values import FloatArray, frozen
+from seismass.base.values import FloatArray, frozen
 from seismass.pulses.extraction import (
     CENTIMETRES,
     NEIGHBOURHOOD,

@@ -12,8 +12,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._values import FloatArray, frozen
-from seismass.errors import MissingPackage
+from seismass.base.errors import MissingPackage
+from seismass.base.values import FloatArray, frozen
 
 WAVELET: Final = "db4"
 SUPPORT: Final = 7

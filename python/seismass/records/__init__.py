@@ -4,7 +4,7 @@ from seismass.records.builtin import builtin_record, builtin_suite
 from seismass.records.catalogue import catalogue
 from seismass.records.catalogue_report import CatalogueSearch, FoundFile
 from seismass.records.catalogue_search import find_catalogue
-from seismass.records.intensity import intensity_table
+from seismass.records.measures import intensity_table
 from seismass.records.pair import Pair, read_pair
 from seismass.records.pair_search import Pairs, find_pairs
 from seismass.records.read import read_record, read_records
@@ -37,3 +37,8 @@ __all__ = [
     "rotd",
     "synthetic_motion",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

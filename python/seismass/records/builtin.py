@@ -7,8 +7,8 @@ import io
 from pathlib import Path
 from typing import Final, Literal
 
-from seismass._values import brief, refusal
-from seismass.errors import InvalidOption, RecordFormatError
+from seismass.base.errors import InvalidOption, RecordFormatError
+from seismass.base.values import brief, refusal
 from seismass.records.read import read_record
 from seismass.records.record import Record
 from seismass.records.suite import Suite, read_suite

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import polars as pl
 
-from seismass._values import printable
+from seismass.base.values import printable
 from seismass.records.catalogue import RECORDINGS, SUBSTITUTES, TERMS, Component, Recording, catalogue, how_to_get
 
 Judged = Literal["header and content", "header", "content", "name"]

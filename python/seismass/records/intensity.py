@@ -7,40 +7,16 @@ forms within every step. The motion starts from rest at its first sample and end
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Final
+from typing import Final
 
 import numpy as np
-import polars as pl
 
-from seismass._values import FloatArray, as_number, brief, refusal
-from seismass.errors import InvalidMotion, InvalidOption
-from seismass.units import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    from seismass.records.record import Record
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_number, brief, refusal
 
 BRACKET_G: Final = 0.05
 """Threshold of the bracketed duration (g), Bolt (1973)."""
-
-END_VELOCITY: Final = 0.05
-"""Share of PGV above which the velocity at the end of a record is remarked."""
-END_DISPLACEMENT: Final = 0.25
-"""Share of PGD above which the displacement at the end of a record is remarked."""
-
-MEASURES: Final = (
-    "pga_g",
-    "pgv",
-    "pgd",
-    "arias",
-    "d5_75",
-    "d5_95",
-    "cav",
-    "bracketed",
-    "end_velocity",
-    "end_displacement",
-)
-"""Columns of measures: g, m/s, m, m/s, s, s, m/s, s, m/s and m."""
 
 
 def integrals(acceleration: FloatArray, dt: float) -> tuple[FloatArray, FloatArray]:
@@ -179,88 +155,3 @@ def bracketed_duration(acceleration: FloatArray, dt: float, threshold_g: float) 
 
     first, last = int(above[0]), int(above[-1])
     return (last - first) * dt + crossing(first, first - 1) + crossing(last, last + 1)
-
-
-def drift_remarks(record: Record) -> tuple[str, ...]:
-    """Return what the ends of velocity and displacement say about the baseline of a record; nothing for most.
-
-    A recording ends nearly at rest: a velocity at its end above `END_VELOCITY` of PGV, or a displacement above
-    `END_DISPLACEMENT` of PGD, is more often an error of the baseline, or a record cut short, than motion of the
-    ground. Permanent displacement near a fault is the exception.
-    """
-    velocity, displacement = float(record.velocity[-1]), float(record.displacement[-1])
-    remarks = []
-    if abs(velocity) > END_VELOCITY * record.pgv:
-        share = 100.0 * abs(velocity) / record.pgv
-        remarks.append(
-            f"ends with a velocity of {velocity:.3g} m/s, {share:.0f} % of PGV: baseline doubtful or cut off"
-        )
-    if abs(displacement) > END_DISPLACEMENT * record.pgd:
-        share = 100.0 * abs(displacement) / record.pgd
-        remarks.append(
-            f"ends with a displacement of {displacement:.3g} m, {share:.0f} % of PGD: a drift of the baseline or a "
-            "permanent displacement"
-        )
-    return tuple(remarks)
-
-
-def measures(record: Record) -> dict[str, float]:
-    """Return the measures of `MEASURES` of one record by name."""
-    return {
-        "pga_g": record.pga_g,
-        "pgv": record.pgv,
-        "pgd": record.pgd,
-        "arias": record.arias,
-        "d5_75": record.d5_75,
-        "d5_95": record.d5_95,
-        "cav": record.cav,
-        "bracketed": record.bracketed_duration(),
-        "end_velocity": float(record.velocity[-1]),
-        "end_displacement": float(record.displacement[-1]),
-    }
-
-
-def intensity_table(records: Iterable[Record]) -> pl.DataFrame:
-    """Return the measures of records, one row each.
-
-    Parameters
-    ----------
-    records : iterable of Record
-        A suite, a pair or a list.
-
-    Returns
-    -------
-    polars.DataFrame
-        `motion` (from 1), name, event, station, component, samples, dt and duration (s), then `pga_g` (g), `pgv` (m/s),
-        `pgd` (m), `arias` (m/s), `d5_75` and `d5_95` (s), `cav` (m/s), `bracketed` (s, at 0.05 g), `end_velocity` (m/s)
-        and `end_displacement` (m), and `remarks` on a baseline that drifts.
-
-    Raises
-    ------
-    InvalidMotion
-        Something else than records.
-
-    Examples
-    --------
-    >>> import seismass as sm
-    >>> table = sm.intensity_table(sm.builtin_suite())
-    >>> table.columns[7:12]
-    ['duration', 'pga_g', 'pgv', 'pgd', 'arias']
-    """
-    from seismass.records.record import Record  # which imports this module
-
-    try:
-        given: list[Any] = [records] if isinstance(records, Record) else list(records)
-    except TypeError:
-        raise refusal(InvalidMotion, "records", "intensity table", "Records", brief(records)) from None
-    rows = []
-    for number, record in enumerate(given, start=1):
-        if not isinstance(record, Record):
-            raise refusal(InvalidMotion, f"record {number}", "intensity table", "a Record", brief(record))
-        labels = {name: getattr(record, name) for name in ("name", "event", "station", "component")}
-        size = {"samples": record.samples, "dt": record.dt, "duration": record.duration}
-        rows.append({"motion": number} | labels | size | measures(record) | {"remarks": list(drift_remarks(record))})
-    schema: dict[str, Any] = {"motion": pl.UInt32} | dict.fromkeys(("name", "event", "station", "component"), pl.String)
-    schema |= {"samples": pl.UInt32, "dt": pl.Float64, "duration": pl.Float64}
-    schema |= dict.fromkeys(MEASURES, pl.Float64) | {"remarks": pl.List(pl.String)}
-    return pl.DataFrame(rows, schema=schema)

@@ -11,8 +11,8 @@ from typing import Any, Final, Literal
 
 import numpy as np
 
-from seismass._values import FloatArray, Value, as_number, brief, refusal
-from seismass.errors import InvalidMotion, InvalidOption
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import FloatArray, Value, as_number, brief, refusal
 from seismass.records.formats.directions import azimuth_of, is_vertical
 from seismass.records.read import read_record
 from seismass.records.record import Record

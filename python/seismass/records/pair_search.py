@@ -11,8 +11,8 @@ from typing import Any, Final, Literal
 
 import polars as pl
 
-from seismass._values import as_path, printable
-from seismass.errors import InvalidMotion, RecordFormatError
+from seismass.base.errors import InvalidMotion, RecordFormatError
+from seismass.base.values import as_path, printable
 from seismass.records.formats.directions import azimuth_of
 from seismass.records.pair import Pair
 from seismass.records.record import Record

@@ -8,14 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, Protocol, Self, TypeVar
 
 import numpy as np
 
-from seismass._values import FloatArray, as_count, as_number, brief, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
 from seismass.records.intensity import integrals
-from seismass.records.record import Record
 
 HIGHEST_ORDER: Final = 10
 """Of baselines and filters; above it neither is stable or meant."""
@@ -25,7 +24,53 @@ LARGEST_TERM: Final = 10_000
 """Largest of the two whole numbers whose ratio is that of two steps."""
 
 
-def baseline_corrected(record: Record, order: int = 1, fit: Literal["velocity", "acceleration"] = "velocity") -> Record:
+class Processed(Protocol):
+    """What is read of a record here, and how another is made of it."""
+
+    @property
+    def acceleration(self) -> FloatArray:
+        """Samples (m/s2)."""
+
+    @property
+    def vertical(self) -> FloatArray | None:
+        """Samples of the vertical component, if there is one."""
+
+    @property
+    def dt(self) -> float:
+        """Time step (s)."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def history(self) -> tuple[str, ...]:
+        """What was done to it."""
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What is to be known of it."""
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+
+    @property
+    def pga(self) -> float:
+        """Peak acceleration (m/s2)."""
+
+    @property
+    def pga_g(self) -> float:
+        """Peak acceleration (g)."""
+
+    def replace(self, **changes: Any) -> Self:
+        """Return another one, with these arguments changed."""
+
+
+R = TypeVar("R", bound=Processed)
+
+
+def baseline_corrected(record: R, order: int = 1, fit: Literal["velocity", "acceleration"] = "velocity") -> R:
     """Return a record less the polynomial of time that fits it best.
 
     Parameters
@@ -84,14 +129,14 @@ def baseline_corrected(record: Record, order: int = 1, fit: Literal["velocity", 
 
 
 def band_passed(
-    record: Record,
+    record: R,
     low_hz: float | None,
     high_hz: float | None,
     order: int = 4,
     *,
     taper: float = 0.01,
     keep_pads: bool = False,
-) -> Record:
+) -> R:
     """Return a record within a band of frequencies, by a Butterworth filter without phase shift.
 
     The ends are tapered by half cosines, zeros are added before and after, and the filter is run forwards and backwards
@@ -164,7 +209,7 @@ def band_passed(
     return changed
 
 
-def resampled(record: Record, dt: float) -> Record:
+def resampled(record: R, dt: float) -> R:
     """Return a record at another time step.
 
     Parameters
@@ -218,7 +263,7 @@ def resampled(record: Record, dt: float) -> Record:
     return changed.replace(remarks=(*changed.remarks, remark))
 
 
-def _both(record: Record, change: Callable[[FloatArray], FloatArray], said: str, **others: Any) -> Record:
+def _both(record: R, change: Callable[[FloatArray], FloatArray], said: str, **others: Any) -> R:
     """The record with both components changed, and what was done."""
     vertical = None if record.vertical is None else change(record.vertical)
     return record.replace(
@@ -226,7 +271,7 @@ def _both(record: Record, change: Callable[[FloatArray], FloatArray], said: str,
     )
 
 
-def _corners(record: Record, low_hz: float | None, high_hz: float | None) -> tuple[float | None, float | None]:
+def _corners(record: Processed, low_hz: float | None, high_hz: float | None) -> tuple[float | None, float | None]:
     """Corner frequencies in order and within what the record holds."""
     owner = f"band-pass filter of {record.name or 'a record'}"
     low, high = (

@@ -10,12 +10,12 @@ from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
-from seismass._values import as_number, as_path, brief
-from seismass.errors import InvalidMotion, RecordFormatError
+from seismass.base.errors import InvalidMotion, RecordFormatError
+from seismass.base.units import ACCELERATION_UNITS, unit_by_name
+from seismass.base.values import as_number, as_path, brief
 from seismass.records.checks import suspicions
 from seismass.records.formats import BY_NAME, COLUMNS, Arguments, Channel, Format, NotRead, known_binary, recognise
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS, unit_by_name
 
 FormatName: TypeAlias = Literal["at2", "cosmos", "csmip", "esm", "knet", "smc", "columns"]
 

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seismass._values import Value, as_array, as_number, brief, frozen, refusal
-from seismass.errors import InvalidMotion
-from seismass.records import intensity
-from seismass.units import STANDARD_GRAVITY
+from seismass.base.errors import InvalidMotion
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import Value, as_array, as_number, brief, frozen, refusal
+from seismass.base.views import view
+from seismass.records import intensity, processing
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-    from seismass.motion import Motion
+    from seismass.model.motion import Motion
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -217,12 +218,23 @@ class Record(Value):
 
     def measures(self) -> dict[str, float]:
         """Return peaks, intensities, durations and ends by name; `intensity_table` says their units."""
-        return intensity.measures(self)
+        return {
+            "pga_g": self.pga_g,
+            "pgv": self.pgv,
+            "pgd": self.pgd,
+            "arias": self.arias,
+            "d5_75": self.d5_75,
+            "d5_95": self.d5_95,
+            "cav": self.cav,
+            "bracketed": self.bracketed_duration(),
+            "end_velocity": float(self.velocity[-1]),
+            "end_displacement": float(self.displacement[-1]),
+        }
 
     @property
     def motion(self) -> Motion:
         """The samples as the kernel takes them."""
-        from seismass.motion import Motion  # reading records needs no kernel
+        from seismass.model.motion import Motion  # reading records needs no kernel
 
         return Motion(self.acceleration, self.dt, self.vertical)
 
@@ -275,15 +287,11 @@ class Record(Value):
 
     def resampled(self, dt: float) -> Record:
         """Return the record at another time step; see `seismass.records.processing.resampled`."""
-        from seismass.records.processing import resampled
-
-        return resampled(self, dt)
+        return processing.resampled(self, dt)
 
     def baseline_corrected(self, order: int = 1, fit: Literal["velocity", "acceleration"] = "velocity") -> Record:
         """Return the record less a polynomial; see `seismass.records.processing.baseline_corrected`."""
-        from seismass.records.processing import baseline_corrected
-
-        return baseline_corrected(self, order, fit)
+        return processing.baseline_corrected(self, order, fit)
 
     def band_passed(
         self,
@@ -295,9 +303,7 @@ class Record(Value):
         keep_pads: bool = False,
     ) -> Record:
         """Return the record within a band of frequencies; see `seismass.records.processing.band_passed`."""
-        from seismass.records.processing import band_passed
-
-        return band_passed(self, low_hz, high_hz, order, taper=taper, keep_pads=keep_pads)
+        return processing.band_passed(self, low_hz, high_hz, order, taper=taper, keep_pads=keep_pads)
 
     def with_vertical(self, vertical: Record) -> Record:
         """Return the record with the accelerations of `vertical` beside its own, both cut to the shorter.
@@ -326,6 +332,7 @@ class Record(Value):
         """Return another record, with a step added to its history."""
         return self.replace(history=(*self.history, said), **changes)
 
+    @view
     def plot(self, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None) -> Figure:
         """Draw acceleration, velocity, displacement and the Arias build-up with D5-95; nothing is shown on a screen.
 
@@ -341,14 +348,11 @@ class Record(Value):
         Figure
             The whole figure that was drawn into; `figure.savefig(path)` writes it, and a notebook shows it.
         """
-        from seismass.report.record_figure import record_figure  # matplotlib is slow to import
+        raise NotImplementedError
 
-        return record_figure(self, figure=figure, axes=axes)
-
+    @view
     def _repr_html_(self) -> str:
-        from seismass.sketches.records import record_html
-
-        return record_html(self)
+        raise NotImplementedError
 
 
 def _number(parameter: str, value: Any, what: str, *, positive: bool) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from seismass._values import FloatArray
+from seismass.base.values import FloatArray
 
 
 def between(first: float, second: float) -> float:

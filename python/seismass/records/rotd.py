@@ -10,8 +10,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_count, as_number, brief, frozen, refusal
-from seismass.errors import InvalidMotion, InvalidOption
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, frozen, refusal
 from seismass.records.intensity import integrals, peak_displacement, peak_velocity
 from seismass.records.pair import Pair
 
@@ -127,10 +127,10 @@ def rotd(
     >>> import seismass as sm
     >>> record = sm.builtin_suite()[0]
     >>> diagonal = sm.Pair.from_records(record, record.scaled(-1.0))
-    >>> sm.rotd(diagonal, [0.5, 1.0]).angle
+    >>> sm.records.rotd(diagonal, [0.5, 1.0]).angle
     array([135., 135.])
     """
-    from seismass.motion import Motion  # reading records needs no kernel
+    from seismass.model.motion import Motion  # reading records needs no kernel
     from seismass.spectra import response_spectrum
 
     if not isinstance(pair, Pair):

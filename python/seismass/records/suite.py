@@ -13,8 +13,10 @@ from pathlib import Path
 
 import polars as pl
 
-from seismass._values import as_path, brief, printable, refusal
-from seismass.errors import InvalidMotion, RecordFormatError
+from seismass.base.errors import InvalidMotion, RecordFormatError
+from seismass.base.units import stated_unit
+from seismass.base.values import as_path, brief, printable, refusal
+from seismass.base.views import view
 from seismass.records.formats import COLUMNS, NotRead
 from seismass.records.formats.columns import is_row_of_numbers
 from seismass.records.formats.directions import is_vertical
@@ -28,7 +30,6 @@ from seismass.records.read import (
     refuse_binary,
 )
 from seismass.records.record import Record
-from seismass.units import stated_unit
 
 _VERTICAL_NAME = re.compile(
     r"[-_.](?:UP|VERT?|VERTICAL|DWN|UD)(?![A-Z0-9])"  # a word of the name: BRA-UP, ERZ-UP__copy
@@ -103,10 +104,9 @@ class Suite:
     def __getitem__(self, index: int) -> Record:
         return self.records[index]
 
+    @view
     def _repr_html_(self) -> str:
-        from seismass.sketches.motions import suite_html
-
-        return suite_html(self)
+        raise NotImplementedError
 
     def table(self) -> pl.DataFrame:
         """Return one row per file, those taken first, in order, then those left out with the reason."""

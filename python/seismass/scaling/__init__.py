@@ -1,23 +1,8 @@
 """Amplitude scaling of ground motions to a target spectrum, and selection of those whose shape is closest to it."""
 
-from seismass.scaling.asce7 import scale_asce7_10, scale_asce7_16
-from seismass.scaling.least_squares import scale_least_squares
-from seismass.scaling.oscillator import FirstModeOscillator, first_mode_oscillator
-from seismass.scaling.pushover import PushoverScaling, scale_modal_pushover
-from seismass.scaling.result import ScalingResult
-from seismass.scaling.selection import Selection, select_records
-from seismass.scaling.single_period import scale_sa_t1
+import lazy_loader
 
-__all__ = [
-    "FirstModeOscillator",
-    "PushoverScaling",
-    "ScalingResult",
-    "Selection",
-    "first_mode_oscillator",
-    "scale_asce7_10",
-    "scale_asce7_16",
-    "scale_least_squares",
-    "scale_modal_pushover",
-    "scale_sa_t1",
-    "select_records",
-]
+# Names are those of __init__.pyi, imported when they are used: an option's help needs none of them.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+del lazy_loader

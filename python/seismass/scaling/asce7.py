@@ -8,11 +8,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from seismass._values import FloatArray, brief, frozen, refusal
-from seismass.building import Building
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, brief, frozen, refusal
 from seismass.design import vibration_modes
-from seismass.errors import InvalidOption
-from seismass.motion import Motion
+from seismass.model.building import Building
+from seismass.model.motion import Motion
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import SuiteSpectra, positive_number, positive_period, suite_spectra
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum

@@ -7,8 +7,8 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from seismass._values import FloatArray, brief, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, brief, refusal
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import suite_spectra
 from seismass.spectra import GroundMotion, TargetSpectrum

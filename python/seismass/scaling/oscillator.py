@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from seismass._values import FloatArray, brief, refusal
-from seismass.building import Building
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, brief, refusal
 from seismass.design import vibration_modes
-from seismass.errors import InvalidOption
-from seismass.units import STANDARD_GRAVITY
+from seismass.model.building import Building
 
 
 @dataclass(frozen=True)

@@ -9,17 +9,17 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray, as_number, brief, frozen, refusal
-from seismass.building import Building
-from seismass.errors import InvalidOption, SimulationError
+from seismass.base.errors import InvalidOption, SimulationError
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_number, brief, frozen, refusal
+from seismass.model.building import Building
+from seismass.model.scene import Scene
+from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 from seismass.scaling.oscillator import FirstModeOscillator, deformation_ratio, first_mode_oscillator
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import checked_target, positive_number, suite_spectra
-from seismass.scene import Scene
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.spectra.oscillators import Oscillators
-from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
-from seismass.units import STANDARD_GRAVITY
 
 Deformation: TypeAlias = Literal["ratio", "median"]
 """Target deformation: C_R of Chopra and Chintanapakdee, or the median of the suite at the elastic target."""

@@ -4,22 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray, frozen
-from seismass.plausibility import scaling_remarks
+from seismass.base.values import FloatArray, frozen
+from seismass.base.views import view
+from seismass.media.result import Result, finite_values
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from seismass.spectra import GroundMotion, TargetSpectrum
 
+FACTOR_RANGE: Final = (0.2, 5.0)
+"""Scale factor of a motion."""
+MAX_OVERSHOOT: Final = 2.0
+"""Mean scaled spectrum over the target."""
+
 
 @dataclass(frozen=True, eq=False)
-class ScalingResult:
+class ScalingResult(Result):
     """Factors of a suite, and the spectra that they follow from.
 
     Attributes
@@ -53,6 +59,8 @@ class ScalingResult:
     notes : tuple of str
         What the method assumes or cannot honour, as sentences.
     """
+
+    document: ClassVar[str] = "scaling"
 
     names: tuple[str, ...]
     individual: FloatArray
@@ -124,7 +132,29 @@ class ScalingResult:
     @property
     def remarks(self) -> tuple[str, ...]:
         """What the method assumes, and what is unlikely about the factors and the mean spectrum, as sentences."""
-        return (*self.notes, *scaling_remarks(self))
+        return (*self.notes, *self.doubts)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """What is unlikely: factors outside 0.2 to 5, and a mean spectrum above twice the target, as sentences."""
+        low, high = FACTOR_RANGE
+        found = []
+        outside = np.flatnonzero((self.factors < low) | (self.factors > high))
+        if len(outside):
+            listed = ", ".join(f"{self.factors[i]:.4g} of motion {i + 1} ({self.names[i]})" for i in outside[:3])
+            others = f" and {len(outside) - 3} more" if len(outside) > 3 else ""
+            found.append(
+                f"scale factors are outside {low:g} to {high:g}: {listed}{others}; "
+                "records so far from the target may not stand for it"
+            )
+        ratio = self.mean / self.target
+        worst = int(np.argmax(ratio))
+        if ratio[worst] > MAX_OVERSHOOT:
+            found.append(
+                f"mean scaled spectrum is {ratio[worst]:.3g} times the target at {self.periods[worst]:.4g} s, "
+                f"above {MAX_OVERSHOOT:g} times: the shapes of suite and target differ"
+            )
+        return tuple(found)
 
     def spectrum_table(self) -> pl.DataFrame:
         """Return one row per period: target, mean scaled pseudo-acceleration (m/s2), their ratio, and the scatter.
@@ -145,15 +175,61 @@ class ScalingResult:
             }
         )
 
-    def plot(self, records: Iterable[GroundMotion] | None = None, target: TargetSpectrum | None = None) -> Figure:
+    @property
+    @view
+    def text(self) -> str:
+        """The method, how the mean fits the target, the scatter, and the factor and misfit of each motion."""
+        raise NotImplementedError
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The tables by name: scaling, one row per motion; spectrum, one row per period."""
+        return {"scaling": self.diagnostics(), "spectrum": self.spectrum_table()}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return factors, misfits and the spectrum as plain values; null for what is no finite number."""
+        document = {
+            "target": self.target_label,
+            "method": self.method,
+            "period": self.period,
+            "common_factor": self.common,
+            "governing_period": self.governing_period,
+            "least_ratio": self.least_ratio,
+            "largest_ratio": self.largest_ratio,
+            "mean_misfit": self.mean_misfit,
+            "remarks": list(self.remarks),
+            "motions": self.diagnostics().to_dicts(),
+            "spectrum": self.spectrum_table().to_dict(as_series=False),
+        }
+        finite: dict[str, Any] = finite_values(document)
+        return finite
+
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """scaling: the scaled spectra, their mean and the target."""
+        return ("scaling",)
+
+    @view
+    def plot(
+        self,
+        name: str | None = None,
+        *,
+        records: Iterable[GroundMotion] | None = None,
+        target: TargetSpectrum | None = None,
+    ) -> Figure:
         """Return a figure of the scaled spectra, their mean and scatter, and the target, as the paper's Fig. 1.
 
         Parameters
         ----------
+        name : str, optional
+            "scaling".
         records, target : optional
             The suite and the target that were scaled: spectra are then drawn beyond the range of the comparison, which
             is marked. The result itself has them within it.
-        """
-        from seismass.report.scaling_figure import scaling_figure  # matplotlib takes a quarter of a second
 
-        return scaling_figure(self, records, target)
+        Raises
+        ------
+        InvalidOption
+            There is no such figure.
+        """
+        raise NotImplementedError

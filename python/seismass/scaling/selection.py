@@ -10,8 +10,8 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray, as_count, brief, refusal
-from seismass.errors import InvalidMotion, InvalidOption
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import FloatArray, as_count, brief, refusal
 from seismass.records import Record, Suite, read_suite
 from seismass.scaling.suite import SuiteSpectra, checked_range, suite_spectra
 from seismass.spectra import TargetSpectrum

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from seismass._values import FloatArray, as_count, as_number, as_positive, brief, frozen, refusal
-from seismass.errors import InvalidMotion, InvalidOption
-from seismass.motion import motion_names
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import FloatArray, as_count, as_number, as_positive, brief, frozen, refusal
+from seismass.model.motion import motion_names
 from seismass.scaling.result import ScalingResult
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.spectra.motions import check_not_zero

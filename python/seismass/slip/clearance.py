@@ -10,8 +10,8 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray, as_positive, brief, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_positive, brief, refusal
 
 OWNER: Final = "clearance"
 

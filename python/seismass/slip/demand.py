@@ -10,16 +10,16 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from seismass import _kernel
-from seismass._values import as_count, as_number, brief, refusal
+from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.values import as_count, as_number, brief, refusal
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_damping
 from seismass.effective_mass.runs import NamedMotions, named_motions
 from seismass.effective_mass.tables import inputs_digest
-from seismass.errors import InvalidOption, InvalidScene
-from seismass.intensity.fragility import Fragility
-from seismass.intensity.measures import IntensityMeasure, MeasureName, measure_for
-from seismass.motion import HasMotion, Motion, MotionLike
-from seismass.scene import Scene
-from seismass.simulate import instruction_set
+from seismass.fragility.fragility import Fragility
+from seismass.fragility.measures import IntensityMeasure, MeasureName, measure_for
+from seismass.model.motion import HasMotion, Motion, MotionLike
+from seismass.model.scene import Scene
+from seismass.runs.simulate import instruction_set
 from seismass.slip.clearance import Clearance, as_clearances, exceedance_table
 from seismass.slip.fragility import slip_fragilities
 from seismass.slip.result import SCHEMA_VERSION, SlipDemand
@@ -72,7 +72,7 @@ def slip_demand(
         Also scale every motion until each block reaches its clearance, and fit the probability by intensity. Needs a
         clearance.
     measure, period
-        Intensity measure of fragilities, as for `seismass.intensity.measure_for`: by default Sa (g) at the first period
+        Intensity measure of fragilities, as for `seismass.fragility.measure_for`: by default Sa (g) at the first period
         of the building without goods.
     damping : {"same", "ratio"}
         Damping of the models of the building alone and with all goods attached, see `attached_scene`.
@@ -114,7 +114,7 @@ def slip_demand(
     >>> import seismass as sm
     >>> building = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])
     >>> scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2))
-    >>> result = sm.slip_demand(scene, [record.scaled(2.0) for record in sm.builtin_suite("seven")], clearance=0.1)
+    >>> result = sm.slip.slip_demand(scene, [record.scaled(2.0) for record in sm.builtin_suite("seven")], clearance=0.1)
     >>> result.blocks.select("block", "floor", "slides").rows()
     [(1, 1, 1.0), (2, 2, 1.0)]
     """

@@ -11,10 +11,10 @@ from typing import Final
 
 import numpy as np
 
-from seismass._values import FloatArray
-from seismass.motion import Motion
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
+from seismass.model.motion import Motion
 from seismass.spectra import response_spectrum
-from seismass.units import STANDARD_GRAVITY
 
 BOUND_LIMIT: Final = 6.0
 """Largest A/N of the bound of Newmark (1965); beyond it the bound is 6 V^2/(2 g N)."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any, Final
 
-from seismass.intensity.analysis import incremental_dynamic_analysis
-from seismass.intensity.fragility import Fragility
-from seismass.intensity.hunt import HuntAndFill
-from seismass.intensity.limits import LimitState
-from seismass.intensity.measures import IntensityMeasure
-from seismass.intensity.models import REAL
-from seismass.scene import Scene
+from seismass.fragility.analysis import incremental_dynamic_analysis
+from seismass.fragility.fragility import Fragility
+from seismass.fragility.hunt import HuntAndFill
+from seismass.fragility.limits import LimitState
+from seismass.fragility.measures import IntensityMeasure
+from seismass.fragility.models import REAL
+from seismass.model.scene import Scene
 from seismass.slip.clearance import Clearance
 
 TOLERANCE: Final = 1e-3

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import os
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
-from seismass._values import as_path
-from seismass.effective_mass.result import finite_values
-from seismass.errors import InvalidOption
-from seismass.intensity.fragility import Fragility
+from seismass.base.views import view
+from seismass.fragility.fragility import Fragility
+from seismass.media.result import Result, finite_values
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,7 +19,7 @@ SCHEMA_VERSION: Final = 1
 
 
 @dataclass(frozen=True, eq=False)
-class SlipDemand:
+class SlipDemand(Result):
     """Slip of the goods of a scene over a suite of motions.
 
     Lengths are in m, accelerations in g where the name says so. Slip is relative to the block's own floor; peaks are
@@ -70,6 +66,8 @@ class SlipDemand:
         Versions, digest of the inputs, seed, conventions, counts.
     """
 
+    document: ClassVar[str] = "slip_demand"
+
     blocks: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
     exceedance: pl.DataFrame = field(repr=False)
@@ -82,14 +80,14 @@ class SlipDemand:
     metadata: dict[str, Any] = field(repr=False)
 
     @property
+    @view
     def text(self) -> str:
         """The result as lines: slip and its scatter, the ground, clearances, size, estimates, remarks."""
-        from seismass.report.slip_demand_text import slip_demand_text
+        raise NotImplementedError
 
-        return slip_demand_text(self)
-
+    @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Return the tables by name; those without rows are left out."""
+        """The tables by name; those without rows are left out."""
         every = {
             "slip_blocks": self.blocks,
             "slip_runs": self.runs,
@@ -116,29 +114,18 @@ class SlipDemand:
         finite: dict[str, Any] = finite_values(document)
         return finite
 
-    def to_json(self) -> str:
-        """Return `to_dict` as JSON."""
-        return json.dumps(self.to_dict(), indent=2, allow_nan=False)
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """slip_demand: slip of every block and motion in the building, on the ground, and its limits."""
+        return ("slip_demand",)
 
-    def plot(self) -> Figure:
-        """Return the figure of the slip of every block and motion in the building, on the ground, and its limits."""
-        from seismass.report.slip_demand_figure import slip_demand_figure
-
-        return slip_demand_figure(self)
-
-    def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-        """Write the tables (Parquet and CSV), slip_demand.json and the figure (PNG and SVG) to a folder.
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return the figure of the slip of every block and motion in the building, on the ground, and its limits.
 
         Raises
         ------
-        OSError
-            A file cannot be written.
+        InvalidOption
+            `name` is given and is not "slip_demand".
         """
-        from seismass.report.folder import write_folder
-
-        return write_folder(
-            as_path(folder, "slip demand", InvalidOption),
-            tables=self.tables(),
-            documents={"slip_demand.json": self.to_json() + "\n"},
-            figures={"slip_demand": self.plot()} if figures else None,
-        )
+        raise NotImplementedError

@@ -7,18 +7,18 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._values import FloatArray
-from seismass.block import Block
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
 from seismass.effective_mass.models import ModelDamping, attached
-from seismass.motion import Motion
+from seismass.model.block import Block
+from seismass.model.motion import Motion
+from seismass.model.scene import Scene
 from seismass.records.intensity import integrals, peak_velocity
-from seismass.response import Response
-from seismass.scene import Scene
-from seismass.simulate import simulate
+from seismass.runs.response import Response
+from seismass.runs.simulate import simulate
 from seismass.slip.clearance import signed_peaks
 from seismass.slip.estimates import Base, estimates
 from seismass.slip.squat import demand_in_g
-from seismass.units import STANDARD_GRAVITY
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,9 +11,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from seismass._values import FloatArray, as_positive, brief, refusal
-from seismass.errors import InvalidOption
-from seismass.units import STANDARD_GRAVITY
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_positive, brief, refusal
 
 OWNER: Final = "block size"
 

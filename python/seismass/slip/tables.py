@@ -9,15 +9,15 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass._values import FloatArray, counted
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.runs import NamedMotions
-from seismass.intensity.probability import interval_of
-from seismass.scene import Scene
+from seismass.fragility.probability import interval_of
+from seismass.model.scene import Scene
 from seismass.slip.clearance import Clearance
 from seismass.slip.estimates import log_ratio
 from seismass.slip.runs import SlipRuns, SolvedMotion
 from seismass.slip.squat import BlockSize
-from seismass.units import STANDARD_GRAVITY
 
 QUANTILES: Final = {"p16": 0.16, "median": 0.50, "p84": 0.84}
 """Shares of the motions that are tabulated."""

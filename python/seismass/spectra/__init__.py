@@ -20,3 +20,8 @@ __all__ = [
     "mean_spectrum",
     "response_spectrum",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

@@ -8,11 +8,11 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, frozen, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_array, frozen, refusal
 from seismass.spectra.checks import OWNER, positive
 from seismass.spectra.period_table import PeriodTable
-from seismass.units import STANDARD_GRAVITY
 
 DEFAULT_SDS_G: Final = 1.07
 """Default S_DS (g): with the two below a stand-in for the Port of Long Beach, not its published spectrum."""

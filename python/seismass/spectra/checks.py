@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from seismass._values import as_positive, brief, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_positive, brief, refusal
 
 OWNER = "target spectrum"
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_array, as_count, as_number, brief, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, refusal
 from seismass.spectra.motions import GroundMotion, as_motions, held
 
 Kind: TypeAlias = Literal["pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"]

@@ -8,10 +8,10 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from seismass._values import FloatArray, as_number, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_number, refusal
 from seismass.spectra.checks import OWNER, one_of, positive
-from seismass.units import STANDARD_GRAVITY
 
 
 class Ground(NamedTuple):

@@ -10,15 +10,15 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass._values import FloatArray, as_array, as_count, as_number, frozen, refusal
-from seismass.building import Building
-from seismass.errors import InvalidOption, SimulationError
-from seismass.motion import motion_names
+from seismass.base.errors import InvalidOption, SimulationError
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_array, as_count, as_number, frozen, refusal
+from seismass.model.building import Building
+from seismass.model.motion import motion_names
+from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 from seismass.spectra.elastic import response_spectrum
 from seismass.spectra.motions import GroundMotion, as_motions, check_not_zero
 from seismass.spectra.oscillators import Oscillators
-from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
-from seismass.units import STANDARD_GRAVITY
 
 SCAN_STEP: Final = 0.04
 """Step of ln C_y by which the strength is lowered in search of a ductility; roots closer than it may be missed."""
@@ -148,7 +148,7 @@ def inelastic_spectrum(
 
     >>> import seismass as sm
     >>> step = sm.Motion([1.0] * 300, dt=0.01)
-    >>> found = sm.inelastic_spectrum(
+    >>> found = sm.spectra.inelastic_spectrum(
     ...     step, [0.5], strength=1.25 / sm.STANDARD_GRAVITY, damping=0.0, overstrength=1.0, second_slope=0.0
     ... )
     >>> found.ductility.round(6)

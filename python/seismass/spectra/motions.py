@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_array, as_number, brief, refusal
-from seismass.errors import InvalidMotion
+from seismass.base.errors import InvalidMotion
+from seismass.base.values import FloatArray, as_array, as_number, brief, refusal
 
 
 class GroundMotion(Protocol):

@@ -11,11 +11,11 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from seismass._elementary import power
-from seismass._values import FloatArray, as_number, refusal
-from seismass.errors import InvalidOption
+from seismass.base.elementary import power
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_number, refusal
 from seismass.spectra.checks import OWNER, one_of, positive
-from seismass.units import STANDARD_GRAVITY
 
 
 class Soil(NamedTuple):

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass._values import FloatArray
-from seismass.building import Building
-from seismass.errors import SimulationError
+from seismass.base.errors import SimulationError
+from seismass.base.values import FloatArray
+from seismass.model.building import Building
 from seismass.spectra.motions import GroundMotion, held
 
 IndexArray: TypeAlias = NDArray[np.int64]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from seismass._values import FloatArray
+from seismass.base.values import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

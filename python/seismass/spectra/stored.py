@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from seismass._values import brief, frozen, refusal
-from seismass.errors import InvalidOption
+from seismass.base.errors import InvalidOption
+from seismass.base.values import brief, frozen, refusal
 from seismass.spectra.tables import CsvTable
 from seismass.spectra.target import TargetSpectrum
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass._values import FloatArray, as_array, as_number, counted, frozen, refusal
-from seismass.errors import InvalidMotion, InvalidOption
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import FloatArray, as_array, as_number, counted, frozen, refusal
 from seismass.spectra.checks import OWNER
 from seismass.spectra.elastic import mean_spectrum
 from seismass.spectra.motions import GroundMotion, as_motions

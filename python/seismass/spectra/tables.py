@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from seismass._elementary import exp, log
-from seismass._values import FloatArray, as_path, frozen, printable, refusal
-from seismass.errors import RecordFormatError
+from seismass.base.elementary import exp, log
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_path, frozen, printable, refusal
 from seismass.spectra.checks import OWNER
 from seismass.spectra.period_table import PeriodTable
-from seismass.units import STANDARD_GRAVITY
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,9 +11,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seismass._elementary import geomspace, power
-from seismass._values import FloatArray, as_array, as_number, refusal
-from seismass.errors import InvalidOption
+from seismass.base.elementary import geomspace, power
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_array, as_number, refusal
+from seismass.base.views import view
 from seismass.spectra.asce7 import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, multi_period_shape, two_period_shape
 from seismass.spectra.eurocode8 import eurocode8_shape
 from seismass.spectra.motions import GroundMotion
@@ -297,10 +298,9 @@ class TargetSpectrum:
         ordinates = self(np.clip(periods, self.shortest, self.longest))
         return float(np.max(ordinates * periods) / np.max(ordinates))
 
+    @view
     def _repr_html_(self) -> str:
-        from seismass.sketches.motions import target_html
-
-        return target_html(self)
+        raise NotImplementedError
 
     def __eq__(self, other: object) -> bool:
         """Return whether the other spectrum was made from the same."""

@@ -9,13 +9,13 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from seismass._values import FloatArray
-from seismass.block import blocks_on_floors
-from seismass.building import Building
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
 from seismass.design import SpectrumAnalysis, response_spectrum_analysis, vibration_modes
-from seismass.scene import Scene
+from seismass.model.block import blocks_on_floors
+from seismass.model.building import Building
+from seismass.model.scene import Scene
 from seismass.study.parameters import StudyParameters
-from seismass.units import STANDARD_GRAVITY
 
 Model: TypeAlias = Literal["real", "code", "attached"]
 """Goods that may slide; the code's share of their mass attached and no block; all of it attached and no block."""

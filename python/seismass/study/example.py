@@ -8,9 +8,9 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray
+from seismass.base.values import FloatArray
+from seismass.model.scene import Scene
 from seismass.records import Record, Suite
-from seismass.scene import Scene
 from seismass.spectra import mean_spectrum
 from seismass.study.buildings import study_buildings
 from seismass.study.parameters import StudyParameters

@@ -10,16 +10,16 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass._values import FloatArray
+from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass, effective_mass
-from seismass.kept import NOTHING_KEPT, KeptResults
+from seismass.model.scene import Scene
 from seismass.records import Record
-from seismass.scene import Scene
 from seismass.study.buildings import MODELS, StudyBuilding
 from seismass.study.columns import FRACTION_COLUMNS
 from seismass.study.parameters import StudyParameters
 from seismass.study.tables import key_columns, typed
-from seismass.units import STANDARD_GRAVITY
 
 SHARES: Final = np.linspace(0.0, 1.0, 41)
 """Shares at which models are solved before roots are refined: fewer than `effective_mass` takes by itself, as a study

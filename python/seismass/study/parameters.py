@@ -8,12 +8,12 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from seismass._values import as_count, as_number, brief, refusal
-from seismass.codes import CodeFraction, code_fraction
-from seismass.damping import DEFAULT_DAMPING
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_count, as_number, brief, refusal
 from seismass.design import Combination
-from seismass.errors import InvalidOption
-from seismass.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
+from seismass.model.codes import CodeFraction, code_fraction
+from seismass.model.damping import DEFAULT_DAMPING
+from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 
 DampingBase: TypeAlias = Literal["bare", "loaded", "own"]
 """The building in whose modes the damping ratio holds: bare, with all its goods attached, or each model's own."""
@@ -46,7 +46,7 @@ class StudyParameters:
         of the design, which sets the strength, and that of the analysis, the mass of the code model; one is both. None
         (default): storage and commercial buildings with the fractions of `code`.
     code : str
-        Code whose fractions are compared, an identifier of `seismass.codes`.
+        Code whose fractions are compared, an identifier of `seismass.model.codes`.
     mu : tuple of float
         Friction coefficients, static and kinetic.
     overstrength, second_slope, third_slope : float

@@ -4,27 +4,33 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import chain, count
-from typing import Any, Final
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass._values import FloatArray, brief, printable, refusal
-from seismass.batch import simulate_many
-from seismass.errors import InvalidMotion, InvalidOption
-from seismass.kept import NOTHING_KEPT, KeptResults
-from seismass.motion import Motion
-from seismass.plausibility import motion_remarks, scaling_remarks, scene_remarks, target_remarks
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.values import FloatArray, brief, printable, refusal
+from seismass.base.views import view
+from seismass.media.result import Result
+from seismass.model.motion import Motion
+from seismass.model.plausibility import motion_remarks
 from seismass.records import Suite
+from seismass.runs.batch import simulate_many
+from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.simulate import instruction_set
 from seismass.spectra import TargetSpectrum, mean_spectrum, response_spectrum
+from seismass.spectra.remarks import target_remarks
 from seismass.study.buildings import MODELS, StudyBuilding, study_buildings
+from seismass.study.findings import findings
 from seismass.study.fractions import effective_fractions, fractions_table
 from seismass.study.parameters import StudyParameters, code_fractions
 from seismass.study.tables import designs_table, responses_table, summary_table
@@ -36,12 +42,15 @@ SPECTRUM_RANGE: Final = (0.05, 3.0)
 SPECTRUM_POINTS: Final = 200
 """Periods (s) at which the spectra are tabulated for the figure, and those of the scaling; nothing is interpolated."""
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 _METHODS: Final = {"ASCE 7-10": "ASCE/SEI 7-10, 16.1.3.1, two-step factors in the logarithm"}
 """Methods of scaling as the metadata name them; others by their own name."""
 
 
 @dataclass(frozen=True, eq=False)
-class StudyResult:
+class StudyResult(Result):
     """Tables of a study; their columns are described in docs/study_schema.md.
 
     Attributes
@@ -63,6 +72,8 @@ class StudyResult:
         Versions, digest of the inputs, parameters, motions, counts, remarks.
     """
 
+    document: ClassVar[str] = "study"
+
     responses: pl.DataFrame
     summary: pl.DataFrame
     fractions: pl.DataFrame
@@ -70,6 +81,61 @@ class StudyResult:
     spectrum: pl.DataFrame
     scaling: ScalingResult
     metadata: dict[str, Any] = field(repr=False)
+
+    @property
+    @view
+    def text(self) -> str:
+        """What the study says: the underestimation of drift by the code's model, with its scatter."""
+        raise NotImplementedError
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The tables by name: responses, summary, fractions, designs, spectrum, scaling."""
+        names = ("responses", "summary", "fractions", "designs", "spectrum")
+        return {name: getattr(self, name) for name in names} | {"scaling": self.scaling.table()}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the metadata and the findings as plain values."""
+        found = findings(self.summary, self.fractions, self.metadata["code"]["name"])
+        return {**self.metadata, "findings": found}
+
+    @property
+    @view
+    def figure_names(self) -> tuple[str, ...]:
+        """spectrum; underestimation, heat, slip and drift_R... for each R and friction; effective, where computed."""
+        raise NotImplementedError
+
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return a figure of `figure_names`, by default the first.
+
+        Parameters
+        ----------
+        name : str, optional
+            Name of the figure.
+
+        Raises
+        ------
+        InvalidOption
+            There is no such figure.
+        """
+        raise NotImplementedError
+
+    @view
+    def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
+        """Write tables (Parquet and CSV), study.json, figures (SVG) and the page to a folder.
+
+        Returns
+        -------
+        list of Path
+            The files, in the order written.
+
+        Raises
+        ------
+        OSError
+            A file cannot be written; then none is changed.
+        """
+        raise NotImplementedError
 
 
 def run_study(
@@ -200,8 +266,8 @@ def _remarks(
 ) -> list[str]:
     """What is unlikely about the inputs, each remark once."""
     scenes = dict.fromkeys(building.scenes["real"] for building in buildings)
-    found = [*target_remarks(target), *scaling_remarks(scaling), *motion_remarks(motions)]
-    return list(dict.fromkeys([*found, *(remark for scene in scenes for remark in scene_remarks(scene))]))
+    found = [*target_remarks(target), *scaling.doubts, *motion_remarks(motions)]
+    return list(dict.fromkeys([*found, *(remark for scene in scenes for remark in scene.remarks)]))
 
 
 def _code_metadata(chosen: StudyParameters) -> dict[str, Any]:

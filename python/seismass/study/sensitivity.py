@@ -10,8 +10,8 @@ from typing import Any, Final, get_args
 import numpy as np
 import polars as pl
 
+from seismass.base.kept import NOTHING_KEPT, KeptResults
 from seismass.design import Combination
-from seismass.kept import NOTHING_KEPT, KeptResults
 from seismass.matching import match_suite
 from seismass.records import Suite
 from seismass.scaling import ScalingResult, scale_modal_pushover

@@ -10,11 +10,11 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass._values import FloatArray
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
 from seismass.study.buildings import KEYS, MODELS, Model, StudyBuilding
 from seismass.study.columns import DESIGN_COLUMNS, RESPONSE_COLUMNS, SUMMARY_COLUMNS
 from seismass.study.parameters import StudyParameters
-from seismass.units import STANDARD_GRAVITY
 
 Drifts: TypeAlias = dict[Model, FloatArray]
 """Peak drifts (m) by model, shape (rows, motions): infinite where the run collapsed, NaN where it failed."""

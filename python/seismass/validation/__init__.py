@@ -8,17 +8,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from seismass._values import brief, refusal
-from seismass.errors import InvalidMotion
+import polars as pl
+
+from seismass.base.errors import InvalidMotion
+from seismass.base.values import brief, refusal
+from seismass.base.views import view
+from seismass.media.result import Result
 from seismass.records import Suite, builtin_suite
 from seismass.spectra import TargetSpectrum
 from seismass.study import Sensitivity, StudyResult, run_study
 from seismass.validation.paper_claims import Claim, Verdict, claims, claims_table
 from seismass.validation.recordings import STAND_INS, Station, components
 from seismass.validation.shaking_table import Band, Platform, platform, platform_scene
+from seismass.validation.tables import platform_tables, section4_tables
 from seismass.validation.three_storeys import SPRINGS, Histories, Section4, section4, section4_scene
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = [
     "STAND_INS",
@@ -42,8 +50,13 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
+
+
 @dataclass(frozen=True, eq=False)
-class Validation:
+class Validation(Result):
     """All validations.
 
     Attributes
@@ -58,6 +71,8 @@ class Validation:
         The paper's claims with our numbers.
     """
 
+    document: ClassVar[str] = "validation"
+
     study: StudyResult
     section4: Section4
     platform: Platform
@@ -71,6 +86,52 @@ class Validation:
             "section4_motion": _motion_text("Brawley Airport", self.section4.synthetic),
             "platform_motion": _motion_text("Erzincan", self.platform.synthetic),
         }
+
+    @property
+    @view
+    def text(self) -> str:
+        """The motions, the comparison of programs, and each claim of the paper with its verdict."""
+        raise NotImplementedError
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The tables by name, without lists in their cells: claims, section4_..., platform_..."""
+        return {
+            "claims": claims_table(self.claims),
+            **section4_tables(self.section4),
+            **platform_tables(self.platform),
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return motions, claims, and what is robust of the platform, as plain values."""
+        return {
+            **self.metadata(),
+            "claims": [vars(claim) for claim in self.claims],
+            "platform": self.platform.robust,
+            "differences": self.section4.differences.to_dicts(),
+        }
+
+    @property
+    @view
+    def figure_names(self) -> tuple[str, ...]:
+        """section4_... by component and slope, section4_sliding, platform_... by component."""
+        raise NotImplementedError
+
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return a figure of `figure_names`, by default the first.
+
+        Parameters
+        ----------
+        name : str, optional
+            Name of the figure.
+
+        Raises
+        ------
+        InvalidOption
+            There is no such figure.
+        """
+        raise NotImplementedError
 
 
 def _motion_text(station: Station, synthetic: bool) -> str:

@@ -14,14 +14,14 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
-from seismass._values import FloatArray
-from seismass.batch import simulate_many
-from seismass.block import blocks_on_floors
-from seismass.building import Building
-from seismass.motion import Motion
+from seismass.base.values import FloatArray
+from seismass.model.block import blocks_on_floors
+from seismass.model.building import Building
+from seismass.model.motion import Motion
+from seismass.model.scene import Scene
 from seismass.records import Record
-from seismass.scene import Scene
-from seismass.simulate import simulate
+from seismass.runs.batch import simulate_many
+from seismass.runs.simulate import simulate
 from seismass.validation.recordings import label
 
 LENGTH_RATIO: Final = 15.0

@@ -18,14 +18,14 @@ import numpy as np
 import polars as pl
 
 from seismass import _kernel
-from seismass._values import FloatArray
-from seismass.block import blocks_on_floors
-from seismass.building import Building
-from seismass.errors import SimulationError
-from seismass.motion import Motion
+from seismass.base.errors import SimulationError
+from seismass.base.values import FloatArray
+from seismass.model.block import blocks_on_floors
+from seismass.model.building import Building
+from seismass.model.motion import Motion
+from seismass.model.scene import Scene
 from seismass.records import Record
-from seismass.scene import Scene
-from seismass.simulate import simulate
+from seismass.runs.simulate import simulate
 from seismass.validation.recordings import label
 
 STOREYS: Final = 3

@@ -12,14 +12,14 @@ from typing import Final
 
 import numpy as np
 
-from seismass._values import printable
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import ACCELERATION_UNITS, stated_unit, unknown_unit
+from seismass.base.values import printable
 from seismass.records.formats.common import LINE_WIDTH, Arguments, Channel, Format, NotRead, refuse_skip
 from seismass.records.formats.directions import azimuth_of
 from seismass.records.formats.headers import other_quantity, step_in_seconds
 from seismass.records.formats.numbers import is_cut_off, is_number, parse_numbers, to_float
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS, stated_unit, unknown_unit
 
 HEADER_LINES: Final = 10
 """The counts stand in line 4; a file may have blank or further lines before them."""

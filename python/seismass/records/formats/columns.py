@@ -14,14 +14,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._values import as_count, printable
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import ACCELERATION_UNITS, stated_unit, unknown_unit
+from seismass.base.values import as_count, printable
 from seismass.records.formats.common import Arguments, Channel, Format, NotRead
 from seismass.records.formats.headers import other_quantity, stated_points, stated_step
 from seismass.records.formats.numbers import is_cut_off, is_number, to_float
 from seismass.records.formats.pairs import uniform_step
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS, stated_unit, unknown_unit
 
 SHORTEST_STEP: Final = 1e-4
 LONGEST_STEP: Final = 0.1

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import ACCELERATION_UNITS
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS
 
 LINE_WIDTH: Final = 400
 """Lines of headers have 80 characters, some a little more; what stands further right is not looked at."""

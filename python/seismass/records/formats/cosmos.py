@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from seismass._values import printable
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import ACCELERATION_UNITS, stated_unit
+from seismass.base.values import printable
 from seismass.records.formats.common import (
     LINE_WIDTH,
     Arguments,
@@ -27,7 +28,6 @@ from seismass.records.formats.directions import azimuth_of, direction_remark, is
 from seismass.records.formats.fixed import Block, header_values, layout_of, read_block
 from seismass.records.formats.peaks import StatedPeak, check_peak, digit_of_peak
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS, stated_unit
 
 _FIRST = re.compile(
     r"(?P<kind>[A-Za-z][A-Za-z /-]*?)\s*\(Format v[\d.]+ with\s+(?P<lines>\d+) text lines\)", re.IGNORECASE

@@ -15,8 +15,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._values import printable
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import ACCELERATION_UNITS
+from seismass.base.values import printable
 from seismass.records.formats.common import (
     LINE_WIDTH,
     Arguments,
@@ -33,7 +34,6 @@ from seismass.records.formats.numbers import is_number, last_digit
 from seismass.records.formats.pairs import uniform_step
 from seismass.records.formats.peaks import StatedPeak, check_peak, digit_of_peak
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS
 
 _FIRST = re.compile(r"\s*(?P<un>UN)?CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
 _NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)"

@@ -9,8 +9,9 @@ import re
 from pathlib import Path
 from typing import Final
 
-from seismass._values import printable
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import ACCELERATION_UNITS, stated_unit
+from seismass.base.values import printable
 from seismass.records.formats.common import (
     Arguments,
     Channel,
@@ -25,7 +26,6 @@ from seismass.records.formats.headers import step_in_seconds
 from seismass.records.formats.numbers import is_cut_off, is_number, parse_numbers
 from seismass.records.formats.peaks import StatedPeak, check_peak, digit_of_peak
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS, stated_unit
 
 _KEY = re.compile(r"[A-Z][A-Z0-9_/^-]*(?=:)")
 _LINES_OF_HEADER: Final = 64

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
 
 _EDIT = re.compile(
     r"\(?\s*(?:\d+P\s*,?\s*)?(?P<columns>\d*)\s*\(?\s*(?:\d+P\s*,?\s*)?(?P<kind>[IFEDG])\s*(?P<width>\d+)"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Final
 
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
 from seismass.records.formats.numbers import NUMBER, to_float
 
 SHORTEST_STEP: Final = 1e-5

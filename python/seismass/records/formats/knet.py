@@ -12,13 +12,13 @@ from typing import Final
 
 import numpy as np
 
-from seismass._values import printable
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import ACCELERATION_UNITS
+from seismass.base.values import printable
 from seismass.records.formats.common import Arguments, Channel, Format, agreed_step, agreed_unit, refuse_skip
 from seismass.records.formats.numbers import is_number
 from seismass.records.formats.peaks import StatedPeak, check_peak
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS
 
 _KEYS: Final = (
     "Origin Time",

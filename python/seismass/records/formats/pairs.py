@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
 from seismass.records.formats.numbers import last_digits
 
 UNIFORMITY: Final = 0.05

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
 from seismass.records.formats.numbers import is_number, last_digit, to_float
 
 RELATIVE: Final = 2e-6

@@ -12,8 +12,9 @@ from typing import Final
 
 import numpy as np
 
-from seismass._values import printable
-from seismass.errors import RecordFormatError
+from seismass.base.errors import RecordFormatError
+from seismass.base.units import ACCELERATION_UNITS
+from seismass.base.values import printable
 from seismass.records.formats.common import (
     LINE_WIDTH,
     Arguments,
@@ -30,7 +31,6 @@ from seismass.records.formats.numbers import last_digit
 from seismass.records.formats.pairs import uniform_step
 from seismass.records.formats.peaks import StatedPeak, check_peak
 from seismass.records.record import Record
-from seismass.units import ACCELERATION_UNITS
 
 _TEXT: Final = 11
 _INTEGERS: Final = 6

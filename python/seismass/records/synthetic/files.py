@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Final
 
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.records.record import Record
 from seismass.records.synthetic.seven import RECIPES, Recipe, generate
 from seismass.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
-from seismass.units import STANDARD_GRAVITY
 
 ALL_RECIPES: Final = (*RECIPES, *SITE_RECIPES)
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._values import as_number, brief, refusal
-from seismass.errors import InvalidMotion
+from seismass.base.errors import InvalidMotion
+from seismass.base.values import as_number, brief, refusal
 
 Array = NDArray[np.float64]
 

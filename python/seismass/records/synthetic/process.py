@@ -16,13 +16,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass._values import as_count, as_number, brief, refusal
-from seismass.errors import InvalidMotion
+from seismass.base.errors import InvalidMotion
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import as_count, as_number, brief, refusal
 from seismass.records.record import Record
 from seismass.records.synthetic.ends import at_rest_in_the_end, ramp
 from seismass.records.synthetic.near_fault import NearFaultPulse
 from seismass.records.synthetic.noise import normals, sample_times
-from seismass.units import STANDARD_GRAVITY
 
 Array = NDArray[np.float64]
 

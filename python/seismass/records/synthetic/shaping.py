@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY
 
 Array = NDArray[np.float64]
 

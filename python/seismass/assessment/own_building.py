@@ -1,0 +1,241 @@
+"""One's own building as an assessment takes it: structure, goods, site, code and limits, in SI units.
+
+It makes the models that are compared: goods that slide, and a share of them attached as mass.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, brief, refusal
+from seismass.design import THETA_CAP, Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
+from seismass.model.block import Block
+from seismass.model.building import Building
+from seismass.model.codes import CodeFraction
+from seismass.model.damping import DEFAULT_DAMPING
+from seismass.model.scene import Scene
+from seismass.spectra import TargetSpectrum
+
+DEFAULT_DRIFT_LIMIT: Final = 0.020
+"""Allowable drift ratio: ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II."""
+DEFAULT_THETA_LIMIT: Final = THETA_CAP
+"""Largest stability coefficient of ASCE/SEI 7-10, 12.8.7: 0.5/(beta C_d), at most 0.25."""
+
+
+@dataclass(frozen=True)
+class DesignRule:
+    """How strengths are found where they are not stated: V_y = V_e/R by response spectrum analysis.
+
+    Attributes
+    ----------
+    R : float
+        Response modification factor, at least 1.
+    fraction : float or None
+        Fraction of the design live load in the mass of the design; None: that of the code.
+    combination : {"srss", "cqc"}
+        Modal combination.
+    """
+
+    R: float
+    fraction: float | None
+    combination: Combination = "srss"
+
+
+@dataclass(frozen=True, eq=False)
+class OwnBuilding:
+    """A building with its goods, as a building file describes it; see `read_building`.
+
+    Attributes
+    ----------
+    name, note : str
+        Free text.
+    storey_names : tuple of str
+        A name per floor, or empty texts.
+    mass : ndarray, shape (storeys,)
+        Floor masses without goods (kg).
+    stiffness : ndarray, shape (storeys,)
+        Initial storey stiffnesses (N/m).
+    heights : ndarray, shape (storeys,), or None
+        Storey heights (m); None where they are not known: then drifts are in metres and there is no limit.
+    yield_shear : ndarray, shape (storeys,), or None
+        First yield shears (N); None where `design` finds them.
+    design : DesignRule or None
+        How strengths are found where they are not stated.
+    overstrength, second_slope, third_slope : ndarray, shape (storeys,)
+        Omega, r2 and r3 of the storeys.
+    damping : float
+        Ratio of critical damping in every mode of the building without goods.
+    gravity_load : ndarray, shape (storeys,), or None
+        Gravity load of each floor without goods (N), to which the weight of the goods is added; None: no P-Delta.
+    live_load : ndarray, shape (storeys,)
+        Design live load of each floor as a mass (kg).
+    occupied : ndarray, shape (storeys,)
+        Share of it that is present.
+    friction : tuple of str
+        Contact of the goods of each floor; empty where it is stated as numbers or there are no goods.
+    mu_s, mu_k : ndarray, shape (storeys,)
+        Static and kinetic friction of the goods of each floor; 0 where there are none.
+    mu_factors : tuple of float
+        Factors of friction for its lower and upper bound.
+    target : TargetSpectrum or None
+        Site spectrum; None where the file has none.
+    code : CodeFraction
+        The code, and the fraction of the design live load that it counts as mass.
+    code_stated : bool
+        Whether the file names the code.
+    drift_limit, theta_limit : float
+        Limits of drift ratio and stability coefficient.
+    collapse_drift_ratio : float or None
+        Drift ratio at which a storey counts as collapsed; None: only where P-Delta says so.
+    scaling_period : float or None
+        Period (s) for which motions are scaled; None: first period of the building with its goods attached.
+    path : Path or None
+        The file.
+    """
+
+    name: str
+    note: str
+    storey_names: tuple[str, ...]
+    mass: FloatArray
+    stiffness: FloatArray
+    heights: FloatArray | None
+    yield_shear: FloatArray | None
+    design: DesignRule | None
+    overstrength: FloatArray
+    second_slope: FloatArray
+    third_slope: FloatArray
+    damping: float
+    gravity_load: FloatArray | None
+    live_load: FloatArray
+    occupied: FloatArray
+    friction: tuple[str, ...]
+    mu_s: FloatArray
+    mu_k: FloatArray
+    mu_factors: tuple[float, float]
+    target: TargetSpectrum | None
+    code: CodeFraction
+    code_stated: bool
+    drift_limit: float
+    theta_limit: float
+    collapse_drift_ratio: float | None
+    scaling_period: float | None
+    path: Path | None = None
+
+    @property
+    def storeys(self) -> int:
+        """Number of storeys."""
+        return len(self.mass)
+
+    @property
+    def weight(self) -> float:
+        """Weight of the building without goods (N)."""
+        return STANDARD_GRAVITY * float(self.mass.sum())
+
+    @property
+    def goods(self) -> FloatArray:
+        """Mass of the goods present on each floor (kg), shape (storeys,)."""
+        present: FloatArray = self.occupied * self.live_load
+        return present
+
+    @property
+    def present_share(self) -> float:
+        """Goods present over the design live load, of the whole building; 0 where there is no live load."""
+        total = float(self.live_load.sum())
+        return float(self.goods.sum()) / total if total > 0.0 else 0.0
+
+    @property
+    def design_fraction(self) -> float:
+        """Fraction of the design live load in the mass of the design: as stated, else that of the code."""
+        stated = None if self.design is None else self.design.fraction
+        return self.code.fraction if stated is None else stated
+
+    def period(self, attached: FloatArray | float = 0.0) -> float:
+        """Return the first period (s) with a mass attached to each floor (kg)."""
+        return float(vibration_modes(self.mass + attached, self.stiffness).periods[0])
+
+    def analysis(self, target: TargetSpectrum | None = None) -> SpectrumAnalysis:
+        """Return the response spectrum analysis of the building with the mass of its design.
+
+        Parameters
+        ----------
+        target : TargetSpectrum, optional
+            Site spectrum; default the building's own.
+
+        Raises
+        ------
+        InvalidOption
+            There is no site spectrum, or it does not cover the modal periods.
+        """
+        return response_spectrum_analysis(
+            self.mass + self.design_fraction * self.live_load,
+            self.stiffness,
+            self.site_spectrum(target),
+            combination="srss" if self.design is None else self.design.combination,
+            damping=self.damping or DEFAULT_DAMPING,
+        )
+
+    def site_spectrum(self, target: TargetSpectrum | None = None) -> TargetSpectrum:
+        """Return the spectrum given, or else the building's own; a missing one is refused."""
+        chosen = self.target if target is None else target
+        if not isinstance(chosen, TargetSpectrum):
+            requirement = "given: [site] in the file (sds_g and sd1_g, or spectrum_csv), or a TargetSpectrum"
+            raise refusal(InvalidOption, "target", f"building {self.name}", requirement, brief(chosen))
+        return chosen
+
+    def structure(self, target: TargetSpectrum | None = None) -> Building:
+        """Return the building without goods; strengths of a design need the site spectrum.
+
+        Raises
+        ------
+        InvalidOption
+            As for `analysis`.
+        InvalidScene
+            P/h reaches a stiffness, or slopes contradict each other.
+        """
+        strength = self.yield_shear
+        if strength is None and self.design is not None:
+            strength = self.analysis(target).storey_shear / self.design.R
+        return Building(
+            self.mass,
+            self.stiffness,
+            yield_shear=np.inf if strength is None else strength,
+            overstrength=self.overstrength,
+            second_slope=self.second_slope,
+            third_slope=self.third_slope,
+            damping=self.damping,
+            heights=self.heights,
+            gravity_load=self.gravity_load,
+        )
+
+    def scene(self, target: TargetSpectrum | None = None, *, mu_factor: float = 1.0) -> Scene:
+        """Return the building with its goods, one block per loaded floor.
+
+        Parameters
+        ----------
+        target : TargetSpectrum, optional
+            Site spectrum for strengths of a design; default the building's own.
+        mu_factor : float
+            Factor of all friction coefficients.
+
+        Raises
+        ------
+        InvalidOption, InvalidScene
+            As for `structure`.
+        """
+        blocks = [
+            Block(floor, mass=float(mass), mu_s=mu_factor * float(static), mu_k=mu_factor * float(kinetic))
+            for floor, (mass, static, kinetic) in enumerate(zip(self.goods, self.mu_s, self.mu_k, strict=True), start=1)
+            if mass > 0.0
+        ]
+        collapse = (
+            None
+            if self.heights is None or self.collapse_drift_ratio is None
+            else (self.collapse_drift_ratio * self.heights)
+        )
+        return Scene(self.structure(target), blocks, collapse_drift=collapse, name=self.name, note=self.note)

@@ -1,0 +1,136 @@
+"""Files of TOML or JSON as tables of keys, of which every one is known or refused with its place in the file."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, NoReturn
+
+from seismass.base.errors import InvalidScene, SeismassError
+from seismass.base.values import FloatArray, as_array, as_number, brief, refusal
+
+
+def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
+    """Return a file of TOML or JSON as a table of its keys, whatever its format.
+
+    Parameters
+    ----------
+    source : Path
+        The file; its suffix says which format it has.
+    what : str
+        What it is, as errors name it: "scene file".
+    kind : type
+        Class of the errors.
+    """
+    suffix = source.suffix.lower()
+    if suffix not in (".toml", ".json"):
+        raise refusal(kind, "suffix", f"{what} {source.name}", ".toml or .json", brief(suffix))
+    try:
+        text = source.read_bytes().decode("utf-8-sig")
+        loaded = tomllib.loads(text) if suffix == ".toml" else json.loads(text, object_pairs_hook=_without_repeats)
+    except OSError as error:
+        raise kind(f"{what} must be a file that can be read; got {source} ({error.strerror or error})") from error
+    except (ValueError, RecursionError) as error:
+        form = suffix[1:].upper()
+        raise refusal(kind, "content", source.name, f"valid {form}", str(error)) from error
+    except _RepeatedKey as error:
+        raise refusal(kind, str(error), source.name, "given once", "it twice") from None
+    if not isinstance(loaded, dict):
+        raise refusal(kind, "content", source.name, "a table of keys", brief(loaded))
+    return Table(loaded, "", source.name, kind)
+
+
+class _RepeatedKey(Exception):
+    """A key that a JSON object has twice, of which Python would keep the last."""
+
+
+def _without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    table = dict(pairs)
+    if len(table) < len(pairs):
+        keys = [key for key, _ in pairs]
+        raise _RepeatedKey(next(key for key in keys if keys.count(key) > 1))
+    return table
+
+
+class Table:
+    """A table of the file, with its place in it for messages. Null stands for an absent key, but for `nullable`."""
+
+    def __init__(
+        self, given: dict[str, Any], place: str, file: str, kind: type[SeismassError], nullable: Iterable[str] = ()
+    ) -> None:
+        kept = set(nullable)
+        self.values = {key: value for key, value in given.items() if value is not None or key in kept}
+        self._all_keys = tuple(given)
+        self.place = place
+        self.file = file
+        self._kind = kind
+
+    def key(self, key: str) -> str:
+        """Where a key stands: building.damping.ratio."""
+        return f"{self.place}.{key}" if self.place else key
+
+    def refuse(self, key: str, requirement: str, got: str) -> NoReturn:
+        """Raise the error of the one form."""
+        raise refusal(self._kind, self.key(key), self.file, requirement, got)
+
+    def known(self, keys: tuple[str, ...]) -> None:
+        """Refuse every other key."""
+        for key in self._all_keys:
+            if key not in keys:
+                close = difflib.get_close_matches(key, keys, n=1)
+                hint = f" (did you mean {self.key(close[0])}?)" if close else ""
+                self.refuse(key, f"one of the keys {', '.join(keys)}{hint}", "an unknown key")
+
+    def excluded(self, key: str, *others: str) -> None:
+        """Refuse a key beside others that say the same."""
+        for other in others:
+            if key in self.values and other in self.values:
+                self.refuse(key, f"left out where {self.key(other)} is given", "both")
+
+    def empty(self, where: str) -> None:
+        """Refuse every key."""
+        for key, value in self.values.items():
+            self.refuse(key, f"left out where {where}", brief(value))
+
+    def needed(self, *keys: str) -> None:
+        """Refuse a table in which none of the keys is."""
+        if not any(key in self.values for key in keys):
+            self.refuse(keys[0], "given" + "".join(f", or {self.key(key)}" for key in keys[1:]), "nothing")
+
+    def table(self, key: str, nullable: Iterable[str] = ()) -> Table:
+        """Return the table under a key."""
+        value = self.values[key]
+        if not isinstance(value, dict):
+            self.refuse(key, "a table of keys", brief(value))
+        return Table(value, self.key(key), self.file, self._kind, nullable)
+
+    def tables(self, key: str) -> list[Table]:
+        """Return the tables of a list; none where the key is absent."""
+        value = self.values.get(key, [])
+        if not isinstance(value, list):
+            self.refuse(key, "a list of tables", brief(value))
+        tables = []
+        for number, item in enumerate(value, start=1):
+            if not isinstance(item, dict):
+                self.refuse(f"{key}[{number}]", "a table of keys", brief(item))
+            tables.append(Table(item, self.key(f"{key}[{number}]"), self.file, self._kind))
+        return tables
+
+    def text(self, key: str) -> str:
+        """Return a text; empty where the key is absent."""
+        value = self.values.get(key, "")
+        if not isinstance(value, str) or "\0" in value:
+            self.refuse(key, "text", brief(value))
+        return value
+
+    def per_storey(self, key: str) -> FloatArray | None:
+        """Return one number or a list of them."""
+        value = self.values.get(key)
+        return None if value is None else as_array(value, self.key(key), self.file, InvalidScene, or_number=True)
+
+    def number(self, key: str, default: float) -> float:
+        """Return a number, or the default where the key is absent."""
+        return as_number(self.values.get(key, default), self.key(key), self.file, self._kind)

@@ -1,0 +1,208 @@
+"""Figures as SVG text: whole documents, and elements that stand inside a page of HTML beside others."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import re
+from collections.abc import Iterator
+from typing import Final
+from xml.etree import ElementTree as ET
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+from seismass.base.errors import InvalidOption
+from seismass.base.values import brief, refusal
+from seismass.media.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, lay_out
+
+FONTS: Final = "'DejaVu Sans', Verdana, sans-serif"
+"""Fonts of inline figures. The second has the widths of the first, by which figures are laid out."""
+
+COLOUR_VARIABLES: Final = {
+    INK: "--figure-ink",
+    PAPER: "--figure-paper",
+    GREY: "--figure-grey",
+    BLUE: "--figure-blue",
+    VERMILION: "--figure-vermilion",
+    GREEN: "--figure-green",
+    PURPLE: "--figure-purple",
+    ORANGE: "--figure-orange",
+    SKY: "--figure-sky",
+}
+"""CSS variables by which a page may change the colours of inline figures."""
+
+DARK_CSS: Final = (
+    "--figure-ink:#e6e6e6;--figure-paper:#16181c;--figure-grey:#9a9a9a;--figure-blue:#5eb1ea;"
+    "--figure-vermilion:#ff8a4c;--figure-green:#35c79a;--figure-purple:#e0a3c6;--figure-orange:#f0b440;"
+    "--figure-sky:#8fd0f5;color-scheme:dark"
+)
+"""Declarations that make inline figures dark: `@media (prefers-color-scheme: dark) { :root { ... } }`."""
+
+_SVG: Final = "{http://www.w3.org/2000/svg}"
+_LINK: Final = "{http://www.w3.org/1999/xlink}href"
+_NUMBER: Final = re.compile(r"-?\d+\.\d+")
+_COLOUR: Final = re.compile(r"#[0-9a-f]{6}")
+_URL: Final = re.compile(r"url\(#([^)]+)\)")
+_NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+_FONT: Final = re.compile(r" font-family: 'DejaVu Sans';?")
+_COMMAND: Final = re.compile(r"\s*([A-Za-z])\s*")
+_GEOMETRY: Final = ("x", "y", "x1", "x2", "y1", "y2", "width", "height", "points")
+_VARIABLES: Final = {colour.lower(): f"var({name},{colour.lower()})" for colour, name in COLOUR_VARIABLES.items()}
+
+
+def figure_svg(figure: Figure) -> str:
+    """Return a figure as the text of an SVG file; equal figures give equal text.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        The figure. Text in it stays text.
+
+    Returns
+    -------
+    str
+        An XML document, without date and program.
+
+    Raises
+    ------
+    InvalidOption
+        It is no figure.
+    """
+    if not isinstance(figure, Figure):
+        raise refusal(InvalidOption, "figure", "SVG", "a matplotlib Figure", brief(figure))
+    written = io.StringIO()
+    with mpl.rc_context(STYLE):
+        lay_out(figure)
+        figure.savefig(written, format="svg", metadata={"Date": None, "Creator": None}, facecolor="white")
+    return written.getvalue()
+
+
+def inline_svg(figure: Figure | str, title: str, description: str = "", *, name: str | None = None) -> str:
+    """Return a figure as an `<svg>` element for a page of HTML; it refers to nothing outside itself.
+
+    It takes the width that it is given, up to its own. Its colours are CSS variables with defaults, so that a page may
+    set others where it is dark: `DARK_CSS`. It has no script, and no style that reaches beyond it.
+
+    Parameters
+    ----------
+    figure : Figure or str
+        A figure, or the text that `figure_svg` gives.
+    title, description : str
+        What it shows, in a few words and in sentences, for those who do not see it.
+    name : str, optional
+        What all ids of the element begin with. By default it is made of the content: two elements on one page then
+        share ids only where they are equal throughout.
+
+    Returns
+    -------
+    str
+        The element on one line; equal arguments give equal text.
+
+    Raises
+    ------
+    InvalidOption
+        The title is empty, or the name is not letters, digits, hyphens and underscores, a letter first.
+    """
+    if not title.strip():
+        raise refusal(InvalidOption, "title", "inline figure", "a text", brief(title))
+    text = figure if isinstance(figure, str) else figure_svg(figure)
+    if name is None:
+        name = "f" + hashlib.sha256("\0".join((text, title, description)).encode()).hexdigest()[:10]
+    elif not _NAME.fullmatch(name):
+        raise refusal(InvalidOption, "name", "inline figure", "a letter, then letters, digits, - and _", brief(name))
+    root = _element(text, name)
+    labelled = f"{name}-title {name}-desc" if description else f"{name}-title"
+    width = float(root.attrib.pop("width").removesuffix("pt"))
+    del root.attrib["height"]
+    root.attrib |= {
+        "width": "100%",
+        "role": "img",
+        "aria-labelledby": labelled,
+        "style": f"max-width:{width / 0.75:g}px;height:auto",
+    }
+    for place, (tag, said) in enumerate((("title", title), ("desc", description))):
+        if said:
+            child = ET.Element(tag, {"id": f"{name}-{tag}"})
+            child.text = said
+            root.insert(place, child)
+    return ET.tostring(root, encoding="unicode")
+
+
+def short_svg(figure: Figure | str) -> str:
+    """Return a figure, or the text of `figure_svg`, as an `<svg>` element of its size, as short as `inline_svg` has it.
+
+    It has no title yet.
+    """
+    text = figure if isinstance(figure, str) else figure_svg(figure)
+    return ET.tostring(_element(text, "f"), encoding="unicode")
+
+
+def _element(text: str, name: str) -> ET.Element:
+    """Return the SVG that matplotlib wrote as an element of HTML, its ids beginning with a name."""
+    try:
+        root = ET.fromstring(text)
+    except ET.ParseError:
+        raise refusal(InvalidOption, "figure", "inline figure", "a Figure, or SVG text", brief(text)) from None
+    if not {"viewBox", "width", "height"} <= set(root.attrib):
+        raise refusal(InvalidOption, "figure", "inline figure", "SVG with a viewBox, width and height", brief(text))
+    used = {reference for element in root.iter() for reference in _references(element)}
+    numbers = {old: f"{name}-{number}" for number, old in enumerate(sorted(used), start=1)}
+    size = {key: root.attrib[key] for key in ("viewBox", "width", "height")}
+    for element in list(root.iter()):
+        _shortened(element, numbers)
+    for unwanted in (root.find("metadata"), root.find("defs/style/..")):
+        if unwanted is not None:
+            root.remove(unwanted)
+    root.attrib.clear()
+    # What the style that was removed said of every element, and matplotlib of every text.
+    root.attrib |= {**size, "font-family": FONTS, "stroke-linejoin": "round", "stroke-linecap": "butt"}
+    return root
+
+
+def _references(element: ET.Element) -> Iterator[str]:
+    """Ids of other elements that an element refers to."""
+    for key, value in element.attrib.items():
+        if key == _LINK and value.startswith("#"):
+            yield value[1:]
+        elif "url(#" in value:
+            yield from _URL.findall(value)
+
+
+def _shortened(element: ET.Element, numbers: dict[str, str]) -> None:
+    """Change an element in place: no namespace, ids of the page, colours by variables, numbers to 0.01 points."""
+    element.tag = element.tag.removeprefix(_SVG)
+    if element.tag != "tspan" and element.text is not None and not element.text.strip():
+        element.text = None
+    element.tail = None
+    attributes = {}
+    for key, value in element.attrib.items():
+        if key == "id":
+            if value in numbers:
+                attributes["id"] = numbers[value]
+        elif key == _LINK:
+            attributes["href"] = f"#{numbers[value[1:]]}" if value.startswith("#") else "".join(value.split())
+        elif key == "style":
+            coloured = _COLOUR.sub(lambda found: _VARIABLES.get(found[0], found[0]), value)
+            attributes["style"] = _placed(_FONT.sub("", coloured), numbers).replace(": ", ":").replace("; ", ";")
+        elif key == "clip-path":
+            attributes[key] = _placed(value, numbers)
+        elif key == "d":
+            attributes[key] = _COMMAND.sub(r"\1", _rounded(value)).strip()
+        elif key in _GEOMETRY:
+            attributes[key] = _rounded(value)
+        elif key == "transform":
+            if not value.startswith("rotate(-0 "):
+                attributes[key] = _rounded(value, 4)
+        else:
+            attributes[key] = value
+    element.attrib.clear()
+    element.attrib.update(attributes)
+
+
+def _placed(value: str, numbers: dict[str, str]) -> str:
+    return _URL.sub(lambda found: f"url(#{numbers[found[1]]})", value)
+
+
+def _rounded(value: str, digits: int = 2) -> str:
+    return _NUMBER.sub(lambda found: f"{float(found[0]):.{digits}f}".rstrip("0").rstrip("."), value)

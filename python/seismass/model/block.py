@@ -1,0 +1,186 @@
+"""Block as users meet it: a rigid body on a floor, with its mass or mass ratio and its friction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from seismass.base.errors import InvalidScene
+from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.model.building import Building
+
+
+class Block(Value):
+    """A rigid block that sticks to its floor or slides on it by Coulomb friction.
+
+    Parameters
+    ----------
+    floor : int
+        Floor that carries it, counted from 1; 0 is the ground slab, whose blocks do not load the building.
+    mass : float, optional
+        Mass (kg). Either it or `mass_ratio` is needed; on a floor of a building whose mass is not stated, the latter.
+    mass_ratio : float, optional
+        Mass over that of the floor (alpha of the paper); not on the ground.
+    mu : float, optional
+        Friction coefficient, static and kinetic. Either it or `mu_s` is needed.
+    mu_s, mu_k : float, optional
+        Static and kinetic coefficients, mu_s >= mu_k >= 0; mu_k is mu_s by default.
+    velocity : float, optional
+        Initial velocity relative to the ground (m/s); by default that of its floor.
+    wear : list of (path, mu_s, mu_k), optional
+        Coefficients that hold from a path slipped (m) on, in order of the path; those above hold until the first.
+
+    Raises
+    ------
+    InvalidScene
+        Something is missing, contradicts, or is not a number. Ranges are judged with the scene.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.Block(1, mass_ratio=0.5, mu=0.3)
+    Block(floor=1, mass_ratio=0.5, mu=0.3)
+    """
+
+    __slots__ = ("floor", "mass", "mass_ratio", "mu_k", "mu_s", "velocity", "wear")
+    floor: int
+    mass: float | None
+    mass_ratio: float | None
+    mu_s: float
+    mu_k: float
+    velocity: float | None
+    wear: tuple[tuple[float, float, float], ...]
+
+    def __init__(
+        self,
+        floor: int,
+        *,
+        mass: float | None = None,
+        mass_ratio: float | None = None,
+        mu: float | None = None,
+        mu_s: float | None = None,
+        mu_k: float | None = None,
+        velocity: float | None = None,
+        wear: Sequence[tuple[float, float, float]] = (),
+    ) -> None:
+        def number(name: str, value: float | None) -> float | None:
+            return None if value is None else as_number(value, name, "block", InvalidScene)
+
+        if (mass is None) == (mass_ratio is None):
+            got = "neither" if mass is None else "both"
+            raise refusal(InvalidScene, "mass", "block", "given either as mass or as mass_ratio", got)
+        if mu is not None and (mu_s is not None or mu_k is not None):
+            raise refusal(InvalidScene, "mu", "block", "left out where mu_s or mu_k is given", brief(mu))
+        static = mu if mu_s is None else mu_s
+        if static is None:
+            raise refusal(InvalidScene, "mu", "block", "given, or mu_s", "neither")
+        self._set(
+            floor=as_count(floor, "floor", "block", InvalidScene),
+            mass=number("mass", mass),
+            mass_ratio=number("mass_ratio", mass_ratio),
+            mu_s=number("mu" if mu_s is None else "mu_s", static),
+            mu_k=number("mu_k", static if mu_k is None else mu_k),
+            velocity=number("velocity", velocity),
+            wear=_stages(wear),
+        )
+
+    @property
+    def contact(self) -> tuple[float, float, float | None, list[tuple[float, float, float]]]:
+        """What the kernel takes beside floor and mass: mu_s, mu_k, velocity, and the stages of wear."""
+        return self.mu_s, self.mu_k, self.velocity, list(self.wear)
+
+    def _arguments(self) -> dict[str, Any]:
+        return {
+            "floor": self.floor,
+            "mass": self.mass,
+            "mass_ratio": self.mass_ratio,
+            "mu_s": self.mu_s,
+            "mu_k": self.mu_k,
+            "velocity": self.velocity,
+            "wear": self.wear,
+        }
+
+    def __repr__(self) -> str:
+        mass = f"mass={self.mass:g}" if self.mass is not None else f"mass_ratio={self.mass_ratio:g}"
+        equal = self.mu_s == self.mu_k
+        friction = f"mu={self.mu_s:g}" if equal else f"mu_s={self.mu_s:g}, mu_k={self.mu_k:g}"
+        velocity = "" if self.velocity is None else f", velocity={self.velocity:g}"
+        wear = f", wear={list(self.wear)}" if self.wear else ""
+        return f"Block(floor={self.floor}, {mass}, {friction}{velocity}{wear})"
+
+
+def _stages(wear: Any) -> tuple[tuple[float, float, float], ...]:
+    requirement = "a list of (path, mu_s, mu_k)"
+    if not isinstance(wear, Sequence | np.ndarray) or isinstance(wear, str):
+        raise refusal(InvalidScene, "wear", "block", requirement, brief(wear))
+    if len(wear) == 0:
+        return ()
+    stages = as_array(wear, "wear", "block", InvalidScene, dimensions=2)
+    if stages.shape[1] != 3:
+        raise refusal(InvalidScene, "wear", "block", requirement, f"{stages.shape[1]} numbers in each")
+    return tuple((path, mu_s, mu_k) for path, mu_s, mu_k in stages.tolist())
+
+
+def blocks_on_floors(mass_ratio: ArrayLike, mu: ArrayLike, *, mu_k: ArrayLike | None = None) -> list[Block]:
+    """Return one block per floor, from floor 1 upwards.
+
+    Parameters
+    ----------
+    mass_ratio : array_like
+        Block mass over floor mass (alpha of the paper) of each floor; 0: no block there.
+    mu : array_like
+        Friction coefficient, one number for all or one per floor; the static one where `mu_k` is given.
+    mu_k : array_like, optional
+        Kinetic coefficient, likewise.
+
+    Raises
+    ------
+    InvalidScene
+        The lists differ in length, or hold what is not a number.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.blocks_on_floors(mass_ratio=[1, 0.5, 0], mu=0.4)
+    [Block(floor=1, mass_ratio=1, mu=0.4), Block(floor=2, mass_ratio=0.5, mu=0.4)]
+    """
+    ratios = as_array(mass_ratio, "mass_ratio", "blocks", InvalidScene)
+    static = _on_floors("mu", mu, len(ratios))
+    kinetic = static if mu_k is None else _on_floors("mu_k", mu_k, len(ratios))
+    return [
+        Block(floor, mass_ratio=float(ratio), mu_s=float(mu_static), mu_k=float(mu_kinetic))
+        for floor, (ratio, mu_static, mu_kinetic) in enumerate(zip(ratios, static, kinetic, strict=True), start=1)
+        if ratio != 0.0
+    ]
+
+
+def block_mass(block: Block, number: int, building: Building | None) -> float:
+    """Mass in kg; a ratio needs a floor that exists."""
+    owner = f"block {number}"
+    if block.mass_ratio is None:
+        if building is not None and not building.mass_is_stated and block.floor > 0:
+            requirement = "given as mass_ratio where the mass of the building is not stated"
+            raise refusal(InvalidScene, "mass", owner, requirement, f"{block.mass:g} kg")
+        return block.mass if block.mass is not None else 0.0
+    floors = 0 if building is None else building.storeys
+    if block.floor == 0:
+        raise refusal(InvalidScene, "mass_ratio", owner, "left out on the ground", f"{block.mass_ratio:g}")
+    if building is None or block.floor > floors:
+        requirement = f"a floor of the building, 1 to {floors}" if floors else "0, as there is no building"
+        raise refusal(InvalidScene, "floor", owner, requirement, str(block.floor))
+    if not (np.isfinite(block.mass_ratio) and block.mass_ratio > 0.0):
+        raise refusal(InvalidScene, "mass_ratio", owner, "a positive number", f"{block.mass_ratio:g}")
+    return block.mass_ratio * float(building.mass[block.floor - 1])
+
+
+def _on_floors(name: str, value: ArrayLike, floors: int) -> FloatArray:
+    array = as_array(value, name, "blocks", InvalidScene, or_number=True)
+    if array.ndim == 0:
+        return frozen(np.full(floors, array))
+    if len(array) != floors:
+        requirement = f"one number or a list of {floors} values, one per floor"
+        raise refusal(InvalidScene, name, "blocks", requirement, f"{len(array)} values")
+    return array

@@ -1,0 +1,467 @@
+"""Building as users meet it: masses, storey springs, damping and gravity; the kernel judges the values."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from seismass import _kernel
+from seismass.base.errors import InvalidScene
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.base.views import view
+from seismass.model.damping import DEFAULT_DAMPING, Damping, Rayleigh, kernel_damping, read_damping
+from seismass.model.spring_laws import (
+    Backbone,
+    BackboneLike,
+    check_parts,
+    listed_storeys,
+    of_first_segment,
+    parts,
+    read_backbones,
+    read_hysteresis,
+    without_own,
+)
+from seismass.model.springs import (
+    SHAPE_FIELDS,
+    SPRING_FIELDS,
+    Hysteresis,
+    SpringArguments,
+    SpringShape,
+    checked_names,
+    default_values,
+    documented,
+    is_default,
+    takes_springs,
+)
+
+
+class Building(Value):
+    """A shear building: lumped floor masses, storey springs and damping.
+
+    Springs are trilinear with Masing unloading unless a backbone, a hysteresis or a clearance says otherwise.
+
+    Every argument that has a value per storey takes one number, which then stands for all storeys, or a list with
+    storey 1 (on the ground) first. The number of storeys is the length of the first list given.
+
+    Parameters
+    ----------
+    mass : array_like
+        Floor masses m_i (kg).
+    stiffness : array_like, optional
+        Initial storey stiffnesses k_i (N/m). Left out only where every storey has a backbone.
+    {springs}
+    backbone : array_like of shape (points, 2), or a list of those, optional
+        Drifts (m) and forces (N) of a polygon from the origin, of slopes that do not increase, with Masing unloading; a
+        list has one per storey, None where a storey is trilinear. The stiffness and the yield shear of a storey with a
+        backbone are those of its first segment; one number for either of them is for the other storeys.
+    hysteresis : {"masing", "peak-oriented", "flag-shaped"} or list of them, default "masing"
+        How storeys unload and reload. Peak-oriented ones reload straight to their largest drift so far. Flag-shaped
+        ones, of slopes k and r2 k, come back to zero drift at zero force.
+    damping : float, Rayleigh or array_like of shape (storeys, storeys), default 0.05
+        A ratio in every vibration mode of the bare building, from 0 to 1 (0.05 for 5 %), Rayleigh damping, or the
+        matrix C (N s/m).
+    heights : array_like, optional
+        Storey heights (m). Alone they only make drift ratios known.
+    gravity_load : array_like, optional
+        Gravity load of each floor without blocks (N). With the heights it gives P-Delta, to which the weight of the
+        blocks is added: P_i/h_i is subtracted from the tangent stiffness of storey i.
+    geometric_stiffness : array_like, optional
+        Finished P/h of each storey (N/m), instead of `gravity_load`.
+    mass_is_stated : bool, default True
+        False where the masses are only a convention, as `uniform` makes them where it is given none: then blocks have
+        to be given by `mass_ratio`, and forces mean something as fractions of the weight alone.
+
+    Attributes
+    ----------
+    mass, stiffness, and what a spring has beside it : ndarray, shape (storeys,)
+        As given, read-only.
+    backbone : tuple, or None
+        Points of each storey, or None; None where no storey has a backbone.
+    hysteresis : tuple of str
+        That of each storey.
+    heights, gravity_load, geometric_stiffness : ndarray, shape (storeys,), or None
+        As given, read-only.
+    damping : float, Rayleigh or ndarray
+        As given.
+    mass_is_stated : bool
+        As given.
+
+    Raises
+    ------
+    InvalidScene
+        A number is out of its range, a list has another length, or arguments contradict each other.
+
+    Notes
+    -----
+    Springs as in Fig. 3 of the 16WCEE paper; the damping matrix is M Phi diag(2 zeta w) Phi^T M, constant through
+    yielding and sliding and made without P-Delta.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> building = sm.Building(mass=[1000, 1000, 1000], stiffness=5.5e5, yield_shear=[7000, 6000, 3500])
+    >>> building.storeys
+    3
+    >>> building.periods.round(3)
+    array([0.602, 0.215, 0.149])
+    """
+
+    __slots__ = (
+        "_kernel",
+        "backbone",
+        "damping",
+        "geometric_stiffness",
+        "gravity_load",
+        "heights",
+        "hysteresis",
+        "mass",
+        "mass_is_stated",
+        "stiffness",
+        *SPRING_FIELDS,
+    )
+    _kernel: _kernel.Building
+    mass: FloatArray
+    stiffness: FloatArray
+    yield_shear: FloatArray
+    overstrength: FloatArray
+    second_slope: FloatArray
+    third_slope: FloatArray
+    clearance: FloatArray
+    stop_stiffness: FloatArray
+    unloading_exponent: FloatArray
+    energy_capacity: FloatArray
+    residual_strength: FloatArray
+    flag_height: FloatArray
+    backbone: tuple[Backbone | None, ...] | None
+    hysteresis: tuple[Hysteresis, ...]
+    damping: float | Rayleigh | FloatArray
+    heights: FloatArray | None
+    gravity_load: FloatArray | None
+    geometric_stiffness: FloatArray | None
+    mass_is_stated: bool
+
+    @takes_springs(SPRING_FIELDS)
+    def __init__(
+        self,
+        mass: ArrayLike,
+        stiffness: ArrayLike | None = None,
+        *,
+        backbone: BackboneLike | None = None,
+        hysteresis: Hysteresis | Sequence[Hysteresis] = "masing",
+        damping: Damping = DEFAULT_DAMPING,
+        heights: ArrayLike | None = None,
+        gravity_load: ArrayLike | None = None,
+        geometric_stiffness: ArrayLike | None = None,
+        mass_is_stated: bool = True,
+        **springs: Unpack[SpringArguments],
+    ) -> None:
+        given: dict[str, Any] = dict(springs)
+        checked_names(given, SPRING_FIELDS, "Building")
+        if gravity_load is not None and geometric_stiffness is not None:
+            raise refusal(
+                InvalidScene, "geometric_stiffness", "building", "left out where gravity_load is given", "both"
+            )
+        if gravity_load is not None and heights is None:
+            raise refusal(InvalidScene, "heights", "building", "given where gravity_load is", "none")
+        arguments = {
+            "mass": mass,
+            "stiffness": np.nan if stiffness is None else stiffness,
+            **{name: given[name] for name in SPRING_FIELDS if name in given},
+            "heights": heights,
+            "gravity_load": gravity_load,
+            "geometric_stiffness": geometric_stiffness,
+        }
+        arrays = {name: _array(name, value) for name, value in arguments.items()}
+        lengths = [len(array) for array in arrays.values() if array is not None and array.ndim]
+        storeys = next(iter((*lengths, *listed_storeys(backbone, hysteresis))), 1)
+        backbones = read_backbones(backbone, storeys)
+        if stiffness is None and (backbones is None or None in backbones):
+            raise refusal(InvalidScene, "stiffness", "building", "given where a storey has no backbone", "none")
+        filled = {name: default_values(name, storeys) for name in SPRING_FIELDS if name not in arrays}
+        if backbones is not None:
+            for name in ("stiffness", "yield_shear"):
+                own = arrays.get(name, np.array(np.inf))
+                if own is not None and own.shape in ((), (storeys,)):
+                    filled[name] = of_first_segment(own, name, backbones)
+        self._set(
+            **({name: _filled(array, storeys) for name, array in arrays.items()} | filled),
+            backbone=backbones,
+            hysteresis=read_hysteresis(hysteresis, storeys),
+            damping=read_damping(damping),
+            mass_is_stated=bool(mass_is_stated),
+        )
+        stated = {name: values for name, values in self.springs.items() if not is_default(values, name)}
+        check_parts(stated, self.backbone, self.hysteresis)
+        heights_only = gravity_load is None
+        if heights_only and self.heights is not None:
+            _check_heights(self.heights, len(self.mass))
+        self._set(
+            _kernel=_kernel.Building(
+                self.mass,
+                stated,
+                **_law_arguments(self),
+                **kernel_damping(self.damping),
+                heights=None if heights_only else self.heights,
+                gravity_load=self.gravity_load,
+                geometric_stiffness=self.geometric_stiffness,
+            )
+        )
+
+    @classmethod
+    @takes_springs(SHAPE_FIELDS)
+    def uniform(
+        cls,
+        storeys: int,
+        period: float,
+        *,
+        mass: float | None = None,
+        yield_shear: ArrayLike | None = None,
+        yield_shear_over_weight: ArrayLike | None = None,
+        hysteresis: Hysteresis | Sequence[Hysteresis] = "masing",
+        damping: Damping = DEFAULT_DAMPING,
+        heights: ArrayLike | None = None,
+        gravity_load: ArrayLike | None = None,
+        geometric_stiffness: ArrayLike | None = None,
+        **shape: Unpack[SpringShape],
+    ) -> Building:
+        """Return a building of equal floor masses and storey stiffnesses with the given first period.
+
+        Parameters
+        ----------
+        storeys : int
+            Number of storeys n.
+        period : float
+            First period T of the bare building (s).
+        mass : float, optional
+            Mass of each floor (kg). Drifts and slips do not depend on it where all else is given as ratios (Notes). By
+            default it is 1 kg and not stated: blocks are then ratios of it.
+        yield_shear : array_like, optional
+            V_y of each storey (N); elastic where neither it nor the next is given.
+        yield_shear_over_weight : array_like, optional
+            V_y as a fraction of the weight g sum(m) of the building without blocks.
+        hysteresis, damping, heights, gravity_load, geometric_stiffness
+            As for `Building`.
+        **shape
+            Overstrength, slopes and what else shapes the springs, as for `Building`.
+
+        Raises
+        ------
+        InvalidScene
+            As for `Building`, or both forms of yield shear are given.
+
+        Notes
+        -----
+        w_1 = 2 sqrt(k/m) sin(pi / (2 (2 n + 1))) gives the stiffness.
+
+        Stiffness follows the mass, and so does everything given as a ratio. Drifts and slips therefore do not depend on
+        the mass where the building is elastic or has its strengths over the weight, its damping is a ratio, there is no
+        P-Delta, and blocks are given by `mass_ratio`; forces and energies are then proportional to it. What is given
+        in other units is for floor masses of 1 kg where no mass is stated: `yield_shear`, `gravity_load`,
+        `geometric_stiffness`, a damping matrix. The `mass` of blocks is refused there, and `mass=1.0` states it.
+
+        Examples
+        --------
+        >>> import seismass as sm
+        >>> sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.20, 0.12])
+        Building(3 storeys, T1 = 0.6 s, V_y/W = [0.24, 0.2, 0.12], Omega = 2, r2 = 0.05, r3 = 0, damping = 0.05)
+        """
+        count = as_count(storeys, "storeys", "building", InvalidScene, least=1)
+        if yield_shear_over_weight is not None and yield_shear is not None:
+            raise refusal(
+                InvalidScene, "yield_shear_over_weight", "building", "left out where yield_shear is given", "both"
+            )
+        floor_mass = 1.0 if mass is None else as_number(mass, "mass", "building", InvalidScene)
+        stiffness = _kernel.uniform_stiffness(count, as_number(period, "period", "building", InvalidScene), floor_mass)
+        if yield_shear_over_weight is not None:
+            weight = STANDARD_GRAVITY * floor_mass * count
+            yield_shear = as_fraction_of_weight(yield_shear_over_weight, count) * weight
+        return cls(
+            np.full(count, floor_mass),
+            stiffness,
+            yield_shear=np.inf if yield_shear is None else yield_shear,
+            hysteresis=hysteresis,
+            damping=damping,
+            heights=heights,
+            gravity_load=gravity_load,
+            geometric_stiffness=geometric_stiffness,
+            mass_is_stated=mass is not None,
+            **shape,
+        )
+
+    def replace(self, **changes: Any) -> Building:
+        """Return another building, with these arguments changed.
+
+        Parameters
+        ----------
+        **changes
+            Arguments of `Building`, or `yield_shear_over_weight`, V_y as fractions of the weight of the new building.
+            Masses given here are stated.
+
+        Raises
+        ------
+        InvalidScene
+            As for `Building` and `uniform`.
+
+        Examples
+        --------
+        >>> import seismass as sm
+        >>> sm.Building.uniform(3, 0.6).replace(yield_shear_over_weight=[0.24, 0.20, 0.12])
+        Building(3 storeys, T1 = 0.6 s, V_y/W = [0.24, 0.2, 0.12], Omega = 2, r2 = 0.05, r3 = 0, damping = 0.05)
+        """
+        over_weight = changes.pop("yield_shear_over_weight", None)
+        if over_weight is not None and "yield_shear" in changes:
+            raise refusal(
+                InvalidScene, "yield_shear_over_weight", "building", "left out where yield_shear is given", "both"
+            )
+        if "mass" in changes:
+            changes = {"mass_is_stated": True} | changes
+        backbones = read_backbones(changes.get("backbone"), self.storeys)
+        if backbones is not None:
+            own = {name: without_own(getattr(self, name), backbones) for name in ("stiffness", "yield_shear")}
+            changes = own | changes
+        if over_weight is None:
+            return super().replace(**changes)
+        changed = super().replace(**changes, yield_shear=np.inf)
+        strength = as_fraction_of_weight(over_weight, changed.storeys) * changed.weight
+        return changed.replace(yield_shear=strength)
+
+    @property
+    def storeys(self) -> int:
+        """Number of storeys."""
+        return len(self.mass)
+
+    @property
+    def springs(self) -> dict[str, FloatArray]:
+        """Numbers of the storey springs by the name of their argument, each of shape (storeys,), stiffness first."""
+        return {name: getattr(self, name) for name in ("stiffness", *SPRING_FIELDS)}
+
+    @property
+    def weight(self) -> float:
+        """Weight W = g sum(m) of the building without blocks (N)."""
+        return STANDARD_GRAVITY * float(self.mass.sum())
+
+    @property
+    def periods(self) -> FloatArray:
+        """Natural periods of the bare building without P-Delta (s), longest first, shape (storeys,)."""
+        return self._kernel.periods
+
+    @property
+    def damping_matrix(self) -> FloatArray:
+        """Damping matrix C in floor coordinates (N s/m), shape (storeys, storeys)."""
+        return self._kernel.damping_matrix
+
+    def spring_summary(self) -> dict[str, FloatArray]:
+        """Return what summaries list of the springs, by symbol: the strength over the weight, and what shapes them."""
+        shape = self.springs_in_use()
+        listed = {SHAPE_FIELDS[name].symbol: values for name, values in shape.items() if name in SHAPE_FIELDS}
+        return {"V_y/W": self.yield_shear / self.weight, **listed}
+
+    def springs_in_use(self) -> dict[str, FloatArray]:
+        """Return `springs` without the numbers that do not matter, such as those of stops where no storey has one."""
+        has = parts(self.springs, self.backbone, self.hysteresis)
+        unused = {name for name, field in SPRING_FIELDS.items() if not field.matters(has)}
+        if "stop" not in has:
+            unused.add("clearance")
+        return {name: values for name, values in self.springs.items() if name not in unused}
+
+    @property
+    def laws(self) -> tuple[str, ...]:
+        """What springs have beside trilinear backbones with Masing unloading: "backbone", "stop", or a hysteresis."""
+        backbones = () if self.backbone is None else ("backbone",)
+        return (*backbones, *sorted(parts(self.springs, self.backbone, self.hysteresis) - {"trilinear"}, reverse=True))
+
+    def _arguments(self) -> dict[str, Any]:
+        return {
+            "mass": self.mass,
+            **self.springs,
+            "backbone": self.backbone,
+            "hysteresis": self.hysteresis,
+            "damping": self.damping,
+            "heights": self.heights,
+            "gravity_load": self.gravity_load,
+            "geometric_stiffness": self.geometric_stiffness,
+            "mass_is_stated": self.mass_is_stated,
+        }
+
+    @view
+    def _repr_html_(self) -> str:
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        elastic = bool(np.isinf(self.yield_shear).all()) and not self.laws
+        springs = (
+            "elastic"
+            if elastic
+            else ", ".join(f"{symbol} = {_listed(values)}" for symbol, values in self.spring_summary().items())
+        )
+        laws = "".join(f", {law}" for law in self.laws)
+        damping = "matrix" if isinstance(self.damping, np.ndarray) else self.damping
+        p_delta = ", P-Delta" if self.gravity_load is not None or self.geometric_stiffness is not None else ""
+        noun = "storey" if self.storeys == 1 else "storeys"
+        springs += laws
+        return f"Building({self.storeys} {noun}, T1 = {self.periods[0]:.4g} s, {springs}, damping = {damping}{p_delta})"
+
+
+Building.__doc__ = documented(Building.__doc__, SPRING_FIELDS)
+
+
+def changed_building(building: Building, **changes: Any) -> Building:
+    """Return a building with arguments changed as they are: unlike in `replace`, a changed mass is not a stated one."""
+    return Building(**(building._arguments() | changes))
+
+
+def as_fraction_of_weight(value: Any, storeys: int) -> FloatArray:
+    """Return yield shears over the weight, positive: one number (shape ()) or one per storey."""
+    name = "yield_shear_over_weight"
+    fraction = as_array(value, name, "building", InvalidScene, or_number=True)
+    if not np.all(fraction > 0.0):
+        raise refusal(InvalidScene, name, "building", "positive", brief(value))
+    if fraction.shape not in ((), (storeys,)):
+        requirement = f"one number or a list of {storeys} values, one per storey"
+        raise refusal(InvalidScene, name, "building", requirement, f"{fraction.size} values")
+    return fraction
+
+
+def _array(name: str, value: ArrayLike | None) -> FloatArray | None:
+    """An argument as an array, of shape () where it is one number."""
+    if value is None:
+        return None
+    if is_default(value, name):
+        return value
+    return as_array(value, name, "building", InvalidScene, or_number=True)
+
+
+def _filled(array: FloatArray | None, storeys: int) -> FloatArray | None:
+    """An array with a value per storey where it is one number."""
+    return frozen(np.full(storeys, array)) if array is not None and array.ndim == 0 else array
+
+
+def _law_arguments(building: Building) -> dict[str, Any]:
+    """What the kernel takes of the laws beside the numbers; nothing of trilinear springs with Masing unloading."""
+    found: dict[str, Any] = {}
+    if building.backbone is not None:
+        found["backbones"] = [None if points is None else np.array(points) for points in building.backbone]
+    if any(name != "masing" for name in building.hysteresis):
+        found["hysteresis"] = list(building.hysteresis)
+    return found
+
+
+def _check_heights(heights: FloatArray, storeys: int) -> None:
+    """Heights that the kernel does not see, because they only make drift ratios."""
+    if len(heights) != storeys:
+        requirement = f"one number or a list of {storeys} values, one per storey"
+        raise refusal(InvalidScene, "heights", "building", requirement, f"{len(heights)} values")
+    for number, height in enumerate(heights, start=1):
+        if not (np.isfinite(height) and height > 0.0):
+            raise refusal(InvalidScene, "heights", f"storey {number}", "a positive number", f"{height:g}")
+
+
+def _listed(values: FloatArray) -> str:
+    """One number where all are equal, else a list."""
+    if (values == values[0]).all():
+        return f"{values[0]:.4g}"
+    return "[" + ", ".join(f"{value:.4g}" for value in values) + "]"

@@ -1,0 +1,138 @@
+"""Motion as the kernel takes it, and what may stand in its place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Protocol, TypeAlias, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from seismass import _kernel
+from seismass.base.errors import InvalidMotion
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, Value, as_array, as_number, brief, frozen, refusal
+
+
+class Motion(Value):
+    """Ground motion as the kernel takes it: acceleration, linear between samples, the first sample at t = 0.
+
+    Parameters
+    ----------
+    acceleration : array_like, shape (samples,)
+        Horizontal ground acceleration (m/s2).
+    dt : float
+        Time step (s).
+    vertical : array_like, shape (samples,), optional
+        Vertical ground acceleration (m/s2), up positive.
+
+    Raises
+    ------
+    InvalidMotion
+        No sample, a value that is not a finite number, a step that is not positive, unequal lengths.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.Motion([0.0, 1.0, -2.0, 0.0], dt=0.01)
+    Motion(4 samples x 0.01 s, PGA = 0.2039 g)
+    """
+
+    __slots__ = ("_kernel", "acceleration", "dt", "vertical")
+    _kernel: _kernel.Motion
+    acceleration: FloatArray
+    dt: float
+    vertical: FloatArray | None
+
+    def __init__(self, acceleration: ArrayLike, dt: float, vertical: ArrayLike | None = None) -> None:
+        self._set(
+            acceleration=as_array(acceleration, "acceleration", "motion", InvalidMotion),
+            dt=as_number(dt, "dt", "motion", InvalidMotion),
+            vertical=None if vertical is None else as_array(vertical, "vertical acceleration", "motion", InvalidMotion),
+        )
+        self._set(_kernel=_kernel.Motion(self.acceleration, self.dt, self.vertical))
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        return len(self.acceleration)
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample (s)."""
+        return (self.samples - 1) * self.dt
+
+    @property
+    def time(self) -> FloatArray:
+        """Time of each sample (s), shape (samples,)."""
+        return frozen(np.arange(self.samples) * self.dt)
+
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration, horizontal (m/s2)."""
+        return float(np.abs(self.acceleration).max())
+
+    @property
+    def pga_g(self) -> float:
+        """Peak ground acceleration over g."""
+        return self.pga / STANDARD_GRAVITY
+
+    def with_duration(self, duration: float) -> Motion:
+        """Return the motion up to the sample nearest to `duration`.
+
+        Parameters
+        ----------
+        duration : float
+            Time (s). Beyond the last sample the motion goes to zero over one step and stays there.
+
+        Raises
+        ------
+        InvalidMotion
+            The duration is negative or not finite.
+        """
+        changed = self._kernel.with_duration(as_number(duration, "duration", "motion", InvalidMotion))
+        return Motion(changed.acceleration, self.dt, changed.vertical)
+
+    def scaled(self, factor: float) -> Motion:
+        """Return the motion with both components multiplied by `factor`.
+
+        Raises
+        ------
+        InvalidMotion
+            The factor, or a sample times it, is not a finite number.
+        """
+        changed = self._kernel.scaled(as_number(factor, "factor", "scaled motion", InvalidMotion))
+        return Motion(changed.acceleration, self.dt, changed.vertical)
+
+    def _arguments(self) -> dict[str, Any]:
+        return {"acceleration": self.acceleration, "dt": self.dt, "vertical": self.vertical}
+
+    def __repr__(self) -> str:
+        vertical = "" if self.vertical is None else ", with vertical"
+        return f"Motion({self.samples} samples x {self.dt:g} s, PGA = {self.pga_g:.4g} g{vertical})"
+
+
+@runtime_checkable
+class HasMotion(Protocol):
+    """What can be used in place of a motion, such as a Record."""
+
+    @property
+    def motion(self) -> Motion:
+        """Its samples as the kernel takes them."""
+
+
+MotionLike: TypeAlias = Motion | HasMotion
+"""A Motion, or a Record as it is."""
+
+
+def as_motion(motion: Any, parameter: str, owner: str) -> Motion:
+    """Return a motion, or that of a record."""
+    found = motion if isinstance(motion, Motion) else getattr(motion, "motion", None)
+    if not isinstance(found, Motion):
+        raise refusal(InvalidMotion, parameter, owner, "a Motion or a Record", brief(motion))
+    return found
+
+
+def motion_names(motions: Iterable[Any]) -> list[str]:
+    """Return the names of motions; one without a name is called by its number, from 1."""
+    return [str(getattr(motion, "name", "")) or f"motion {n}" for n, motion in enumerate(motions, start=1)]

@@ -1,0 +1,145 @@
+"""Plausibility of inputs that are valid but unlikely: remarks in plain sentences, never errors.
+
+A wrong unit is the usual cause. The limits are far outside what buildings and records have; they judge no design.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from seismass.base.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from seismass.model.block import Block
+    from seismass.model.building import Building
+
+MAX_FRICTION: Final = 1.5
+"""Friction coefficient; that of rubber on concrete is about 1."""
+MAX_HEIGHT: Final = 20.0
+"""Storey height (m); heights in ft or mm are above it."""
+MAX_STRENGTH: Final = 5.0
+"""Yield shear over the weight of the building without blocks."""
+MIN_STRENGTH: Final = 1e-4
+"""Yield shear over the same weight; that of kN beside kg is a thousandth of what was meant."""
+GRAVITY_LOAD_RANGE: Final = (0.01, 100.0)
+"""Gravity load of a floor over the weight of its mass, where it is not zero."""
+PERIOD_RANGE: Final = (0.01, 10.0)
+"""First period (s)."""
+MAX_PGA: Final = 5.0
+"""Peak ground acceleration (g); the largest recorded one is about 4 g."""
+
+
+def model_remarks(building: Building | None, blocks: Sequence[Block]) -> tuple[str, ...]:
+    """Return what is unlikely about a building and its blocks.
+
+    Parameters
+    ----------
+    building : Building or None
+        The building.
+    blocks : sequence of Block
+        Its blocks.
+
+    Returns
+    -------
+    tuple of str
+        One sentence per kind of remark; it names the first storey or block concerned and counts the others.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> scene = sm.Scene(sm.Building.uniform(2, 0.4), [sm.Block(1, mass_ratio=1.0, mu=40.0)])
+    >>> scene.remarks
+    ('mu_s of block 1 is 40, above 1.5: friction coefficients are ratios, not per cent',)
+    """
+    found = [] if building is None else list(_building_remarks(building))
+    found += _numbered(
+        [block.mu_s for block in blocks],
+        np.array([block.mu_s for block in blocks]) > MAX_FRICTION,
+        "mu_s of block {number} is {value:.4g}, above 1.5{others}: friction coefficients are ratios, not per cent",
+    )
+    return tuple(found)
+
+
+def _building_remarks(building: Building) -> Iterator[str]:
+    period = float(building.periods[0])
+    shortest, longest = PERIOD_RANGE
+    if period > longest:
+        yield (
+            f"first period is {period:.4g} s, above {longest:g} s: are stiffnesses in N/m and masses in kg "
+            "(kN/m beside kg gives 32 times the period)?"
+        )
+    elif period < shortest:
+        yield (
+            f"first period is {period:.4g} s, below {shortest:g} s: are stiffnesses in N/m and masses in kg "
+            "(N/m beside t gives a thirty-second of the period)?"
+        )
+    if building.heights is not None:
+        yield from _numbered(
+            building.heights,
+            building.heights > MAX_HEIGHT,
+            "height of storey {number} is {value:.4g} m, above 20 m{others}: heights are in m",
+        )
+    strength = building.yield_shear / building.weight
+    yield from _numbered(
+        strength,
+        np.isfinite(strength) & (strength > MAX_STRENGTH),
+        "V_y of storey {number} is {value:.4g} of the weight W of the building, above 5{others}: "
+        "it hardly yields; are forces in N and masses in kg?",
+    )
+    yield from _numbered(
+        strength,
+        strength < MIN_STRENGTH,
+        "V_y of storey {number} is {value:.3g} of the weight W of the building, below 0.0001{others}: "
+        "forces are in N and masses in kg; kN beside kg give a thousandth",
+    )
+    if building.gravity_load is not None:
+        load = building.gravity_load / (STANDARD_GRAVITY * building.mass)
+        low, high = GRAVITY_LOAD_RANGE
+        yield from _numbered(
+            load,
+            (load > 0.0) & ((load < low) | (load > high)),
+            "gravity load of floor {number} is {value:.3g} of the weight of its mass{others}: "
+            "forces are in N and masses in kg; kN beside kg give a thousandth",
+        )
+
+
+def motion_remarks(motions: Any) -> tuple[str, ...]:
+    """Return what is unlikely about ground motions as they are used, scale factors included.
+
+    Parameters
+    ----------
+    motions : Motion, Record or iterable of them
+        The motions, which the remarks count from 1 and name where they have a name.
+
+    Returns
+    -------
+    tuple of str
+        One sentence per motion concerned.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> motion_remarks(sm.Motion([0.0, 350.0, 0.0], dt=0.01))
+    ('motion 1 has a PGA of 35.69 g, above 5 g: are its accelerations in m/s2?',)
+    """
+    listed: Iterable[Any] = [motions] if hasattr(motions, "acceleration") else motions
+    found = []
+    for number, motion in enumerate(listed, start=1):
+        pga = float(np.abs(motion.acceleration).max()) / STANDARD_GRAVITY
+        if pga > MAX_PGA:
+            name = getattr(motion, "name", "")
+            called = f"motion {number}, {name}," if name else f"motion {number}"
+            found.append(f"{called} has a PGA of {pga:.4g} g, above {MAX_PGA:g} g: are its accelerations in m/s2?")
+    return tuple(found)
+
+
+def _numbered(values: Any, wrong: Any, sentence: str) -> list[str]:
+    """A sentence about the first value that is wrong, with the number of the others."""
+    places = np.flatnonzero(wrong)
+    if not len(places):
+        return []
+    others = f" (and {len(places) - 1} more)" if len(places) > 1 else ""
+    return [sentence.format(number=places[0] + 1, value=values[places[0]], others=others)]

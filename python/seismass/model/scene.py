@@ -1,0 +1,181 @@
+"""Scene as users meet it: a building and its blocks with their initial state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from seismass import _kernel
+from seismass.base.errors import InvalidScene
+from seismass.base.values import FloatArray, Value, as_array, brief, frozen, refusal
+from seismass.base.views import view
+from seismass.model.block import Block, block_mass
+from seismass.model.building import Building
+from seismass.model.plausibility import model_remarks
+
+
+class Scene(Value):
+    """A building and its blocks, or blocks on the ground alone, with their initial state.
+
+    Parameters
+    ----------
+    building : Building or None
+        None: there are blocks on the ground only.
+    blocks : iterable of Block
+        Any number, in any order; several may share a floor. They are counted from 1 as listed.
+    initial_drift : array_like, optional
+        Storey drifts at the start (m), within the elastic range. It and the next two need a building.
+    initial_velocity : array_like, optional
+        Floor velocities relative to the ground at the start (m/s).
+    collapse_drift : array_like, optional
+        Drift (m) at which a storey counts as collapsed and the run ends, beside the limit that P-Delta sets.
+    name, note : str
+        Labels; they do not take part in comparison.
+
+    Attributes
+    ----------
+    building, blocks, initial_drift, initial_velocity, collapse_drift, name, note
+        As given; `blocks` is a tuple, arrays are read-only.
+
+    Raises
+    ------
+    InvalidScene
+        A block is invalid, stands on a missing floor or has a mass where the building's is not stated, P/h reaches a
+        stiffness, a list has another length, or there are storey values without a building.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> building = sm.Building.uniform(3, 0.6)
+    >>> sm.Scene(building, sm.blocks_on_floors([1, 1, 0], mu=0.3))
+    Scene(3 storeys, T1 = 0.6 s, 2 blocks)
+    """
+
+    __slots__ = (
+        "_kernel",
+        "blocks",
+        "building",
+        "collapse_drift",
+        "initial_drift",
+        "initial_velocity",
+        "name",
+        "note",
+    )
+    _kernel: _kernel.Scene
+    building: Building | None
+    blocks: tuple[Block, ...]
+    initial_drift: FloatArray | None
+    initial_velocity: FloatArray | None
+    collapse_drift: FloatArray | None
+    name: str
+    note: str
+
+    def __init__(
+        self,
+        building: Building | None,
+        blocks: Iterable[Block] = (),
+        *,
+        initial_drift: ArrayLike | None = None,
+        initial_velocity: ArrayLike | None = None,
+        collapse_drift: ArrayLike | None = None,
+        name: str = "",
+        note: str = "",
+    ) -> None:
+        if building is not None and not isinstance(building, Building):
+            raise refusal(InvalidScene, "building", "scene", "a Building or None", brief(building))
+        try:
+            placed = tuple(blocks)
+        except TypeError:
+            raise refusal(InvalidScene, "blocks", "scene", "a list of Blocks", brief(blocks)) from None
+        for number, block in enumerate(placed, start=1):
+            if not isinstance(block, Block):
+                raise refusal(InvalidScene, f"block {number}", "scene", "a Block", brief(block))
+
+        def per_storey(name: str, value: ArrayLike | None) -> FloatArray | None:
+            if value is None:
+                return None
+            if building is None:
+                raise refusal(InvalidScene, name, "scene", "left out where there is no building", brief(value))
+            array = as_array(value, name, "scene", InvalidScene, or_number=True)
+            return frozen(np.full(building.storeys, array)) if array.ndim == 0 else array
+
+        self._set(
+            building=building,
+            blocks=placed,
+            initial_drift=per_storey("initial_drift", initial_drift),
+            initial_velocity=per_storey("initial_velocity", initial_velocity),
+            collapse_drift=per_storey("collapse_drift", collapse_drift),
+            name=str(name),
+            note=str(note),
+        )
+        self._set(
+            _kernel=_kernel.Scene(
+                None if building is None else building._kernel,
+                [
+                    (block.floor, block_mass(block, number, building), *block.contact)
+                    for number, block in enumerate(placed, start=1)
+                ],
+                initial_drift=self.initial_drift,
+                initial_velocity=self.initial_velocity,
+                collapse_drift=self.collapse_drift,
+            )
+        )
+
+    @property
+    def storeys(self) -> int:
+        """Number of storeys; 0 without a building."""
+        return 0 if self.building is None else self.building.storeys
+
+    @property
+    def block_mass(self) -> FloatArray:
+        """Mass of each block (kg), shape (blocks,)."""
+        return frozen([block_mass(block, number, self.building) for number, block in enumerate(self.blocks, start=1)])
+
+    @property
+    def block_floor(self) -> tuple[int, ...]:
+        """Floor of each block; 0 is the ground."""
+        return tuple(block.floor for block in self.blocks)
+
+    @property
+    def geometric_stiffness(self) -> FloatArray:
+        """P/h of each storey (N/m), the weight of the blocks included, shape (storeys,); zero without P-Delta."""
+        return self._kernel.geometric_stiffness
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What is unlikely about the building and its blocks, as sentences; found when asked for, empty as a rule."""
+        return model_remarks(self.building, self.blocks)
+
+    def _arguments(self) -> dict[str, Any]:
+        return {
+            "building": self.building,
+            "blocks": self.blocks,
+            "initial_drift": self.initial_drift,
+            "initial_velocity": self.initial_velocity,
+            "collapse_drift": self.collapse_drift,
+            "name": self.name,
+            "note": self.note,
+        }
+
+    def _content(self) -> tuple[Any, ...]:
+        arrays = (self.initial_drift, self.initial_velocity, self.collapse_drift)
+        return (
+            self.building,
+            self.blocks,
+            *(None if array is None else (array + 0.0).tobytes() for array in arrays),
+        )
+
+    @view
+    def _repr_html_(self) -> str:
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        name = f"{self.name!r}, " if self.name else ""
+        blocks = {0: "no block", 1: "1 block"}.get(len(self.blocks), f"{len(self.blocks)} blocks")
+        if self.building is None:
+            return f"Scene({name}ground only, {blocks})"
+        noun = "storey" if self.storeys == 1 else "storeys"
+        return f"Scene({name}{self.storeys} {noun}, T1 = {self.building.periods[0]:.4g} s, {blocks})"

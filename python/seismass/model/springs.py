@@ -1,0 +1,295 @@
+"""The numbers of a storey's spring: one table of name, default, unit, meaning and range.
+
+`Building`, the call of the kernel, scene files, grids and digests of inputs read it. A new number is one entry here,
+one in the extension module, and one declared attribute of `Building`.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Annotated, Any, Final, Literal, TypeAlias, TypedDict, TypeGuard, TypeVar, get_args, get_type_hints
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seismass import _kernel
+from seismass.base.values import FloatArray, frozen
+
+DEFAULT_OVERSTRENGTH: Final = _kernel.DEFAULT_OVERSTRENGTH
+"""Overstrength Omega, of the paper's section 4."""
+DEFAULT_SECOND_SLOPE: Final = _kernel.DEFAULT_SECOND_SLOPE
+"""Second slope r2 over the first: an inference from what the paper says of its results, not its number."""
+DEFAULT_THIRD_SLOPE: Final = _kernel.DEFAULT_THIRD_SLOPE
+"""Third slope r3 over the first: an inference, as r2."""
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+Hysteresis: TypeAlias = Literal["masing", "peak-oriented", "flag-shaped"]
+"""Masing's rules, straight to the largest drift so far (Clough and Johnston 1966), or self-centring (Christopoulos,
+Filiatrault and Folz 2002)."""
+HYSTERESES: Final[tuple[Hysteresis, ...]] = get_args(Hysteresis)
+
+Part: TypeAlias = Literal["trilinear", "stop", Hysteresis]
+"""What a storey's spring may have: a trilinear backbone, a stop on each side, a hysteresis."""
+TRILINEAR: Final[frozenset[Hysteresis]] = frozenset({"masing", "peak-oriented"})
+"""The hystereses that have a trilinear backbone where no other is given."""
+
+
+@dataclass(frozen=True)
+class SpringField:
+    """A number that every storey's spring has.
+
+    Attributes
+    ----------
+    default : float
+        Its value where none is given.
+    unit : str
+        Its unit; empty for a ratio.
+    symbol : str
+        What summaries call it.
+    meaning : str
+        What it is, with its unit and its range, as a docstring has it.
+    requirement : str
+        Its range, as errors have it.
+    low, high : float
+        The range, both ends included.
+    parts : tuple of str
+        What a spring must have for it to matter, one of these: a trilinear backbone, a stop, a hysteresis. Empty:
+        nothing.
+    """
+
+    default: float
+    unit: str
+    symbol: str
+    meaning: str
+    requirement: str
+    low: float
+    high: float
+    parts: tuple[Part, ...] = ()
+
+    def accepts(self, values: FloatArray | float) -> NDArray[np.bool_]:
+        """Return which values are in the range."""
+        return np.asarray((self.low <= values) & (values <= self.high))
+
+    def matters(self, present: AbstractSet[Part]) -> bool:
+        """Return whether it matters for springs that have these parts."""
+        return not self.parts or any(part in present for part in self.parts)
+
+
+_TINY: Final = float(np.nextafter(0.0, 1.0))
+_BELOW_ONE: Final = float(np.nextafter(1.0, 0.0))
+_HUGE: Final = float(np.finfo(np.float64).max)
+
+
+class SpringShape(TypedDict, total=False):
+    """What shapes a spring beside its stiffness and strength: numbers for all storeys, or lists with storey 1 first."""
+
+    overstrength: Annotated[
+        ArrayLike,
+        SpringField(
+            DEFAULT_OVERSTRENGTH,
+            "",
+            "Omega",
+            "Omega >= 1: the second yield is at Omega V_y.",
+            "finite and at least 1",
+            1.0,
+            _HUGE,
+            ("trilinear",),
+        ),
+    ]
+    second_slope: Annotated[
+        ArrayLike,
+        SpringField(
+            DEFAULT_SECOND_SLOPE,
+            "",
+            "r2",
+            "Slope r2 after the first yield over the initial one, 0 <= r2 <= 1.",
+            "between 0 and 1",
+            0.0,
+            1.0,
+            ("trilinear", "flag-shaped"),
+        ),
+    ]
+    third_slope: Annotated[
+        ArrayLike,
+        SpringField(
+            DEFAULT_THIRD_SLOPE,
+            "",
+            "r3",
+            "Slope r3 after the second yield over the initial one, 0 <= r3 <= r2; peak-oriented: -1 <= r3 <= r2.",
+            "between -1 and 1",
+            -1.0,
+            1.0,
+            ("trilinear",),
+        ),
+    ]
+    clearance: Annotated[
+        ArrayLike,
+        SpringField(
+            np.inf,
+            "m",
+            "clearance",
+            "Clearance to either side (m), beyond which an elastic stop acts beside the spring; infinite: no stop.",
+            "positive (infinite: no stop)",
+            _TINY,
+            np.inf,
+        ),
+    ]
+    stop_stiffness: Annotated[
+        ArrayLike,
+        SpringField(
+            0.0,
+            "N/m",
+            "k_stop",
+            "Stiffness of a stop (N/m); needed where there is a clearance.",
+            "finite and not negative",
+            0.0,
+            _HUGE,
+            ("stop",),
+        ),
+    ]
+    unloading_exponent: Annotated[
+        ArrayLike,
+        SpringField(
+            0.0,
+            "",
+            "a",
+            "Exponent a of the unloading stiffness k (d_y/d_max)^a of peak-oriented hysteresis, 0 <= a < 1.",
+            "at least 0 and below 1",
+            0.0,
+            _BELOW_ONE,
+            ("peak-oriented",),
+        ),
+    ]
+    energy_capacity: Annotated[
+        ArrayLike,
+        SpringField(
+            np.inf,
+            "",
+            "lambda",
+            "Energy that a peak-oriented storey can dissipate over V_y d_y; infinite: no cyclic loss of strength.",
+            "positive (infinite: no cyclic loss)",
+            _TINY,
+            np.inf,
+            ("peak-oriented",),
+        ),
+    ]
+    residual_strength: Annotated[
+        ArrayLike,
+        SpringField(
+            0.0,
+            "",
+            "residual",
+            "Strength over V_y below which that of a peak-oriented storey does not fall, 0 to 1.",
+            "between 0 and 1",
+            0.0,
+            1.0,
+            ("peak-oriented",),
+        ),
+    ]
+    flag_height: Annotated[
+        ArrayLike,
+        SpringField(
+            1.0,
+            "",
+            "beta",
+            "Height beta of flag-shaped hysteresis over V_y, 0 to 1: how far unloading falls with slope k; 0: no loss.",
+            "between 0 and 1",
+            0.0,
+            1.0,
+            ("flag-shaped",),
+        ),
+    ]
+
+
+class SpringArguments(SpringShape, total=False):
+    """What a spring has beside its stiffness."""
+
+    yield_shear: Annotated[
+        ArrayLike,
+        SpringField(
+            np.inf,
+            "N",
+            "V_y",
+            "First yield shear V_y of each storey (N); infinite: the storey stays elastic.",
+            "positive (infinite: elastic)",
+            _TINY,
+            np.inf,
+        ),
+    ]
+
+
+def _fields(table: type) -> dict[str, SpringField]:
+    return {name: get_args(hint)[1] for name, hint in get_type_hints(table, include_extras=True).items()}
+
+
+SHAPE_FIELDS: Final = _fields(SpringShape)
+"""Numbers that shape a spring, by the name of their argument."""
+SPRING_FIELDS: Final = {"yield_shear": _fields(SpringArguments)["yield_shear"], **SHAPE_FIELDS}
+"""All numbers of a spring beside its stiffness, by the name of their argument."""
+
+
+@lru_cache(maxsize=1024)
+def default_values(name: str, storeys: int) -> FloatArray:
+    """Return the default of each storey: one array for all buildings of so many storeys."""
+    return frozen(np.full(storeys, SPRING_FIELDS[name].default))
+
+
+def is_default(values: Any, name: str) -> TypeGuard[FloatArray]:
+    """Return whether values are the array of defaults itself; others may equal it."""
+    if name not in SPRING_FIELDS or not isinstance(values, np.ndarray) or values.ndim != 1:
+        return False
+    return values is default_values(name, len(values))
+
+
+def checked_names(given: dict[str, Any], known: dict[str, SpringField], owner: str) -> None:
+    """Refuse a keyword argument that is none of those known, as Python does."""
+    for name in given:
+        if name not in known:
+            raise TypeError(f"{owner}() got an unexpected keyword argument {name!r}")
+
+
+def takes_springs(fields: dict[str, SpringField], **instead: Any) -> Callable[[_Function], _Function]:
+    """Return a decorator for a function whose `**` argument is some of the fields: its signature names each of them.
+
+    Parameters
+    ----------
+    fields : dict of str to SpringField
+        The fields.
+    **instead
+        As `default`, what the function has for the default of each, instead of that of the table.
+    """
+
+    def decorate(function: _Function) -> _Function:
+        signature = inspect.signature(function)
+        (rest,) = (item for item in signature.parameters.values() if item.kind is inspect.Parameter.VAR_KEYWORD)
+        named = [
+            inspect.Parameter(
+                name,
+                inspect.Parameter.KEYWORD_ONLY,
+                default=instead.get("default", field.default),
+                annotation="ArrayLike",
+            )
+            for name, field in fields.items()
+        ]
+        others = [item for item in signature.parameters.values() if item is not rest]
+        changed = signature.replace(parameters=[*others, *named])
+        function.__signature__ = changed  # type: ignore[attr-defined]
+        return function
+
+    return decorate
+
+
+def documented(doc: str | None, fields: dict[str, SpringField]) -> str | None:
+    """Return a docstring with the line `{springs}` in its list of parameters replaced by an entry for each field."""
+    if doc is None:  # python -OO
+        return None
+    entries = []
+    for name, field in fields.items():
+        entries.append(f"{name} : array_like, default {field.default:g}\n    {field.meaning}")
+    return inspect.cleandoc(doc).replace("{springs}", "\n".join(entries))

@@ -1,0 +1,529 @@
+"""Many runs: their peaks as one frame, as a stream of frames of bounded size, or as a Parquet file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, Protocol, TypeAlias, TypedDict
+
+import numpy as np
+import polars as pl
+from numpy.typing import ArrayLike, NDArray
+
+from seismass import _kernel
+from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
+from seismass.base.files import polars_writing, written_whole
+from seismass.base.forks import require_polars
+from seismass.base.kept import digest_of, kept_folder
+from seismass.base.values import FloatArray, as_count, as_path, brief, printable, refusal
+from seismass.model.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
+from seismass.model.scene import Scene
+from seismass.runs.grid.columns import IndexArray
+from seismass.runs.grid.grid import Grid
+from seismass.runs.simulate import instruction_set
+
+DEFAULT_CHUNK: Final = 8192
+"""Runs solved at once: enough to share propagators and to keep threads busy, in some tens of megabytes."""
+MAX_RUNS: Final = 2**53
+"""Most runs of a batch: beyond, doubles in which numbers of runs may be read skip some."""
+MAX_ROWS: Final = 2**32 - 1
+"""Most rows of one table: Polars counts them by 32 bits."""
+MAX_THREADS: Final = _kernel.MAX_THREADS
+"""Most threads of a batch, as the kernel has it: more than any machine has cores for."""
+
+Progress: TypeAlias = Callable[[int, int], object]
+"""Called with (runs done, runs in all)."""
+
+
+def simulate_many(
+    scenes: Scene | Sequence[Scene] | Grid,
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    pairs: ArrayLike | None = None,
+    runs: range | None = None,
+    peaks_only: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> pl.DataFrame:
+    """Solve many scenes under many motions, in parallel; the result does not depend on the number of threads.
+
+    Parameters
+    ----------
+    scenes : Scene, sequence of Scene, or Grid
+        The scenes, as objects or described by columns.
+    motions : Motion, Record or iterable of them
+        The motions.
+    pairs : array_like of int, shape (runs, 2), optional
+        Rows of (number of scene, number of motion), both counted from 1, as the table counts them. By default every
+        scene under every motion, the motion changing fastest. Equal runs are solved once. A grid has a column of
+        motions instead.
+    runs : range, optional
+        Numbers of the runs to solve, counted from 1 in the order of the whole table, as `range(1001, 2001)`; by default
+        all. The rows are those of the whole table. A stretch of a grid costs no more than its runs.
+    peaks_only : bool, default False
+        A run may end once no peak can be beaten any more, with the same peaks; residuals are then null.
+    threads : int, optional
+        Number of threads, up to 1024; by default all cores.
+    progress : callable, optional
+        Called with (runs done, runs to solve) about twenty times a second, and at the end.
+
+    Returns
+    -------
+    polars.DataFrame
+        One row per run, in the order asked for: `scene`, `motion` (numbers, counted from 1 as given); `record` (name of
+        the motion, "motion 3" where it has none); `status` ("completed", "collapsed", "failed"), `reason` (of a
+        failure, else null), `end_time` (s), `collapsed_storey` (from 1, or null); lists per storey `peak_drift`,
+        `peak_drift_time`, `peak_drift_ratio` (null without heights), `residual_drift`, `peak_floor_acceleration`,
+        `peak_storey_shear`; `peak_base_shear`; lists per block `peak_slip`, `peak_slip_time`, `residual_slip`,
+        `slip_path`; numbers of `events`, `yields`, `slips`. SI units.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption
+        An argument is not what it must be. A run that fails raises nothing: it is a row with a reason.
+    SimulationError
+        The process was forked from one in which Polars had been used: its tables cannot be made there.
+    KeyboardInterrupt
+        Ctrl-C was pressed; the batch stops at once.
+
+    See Also
+    --------
+    long_table : One row per run and storey.
+    stream_many : The same rows in frames of bounded size.
+    write_many : The same rows as a Parquet file.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> scenes = [sm.Scene(None, [sm.Block(0, mass=100.0, mu=mu)]) for mu in (0.1, 0.3)]
+    >>> table = sm.simulate_many(scenes, sm.Motion([2.0, 2.0, 0.0, 0.0], dt=0.1))
+    >>> table["slips"].to_list()
+    [1, 0]
+    """
+    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
+    # Objects are there already, so that all runs may look for equal ones; those of a grid exist a chunk at a time.
+    stretch = _one_table(_stretch(runs, batch.total))
+    chunk = DEFAULT_CHUNK if isinstance(scenes, Grid) else max(len(stretch), 1)
+    return pl.concat(list(_frames(batch, stretch, chunk, options, _checked_progress(progress))))
+
+
+def stream_many(
+    scenes: Scene | Sequence[Scene] | Grid,
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    pairs: ArrayLike | None = None,
+    runs: range | None = None,
+    chunk: int = DEFAULT_CHUNK,
+    peaks_only: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Iterator[pl.DataFrame]:
+    """Solve many scenes under many motions and give the rows of `simulate_many` in frames of bounded size, in order.
+
+    Beside the arguments no more than one chunk of runs is held, however many there are. The values do not depend on the
+    size of chunks. Arguments are judged at once; runs are solved when their frame is asked for.
+
+    Parameters
+    ----------
+    scenes, motions, pairs, runs, peaks_only, threads
+        As for `simulate_many`.
+    chunk : int, default 8192
+        Runs per frame. Equal runs of a chunk are solved once, and those of equal structure share propagators.
+    progress : callable, optional
+        Called with (runs done, runs to solve) about twenty times a second while a chunk is solved, and at its end.
+
+    Yields
+    ------
+    polars.DataFrame
+        At least one, with the columns of `simulate_many`; empty where there are no runs.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption
+        An argument is not what it must be.
+    SimulationError
+        As for `simulate_many`.
+    KeyboardInterrupt
+        Ctrl-C was pressed; the chunk stops at once.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import seismass as sm
+    >>> building = sm.Building.uniform(2, 0.3, yield_shear_over_weight=[0.2, 0.12])
+    >>> grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=np.linspace(0.1, 0.5, 50))
+    >>> motion = sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1)
+    >>> [len(frame) for frame in sm.stream_many(grid, motion, chunk=40)]
+    [40, 40, 20]
+    """
+    size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
+    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
+    return _frames(batch, _stretch(runs, batch.total), size, options, _checked_progress(progress))
+
+
+def write_many(
+    path: str | os.PathLike[str],
+    scenes: Scene | Sequence[Scene] | Grid,
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    pairs: ArrayLike | None = None,
+    runs: range | None = None,
+    chunk: int = DEFAULT_CHUNK,
+    peaks_only: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> None:
+    """Solve many scenes under many motions and write the rows of `simulate_many` to a Parquet file as they come.
+
+    The file appears whole or not at all; chunks are kept in a hidden folder beside it until then. The same call after
+    an interruption takes those that are there; other inputs, another version or another size of chunks start anew. The
+    metadata of the file name the version of seismass and the instruction set.
+
+    Parameters
+    ----------
+    path : path-like
+        The file to write, with the suffix .parquet; its folder must exist.
+    scenes, motions, pairs, runs, chunk, peaks_only, threads, progress
+        As for `stream_many`.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption, SimulationError, KeyboardInterrupt
+        As for `stream_many`; InvalidOption also where the path has another suffix.
+    OSError
+        The file cannot be written: its folder is missing or closed to this user, or the disk is full.
+    """
+    target = as_path(path, "batch", InvalidOption)
+    absolute = str(target.absolute())
+    if printable(absolute) != absolute:
+        raise refusal(InvalidOption, "path", "batch", "in UTF-8, as Polars writes no other", brief(absolute))
+    if target.name and not target.is_dir() and target.suffix.lower() != ".parquet":
+        requirement = "one with the suffix .parquet, as lists per storey fit no CSV (see long_table)"
+        raise refusal(InvalidOption, "path", "batch", requirement, brief(str(target)))
+    size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
+    batch, options, report = _batch(scenes, motions, pairs), _options(peaks_only, threads), _checked_progress(progress)
+    stretch = _one_table(_stretch(runs, batch.total))
+    solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], stretch)
+    with (
+        written_whole(target) as temporary,
+        kept_folder(target.parent, target.name, digest_of(batch, solved_by)) as folder,
+    ):
+        parts = []
+        for done in range(0, max(len(stretch), 1), size):
+            parts.append(folder / f"{done // size}.parquet")
+            if parts[-1].is_file():
+                continue
+            frame = batch.solve(stretch[done : done + size], options, _since(done, len(stretch), report))
+            with written_whole(parts[-1]) as part, polars_writing(target):
+                frame.write_parquet(part)
+        # Small row groups, as each is held while it is copied.
+        with polars_writing(target):
+            pl.scan_parquet(parts, glob=False).sink_parquet(
+                temporary,
+                row_group_size=DEFAULT_CHUNK,
+                metadata={"seismass": _kernel.VERSION, "instructions": instruction_set()},
+            )
+
+
+class _Options(TypedDict):
+    peaks_only: bool
+    threads: int | None
+
+
+def _options(peaks_only: Any, threads: Any) -> _Options:
+    count = None if threads is None else as_count(threads, "threads", "batch", InvalidOption, least=1)
+    if count is not None and count > MAX_THREADS:
+        raise refusal(InvalidOption, "threads", "batch", f"between 1 and {MAX_THREADS}", str(count))
+    return {"peaks_only": bool(peaks_only), "threads": count}
+
+
+def _checked_progress(progress: Any) -> Progress | None:
+    if progress is not None and not callable(progress):
+        raise refusal(InvalidOption, "progress", "batch", "a callable of two numbers", brief(progress))
+    checked: Progress | None = progress
+    return checked
+
+
+class _Batch(Protocol):
+    """Runs in an order, of which any stretch can be solved."""
+
+    @property
+    def total(self) -> int: ...
+
+    def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame: ...
+
+
+def _frames(
+    batch: _Batch, stretch: range, chunk: int, options: _Options, progress: Progress | None
+) -> Iterator[pl.DataFrame]:
+    for done in range(0, max(len(stretch), 1), chunk):
+        yield batch.solve(stretch[done : done + chunk], options, _since(done, len(stretch), progress))
+
+
+def _since(first: int, total: int, progress: Progress | None) -> Progress | None:
+    """Progress of a chunk as progress of the whole."""
+    return None if progress is None else lambda done, _: progress(first + done, total)
+
+
+def _stretch(runs: Any, total: int) -> range:
+    """Runs as indices from 0, all by default."""
+    if runs is None:
+        return range(total)
+    limits = f"a range of numbers of runs, from 1 to {total}, without steps"
+    if not isinstance(runs, range) or (len(runs) > 1 and runs.step != 1):
+        raise refusal(InvalidOption, "runs", "batch", limits, brief(runs))
+    if len(runs) and not (runs[0] >= 1 and runs[-1] <= total):
+        raise refusal(InvalidOption, "runs", "batch", limits, brief(runs))
+    return range(runs[0] - 1, runs[-1]) if len(runs) else range(0)
+
+
+def _one_table(stretch: range) -> range:
+    """Refuse more runs than one table holds."""
+    if len(stretch) > MAX_ROWS:
+        requirement = f"at most {MAX_ROWS} for one table (stream_many and Campaign take more)"
+        raise refusal(InvalidOption, "runs", "batch", requirement, str(len(stretch)))
+    return stretch
+
+
+def checked_motions(motions: Any) -> tuple[list[Any], list[Motion], list[str]]:
+    """Return motions as they were given, as the kernel takes them, and their names.
+
+    Raises
+    ------
+    InvalidMotion
+        One is neither a Motion nor a Record.
+    """
+    given = [motions] if isinstance(motions, Motion | HasMotion) else list(_iterated(motions))
+    return given, _motions(given), motion_names(given)
+
+
+def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
+    require_polars("simulate")
+    if isinstance(scenes, Grid):
+        if pairs is not None:
+            requirement = "left out with a Grid, which has a column of motions"
+            raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs))
+        _, chosen, names = checked_motions(motions)
+        batch: _Batch = _GridBatch(scenes, chosen, names)
+        scenes._check_motions(len(chosen))
+    else:
+        listed = _listed_scenes(scenes)
+        _, chosen, names = checked_motions(motions)
+        wanted = None if pairs is None else _pairs(pairs, len(listed), len(chosen))
+        batch = _SceneBatch(listed, chosen, names, wanted)
+    if batch.total > MAX_RUNS:
+        raise refusal(InvalidOption, "runs", "batch", f"at most {MAX_RUNS}", str(batch.total))
+    return batch
+
+
+@dataclass(frozen=True, slots=True)
+class _SceneBatch:
+    """Runs of scenes that exist as objects: those of `pairs`, or every scene under every motion."""
+
+    scenes: list[Scene]
+    motions: list[Motion]
+    names: list[str]
+    pairs: IndexArray | None
+
+    @property
+    def total(self) -> int:
+        return len(self.scenes) * len(self.motions) if self.pairs is None else len(self.pairs)
+
+    def _rows(self, runs: range) -> IndexArray:
+        """Scene and motion of each run."""
+        if self.pairs is not None:
+            return self.pairs[runs.start : runs.stop]
+        return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.motions), 1)), axis=1)
+
+    def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame:
+        rows = self._rows(runs)
+        used, scene = np.unique(rows[:, 0], return_inverse=True)
+        chosen = [self.scenes[number] for number in used]
+        batch = _kernel.simulate_many(
+            [each._kernel for each in chosen],
+            [each._kernel for each in self.motions],
+            np.stack([scene, rows[:, 1]], axis=1),
+            **options,
+            progress=progress,
+        )
+        heights = [_heights_of(each) for each in chosen]
+        return _table(batch, rows[:, 0], rows[:, 1], self.names, _heights(heights, scene, batch.storeys))
+
+
+@dataclass(frozen=True, slots=True)
+class _GridBatch:
+    """Runs of scenes that columns describe."""
+
+    grid: Grid
+    motions: list[Motion]
+    names: list[str]
+
+    @property
+    def total(self) -> int:
+        return self.grid._runs_under(len(self.motions))
+
+    def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame:
+        scene, motion = self.grid._scene_and_motion(np.arange(runs.start, runs.stop), len(self.motions))
+        first, last = (int(scene[0]), int(scene[-1]) + 1) if len(scene) else (0, 0)
+        batch = _kernel.simulate_columns(
+            self.grid._kernel_columns(np.arange(first, last)),
+            [each._kernel for each in self.motions],
+            np.stack([scene - first, motion], axis=1),
+            self.grid._factor_of(scene),
+            **options,
+            progress=progress,
+        )
+        heights = [building.heights for building in self.grid.buildings]
+        of_scene = _heights(heights, self.grid._building_of(scene), batch.storeys)
+        return _table(batch, scene, motion, self.names, of_scene)
+
+
+def _iterated(values: Any) -> Iterable[Any]:
+    if not isinstance(values, Iterable):
+        raise refusal(InvalidMotion, "motions", "batch", "a list of Motions or Records", brief(values))
+    return values
+
+
+def _motions(given: list[Any]) -> list[Motion]:
+    return [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(given, start=1)]
+
+
+def _listed_scenes(scenes: Any) -> list[Scene]:
+    if not isinstance(scenes, Scene | Iterable):
+        raise refusal(InvalidScene, "scenes", "batch", "a list of Scenes", brief(scenes))
+    listed = [scenes] if isinstance(scenes, Scene) else list(scenes)
+    for number, scene in enumerate(listed, start=1):
+        if not isinstance(scene, Scene):
+            raise refusal(InvalidScene, f"scene {number}", "batch", "a Scene", brief(scene))
+    return listed
+
+
+def _pairs(pairs: ArrayLike, scenes: int, motions: int) -> IndexArray:
+    """Runs as rows of (index of scene, index of motion), from rows that count from 1."""
+    requirement = "rows of (number of scene, number of motion)"
+    try:
+        rows = np.asarray(pairs)
+    except ValueError:
+        raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs)) from None
+    if rows.size == 0:
+        return np.empty((0, 2), dtype=np.int64)
+    if rows.dtype.kind not in "iu" or rows.ndim != 2 or rows.shape[1] != 2:
+        raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs))
+    for column, (name, size) in enumerate((("scene", scenes), ("motion", motions))):
+        wrong = np.flatnonzero((rows[:, column] < 1) | (rows[:, column] > size))
+        if len(wrong):
+            limits = f"the number of a {name}, counted from 1 to {size}"
+            got = f"{rows[wrong[0], column]} in pair {wrong[0] + 1}"
+            raise refusal(InvalidOption, "pairs", "batch", limits, got)
+    return np.ascontiguousarray(rows, dtype=np.int64) - 1
+
+
+def _table(
+    batch: _kernel.Batch, scene: IndexArray, motion: IndexArray, names: list[str], heights: FloatArray
+) -> pl.DataFrame:
+    """The flat columns of a batch as a frame, without a Python object per run; `heights` as `peak_drift`."""
+    failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
+    storeys, blocks = batch.storeys, batch.blocks
+    per_storey = {
+        "peak_drift": batch.peak_drift,
+        "peak_drift_time": batch.peak_drift_time,
+        "peak_drift_ratio": batch.peak_drift / heights,
+        "residual_drift": batch.residual_drift,
+        "peak_floor_acceleration": batch.peak_floor_acceleration,
+        "peak_storey_shear": batch.peak_storey_shear,
+    }
+    per_block = {
+        "peak_slip": batch.peak_slip,
+        "peak_slip_time": batch.peak_slip_time,
+        "residual_slip": batch.residual_slip,
+        "slip_path": batch.slip_path,
+    }
+    reasons = pl.DataFrame(batch.failures, schema={"run": pl.UInt32, "reason": pl.String}, orient="row")
+    unknown = pl.element().is_nan().all()
+    table = (
+        pl.DataFrame(
+            {
+                "run": np.arange(len(scene), dtype=np.uint32),
+                "scene": (scene + 1).astype(np.uint64),
+                "motion": (motion + 1).astype(np.uint32),
+                "record": pl.Series(names, dtype=pl.String).gather(motion),
+                "status": pl.Series(_kernel.Batch.status_names(), dtype=pl.String).gather(batch.status),
+                "end_time": pl.Series(batch.end_time).fill_nan(None),
+                "collapsed_storey": pl.Series(batch.collapsed_storey).replace(0, None),
+                **_lists(per_storey, storeys, failed),
+                **_lists(per_block, blocks, failed),
+                "events": batch.events,
+                "yields": batch.yields,
+                "slips": batch.slips,
+            }
+        )
+        .join(reasons, on="run", how="left", maintain_order="left")
+        .with_columns(
+            pl.col("peak_storey_shear").list.first().alias("peak_base_shear"),
+            # A run that ended early has no residual.
+            pl.col("residual_drift", "residual_slip").list.eval(pl.element().fill_nan(None)),
+            pl.when(pl.col("peak_drift_ratio").list.eval(unknown).list.first().not_())
+            .then("peak_drift_ratio")
+            .alias("peak_drift_ratio"),
+            pl.when(pl.col("status") != "failed").then(pl.col("events", "yields", "slips")),
+        )
+    )
+    return table.select(_COLUMNS)
+
+
+_COLUMNS: Final = (
+    "scene",
+    "motion",
+    "record",
+    "status",
+    "reason",
+    "end_time",
+    "collapsed_storey",
+    "peak_drift",
+    "peak_drift_time",
+    "peak_drift_ratio",
+    "residual_drift",
+    "peak_floor_acceleration",
+    "peak_storey_shear",
+    "peak_base_shear",
+    "peak_slip",
+    "peak_slip_time",
+    "residual_slip",
+    "slip_path",
+    "events",
+    "yields",
+    "slips",
+)
+
+
+def _heights_of(scene: Scene) -> FloatArray | None:
+    return None if scene.building is None else scene.building.heights
+
+
+def _heights(known: list[FloatArray | None], which: IndexArray, storeys: NDArray[np.uint32]) -> FloatArray:
+    """Height of each storey of each run, flat; NaN where not known. Run i has `storeys[i]` of those of `which[i]`."""
+    flat: FloatArray = np.full(int(storeys.sum()), np.nan)
+    if all(heights is None for heights in known):
+        return flat
+    starts = np.cumsum([0, *(0 if heights is None else len(heights) for heights in known)])
+    unknown = np.array([heights is None for heights in known])
+    within = np.arange(len(flat)) - np.repeat(np.cumsum(storeys) - storeys, storeys)
+    owner = np.repeat(which, storeys)
+    has = ~unknown[owner]
+    joined = np.concatenate([heights for heights in known if heights is not None])
+    flat[has] = joined[(starts[owner] + within.astype(np.int64))[has]]
+    return flat
+
+
+def _lists(columns: dict[str, FloatArray], lengths: NDArray[np.uint32], failed: pl.Series) -> dict[str, pl.Series]:
+    """Flat values as list columns, `lengths[i]` values in row i; null in failed rows."""
+    rows = pl.DataFrame({"run": np.arange(len(lengths), dtype=np.uint32), "empty": lengths == 0, "failed": failed})
+    owners = np.repeat(rows["run"].to_numpy(), lengths)
+    lists = pl.DataFrame({"run": owners, **columns}).group_by("run", maintain_order=True).agg(pl.all())
+    nothing = pl.lit([], dtype=pl.List(pl.Float64))
+    filled = rows.join(lists, on="run", how="left", maintain_order="left").select(
+        pl.when(pl.col("empty") & ~pl.col("failed")).then(nothing).otherwise(pl.col(name)).alias(name)
+        for name in columns
+    )
+    return {name: filled[name] for name in columns}

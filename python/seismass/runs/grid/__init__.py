@@ -1,0 +1,1 @@
+"""Scenes described by columns in place of objects."""

@@ -1,0 +1,406 @@
+"""Response of one run: peaks, residuals, histories, events, energies and the work that it took."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final, TypedDict, cast
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from seismass import _kernel
+from seismass.base.errors import InvalidOption
+from seismass.base.forks import require_polars
+from seismass.base.values import FloatArray, frozen, refusal
+from seismass.base.views import view
+from seismass.model.motion import Motion
+from seismass.model.scene import Scene
+from seismass.runs.response_views import ResponseAnimation, ResponsePlots
+
+if TYPE_CHECKING:
+    from seismass.model.codes import Use
+    from seismass.records import Record
+
+EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
+"""Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""
+
+_EVENT: Final = np.dtype(
+    [
+        ("time", np.float64),
+        ("kind", f"U{max(map(len, EVENT_KINDS))}"),
+        ("number", np.uint32),
+        ("sign", np.int8),
+        ("element", np.uint8),
+    ]
+)
+
+
+class Statistics(TypedDict):
+    """The work that a run took, and what it could leave out; the same for any number of threads."""
+
+    intervals: int
+    """Sample intervals solved."""
+    substeps: int
+    """Equal parts that each of them was solved in: more than one where the building is stiff."""
+    plain_steps: int
+    """Steps by a propagator that were proved free of events by bounds alone."""
+    series_steps: int
+    """Steps for which a Taylor series was formed, plain steps inside which a peak is beaten among them."""
+    guards_isolated: int
+    """Guards and peaks looked at with Bernstein polynomials."""
+    events: int
+    """Events of all kinds."""
+    regimes: int
+    """Different regimes entered."""
+    regime_hits: int
+    """Changes into a regime that the run already knew."""
+    skipped_elastic_storeys: int
+    """Storeys that cannot yield."""
+    skipped_bare_floors: int
+    """Floors without a block."""
+    skipped_head_samples: int
+    """Samples at the head that are zero, with everything at rest."""
+    skipped_tail_samples: int
+    """Samples at the tail where no peak could be beaten."""
+    instructions: str
+    """Instruction set in use, as `instruction_set` names it."""
+
+
+class Response:
+    """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
+
+    Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
+    `simulate` was asked for them, energies and events likewise. Responses pickle with their scene and motion, and are
+    equal where their numbers are, whatever scene and motion these came from.
+    """
+
+    __slots__ = ("_known", "_run", "motion", "record", "scene")
+    _run: _kernel.Response | None
+    _known: dict[str, Any]
+    scene: Scene
+    """The scene that was solved."""
+    motion: Motion
+    """The motion that it was solved under, with the duration of the run."""
+    record: Record | None
+    """The record that was given as the motion, whole; None where it was a `Motion`."""
+
+    def __init__(self, run: _kernel.Response, scene: Scene, motion: Motion, record: Record | None) -> None:
+        self._run = run
+        self._known = {}
+        self.scene = scene
+        self.motion = motion
+        self.record = record
+
+    @property
+    def plot(self) -> ResponsePlots:
+        """Figures of the response: `response.plot.drift()` and the other functions of `seismass.plots`."""
+        return ResponsePlots(self)
+
+    @property
+    def _heights(self) -> FloatArray | None:
+        return None if self.scene.building is None else self.scene.building.heights
+
+    def _get(self, name: str) -> Any:
+        """Return what the kernel holds under a name, converted once."""
+        if name not in self._known:
+            self._known[name] = getattr(self._run, name)
+        return self._known[name]
+
+    def _asked(self, name: str, option: str, stored: str | None = None) -> Any:
+        """Return what an option keeps; `stored` is its name in the kernel, where that is another."""
+        value = self._get(stored or name)
+        if value is None:
+            raise refusal(InvalidOption, option, "simulate", f"asked for, if {name} is wanted", "False")
+        return value
+
+    @property
+    def status(self) -> str:
+        """How the run ended: "completed" or "collapsed"."""
+        return str(self._get("status"))
+
+    @property
+    def end_time(self) -> float:
+        """Time reached: the last sample, or the collapse."""
+        return float(self._get("end_time"))
+
+    @property
+    def collapsed_storey(self) -> int | None:
+        """Storey that reached its collapse drift, counted from 1; None if none did."""
+        storey: int | None = self._get("collapsed_storey")
+        return storey
+
+    @property
+    def peak_drift(self) -> FloatArray:
+        """Largest absolute drift of each storey (m), shape (storeys,)."""
+        return self._array("peak_drift")
+
+    @property
+    def peak_drift_time(self) -> FloatArray:
+        """When it was first reached, shape (storeys,)."""
+        return self._array("peak_drift_time")
+
+    @property
+    def peak_drift_ratio(self) -> FloatArray | None:
+        """Peak drift over storey height, shape (storeys,); None where heights are not known."""
+        return None if self._heights is None else frozen(self.peak_drift / self._heights)
+
+    @property
+    def residual_drift(self) -> FloatArray:
+        """Drift of each storey at the end (m), shape (storeys,)."""
+        return self._array("residual_drift")
+
+    @property
+    def residual_drift_ratio(self) -> FloatArray | None:
+        """Residual drift over storey height, shape (storeys,); None where heights are not known."""
+        return None if self._heights is None else frozen(self.residual_drift / self._heights)
+
+    @property
+    def peak_floor_acceleration(self) -> FloatArray:
+        """Largest absolute acceleration of each floor, relative to no one (m/s2), shape (storeys,)."""
+        return self._array("peak_floor_acceleration")
+
+    @property
+    def peak_floor_acceleration_time(self) -> FloatArray:
+        """When it was first reached, shape (storeys,)."""
+        return self._array("peak_floor_acceleration_time")
+
+    @property
+    def peak_storey_shear(self) -> FloatArray:
+        """Largest absolute spring force of each storey, without damping and P-Delta (N), shape (storeys,)."""
+        return self._array("peak_storey_shear")
+
+    @property
+    def peak_storey_shear_time(self) -> FloatArray:
+        """When it was first reached, shape (storeys,)."""
+        return self._array("peak_storey_shear_time")
+
+    @property
+    def peak_base_shear(self) -> float:
+        """Peak shear of storey 1 (N); NaN without a building."""
+        shear = self.peak_storey_shear
+        return float(shear[0]) if len(shear) else float("nan")
+
+    @property
+    def peak_slip(self) -> FloatArray:
+        """Largest absolute slip of each block (m), shape (blocks,)."""
+        return self._array("peak_slip")
+
+    @property
+    def peak_slip_time(self) -> FloatArray:
+        """When it was first reached, shape (blocks,)."""
+        return self._array("peak_slip_time")
+
+    @property
+    def residual_slip(self) -> FloatArray:
+        """Slip of each block at the end (m), where it may still slide, shape (blocks,)."""
+        return self._array("residual_slip")
+
+    @property
+    def slip_path(self) -> FloatArray:
+        """Path slipped by each block, airborne motion included (m), shape (blocks,)."""
+        return self._array("slip_path")
+
+    @property
+    def time(self) -> FloatArray:
+        """Times of the rows of the histories, shape (rows,)."""
+        if "time" not in self._known:
+            every = self._asked("time", "histories", stored="every")
+            self._known["time"] = frozen(np.arange(len(self.drift)) * every * self.motion.dt)
+        return self._array("time")
+
+    @property
+    def drift(self) -> FloatArray:
+        """Storey drift (m), shape (rows, storeys); NaN after a collapse, as in every history."""
+        return self._history("drift")
+
+    @property
+    def drift_ratio(self) -> FloatArray | None:
+        """Storey drift over storey height, shape (rows, storeys); None where heights are not known."""
+        return None if self._heights is None else frozen(self.drift / self._heights)
+
+    @property
+    def slip(self) -> FloatArray:
+        """Slip, block displacement minus floor displacement (m), shape (rows, blocks)."""
+        return self._history("slip")
+
+    @property
+    def floor_velocity(self) -> FloatArray:
+        """Floor velocity relative to the ground (m/s), shape (rows, storeys)."""
+        return self._history("floor_velocity")
+
+    @property
+    def block_velocity(self) -> FloatArray:
+        """Block velocity relative to the ground (m/s), shape (rows, blocks)."""
+        return self._history("block_velocity")
+
+    @property
+    def floor_acceleration(self) -> FloatArray:
+        """Absolute floor acceleration (m/s2), shape (rows, storeys)."""
+        return self._history("floor_acceleration")
+
+    @property
+    def storey_force(self) -> FloatArray:
+        """Spring force of each storey (N), shape (rows, storeys)."""
+        return self._history("storey_force")
+
+    @property
+    def events(self) -> pl.DataFrame:
+        """Event log in order of time.
+
+        Columns: `time` (s); `kind` (one of `EVENT_KINDS`); `number`, the storey for yield, unload, reload, close and
+        open, otherwise the block, counted from 1; `sign` (yield: of the force; unload: of the force before; reload: of
+        the force that follows; close, open: of the drift; slip, reverse: of the relative velocity that follows; stick:
+        of the one before; touch, lift, land, wear: of the one then, 0: none); `element` (yield: number of segments of
+        the backbone that have been left, 1 at the first yield; wear: the stage that begins, from 1; otherwise null).
+
+        In a process that was forked from one in which Polars had been used, it is a SimulationError: `event_log` is the
+        same without Polars.
+        """
+        if "events" not in self._known:
+            self._asked("events", "events", stored="event_time")
+            listed = self.event_log
+            require_polars("events", "event_log")
+            self._known["events"] = pl.DataFrame(
+                {
+                    "time": pl.Series(listed["time"], dtype=pl.Float64),
+                    "kind": pl.Series(listed["kind"].tolist(), dtype=pl.String),
+                    "number": pl.Series(listed["number"]),
+                    "sign": pl.Series(listed["sign"]),
+                    "element": pl.Series(listed["element"]).replace(0, None),
+                }
+            )
+        log: pl.DataFrame = self._known["events"]
+        return log
+
+    @property
+    def event_log(self) -> NDArray[np.void]:
+        """Event log as a structured array, made without Polars; it also serves in a forked process.
+
+        Fields as the columns of `events`; `element` is 0 where that is null.
+        """
+        if "event_log" not in self._known:
+            time = self._asked("event_log", "events", stored="event_time")
+            log = np.empty(len(time), dtype=_EVENT)
+            log["time"] = time
+            log["kind"] = np.array(EVENT_KINDS)[self._get("event_kind")]
+            for name in ("number", "sign", "element"):
+                log[name] = self._get(f"event_{name}")
+            log.setflags(write=False)
+            self._known["event_log"] = log
+        listed: NDArray[np.void] = self._known["event_log"]
+        return listed
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of events of each kind."""
+        return dict(zip(EVENT_KINDS, self._get("event_counts"), strict=True))
+
+    @property
+    def energy(self) -> dict[str, float]:
+        """Energies at the end, relative to the moving ground (J).
+
+        Keys: `initial`, `input`, `kinetic`, `viscous`, `elastic` (the work of P-Delta, which is negative, included),
+        `hysteretic`, `friction`; and `relative_residual`, what is missing in the balance over the initial energy
+        plus the largest input.
+        """
+        return dict(self._asked("energy", "energy"))
+
+    @property
+    def statistics(self) -> Statistics:
+        """Work done by the kernel (intervals, steps, events, regimes), what was skipped, and the instructions used."""
+        return cast(Statistics, {**self._get("statistics"), "instructions": self._get("instructions")})
+
+    @property
+    def has_energy(self) -> bool:
+        """Whether energies were asked for."""
+        return self._get("energy") is not None
+
+    @property
+    @view
+    def text(self) -> str:
+        """The run as lines: building, motion, peaks of storeys and blocks, events, energy, status."""
+        raise NotImplementedError
+
+    @view
+    def animate(
+        self, *, code: str = "asce7-10", use: Use = "storage", fraction: float | None = None, title: str | None = None
+    ) -> ResponseAnimation:
+        """Return the animation of this run beside the model of a code, as `animate` makes it of scene and motion.
+
+        Parameters
+        ----------
+        code, use, fraction, title
+            As for `animate`.
+
+        Returns
+        -------
+        Animation
+            To be shown in a notebook, or written as a page, a GIF or a film. No histories need to have been kept.
+        """
+        raise NotImplementedError
+
+    def _array(self, name: str) -> FloatArray:
+        array: FloatArray = self._get(name)
+        return array
+
+    def _history(self, name: str) -> FloatArray:
+        displacement = name in ("drift", "slip")
+        if not displacement and self._get(name) is None and self._get("drift") is not None:
+            raise refusal(InvalidOption, "displacements_only", "simulate", f"False, if {name} is wanted", "True")
+        array: FloatArray = self._asked(name, "histories")
+        return array
+
+    def _everything(self) -> dict[str, Any]:
+        return {name: self._get(name) for name in _KERNEL_VALUES}
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Response):
+            return NotImplemented
+        if self.motion.dt != other.motion.dt or not _same(self._heights, other._heights):
+            return False
+        mine, theirs = self._everything(), other._everything()
+        return all(_same(mine[name], theirs[name]) for name in _KERNEL_VALUES)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"known": self._everything(), "scene": self.scene, "motion": self.motion, "record": self.record}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._run = None
+        self._known = state["known"]
+        for value in self._known.values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        self.scene = state["scene"]
+        self.motion = state["motion"]
+        self.record = state["record"]
+
+    @view
+    def _repr_html_(self) -> str:
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        collapsed = f", storey {self.collapsed_storey}" if self.collapsed_storey is not None else ""
+        drift = f", peak drift {_in_mm(self.peak_drift)} mm" if len(self.peak_drift) else ""
+        slip = f", peak slip {_in_mm(self.peak_slip)} mm" if len(self.peak_slip) else ""
+        return f"Response({self.status}{collapsed} at {self.end_time:g} s{drift}{slip})"
+
+
+_KERNEL_VALUES: Final = tuple(
+    name
+    for name, member in vars(_kernel.Response).items()
+    if not name.startswith("_") and not callable(member) and not isinstance(member, staticmethod)
+)
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+    if one is None or other is None:
+        return one is other
+    return bool(one == other)
+
+
+def _in_mm(values: FloatArray) -> str:
+    return " ".join(f"{1000.0 * value:.4g}" for value in values)

@@ -1,0 +1,344 @@
+"""Scene files: a scene, its motion and what to do with it, from TOML or JSON. Every key is known or refused."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from seismass import _kernel
+from seismass.base.errors import InvalidMotion, InvalidScene, InvalidSceneFile
+from seismass.base.input_table import Table, load_table
+from seismass.base.units import ACCELERATION_UNITS
+from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
+from seismass.model.block import Block
+from seismass.model.building import Building, as_fraction_of_weight
+from seismass.model.damping import Rayleigh
+from seismass.model.motion import Motion
+from seismass.model.plausibility import motion_remarks
+from seismass.model.scene import Scene
+from seismass.model.spring_laws import is_per_storey
+from seismass.model.springs import SPRING_FIELDS
+from seismass.records import Record, builtin_record, read_record
+from seismass.records.builtin import builtin_names, data_directory
+
+_SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
+_DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
+KEYS: Final = {
+    "": (
+        "name",
+        "note",
+        "building",
+        "blocks",
+        "motion",
+        "vertical_motion",
+        "duration",
+        "initial",
+        "collapse_drift",
+        "result",
+    ),
+    "building": (
+        "mass",
+        "stiffness",
+        "storeys",
+        "period",
+        *_SPRING_KEYS,
+        "backbone",
+        "hysteresis",
+        "yield_shear_over_weight",
+        "damping",
+    ),
+    "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
+    "blocks": ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear"),
+    "motion": ("file", "builtin", "acceleration", "dt", "unit", "scale", "dt_scale"),
+    "initial": ("drift", "velocity"),
+}
+"""Keys of each table of a scene file, the file itself first; `vertical_motion` has those of `motion`."""
+
+
+@dataclass(frozen=True)
+class SceneFile:
+    """What a scene file holds.
+
+    Attributes
+    ----------
+    scene : Scene
+        Building, blocks and initial state.
+    motion : Motion
+        Ground motion, scaled and ending at `duration`.
+    duration : float or None
+        As stated (s); None: to the last sample.
+    name, note : str
+        Free text.
+    path : Path
+        The file.
+    records : tuple of Record
+        Records that the motion was read from, as their files have them; empty where the samples stand in the file.
+    """
+
+    scene: Scene
+    motion: Motion
+    duration: float | None
+    name: str
+    note: str
+    path: Path
+    records: tuple[Record, ...] = ()
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the records had interpreted or left out, and what is unlikely about scene and motion, as sentences."""
+        of_records = (f"{record.name}: {remark}" for record in self.records for remark in record.remarks)
+        return (*of_records, *self.scene.remarks, *motion_remarks(self.motion))
+
+
+def example_scene() -> Path:
+    """Return the scene file that ships with the package: three storeys of storage under a built-in motion."""
+    return data_directory() / "examples" / "storage.toml"
+
+
+def read_scene(path: str | os.PathLike[str]) -> SceneFile:
+    """Read a scene file.
+
+    Parameters
+    ----------
+    path : path-like
+        A .toml or .json file with the keys of docs/scene_file.md. Paths in it are relative to its folder.
+
+    Returns
+    -------
+    SceneFile
+        The scene and its motion.
+
+    Raises
+    ------
+    InvalidSceneFile
+        The file cannot be read, or has an unknown, missing or contradicting key.
+    InvalidScene, InvalidMotion
+        A value is not what it must be.
+    RecordFormatError
+        A record that it names cannot be read.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> import seismass as sm
+    >>> file = Path(mkdtemp(), "crate.toml")
+    >>> _ = file.write_text('''
+    ... [[blocks]]
+    ... floor = 0
+    ... mass = 100.0
+    ... mu = 0.1
+    ... [motion]
+    ... acceleration = [0.2, 0.2, 0.0]
+    ... unit = "g"
+    ... dt = 0.1
+    ... ''')
+    >>> sm.read_scene(file).scene
+    Scene(ground only, 1 block)
+    """
+    source = as_path(path, "scene file", InvalidSceneFile)
+    top = load_table(source, "scene file", InvalidSceneFile)
+    top.known(KEYS[""])
+    if "motion" not in top.values:
+        top.refuse("motion", "given", "nothing")
+    scene = _scene(top)
+    motion, records = _motions(top, source.parent)
+    duration = top.values.get("duration")
+    if duration is not None:
+        duration = as_number(duration, "duration", source.name, InvalidSceneFile)
+        motion = motion.with_duration(duration)
+    return SceneFile(scene, motion, duration, scene.name, scene.note, source, records)
+
+
+def scene_without_motion(path: str | os.PathLike[str]) -> Scene:
+    """Return the scene of a scene file, whose motion may be missing and is not read.
+
+    Raises
+    ------
+    InvalidSceneFile, InvalidScene
+        As for `read_scene`.
+    """
+    top = load_table(as_path(path, "scene file", InvalidSceneFile), "scene file", InvalidSceneFile)
+    top.known(KEYS[""])
+    return _scene(top)
+
+
+def _scene(top: Table) -> Scene:
+    """Building, blocks and initial state of a file."""
+    building = building_of_table(top.table("building")) if "building" in top.values else None
+    initial = top.table("initial") if "initial" in top.values else None
+    if initial is not None:
+        initial.known(KEYS["initial"])
+        if building is None:
+            initial.empty("there is no building")
+    return Scene(
+        building,
+        [_block(table, number) for number, table in enumerate(top.tables("blocks"), start=1)],
+        initial_drift=None if initial is None else initial.per_storey("drift"),
+        initial_velocity=None if initial is None else initial.per_storey("velocity"),
+        collapse_drift=top.values.get("collapse_drift"),
+        name=top.text("name"),
+        note=top.text("note"),
+    )
+
+
+def building_of_table(table: Table) -> Building:
+    """Return the building of a table with the keys that a scene file has for one.
+
+    Raises
+    ------
+    InvalidSceneFile
+        A key is unknown or missing, or contradicts another; the class is that of the table's errors.
+    InvalidScene
+        A value is not what it must be.
+    """
+    table.known(KEYS["building"])
+    table.excluded("yield_shear_over_weight", "yield_shear")
+    table.excluded("geometric_stiffness", "gravity_load")
+    if "gravity_load" in table.values:
+        table.needed("heights")
+    springs = {key: table.values[key] for key in _SPRING_KEYS if key in table.values}
+    for key, field in SPRING_FIELDS.items():
+        if key in springs and np.isinf(field.default):
+            springs[key] = _infinite_where_null(springs[key])
+    if "damping" in table.values:
+        springs["damping"] = _damping(table)
+    over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
+    springs |= {key: table.values[key] for key in ("backbone", "hysteresis") if key in table.values}
+    if isinstance(springs.get("backbone"), list):  # TOML has no null
+        springs["backbone"] = [None if points == [] else points for points in springs["backbone"]]
+    if "period" in table.values:
+        table.excluded("stiffness", "period")
+        table.excluded("backbone", "period")
+        table.needed("storeys")
+        if isinstance(table.values.get("mass"), list):
+            table.refuse("mass", f"one number where {table.key('period')} is given", brief(table.values["mass"]))
+        uniform = {key: table.values[key] for key in ("mass",) if key in table.values}
+        return Building.uniform(
+            table.values["storeys"],
+            table.values["period"],
+            **uniform,
+            yield_shear_over_weight=over_weight,
+            **springs,
+        )
+    table.needed("stiffness", "period", "backbone")
+    table.needed("mass")
+    mass, stiffness = table.values["mass"], table.values.get("stiffness")
+    count = _storeys(table, over_weight, springs)
+    if count is not None:
+        mass = np.full(count, as_number(mass, "mass", "building", InvalidScene))
+    if over_weight is None:
+        return Building(mass, stiffness, **springs)
+    building = Building(mass, stiffness, **springs)
+    return building.replace(yield_shear=as_fraction_of_weight(over_weight, building.storeys) * building.weight)
+
+
+def _storeys(table: Table, over_weight: Any, springs: dict[str, Any]) -> int | None:
+    """Number of storeys as stated, or that of the strengths over the weight where nothing else is a list."""
+    listed = any(isinstance(table.values.get(key), list) for key in ("mass", "stiffness"))
+    if "storeys" in table.values:
+        count = as_count(table.values["storeys"], "storeys", "building", InvalidScene, least=1)
+        if listed:
+            table.refuse("storeys", "left out where mass or stiffness is a list", str(count))
+        if count > _kernel.MAX_STOREYS:
+            raise refusal(InvalidScene, "storeys", "building", f"at most {_kernel.MAX_STOREYS}", str(count))
+        return count
+    listed = listed or any(
+        is_per_storey(value) if key == "backbone" else isinstance(value, list) for key, value in springs.items()
+    )
+    return len(over_weight) if isinstance(over_weight, list) and over_weight and not listed else None
+
+
+def _infinite_where_null(value: Any) -> Any:
+    """A null in a list stands for infinity, which JSON has not: a storey that stays elastic."""
+    return [np.inf if item is None else item for item in value] if isinstance(value, list) else value
+
+
+def _damping(building: Table) -> float | Rayleigh | FloatArray:
+    if not isinstance(building.values["damping"], dict):
+        return as_number(building.values["damping"], "damping", "building", InvalidScene)
+    table = building.table("damping")
+    kind = table.values.get("kind")
+    if not isinstance(kind, str) or kind not in _DAMPING_KEYS:
+        table.refuse("kind", f"one of {', '.join(_DAMPING_KEYS)}", "nothing" if kind is None else brief(kind))
+    table.known(("kind", *_DAMPING_KEYS[kind]))
+    for key in _DAMPING_KEYS[kind]:
+        table.needed(key)
+    if kind == "matrix":
+        return as_array(table.values["matrix"], "damping matrix", "building", InvalidScene, dimensions=2)
+    ratio = as_number(table.values["ratio"], "damping ratio", "building", InvalidScene)
+    return Rayleigh(ratio, table.values["modes"]) if kind == "rayleigh" else ratio
+
+
+def _block(table: Table, number: int) -> Block:
+    table.known(KEYS["blocks"])
+    table.needed("floor")
+    table.needed("mass", "mass_ratio")
+    table.needed("mu", "mu_s")
+    table.excluded("mass_ratio", "mass")
+    table.excluded("mu", "mu_s", "mu_k")
+    owner = f"block {number}"
+    floor = as_count(table.values["floor"], "floor", owner, InvalidScene)
+    others = {key: value for key, value in table.values.items() if key not in ("floor", "wear")}
+    values = {key: as_number(value, key, owner, InvalidScene) for key, value in others.items()}
+    if "mu" in values and not 0.0 <= values["mu"] < np.inf:  # the kernel would call it mu_s
+        raise refusal(InvalidScene, "mu", owner, "finite and not negative", f"{values['mu']:g}")
+    return Block(floor, **values, wear=table.values.get("wear", ()))
+
+
+def _motions(top: Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:
+    """Horizontal and vertical samples, both ending with the shorter."""
+    samples, dt, record = _samples(top.table("motion"), folder)
+    records = () if record is None else (record,)
+    if "vertical_motion" not in top.values:
+        return Motion(samples, dt), records
+    vertical, vertical_dt, record = _samples(top.table("vertical_motion"), folder)
+    if not np.isclose(vertical_dt, dt, rtol=1e-9, atol=0.0):
+        top.refuse("vertical_motion", f"at the time step of the horizontal motion, {dt:g} s", f"{vertical_dt:g} s")
+    shared = min(len(samples), len(vertical))
+    records = records if record is None else (*records, record)
+    return Motion(samples[:shared], dt, vertical[:shared]), records
+
+
+def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | None]:
+    """Acceleration (m/s2) and time step (s) after scaling, and the record they come from, if any."""
+    table.known(KEYS["motion"])
+    table.needed("file", "builtin", "acceleration")
+    table.excluded("file", "builtin", "acceleration")
+    table.excluded("builtin", "acceleration")
+    for key in ("dt", "unit"):
+        table.excluded(key, "builtin")
+    unit = table.values.get("unit")
+    if unit is not None and (not isinstance(unit, str) or unit not in ACCELERATION_UNITS):
+        table.refuse("unit", f"one of {', '.join(ACCELERATION_UNITS)}", brief(unit))
+    scale, dt_scale = table.number("scale", 1.0), table.number("dt_scale", 1.0)
+    if not np.isfinite(scale):
+        table.refuse("scale", "a finite number", f"{scale:g}")
+    if not (np.isfinite(dt_scale) and dt_scale > 0.0):
+        table.refuse("dt_scale", "a positive number", f"{dt_scale:g}")
+    record, in_si = None, 1.0
+    if "acceleration" not in table.values:
+        record = _record(table, folder, unit)
+        samples, dt = record.acceleration, record.dt
+    else:
+        table.needed("dt")
+        samples = as_array(table.values["acceleration"], "acceleration", "motion", InvalidMotion)
+        in_si = ACCELERATION_UNITS[unit or "m/s2"]
+        dt = as_number(table.values["dt"], "dt", "motion", InvalidMotion)
+    with np.errstate(over="ignore"):  # the motion refuses what is not finite
+        return samples * in_si * scale, dt * dt_scale, record
+
+
+def _record(table: Table, folder: Path, unit: str | None) -> Record:
+    """The record that a table names: a file, or a built-in motion."""
+    if "file" in table.values:
+        dt = table.number("dt", 0.0) if "dt" in table.values else None
+        return read_record(folder / table.text("file"), dt=dt, unit=unit)
+    name, names = table.text("builtin"), builtin_names()
+    if name not in names:
+        table.refuse("builtin", f"one from {names[0]} to {names[-1]}", brief(name))
+    return builtin_record(name)

@@ -1,0 +1,92 @@
+"""One scene under one motion, with everything about it."""
+
+from __future__ import annotations
+
+from seismass import _kernel
+from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.values import as_count, brief, refusal
+from seismass.model.motion import MotionLike, as_motion
+from seismass.model.scene import Scene
+from seismass.records.record import Record
+from seismass.runs.response import Response
+
+
+def simulate(
+    scene: Scene,
+    motion: MotionLike,
+    *,
+    histories: bool | int = False,
+    displacements_only: bool = False,
+    events: bool = True,
+    energy: bool = False,
+    duration: float | None = None,
+) -> Response:
+    """Solve one scene under one motion, exactly: every event is located, every regime is solved in closed form.
+
+    Parameters
+    ----------
+    scene : Scene
+        Building and blocks.
+    motion : Motion or Record
+        Ground motion.
+    histories : bool or int, default False
+        True keeps histories at every sample, a number at every so many samples from the first. A row at the time of an
+        event is the state after it.
+    displacements_only : bool, default False
+        Keep the histories of drifts and slips alone, not those of velocities, accelerations and forces: a third of the
+        memory, and less time.
+    events : bool, default True
+        Keep the event log.
+    energy : bool, default False
+        Compute the energy balance.
+    duration : float, optional
+        End at the sample nearest to this time (s), before the last sample or after it.
+
+    Returns
+    -------
+    Response
+        Peaks, residuals, and what else was asked for. A collapse is a result, not an error.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption
+        An argument is not what it must be.
+    SimulationError
+        The run could not be carried to its end.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> scene = sm.Scene(None, [sm.Block(0, mass=100.0, mu=0.1)])
+    >>> response = sm.simulate(scene, sm.Motion([2.0, 2.0, 0.0, 0.0], dt=0.1), histories=True)
+    >>> response.counts["slip"]
+    1
+    """
+    if not isinstance(scene, Scene):
+        raise refusal(InvalidScene, "scene", "simulate", "a Scene", brief(scene))
+    chosen = as_motion(motion, "motion", "simulate")
+    if duration is not None:
+        chosen = chosen.with_duration(duration)
+    every = (
+        int(histories)
+        if isinstance(histories, bool)
+        else as_count(histories, "histories", "simulate", InvalidOption, least=1)
+    )
+    run = _kernel.simulate(scene._kernel, chosen._kernel, every, bool(displacements_only), bool(energy), bool(events))
+    return Response(run, scene, chosen, motion if isinstance(motion, Record) else None)
+
+
+def instruction_set() -> str:
+    """Return the name of the instruction set that the kernel uses: "baseline", "avx2" or "avx512".
+
+    It is the widest that the machine has, or the one that the environment variable SEISMASS_INSTRUCTIONS names when the
+    kernel is first used, if the machine has it ("baseline": every machine). Results agree to rounding between
+    instruction sets, and to the bit with the same one, on every machine.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.runs.instruction_set() in ("baseline", "avx2", "avx512")
+    True
+    """
+    return _kernel.instruction_set()

@@ -1,0 +1,1 @@
+"""An animation as a page, a picture or a film."""

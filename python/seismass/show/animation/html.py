@@ -1,0 +1,181 @@
+"""An animation as HTML: the data as 16-bit numbers in base64, a style for one element, and a script of its own."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+from collections.abc import Iterable
+from html import escape
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from markupsafe import Markup
+from numpy.typing import ArrayLike, NDArray
+
+from seismass.animation.shown import Run
+from seismass.base.values import FloatArray, counted
+from seismass.media.page import page_html, templates
+from seismass.runs.response import EVENT_KINDS
+
+if TYPE_CHECKING:
+    from seismass.animation.animation import Animation
+
+SPEEDS: Final = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
+"""Choices of speed."""
+FACTORS: Final = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
+"""Choices by which displacements are enlarged, beside the one that fits."""
+
+
+def page(animation: Animation) -> str:
+    """Return a page with one animation, which plays when it is opened unless the reader prefers less motion."""
+    return page_html(animation.title, [], subtitle=animation.note, lead=[_element(animation, autoplay=True)])
+
+
+def fragment(animation: Animation) -> Markup:
+    """Return the animation as a figure that waits to be played."""
+    return _element(animation, autoplay=False)
+
+
+def _element(animation: Animation, *, autoplay: bool) -> Markup:
+    return element_html(element_content(animation), autoplay=autoplay)
+
+
+def element_content(animation: Animation) -> dict[str, Any]:
+    """Return all that the element shows, as values that JSON has: what is drawn, and the words around it."""
+    shown = animation.shown
+    return {
+        "data": _data(animation),
+        "alt": description(animation),
+        "caption": caption(animation),
+        "blocks": bool(animation.scene.blocks),
+        "building": bool(animation.scene.storeys),
+        "attached": any(run.attached for run in shown.runs),
+        "factor": shown.factor,
+        "last": (shown.rows - 1) * shown.step,
+        "step": shown.step,
+    }
+
+
+def element_html(
+    content: dict[str, Any],
+    *,
+    autoplay: bool = False,
+    speeds: Iterable[float] = SPEEDS,
+    factors: Iterable[tuple[float, str]] | None = None,
+) -> Markup:
+    """Return the element of what `element_content` gives.
+
+    Parameters
+    ----------
+    content : dict
+        What the element shows; without data (None) it waits for them, which its `show` takes.
+    autoplay : bool
+        Whether it plays when it is opened.
+    speeds : iterable of float
+        Choices of speed.
+    factors : iterable of (float, str), optional
+        Choices by which displacements are enlarged, with their words; 0 is the factor of the data. By default round
+        ones, and that of the content.
+    """
+    times = "\N{MULTIPLICATION SIGN}"
+    choices = factors or [(factor, f"{factor:g} {times}") for factor in sorted({content["factor"], *FACTORS})]
+    data = json.dumps(content["data"], separators=(",", ":")).replace("<", "\\u003c")
+    html: str = (
+        templates()
+        .get_template("animation.html.jinja")
+        .render(
+            **{name: value for name, value in content.items() if name != "data"},
+            identifier="animation-" + hashlib.sha256(data.encode()).hexdigest()[:10],
+            data=Markup(data),
+            autoplay=autoplay,
+            speeds=[(speed, f"{speed:g} {times}") for speed in speeds],
+            factors=list(choices),
+        )
+    )
+    return Markup(html)
+
+
+def description(animation: Animation) -> str:
+    """Return what happens, for who cannot see it."""
+    return " ".join(animation.shown.sentences)
+
+
+def caption(animation: Animation) -> str:
+    """Return the peaks, and how true the picture is."""
+    shown = animation.shown
+    building = animation.scene.building
+    drawn = "" if building is None or building.heights is not None else " Storeys are drawn 3 m high."
+    return (
+        f"{description(animation)} Peaks are those of the exact run; what is drawn has {counted(shown.rows, 'row')} "
+        f"{1e3 * shown.step:g} ms apart, as 16-bit numbers, and ground acceleration as its range between rows. "
+        f"Displacements are over the ground.{drawn}"
+    )
+
+
+def _data(animation: Animation) -> dict[str, Any]:
+    shown, scene = animation.shown, animation.scene
+    peak = float(max(abs(shown.ground_low).max(), abs(shown.ground_high).max()))
+    known = scene.building is not None and scene.building.heights is not None
+    mass = scene.block_mass
+    return {
+        "step": shown.step,
+        "rows": shown.rows,
+        "heights": [round(float(height), 4) for height in shown.heights],
+        "known": known,
+        "factor": shown.factor,
+        "storey": shown.storey,
+        "kinds": list(EVENT_KINDS),
+        "ground": {"peak": peak, "low": _packed(shown.ground_low, peak), "high": _packed(shown.ground_high, peak)},
+        "blocks": [
+            {"floor": block.floor, "size": round(float(np.sqrt(one / mass.max())), 3)}
+            for block, one in zip(scene.blocks, mass, strict=True)
+        ],
+        "runs": [_run(run, shown.step) for run in shown.runs],
+    }
+
+
+def _run(run: Run, step: float) -> dict[str, Any]:
+    response = run.response
+    drift, slip = response.drift[: run.rows], response.slip[: run.rows]
+    largest_drift, largest_slip = (float(abs(moved).max()) if moved.size else 0.0 for moved in (drift, slip))
+    return {
+        "label": run.label,
+        "what": run.what,
+        "attached": run.attached,
+        "rows": run.rows,
+        "collapsed": response.collapsed_storey,
+        "end": response.end_time,
+        "drift": {"peak": largest_drift, "values": _packed(drift, largest_drift)},
+        "slip": {"peak": largest_slip, "values": _packed(slip, largest_slip)},
+        "events": _events(run, step),
+    }
+
+
+def _events(run: Run, step: float) -> dict[str, str]:
+    """Events by the row at which they are drawn; of equal ones in one row the last is kept."""
+    log = run.response.event_log
+    row = np.minimum(np.ceil(log["time"] / step), run.rows - 1).astype(np.uint32)
+    kind = np.array([EVENT_KINDS.index(name) for name in log["kind"]], dtype=np.uint8)
+    number = log["number"].astype(np.uint16)
+    backwards = np.rec.fromarrays([part[::-1] for part in (row, kind, number)])
+    kept = np.sort(len(log) - 1 - np.unique(backwards, return_index=True)[1]) if len(log) else np.arange(0)
+    return {"row": _base64(row[kept], "<u4"), "kind": _base64(kind[kept], "u1"), "number": _base64(number[kept], "<u2")}
+
+
+def _packed(values: FloatArray, peak: float) -> str:
+    """Values over their peak as 16-bit integers."""
+    return _base64(np.rint(values * (32767.0 / peak)) if peak > 0.0 else np.zeros(values.shape), "<i2")
+
+
+def _base64(values: ArrayLike, dtype: str) -> str:
+    array: NDArray[Any] = np.ascontiguousarray(values).astype(dtype)
+    return base64.b64encode(array.tobytes()).decode()
+
+
+def frame(animation: Animation) -> str:
+    """Return the page in a frame of its own, for a notebook."""
+    return (
+        f'<iframe srcdoc="{escape(page(animation))}" sandbox="allow-scripts" title="{escape(animation.title)}" '
+        'style="width:100%;height:56rem;border:0"></iframe>'
+    )

@@ -1,0 +1,1 @@
+"""How the assessment of a building looks: words, tables, figures, page."""

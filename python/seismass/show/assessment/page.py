@@ -1,0 +1,313 @@
+"""The page of an assessment, for the calculation folder: answer, input, checks, result, advice, limits, provenance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, Final
+
+import polars as pl
+from markupsafe import Markup
+
+from seismass.assessment.advice import NAMES
+from seismass.assessment.models import REAL, REAL_HIGH, REAL_LOW
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.effective_mass.result import KIND_TEXTS
+from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
+from seismass.media.svg import short_svg
+from seismass.show.assessment.tables import AssessmentTables, Fraction
+from seismass.show.study.page import bullets_html, long_html
+
+LIMITS: Final = (
+    "Shear buildings in one direction: no torsion, no flexible floors, no foundation.",
+    "Rigid goods that slide by Coulomb friction; goods that rock, topple, strike or deform are not covered.",
+    "Trilinear storeys without loss of strength but by P-Delta; Omega, r2 and r3 decide about large drifts.",
+    "The interval of a fraction is over these motions alone, and covers a little less than it says.",
+    "This page checks drift and stability of a model. It replaces neither the design of members nor the judgement of "
+    "the engineer who signs it.",
+)
+"""What the page does not cover."""
+
+
+def building_page(result: AssessmentTables, drawings: Mapping[str, str]) -> str:
+    """Return the page as HTML.
+
+    Parameters
+    ----------
+    result : AssessmentTables
+        The assessment, as its folder holds it.
+    drawings : mapping of str to str
+        SVG texts of its figures, by name.
+
+    Returns
+    -------
+    str
+        A page that needs nothing but itself; equal tables give equal pages.
+    """
+    document = result.document
+    sections = [
+        Section("Input as understood", _input(result)),
+        Section("Checks", [_checks(result)]),
+        Section("Effective fraction", _fractions(result, drawings)),
+        Section("Drifts", _drifts(result, drawings)),
+        *([Section("Slip of the goods", _slip(result, drawings))] if result.slip.height else []),
+        Section("In an analysis", [bullets_html(document["advice"])]),
+        Section("Remarks", [bullets_html(document["remarks"] or ["None."])]),
+        Section("Assumptions", [bullets_html(document["assumptions"])]),
+        Section("Limits of this page", [bullets_html(list(LIMITS))]),
+        Section("Provenance", _provenance(result)),
+    ]
+    lead = [Markup('<div class="answer">{}</div>').format(text_html(*_answer(result)))]
+    version = f"seismass {document['metadata']['package_version']}"
+    subtitle = "; ".join(part for part in (document["note"], version) if part)
+    return page_html(document["name"] or "Building", sections, subtitle=subtitle, lead=lead)
+
+
+def _answer(result: AssessmentTables) -> list[Markup]:
+    document, code = result.document, result.code
+    if result.advised is None:
+        return [Markup("There are no goods on the floors: no live load could act as mass.")]
+    share = document["answer"]["advised_share_of_design_live_load"]
+    real = result.effective[REAL]
+    spread = "" if real.interval is None else f" ({100.0 * real.confidence:g} % interval {_interval(real)})"
+    failed = result.checks.filter(pl.col("met").eq_missing(False) | pl.col("met").is_null())
+    verdict = (
+        Markup('<span class="good">All checks are met.</span>')
+        if not failed.height
+        else Markup('<span class="warn">{} of {} checks are not met.</span>').format(
+            failed.height, result.checks.height
+        )
+    )
+    return [
+        Markup(
+            "Use <strong>lambda = {advised:.2f}</strong> of the goods present, {share:.2f} of the design live load, as "
+            "mass in an analysis."
+        ).format(advised=result.advised, share=share),
+        Markup(
+            "With friction as stated the effective fraction is {value}{spread}; {code} counts {fraction:g} of the "
+            "design live load. {verdict}"
+        ).format(
+            value=_number(real.value), spread=spread, code=code["code"], fraction=code["fraction"], verdict=verdict
+        ),
+    ]
+
+
+def _number(value: float | None, digits: int = 2) -> str:
+    return "\N{EN DASH}" if value is None or not math.isfinite(value) else f"{value:.{digits}f}"
+
+
+def _interval(fraction: Fraction) -> str:
+    if fraction.interval is None:
+        return "\N{EN DASH}"
+    return f"{_number(fraction.interval[0])} to {_number(fraction.interval[1])}"
+
+
+def _input(result: AssessmentTables) -> list[Markup]:
+    given, code, document = result.document["input"], result.code, result.document
+    rule = given["design"]
+    facts = {
+        "Weight of the building": f"{1e-3 * given['weight']:.0f} kN",
+        "Weight of the goods present": f"{1e-3 * given['weight_of_goods']:.0f} kN, "
+        f"{100.0 * result.present_share:.0f} % of the design live load",
+        "First period": f"{given['period_bare']:.3f} s without goods, {given['period_attached']:.3f} s with all "
+        "attached",
+        "Damping": f"{100.0 * given['damping']:g} % in the modes of the building without goods",
+        "Strength": "as stated"
+        if rule is None
+        else f"V_y = V_e/R, R = {rule['R']:g}, {rule['combination'].upper()}, with {rule['fraction']:g} of the design "
+        "live load",
+        "P-Delta": "with the weight of building and goods" if given["p_delta"] else "none",
+        "Bounds of friction": "{:g} and {:g} times mu".format(*given["mu_factors"]),
+        "Code": f"{code['code']}, {code['use']}: {code['fraction']:g} of the design live load"
+        + "".join(f"; {code[name]}" for name in ("clause", "status", "note") if code[name]),
+        "Site spectrum": "none" if document["target"] is None else document["target"]["label"],
+        "Motions": f"{document['suite']['name']}: {', '.join(document['suite']['motions'])}",
+    }
+    if given["file"]:
+        facts = {"File": given["file"], **facts}
+    storeys = pl.DataFrame(given["storeys"], infer_schema_length=None).with_columns(
+        live_load=pl.col("live_load") * STANDARD_GRAVITY
+    )
+    names = {
+        "height": "height (m)",
+        "mass": "mass (t)",
+        "stiffness": "stiffness (kN/mm)",
+        "yield_shear": "V_y (kN)",
+        "overstrength": "Omega",
+        "second_slope": "r2",
+        "third_slope": "r3",
+        "live_load": "design live load (kN)",
+        "occupied": "present",
+    }
+    thousandth = dict.fromkeys(("mass", "yield_shear", "live_load"), _thousandth)
+    formats: dict[str, Any] = {**thousandth, "stiffness": lambda value: f"{1e-6 * value:.1f}", "occupied": ".2f"}
+    unused = [name for name in ("name", "contact") if not any(storeys[name])]
+    return [
+        facts_html(facts),
+        table_html(storeys.drop(unused), "Storeys, from the ground up.", headers=names, formats=formats),
+    ]
+
+
+def _thousandth(value: float) -> str:
+    return f"{1e-3 * value:.0f}"
+
+
+def _checks(result: AssessmentTables) -> Markup:
+    table = result.checks.with_columns(
+        model=pl.col("model").replace_strict(NAMES, default=pl.col("model"), return_dtype=pl.String),
+        met=pl.col("met").cast(pl.String).replace_strict({"true": "met", "false": "not met"}, default="no value"),
+    )
+    return table_html(
+        table.select("check", "model", "storey", "value", "limit", "met", "source"),
+        "Largest value over the storeys beside its limit. Drift and stability are those of the means over the motions.",
+        headers={"met": "verdict", "source": "limit by"},
+        formats={"met": _verdict, "value": ".4g", "limit": ".4g", "source": long_html},
+    )
+
+
+def _verdict(text: str) -> Markup:
+    return Markup('<span class="{}">{}</span>').format("good" if text == "met" else "warn", text)
+
+
+def _figure(drawings: Mapping[str, str], name: str, caption: str, alt: str) -> Markup:
+    return figure_html(short_svg(drawings[name]), caption, alt) if name in drawings else Markup("")
+
+
+def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Markup]:
+    if not result.effective:
+        return [text_html("There are no goods on the floors.")]
+    low, high = result.mu_factors
+    words = {REAL: "as stated", REAL_HIGH: f"{high:g} times", REAL_LOW: f"{low:g} times"}
+    rows = [
+        {
+            "friction": words[model],
+            "value": None if math.isnan(one.value) else one.value,
+            "interval": _interval(one),
+            "kind": f"{one.kind}: {KIND_TEXTS[one.kind]}",
+            "eta": one.eta,
+            "estimate": one.estimate,
+            "conservative": one.conservative,
+        }
+        for model, one in result.effective.items()
+    ]
+    real = result.effective[REAL]
+    return [
+        _figure(
+            drawings,
+            "effective_fraction",
+            "Mean largest drift with sliding goods over that of the model, against the share of the goods attached.",
+            f"The curve for friction as stated crosses one at a share of {_number(real.value)}.",
+        ),
+        table_html(
+            pl.DataFrame(rows, schema_overrides={"value": pl.Float64}),
+            f"Effective fraction of the goods present by friction; C1 = {real.base_shear_coefficient:.4f} is the base "
+            "shear coefficient of the building with all goods attached, eta = mu_k/C1.",
+            headers={
+                "value": "effective fraction",
+                "interval": f"{100.0 * real.confidence:g} % interval",
+                "estimate": "min(1, eta\N{SUPERSCRIPT TWO})",
+                "conservative": "min(1, eta), conservative",
+            },
+            formats={
+                "kind": long_html,
+                **dict.fromkeys(("value", "eta", "estimate", "conservative"), ".2f"),
+            },
+        ),
+    ]
+
+
+def _drifts(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Markup]:
+    ratio = result.drift_limit is not None
+    scale, unit = (1e2, "%") if ratio else (1e3, "mm")
+    names = {name: f"{name} ({unit})" for name in ("mean", "p16", "median", "p84", "max")}
+    names["p16"], names["p84"] = f"16 % ({unit})", f"84 % ({unit})"
+    further = ["motions_above_limit", "theta"] if ratio else []
+    table = result.storeys.with_columns(
+        model=pl.col("model").replace_strict(NAMES, default=pl.col("model"), return_dtype=pl.String)
+    ).select("model", "storey", "name", *names, *further, "collapsed")
+    if not any(table["name"]):
+        table = table.drop("name")
+    headers = {**names, "collapsed": "collapsed runs"}
+    if ratio:
+        headers |= {"motions_above_limit": "motions above the limit", "theta": "stability coefficient"}
+    worst = result.storeys.drop_nulls("mean").sort("mean", descending=True)
+    said = "No model has a mean."
+    if worst.height:
+        row = worst.row(0, named=True)
+        said = f"The largest mean is {scale * row['mean']:.2f} {unit}, storey {row['storey']}, {NAMES[row['model']]}."
+    return [
+        _figure(
+            drawings,
+            "drift",
+            "Mean peak drift of each storey by model, with 16 to 84 % of the motions"
+            + (", beside the limit." if ratio else "."),
+            said,
+        ),
+        table_html(
+            table,
+            f"Peak drift of each storey ({'% of the height' if ratio else 'mm'}) by model over the motions.",
+            headers=headers,
+            formats={
+                **dict.fromkeys(names, lambda value: f"{scale * value:.2f}"),
+                **({"theta": ".3f"} if ratio else {}),
+            },
+        ),
+    ]
+
+
+def _slip(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Markup]:
+    names = {
+        "peak_mean": "peak, mean (mm)",
+        "peak_median": "median (mm)",
+        "peak_p84": "84 % (mm)",
+        "peak_max": "largest (mm)",
+        "residual_mean": "residual, mean (mm)",
+        "residual_p84": "84 % (mm)",
+    }
+    largest = result.slip["peak_max"].drop_nulls().to_numpy()
+    table = result.slip.select("friction", "floor", "name", "mu_s", "mu_k", "motions_that_slide", *names)
+    if not any(table["name"]):
+        table = table.drop("name")
+    return [
+        _figure(
+            drawings,
+            "slip",
+            "Slip of the goods of each floor by friction: what aisles and edges must allow for.",
+            f"The largest slip of any motion is {1e3 * float(largest.max()) if largest.size else 0.0:.0f} mm.",
+        ),
+        table_html(
+            table,
+            "Peak and residual slip over the motions.",
+            headers={**names, "motions_that_slide": "motions in which goods slide"},
+            formats={**dict.fromkeys(names, lambda value: f"{1e3 * value:.1f}"), "mu_s": ".3g", "mu_k": ".3g"},
+        ),
+    ]
+
+
+def _provenance(result: AssessmentTables) -> list[Markup]:
+    about = result.document["metadata"]
+    facts = {
+        "Program": f"seismass {about['package_version']}",
+        "Instruction set": str(about["instructions"]),
+        "Version of the tables": str(about["schema_version"]),
+        "Inputs (SHA-256)": about["inputs_sha256"],
+        "Bootstrap": f"{about['resamples']} resamples, seed {about['seed']}",
+        "Runs": f"{result.runs.filter(storey=1).height} of {len(result.document['collapses'])} models under "
+        f"{about['motions']} motions",
+    }
+    parts = [facts_html(facts)]
+    if result.scaling is not None:
+        parts.append(
+            table_html(
+                result.scaling,
+                "Scaling factors.",
+                headers={
+                    "motion": "number",
+                    "record": "motion",
+                    "individual_factor": "own factor",
+                    "common_factor": "common factor",
+                },
+                formats=dict.fromkeys(("individual_factor", "common_factor", "factor"), ".4f"),
+            )
+        )
+    return parts

@@ -1,0 +1,162 @@
+"""What a folder of an assessment holds, as its page and figures need it: from an assessment, or read again."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final
+
+import polars as pl
+
+from seismass.assessment.result import SCHEMA_VERSION, Assessment
+from seismass.base.errors import InvalidOption
+from seismass.base.values import refusal
+from seismass.effective_mass.curve import Kind
+
+DOCUMENT: Final = "assessment.json"
+"""File by which a folder is known as that of an assessment."""
+NEEDED: Final = ("storeys", "slip", "runs", "checks")
+
+
+@dataclass(frozen=True)
+class Fraction:
+    """Effective fraction at one friction, as figures draw it; the names are those of `EffectiveMass`."""
+
+    value: float
+    kind: Kind
+    interval: tuple[float, float] | None
+    confidence: float
+    statistic: str
+    real: float
+    model: float
+    eta: float
+    base_shear_coefficient: float
+    estimate: float
+    conservative: float
+    curve: pl.DataFrame = field(repr=False)
+
+
+@dataclass(frozen=True, eq=False)
+class AssessmentTables:
+    """Everything that the page of an assessment is made of.
+
+    Attributes
+    ----------
+    document : dict
+        What assessment.json holds.
+    storeys, slip, runs, checks : polars.DataFrame
+        Tables of the assessment.
+    scaling : polars.DataFrame or None
+        Factors of the motions.
+    effective : dict of str to Fraction
+        Effective fractions by friction, with their curves.
+    """
+
+    document: dict[str, Any]
+    storeys: pl.DataFrame = field(repr=False)
+    slip: pl.DataFrame = field(repr=False)
+    runs: pl.DataFrame = field(repr=False)
+    checks: pl.DataFrame = field(repr=False)
+    scaling: pl.DataFrame | None = field(repr=False)
+    effective: dict[str, Fraction] = field(repr=False)
+
+    @property
+    def advised(self) -> float | None:
+        """Share of the goods present to attach."""
+        share: float | None = self.document["answer"]["advised_share_of_goods_present"]
+        return share
+
+    @property
+    def present_share(self) -> float:
+        """Goods present over the design live load."""
+        return float(self.document["answer"]["goods_present_over_design_live_load"])
+
+    @property
+    def code(self) -> dict[str, Any]:
+        """The code: its name, use, fraction, range, clause, status and note."""
+        code: dict[str, Any] = self.document["answer"]["code"]
+        return code
+
+    @property
+    def mu_factors(self) -> tuple[float, float]:
+        """Factors of friction for its bounds."""
+        low, high = self.document["input"]["mu_factors"]
+        return low, high
+
+    @property
+    def drift_limit(self) -> float | None:
+        """Limit of the drift ratio; None without heights."""
+        limit: float | None = self.document["input"]["drift_limit"]
+        return limit
+
+    @property
+    def storey_names(self) -> list[str]:
+        """A name per storey, or empty texts."""
+        return [row["name"] for row in self.document["input"]["storeys"]]
+
+
+def assessment_tables(result: Assessment) -> AssessmentTables:
+    """Return what a folder of the assessment holds."""
+    return _made(json.loads(result.to_json()), result.tables)
+
+
+def read_assessment_tables(folder: Path) -> AssessmentTables:
+    """Read the folder of an assessment.
+
+    Raises
+    ------
+    InvalidOption
+        The folder holds no assessment, one of another version, or not all of its tables.
+    """
+    try:
+        document = json.loads((folder / DOCUMENT).read_text(encoding="utf-8"))
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise refusal(InvalidOption, "content", DOCUMENT, "JSON as `seismass building` writes it", f"{error}") from None
+    version = document.get("schema_version") if isinstance(document, dict) else None
+    if version != SCHEMA_VERSION:
+        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", f"{version}")
+    names = [*NEEDED, *(["curve"] if document["effective"] else []), *(["scaling"] if document["factors"] else [])]
+    tables = {}
+    for name in names:
+        path = folder / f"{name}.parquet"
+        if not path.exists():
+            raise refusal(InvalidOption, path.name, f"folder {folder}", f"there beside {DOCUMENT}", "none")
+        try:
+            tables[name] = pl.read_parquet(path)
+        except pl.exceptions.PolarsError as error:
+            raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
+    return _made(document, tables)
+
+
+def _made(document: dict[str, Any], tables: dict[str, pl.DataFrame]) -> AssessmentTables:
+    effective = {
+        model: _fraction(values, tables["curve"].filter(model=model)) for model, values in document["effective"].items()
+    }
+    return AssessmentTables(
+        document=document,
+        storeys=tables["storeys"],
+        slip=tables["slip"],
+        runs=tables["runs"],
+        checks=tables["checks"],
+        scaling=tables.get("scaling"),
+        effective=effective,
+    )
+
+
+def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
+    """A fraction of its JSON, in which what is no finite number is null."""
+
+    def number(value: float | None) -> float:
+        return math.nan if value is None else float(value)
+
+    names = ("value", "real", "model", "eta", "base_shear_coefficient", "estimate", "conservative", "confidence")
+    ends = values["interval"]
+    return Fraction(
+        **{name: number(values[name]) for name in names},
+        kind=values["kind"],
+        statistic=values["statistic"],
+        interval=None if ends is None else (number(ends[0]), number(ends[1])),
+        curve=curve,
+    )

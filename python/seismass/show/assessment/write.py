@@ -1,0 +1,86 @@
+"""The files of an assessment: all of them are written beside their places first, then renamed, or none appears."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from seismass.base.errors import InvalidOption
+from seismass.base.files import written_whole
+from seismass.base.values import as_path
+from seismass.media.folder import PAGE, check_out, write_folder
+from seismass.show.assessment.tables import DOCUMENT, AssessmentTables, assessment_tables, read_assessment_tables
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from seismass.assessment.result import Assessment
+
+FIGURES: Final = ("effective_fraction", "drift", "slip")
+"""Names of all figures; those of an earlier assessment that are not written again are removed."""
+TABLES: Final = ("storeys", "slip", "runs", "checks", "curve", "scaling")
+"""Names of all tables, likewise."""
+
+
+def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
+    """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder.
+
+    Returns
+    -------
+    list of Path
+        The files, in the order written.
+
+    Raises
+    ------
+    InvalidOption
+        The folder is a file, or cannot be written to.
+    OSError
+        A file cannot be written; then none is changed.
+    """
+    out = as_path(folder, "assessment", InvalidOption)
+    check_out(out, "assessment")
+    documents = {"assessment.txt": result.text + "\n", DOCUMENT: result.to_json() + "\n"}
+    drawn: dict[str, Figure] = {}
+    if figures:
+        drawn, drawings = _drawn(tables := assessment_tables(result))
+        documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
+        documents[PAGE] = _page(tables, drawings)
+    files = write_folder(out, tables=result.tables, documents=documents, figures=drawn, kinds=("png",))
+    ours = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
+    ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
+    ours.add(PAGE)
+    for name in ours - {path.name for path in files}:
+        (out / name).unlink(missing_ok=True)
+    return files
+
+
+def write_assessment_page(folder: Path, target: Path) -> None:
+    """Write the page of an assessment from the tables of its folder alone.
+
+    Raises
+    ------
+    InvalidOption
+        As for `read_assessment_tables`.
+    OSError
+        The file cannot be written.
+    """
+    tables = read_assessment_tables(folder)
+    _, drawings = _drawn(tables)
+    with written_whole(target) as temporary:
+        temporary.write_text(_page(tables, drawings), encoding="utf-8")
+
+
+def _drawn(tables: AssessmentTables) -> tuple[dict[str, Figure], dict[str, str]]:
+    """Figures and their SVG texts, each drawn once for its file and for the page."""
+    from seismass.media.svg import figure_svg
+    from seismass.show.assessment.figures import assessment_figures
+
+    figures = assessment_figures(tables)
+    return figures, {name: figure_svg(figure) for name, figure in figures.items()}
+
+
+def _page(tables: AssessmentTables, drawings: dict[str, str]) -> str:
+    from seismass.show.assessment.page import building_page
+
+    return building_page(tables, drawings)

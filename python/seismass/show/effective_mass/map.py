@@ -1,0 +1,212 @@
+"""Figures of a map of effective fractions: the collapse onto eta, how rules do, and the fraction against intensity."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import matplotlib as mpl
+import numpy as np
+import polars as pl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
+
+from seismass.effective_mass.design_map import EffectiveMassMap
+from seismass.media.result import named_figure
+from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.show.effective_mass.figures import STORAGE_CODES
+
+LONGEST_ETA: Final = 2.2
+"""Largest eta that the figure shows; beyond it the fraction is 1."""
+_GROUPS: Final = (
+    ("R = 1", 0.0, 1.0, GREY, "^"),
+    ("R above 1 to 3", 1.0, 3.0, "#56B4E9", "s"),
+    ("R above 3", 3.0, np.inf, BLUE, "o"),
+)
+"""Label, largest R of the group before and of this one, colour, marker."""
+_RATIOS: Final = (0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
+_INTENSITY_LOOKS: Final = ("o", "s", "D", "^", "v", "P", "X", "<", ">", "*", "h")
+
+
+def map_figure(result: EffectiveMassMap, name: str | None = None) -> Figure:
+    """Return a figure by its name."""
+    draw = {"collapse": collapse_figure, "rules": rules_figure, "intensity": intensity_figure}
+    with mpl.rc_context(STYLE):
+        return draw[named_figure(result, name)](result)
+
+
+def collapse_figure(result: EffectiveMassMap) -> Figure:
+    """Effective fraction against eta, every case in which goods slide, with its scatter, both rules and the codes."""
+    sliding = result.table.filter(pl.col("slides"))
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(7.2, 5.2), layout="constrained")
+        axes = figure.add_subplot()
+        for label, above, most, colour, marker in _GROUPS:
+            here = sliding.filter((pl.col("R") > above) & (pl.col("R") <= most))
+            axes.plot(
+                here["eta"].to_numpy(),
+                here["value"].to_numpy(),
+                linestyle="",
+                marker=marker,
+                markersize=2.2,
+                markeredgewidth=0.0,
+                color=colour,
+                alpha=0.55,
+                label=label,
+            )
+        eta = np.linspace(0.0, LONGEST_ETA, 400)
+        axes.plot(eta, np.minimum(1.0, eta**2), color=VERMILION, linewidth=2.2, label="best estimate min(1, eta²)")
+        axes.plot(
+            eta,
+            np.minimum(1.0, eta),
+            color=GREEN,
+            linewidth=2.0,
+            linestyle=(0, (5, 2)),
+            label="conservative min(1, eta)",
+        )
+        _bins(axes, result.by_eta())
+        for name, share in {"none: ASCE 7 ordinary": 0.0, **STORAGE_CODES, "all": 1.0}.items():
+            axes.plot([0.985, 1.0], [share, share], transform=axes.get_yaxis_transform(), color=INK, linewidth=1.6)
+            axes.annotate(
+                f"{name} {share:g}" if 0.0 < share < 1.0 else name,
+                (1.01, share),
+                xycoords=axes.get_yaxis_transform(),
+                va="center",
+                fontsize=7.5,
+            )
+        axes.set_xlim(0.0, LONGEST_ETA)
+        axes.set_ylim(-0.03, 1.05)
+        axes.set_xlabel(r"$\eta$ = $\mu_k$ / $C_1$   ($C_1$: peak base shear with all goods attached / full weight)")
+        axes.set_ylabel("effective fraction of live load")
+        axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+        legend = figure.legend(loc="outside upper center", ncols=3, frameon=False)
+        for handle in legend.get_lines()[: len(_GROUPS)]:
+            handle.set_alpha(1.0)
+            handle.set_markersize(5.0)
+        figure.supxlabel(map_caption(result), fontsize=7.5)
+    return figure
+
+
+def _bins(axes: Axes, bins: pl.DataFrame) -> None:
+    """Median and 16 to 84 % in each bin of eta."""
+    shown = bins.filter(pl.col("eta_to").is_not_null() & (pl.col("eta_to") <= LONGEST_ETA))
+    centre = 0.5 * (shown["eta_from"] + shown["eta_to"]).to_numpy()
+    median, p16, p84 = (shown[name].to_numpy() for name in ("median", "p16", "p84"))
+    axes.errorbar(
+        centre,
+        median,
+        yerr=np.maximum([median - p16, p84 - median], 0.0),
+        color=INK,
+        linestyle="",
+        marker="D",
+        markersize=4.5,
+        capsize=3.0,
+        linewidth=1.2,
+        zorder=5,
+        label="median, 16 to 84 % in bins of eta",
+    )
+
+
+def rules_figure(result: EffectiveMassMap) -> Figure:
+    """Model over real drift for every rule: mean, 5 to 95 %, and the share of cases in which it is unsafe."""
+    rules = result.rules()
+    level = np.arange(rules.height)[::-1]
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(7.2, 1.6 + 0.34 * rules.height), layout="constrained")
+        axes = figure.add_subplot()
+        axes.axvline(1.0, color=INK, linewidth=0.8)
+        axes.axvspan(0.3, 1.0, color=GREY, alpha=0.12, linewidth=0.0)
+        axes.hlines(level, rules["low"].to_numpy(), rules["high"].to_numpy(), color=BLUE, linewidth=2.0)
+        axes.plot(rules["bias"].to_numpy(), level, color=BLUE, marker="o", linestyle="", markersize=6.0)
+        for height, unsafe in zip(level, rules["unsafe"], strict=True):
+            axes.annotate(
+                f"{100.0 * unsafe:.0f} %",
+                (1.01, height),
+                xycoords=axes.get_yaxis_transform(),
+                va="center",
+                fontsize=8.0,
+            )
+        axes.annotate("unsafe", (1.01, 1.0), xycoords="axes fraction", va="bottom", fontsize=8.0)
+        axes.set_xscale("log")
+        axes.xaxis.set_major_locator(FixedLocator(list(_RATIOS)))
+        axes.xaxis.set_minor_locator(NullLocator())
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.xaxis.set_minor_formatter(NullFormatter())
+        axes.set_xlim(0.38, 2.6)
+        axes.set_ylim(-0.6, rules.height - 0.4)
+        axes.set_yticks(level, rules["rule"].to_list())
+        axes.set_xlabel(
+            "model / real, mean of the largest drift: geometric mean and 5 to 95 % of the\n"
+            "cases in which goods slide (shaded: the model drifts less;\n"
+            "unsafe: the real building drifts more than 1.05 times the model)"
+        )
+        axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
+        figure.supxlabel(map_caption(result), fontsize=7.5)
+    return figure
+
+
+def intensity_figure(result: EffectiveMassMap, building: int | None = None, alpha: float | None = None) -> Figure:
+    """Effective fraction against intensity for one building and load: a panel for each R, a line for each friction.
+
+    Bands are bootstrap intervals over the records.
+    By default the building in the middle of the list, and the load nearest to alpha = 1.
+    """
+    numbers = result.table["building"].unique().sort().to_list()
+    number = numbers[len(numbers) // 2] if building is None else building
+    alphas = result.table["alpha"].unique().sort().to_list()
+    load = min(alphas, key=lambda value: abs(value - 1.0)) if alpha is None else alpha
+    here = result.table.filter((pl.col("building") == number) & (pl.col("alpha") == load)).sort("intensity")
+    factors = here["R"].unique().sort().to_list()
+    mus = here["mu"].unique().sort().to_list()
+    storeys, period, roof = here.row(0, named=True)["storeys"], here["period"][0], here["roof"][0]
+    confidence = result.metadata["parameters"]["confidence"]
+    columns = min(len(factors), 4)
+    rows = -(-len(factors) // columns)
+    with mpl.rc_context(STYLE):
+        shades = mpl.colormaps["viridis"](np.linspace(0.0, 0.9, len(mus)))
+        figure = Figure(figsize=(1.0 + 2.1 * columns, 1.5 + 2.1 * rows), layout="constrained")
+        grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+        for axes, factor in zip(grid.flat, factors, strict=False):
+            for colour, marker, mu in zip(shades, _INTENSITY_LOOKS * len(mus), mus, strict=False):
+                line = here.filter((pl.col("R") == factor) & (pl.col("mu") == mu))
+                if line["low"].null_count() == 0:
+                    ends = (line[name].to_numpy() for name in ("intensity", "low", "high"))
+                    axes.fill_between(*ends, color=colour, alpha=0.12, linewidth=0.0)
+                axes.plot(
+                    line["intensity"].to_numpy(),
+                    line["value"].to_numpy(),
+                    color=colour,
+                    marker=marker,
+                    markersize=3.5,
+                    linewidth=1.1,
+                    label=rf"$\mu$ = {mu:g}",
+                )
+            axes.set_title(f"R = {factor:g}")
+            axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+            axes.set_ylim(-0.03, 1.05)
+        for axes in list(grid.flat)[len(factors) :]:
+            axes.set_axis_off()
+        handles, labels = grid[0][0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside upper center", ncols=min(len(mus), 6), frameon=False)
+        figure.supylabel("effective fraction of live load", fontsize=9.0)
+        figure.supxlabel(
+            "intensity: factor of the scaled motions, strengths unchanged; "
+            f"bands: {100.0 * confidence:g} % intervals over the records   ({storeys} storeys, {period:g} s, {roof} "
+            rf"roof, $\alpha$ = {load:g})" + "\n" + map_caption(result),
+            fontsize=7.5,
+        )
+    return figure
+
+
+def map_caption(result: EffectiveMassMap) -> str:
+    """Return one line on the motions and the parameters that the map depends on."""
+    chosen, suite = result.metadata["parameters"], result.metadata["suite"]
+    name = str(suite["name"]).replace("$", r"\$")
+    damping = "C of the real building" if chosen["model_damping"] == "same" else "that ratio in their own modes"
+    target = str(result.metadata["target"]["label"]).split(" (")[0].replace("$", r"\$")
+    return (
+        f"{len(suite['motions'])} motions ({name}) scaled to {target}, for T = {chosen['scaling_period']:g} s;\n"
+        rf"$V_y$ designed with $\lambda$ = {chosen['design_fraction']:g}; $\Omega$ = {chosen['overstrength']:g}, "
+        rf"$r_2$ = {chosen['second_slope']:g}, $r_3$ = {chosen['third_slope']:g}; damping "
+        f"{100.0 * chosen['damping']:g} %, models with {damping}"
+    )

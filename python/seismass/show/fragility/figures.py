@@ -1,0 +1,199 @@
+"""Figures of an analysis of fragility: curves of all models with bands and points, and demand by intensity."""
+
+from __future__ import annotations
+
+from itertools import cycle
+from typing import Any, Final
+
+import matplotlib as mpl
+import numpy as np
+import polars as pl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from seismass.base.values import FloatArray
+from seismass.fragility.limits import LimitState
+from seismass.fragility.result import FragilityAnalysis
+from seismass.media.axes import grid_lines
+from seismass.media.result import named_figure
+from seismass.media.style import GREY, INK, PAPER, SERIES, STYLE, VERMILION, plain
+
+_MARKERS: Final = ("o", "s", "^", "D", "v", "P")
+_FRACTILE_LOOKS: Final[dict[str, Any]] = {"p16": (0, (1.2, 1.2)), "p50": "-", "p84": (0, (5, 2))}
+_FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
+
+
+def analysis_figure(result: FragilityAnalysis, name: str | None = None) -> Figure:
+    """Return a figure by its name."""
+    chosen = named_figure(result, name)
+    if chosen == "fragility":
+        return fragility_figure(result)
+    return demand_figure(result, result.demands[chosen.removeprefix("demand_")])
+
+
+def fragility_figure(result: FragilityAnalysis) -> Figure:
+    """Return fragility curves of all models, one panel per limit.
+
+    Bands are bootstrap intervals over the motions. Points are the share of motions that exceed the limit, at each
+    stripe, or by the capacities of the motions.
+    """
+    count = len(result.limits)
+    columns = min(count, 2)
+    rows = -(-count // columns)
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(max(4.4 * columns, 6.4), 0.9 + 3.3 * rows), layout="constrained")
+        panels = figure.subplots(rows, columns, squeeze=False).ravel()
+        for axes, limit in zip(panels, result.limits, strict=False):
+            for model, look, marker in zip(result.models, cycle(SERIES), cycle(_MARKERS), strict=False):
+                if (model, limit.name) in result.fits:
+                    _curve(axes, result, limit, model, look, marker)
+            axes.set_title(plain(limit.text))
+            axes.set_ylim(-0.02, 1.02)
+            axes.set_xlim(left=0.0)
+            axes.set_xlabel(_intensity_label(result))
+            axes.set_ylabel("probability of exceedance")
+            grid_lines(axes)
+        for axes in panels[count:]:
+            axes.set_axis_off()
+        handles: list[Any] = [
+            Line2D([], [], **look, marker=marker, markersize=4.0, label=plain(model))
+            for model, look, marker in zip(result.models, cycle(SERIES), cycle(_MARKERS), strict=False)
+        ]
+        if any(len(fit.samples) for fit in result.fits.values()):
+            share = f"{100.0 * result.metadata['confidence']:g} % interval"
+            handles.append(Patch(facecolor=GREY, alpha=0.3, label=share))
+        figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
+        figure.supxlabel(_caption(result), fontsize=7.5)
+    return figure
+
+
+def _curve(
+    axes: Axes, result: FragilityAnalysis, limit: LimitState, model: str, look: dict[str, Any], marker: str
+) -> None:
+    own = result.curves.filter(limit=limit.name, model=model)
+    x = own["intensity"].to_numpy()
+    y, low, high = (
+        own[name].cast(pl.Float64).fill_null(np.nan).to_numpy()
+        for name in ("probability", "probability_low", "probability_high")
+    )
+    axes.fill_between(x, low, high, color=look["color"], alpha=0.15, linewidth=0.0)
+    axes.plot(x, y, **look, linewidth=1.8, gid=f"{limit.name}:{model}")
+    at, share = observed(result, limit, model)
+    seen = at <= x[-1]
+    axes.plot(
+        at[seen],
+        share[seen],
+        color=look["color"],
+        linestyle="",
+        marker=marker,
+        markersize=3.6,
+        markerfacecolor=PAPER,
+        gid=f"points:{limit.name}:{model}",
+    )
+
+
+def observed(result: FragilityAnalysis, limit: LimitState, model: str) -> tuple[FloatArray, FloatArray]:
+    """Return intensities and the share of motions that exceed a limit there, without any fit.
+
+    For stripes they are the stripes, for a hunt the capacities: (i - 0.5) / n of the motions at the i-th. A cloud has
+    none.
+    """
+    if result.method == "hunt_fill":
+        capacities = result.capacities.filter(limit=limit.name, model=model)
+        at = np.sort(capacities["capacity"].drop_nulls().to_numpy())
+        return at, (np.arange(1, len(at) + 1) - 0.5) / max(capacities.height, 1)
+    if result.method == "cloud":
+        return np.empty(0), np.empty(0)
+    level = "stripe" if "stripe" in result.runs.columns else "intensity"
+    shares = (
+        result.runs.filter(model=model)
+        .group_by(level)
+        .agg(share=(pl.col(limit.column) > limit.value).mean())
+        .sort(level)
+    )
+    return shares[level].to_numpy(), shares["share"].to_numpy()
+
+
+def demand_figure(result: FragilityAnalysis, limit: LimitState) -> Figure:
+    """Return demand by intensity, one panel per model that has the quantity.
+
+    Where motions are scaled they are lines with their 16, 50 and 84 % fractiles of demand given intensity; else points.
+    A cross is the last point before a collapse.
+    """
+    column, scale = limit.column, limit.shown_scale
+    models = [model for model in result.models if result.traces(model, column)]
+    scaled = not result.capacities.is_empty()
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(max(1.0 + 2.9 * len(models), 6.4), 4.0), layout="constrained")
+        panels = figure.subplots(1, len(models), squeeze=False, sharex=True, sharey=True)[0]
+        fractiles = result.fractiles().filter(demand_column=column) if scaled else None
+        for axes, model in zip(panels, models, strict=True):
+            for x, y in result.traces(model, column):
+                finite = np.isfinite(y)
+                if fractiles is None:
+                    axes.loglog(scale * y[finite], x[finite], color=INK, linestyle="", marker="o", markersize=3.0)
+                    continue
+                points, values = np.append(0.0, x), np.append(0.0, np.where(finite, y, np.nan))
+                axes.plot(scale * values, points, color=GREY, linewidth=0.7, alpha=0.8, gid="motion")
+                fell = np.flatnonzero(~finite)
+                if len(fell):
+                    axes.plot(scale * values[fell[0]], points[fell[0]], color=INK, marker="x", markersize=4.5)
+            if fractiles is not None:
+                own = fractiles.filter(model=model)
+                for name, style in _FRACTILE_LOOKS.items():
+                    value = own[name].fill_null(np.nan).to_numpy()
+                    shown = np.where(np.isfinite(value), scale * value, np.nan)
+                    at = np.append(0.0, own["level"].to_numpy())
+                    axes.plot(np.append(0.0, shown), at, color=SERIES[0]["color"], linestyle=style, linewidth=1.8)
+            fallen = result.runs.filter(model=model, status="collapsed").height
+            axes.set_title(plain(model) if scaled or not fallen else f"{plain(model)}, {fallen} collapsed")
+            axes.set_xlabel(limit.label)
+            grid_lines(axes)
+        if limit.quantity != "collapse":
+            bounds = [each.value for each in result.limits if each.column == column]
+            for axes in panels:
+                for bound in bounds:
+                    axes.axvline(scale * bound, color=VERMILION, linestyle=(0, (8, 2)), linewidth=1.1)
+            if scaled:
+                panels[0].set_xlim(0.0, 2.0 * scale * max(bounds) if max(bounds) > 0.0 else None)
+                panels[0].set_ylim(0.0, _highest_shown(result, column, 2.0 * max(bounds)))
+        panels[0].set_ylabel(_intensity_label(result))
+        handles = [Line2D([], [], color=VERMILION, linestyle=(0, (8, 2)), label="limit")]
+        if not scaled:
+            handles.append(Line2D([], [], color=INK, linestyle="", marker="o", markersize=3.0, label="each motion"))
+        else:
+            handles.append(Line2D([], [], color=GREY, linewidth=0.8, label="each motion"))
+            handles += [
+                Line2D([], [], color=SERIES[0]["color"], linestyle=style, label=_FRACTILE_NAMES[name])
+                for name, style in _FRACTILE_LOOKS.items()
+            ]
+            handles.append(Line2D([], [], color=INK, linestyle="", marker="x", markersize=4.5, label="before collapse"))
+        figure.legend(handles=handles, loc="outside upper center", ncols=3, frameon=False)
+        figure.supxlabel(_caption(result), fontsize=7.5)
+    return figure
+
+
+def _highest_shown(result: FragilityAnalysis, column: str, demand: float) -> float | None:
+    """Intensity at which nearly all motions are beyond the demands that are shown."""
+    seen = [
+        float(x[np.flatnonzero(y <= demand)[-1]])
+        for model in result.models
+        for x, y in result.traces(model, column)
+        if (y <= demand).any()
+    ]
+    return 1.05 * max(seen) if seen else None
+
+
+def _intensity_label(result: FragilityAnalysis) -> str:
+    unit = f" ({result.measure.unit})" if result.measure.unit else ""
+    return f"{result.measure.label}{unit}"
+
+
+def _caption(result: FragilityAnalysis) -> str:
+    """One line on what the curves depend on."""
+    method = {"hunt_fill": "hunt and fill", "stripes": "stripes", "cloud": "cloud"}[result.method]
+    share = result.metadata.get("code_share")
+    rule = "" if share is None else f";  code: {100.0 * share:g} % of the goods attached"
+    return f"{method}, {result.motions.height} motions, whose scatter alone is shown{rule}"

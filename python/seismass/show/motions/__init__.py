@@ -1,0 +1,1 @@
+"""How records, scaled and matched suites, and pulses look."""

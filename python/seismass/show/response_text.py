@@ -1,0 +1,171 @@
+"""A run as lines to read: building, motion, peaks of storeys and blocks, events, energy, status."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.model.block import Block
+from seismass.model.building import Building
+from seismass.model.damping import Rayleigh
+from seismass.model.scene import Scene
+from seismass.runs.response import Response
+
+
+def response_text(response: Response) -> str:
+    """Return a run as lines, under the names of its scene and record."""
+    return run_text(response)
+
+
+def run_text(
+    response: Response,
+    *,
+    title: str | None = None,
+    note: str | None = None,
+    source: str | None = None,
+    remarks: Sequence[str] = (),
+) -> str:
+    """Return building, motion, peaks of storeys and blocks, events, energy and status as lines.
+
+    Parameters
+    ----------
+    response : Response
+        The run.
+    title, note, source : str, optional
+        Heading, a line below it, and name of the record; by default those of the scene and of its record.
+    remarks : sequence of str
+        What is to be known of the input.
+    """
+    scene, motion = response.scene, response.motion
+    lines = [(scene.name if title is None else title) or "Response"]
+    said = scene.note if note is None else note
+    if said:
+        lines.append(f"  {said}")
+    lines += [f"  {line}" for line in ([] if scene.building is None else _building_lines(scene.building, scene))]
+    vertical = "" if motion.vertical is None else f", vertical {max(abs(motion.vertical)) / STANDARD_GRAVITY:.3f} g"
+    name = (response.record.name if response.record else "") if source is None else source
+    named = f"{name}, " if name else ""
+    lines.append(
+        f"  motion    {named}{motion.samples} samples at {motion.dt:g} s ({motion.duration:g} s), "
+        f"PGA {motion.pga_g:.3f} g{vertical}"
+    )
+    lines += [f"            {remark}" for remark in remarks or scene.remarks]
+    if scene.building is not None:
+        lines += ["", *_aligned(_storey_table(scene.building, response))]
+    if scene.blocks:
+        lines += ["", *_aligned(_block_table(scene, response))]
+    counts = ", ".join(f"{count} {kind}" for kind, count in response.counts.items() if count) or "none"
+    end = f"{response.status} at {response.end_time:g} s"
+    if response.collapsed_storey is not None:
+        end += f": storey {response.collapsed_storey} reached its collapse drift; peaks are those until then"
+    known = response.has_energy
+    energy = [f"  energy    residual {response.energy['relative_residual']:.1e} of the input"] if known else []
+    return "\n".join(
+        [
+            *lines,
+            "",
+            f"  events    {counts}",
+            *energy,
+            f"  status    {end}",
+        ]
+    )
+
+
+def _building_lines(building: Building, scene: Scene) -> list[str]:
+    noun = "storey" if building.storeys == 1 else "storeys"
+    periods = ", ".join(f"{period:.3f}" for period in building.periods[:3])
+    more = ", ..." if building.storeys > 3 else ""
+    lines = [
+        f"building  {building.storeys} {noun}, periods {periods}{more} s, {_weight_text(building)}, "
+        f"damping {_damping_text(building)}"
+    ]
+    parameters = ", ".join(f"{symbol} {_listed(values)}" for symbol, values in building.spring_summary().items())
+    elastic = math.isinf(building.yield_shear.min()) and not building.laws
+    lines.append(f"springs   {'elastic' if elastic else ', '.join([parameters, *building.laws])}")
+    if scene.geometric_stiffness.any():
+        lines.append(f"P-Delta   P/(h k) {_listed(scene.geometric_stiffness / building.stiffness)}")
+    return lines
+
+
+def _weight_text(building: Building) -> str:
+    """The weight; where no mass is stated, that forces are fractions of it."""
+    if building.mass_is_stated:
+        return f"weight {building.weight / 1000.0:.5g} kN"
+    return "no mass stated (forces over the weight W)"
+
+
+def _damping_text(building: Building) -> str:
+    damping = building.damping
+    if isinstance(damping, Rayleigh):
+        return f"{100.0 * damping.ratio:g} % in modes {damping.modes[0]} and {damping.modes[1]} (Rayleigh)"
+    return f"{100.0 * damping:g} % in every mode" if isinstance(damping, float) else "by a given matrix"
+
+
+def _listed(values: Any) -> str:
+    numbers = [f"{value:.4g}" for value in values]
+    return numbers[0] if len(set(numbers)) == 1 else " ".join(numbers)
+
+
+def _storey_table(building: Building, response: Response) -> list[list[str]]:
+    stated = building.mass_is_stated
+    unit, force = ("kN", 1000.0) if stated else ("/ W", building.weight)
+    header = ["storey", "peak drift mm", "at s", "residual mm", f"peak shear {unit}", "floor acceleration g"]
+    ratios = response.peak_drift_ratio
+    if ratios is not None:
+        header.insert(2, "of height %")
+    rows = []
+    for i in range(len(response.peak_drift)):
+        row = [
+            str(i + 1),
+            f"{1000.0 * response.peak_drift[i]:.3f}",
+            f"{response.peak_drift_time[i]:.3f}",
+            f"{1000.0 * response.residual_drift[i]:.3f}",
+            f"{response.peak_storey_shear[i] / force:.4g}",
+            f"{response.peak_floor_acceleration[i] / STANDARD_GRAVITY:.4f}",
+        ]
+        if ratios is not None:
+            row.insert(2, f"{100.0 * ratios[i]:.3f}")
+        rows.append(row)
+    return [header, *rows]
+
+
+def _block_table(scene: Scene, response: Response) -> list[list[str]]:
+    stated = scene.building is None or scene.building.mass_is_stated
+    header = [
+        "block",
+        "floor",
+        "mass kg" if stated else "of floor mass",
+        "mu",
+        "peak slip mm",
+        "at s",
+        "residual mm",
+        "slip path mm",
+    ]
+    rows = [
+        [
+            str(j + 1),
+            str(block.floor) if block.floor else "ground",
+            _mass_text(block, mass, stated),
+            f"{block.mu_s:g}" if block.mu_s == block.mu_k else f"{block.mu_s:g}/{block.mu_k:g}",
+            f"{1000.0 * response.peak_slip[j]:.3f}",
+            f"{response.peak_slip_time[j]:.3f}",
+            f"{1000.0 * response.residual_slip[j]:.3f}",
+            f"{1000.0 * response.slip_path[j]:.3f}",
+        ]
+        for j, (block, mass) in enumerate(zip(scene.blocks, scene.block_mass, strict=True))
+    ]
+    return [header, *rows]
+
+
+def _mass_text(block: Block, mass: float, stated: bool) -> str:
+    """The mass of a block; over that of its floor where that is not stated, but for blocks on the ground."""
+    if stated:
+        return f"{mass:.5g}"
+    return f"{mass:.5g} kg" if block.mass_ratio is None else f"{block.mass_ratio:.5g}"
+
+
+def _aligned(rows: list[list[str]]) -> list[str]:
+    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
+    return ["  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]

@@ -1,0 +1,1 @@
+"""How a risk-targeted share looks."""

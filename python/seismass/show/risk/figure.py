@@ -1,0 +1,125 @@
+"""Figure of a risk-targeted share: hazard with fragilities, and rates of the real building over those of models."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import matplotlib as mpl
+import numpy as np
+import polars as pl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from seismass.base.values import FloatArray
+from seismass.media.axes import grid_lines
+from seismass.media.figure_file import CAPTION_CHARACTERS
+from seismass.media.result import named_figure
+from seismass.media.style import BLUE, GREEN, GREY, INK, LAMBDA, ORANGE, STYLE, VERMILION, plain
+from seismass.show.effective_mass.figures import STORAGE_CODES, mark_codes
+
+if TYPE_CHECKING:
+    from seismass.risk.result import RiskTargetedShare
+
+_WIDTH = 10.5
+
+
+def risk_figure(
+    result: RiskTargetedShare, name: str | None = None, *, codes: Mapping[str, float] | None = None
+) -> Figure:
+    """Return `RiskTargetedShare.plot`."""
+    named_figure(result, name)
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(_WIDTH, 5.0), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        _hazard(left, result)
+        _rates(right, result, STORAGE_CODES if codes is None else codes)
+        figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * _WIDTH)), fontsize=7.5)
+    return figure
+
+
+def _hazard(axes: Axes, result: RiskTargetedShare) -> None:
+    """Hazard on one axis, fragilities of real, code's and attached model on the other."""
+    from scipy.special import ndtr  # slow to import
+
+    hazard = result.hazard
+    axes.plot(hazard.sa_g, hazard.annual_rate, color=INK, linewidth=1.6, marker=".", label="hazard")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    label = result.measure.label
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.set_xlabel(f"{label} (g)")
+    axes.set_ylabel("annual rate of exceedance (1/year)")
+    grid_lines(axes)
+    other = axes.twinx()
+    at = np.geomspace(hazard.sa_g[0], hazard.sa_g[-1], 401)
+    for model, share, look, name in (
+        ("real", None, {"color": VERMILION, "linestyle": "-"}, "goods slide"),
+        ("attached", result.code_share, {"color": GREEN, "linestyle": (0, (5, 2))}, f"code, {result.code_share:g}"),
+        ("attached", 1.0, {"color": BLUE, "linestyle": (0, (1.2, 1.2))}, "all attached"),
+    ):
+        own = pl.col("share").is_null() if share is None else pl.col("share") == share
+        fit = result.fragilities.filter(own, model=model).row(0, named=True)
+        capacities = result.capacities.filter(own, model=model)["capacity"].sort().to_numpy()
+        if fit["dispersion"] > 0.0:
+            other.plot(at, ndtr(np.log(at / fit["median"]) / fit["dispersion"]), **look, linewidth=1.8, label=name)
+        levels: FloatArray = (np.arange(len(capacities)) + 0.5) / len(capacities)
+        other.plot(capacities, levels, color=look["color"], linestyle="", marker=".", markersize=4.0)
+    other.set_ylim(0.0, 1.0)
+    other.set_xlim(hazard.sa_g[0], hazard.sa_g[-1])
+    other.set_ylabel(f"probability of {result.limit.text}")
+    handles = [*axes.get_legend_handles_labels()[0], *other.get_legend_handles_labels()[0]]
+    axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
+
+
+def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) -> None:
+    """Rate of the real building over that of models against the share, with its band, the answer and codes."""
+    curve = result.curve.drop_nulls("real_over_model")
+    share, ratio = curve["fraction"].to_numpy(), curve["real_over_model"].to_numpy()
+    banded = curve.drop_nulls("real_over_model_low")
+    percent = f"{100.0 * result.confidence:g} %"
+    if banded.height:
+        axes.fill_between(
+            banded["fraction"],
+            banded["real_over_model_low"],
+            banded["real_over_model_high"],
+            color=BLUE,
+            alpha=0.18,
+            linewidth=0.0,
+            label=f"{percent} interval over the motions",
+        )
+    axes.plot(share, ratio, color=BLUE, linewidth=2.0, label="real / model, annual rate")
+    axes.axhline(1.0, color=INK, linewidth=0.8)
+    text = f"risk-targeted share {result.value:.2f}"
+    if result.interval is not None:
+        text += f" [{result.interval[0]:.2f}, {result.interval[1]:.2f}]"
+        axes.plot(result.interval, [1.0, 1.0], color=VERMILION, linewidth=3.0, solid_capstyle="butt", zorder=4)
+    place = result.real / result.model
+    axes.plot([result.value], [place], color=VERMILION, marker="D", markersize=7.0, linestyle="", label=text, zorder=5)
+    effective = result.effective
+    if effective is not None and np.isfinite(effective.value):
+        label = f"effective fraction at the design intensity {effective.value:.2f}"
+        axes.axvline(effective.value, color=ORANGE, linewidth=1.3, linestyle=(0, (5, 2)), label=label)
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.set_xlim(-0.01, 1.01)
+    axes.set_xlabel(f"share {LAMBDA} of the live load attached as mass")
+    axes.set_ylabel("real / model annual rate\n(above 1: the model is unsafe)")
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    mark_codes(axes, codes)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=1, frameon=False)
+
+
+def _caption(result: RiskTargetedShare) -> str:
+    about = result.metadata
+    hazard = result.hazard.label or "hazard as given"
+    tail = "hazard extrapolated beyond its ends" if about["extrapolate"] else "hazard cut at its ends"
+    damping = "C of the real building" if about["damping"] == "same" else "ratio in the model's own modes"
+    return plain(
+        f"{about['motions']} motions, scaled to all intensities; {result.estimator} fragilities; {hazard}, {tail}; "
+        f"damping of the models: {damping}"
+    )

@@ -1,0 +1,77 @@
+"""A risk-targeted share as lines of text: the share, annual rates, what they depend on, remarks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from seismass.base.values import counted
+from seismass.effective_mass.curve import Kind
+from seismass.show.slip.text import remark_lines
+
+if TYPE_CHECKING:
+    from seismass.risk.result import RiskTargetedShare
+
+KIND_TEXTS: Final[dict[Kind, str]] = {
+    "stuck": "no goods slide up to the limit, so that all of them act as mass",
+    "root": "one share gives the annual rate of the real building",
+    "multiple": "several shares give the annual rate of the real building, the largest counts",
+    "zero": "no share gives a lower rate than the real building has, so that none needs to be attached",
+    "one": "even with all goods attached the model exceeds the limit less often than the real building",
+}
+"""What each kind means."""
+_LABEL: Final = 21
+_NAMES: Final = {"real": "goods slide", "code": "code", "attached": "all attached", "none": "none attached"}
+
+
+def risk_text(result: RiskTargetedShare) -> str:
+    """Return `RiskTargetedShare.text`."""
+    percent = f"{100.0 * result.confidence:g} %"
+    about = result.metadata
+    motions = counted(about["motions"], "motion")
+    lines = [
+        f"risk-targeted share  {result.value:.3f}{_interval(result.interval, percent)}",
+        f"                     {result.kind}: {KIND_TEXTS[result.kind]}",
+        f"limit                {result.limit.text} under {motions}; {result.measure.label}, "
+        f"{result.estimator} fragilities",
+        f"hazard               {result.hazard.label or 'as given'}: {result.hazard.sa_g[0]:g} to "
+        f"{result.hazard.sa_g[-1]:g} g{', extrapolated' if about['extrapolate'] else ''}",
+    ]
+    effective = result.effective
+    if effective is not None:
+        level = result.hazard.intensity(about["design_rate"])
+        lines.append(
+            f"effective fraction   {effective.value:.3f}{_interval(effective.interval, percent)} at {level:.3g} g, "
+            f"{1.0 / about['design_rate']:.0f} years"
+        )
+    lines += [
+        "",
+        f"Annual rate of exceeding the limit, with its {percent} interval over the motions",
+        f"  {'model':22}{'rate (1/year)':>34}{'in 50 years':>13}{'real over model':>26}",
+    ]
+    for row in result.rates.iter_rows(named=True):
+        name = _NAMES[row["model"]] + (f", {row['share']:g}" if row["model"] == "code" else "")
+        rate = _with_ends(row["rate"], row["rate_low"], row["rate_high"], ".3g")
+        ratio = _with_ends(row["real_over_model"], row["real_over_model_low"], row["real_over_model_high"], ".2f")
+        ratio = "" if row["model"] == "real" else ratio
+        lines.append(f"  {name:22}{rate:>34}{100.0 * row['probability_50_years']:>11.2g} %{ratio:>26}".rstrip())
+    lines += [
+        "",
+        "What the share depends on",
+        f"  {'changed':30}{'share':>22}{'kind':>10}{'real rate':>12}{'real over code':>16}",
+    ]
+    for row in result.sensitivity.iter_rows(named=True):
+        name = f"{row['parameter']} {row['setting']}".strip()
+        share = _with_ends(row["value"], row["low"], row["high"], ".2f")
+        ratio = "-" if row["real_over_code"] is None else f"{row['real_over_code']:.2f}"
+        lines.append(f"  {name:30}{share:>22}{row['kind']:>10}{row['real_rate']:>12.2g}{ratio:>16}")
+    return "\n".join([*lines, "", *remark_lines(result.remarks, _LABEL)])
+
+
+def _interval(ends: tuple[float, float] | None, percent: str) -> str:
+    return "" if ends is None else f" ({percent} interval {ends[0]:.2f} to {ends[1]:.2f})"
+
+
+def _with_ends(value: Any, low: Any, high: Any, form: str) -> str:
+    if value is None:
+        return "-"
+    return f"{value:{form}}" + ("" if low is None else f" [{low:{form}}, {high:{form}}]")

@@ -1,0 +1,1 @@
+"""How slip demand looks."""

@@ -1,0 +1,472 @@
+"""The page of a study: the answer first, then every figure and table, the paper's claims, assumptions, provenance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+import polars as pl
+from markupsafe import Markup, escape
+
+from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
+from seismass.media.svg import short_svg
+from seismass.show.animation.html import element_html
+from seismass.show.study.answer import SHORT, answer, compared_rules, percent, span
+from seismass.show.study.captions import labels_of
+from seismass.show.study.slip import slip_demand
+from seismass.show.study.tables import StudyTables
+from seismass.show.study.words import assumptions, provenance
+from seismass.study import motions_text
+from seismass.validation.three_storeys import PEAK_G
+
+VERDICT_CLASSES: Final = {"reproduced": "good", "not reproduced": "warn", "depends": "warn"}
+"""How verdicts on claims stand out."""
+_PAPER_FIGURES: Final = {
+    factor: f" (the paper's Fig. {number})" for factor, number in ((1.0, 6), (2.0, 7), (4.0, 8), (6.0, 9))
+}
+_KEYS: Final = ("occupancy", "storeys", "R", "alpha", "mu")
+
+
+def study_page(result: StudyTables, drawings: Mapping[str, str]) -> str:
+    """Return the page as HTML.
+
+    Parameters
+    ----------
+    result : StudyTables
+        The study, as its folder holds it.
+    drawings : mapping of str to str
+        SVG texts of `study_drawings`, by name.
+
+    Returns
+    -------
+    str
+        A page that needs nothing but itself; equal tables give equal pages.
+    """
+    metadata = result.metadata
+    page = _Pictures(drawings)
+    sections = [
+        Section("Ground motions", _motions(result, page)),
+        *_validation(result, page),
+        Section("Drift demands", [text_html(_MODELS)], list(_drifts(result, page))),
+        Section("Underestimation", _underestimation(result, page)),
+        Section("Effective fraction", _fraction(result, page)),
+        *([Section("Slip of the goods", _slip(result, page))] if page.named("slip") else []),
+        *_sensitivity(result, page),
+        *_example(result),
+        *_claims(result),
+        Section(
+            "Tables",
+            [],
+            [
+                Section("Drift of every storey", [_storeys_table(result)]),
+                Section("Fractions of every building", [_fractions_table(result.fractions)]),
+                Section("Slip of every building", [_slip_table(slip_demand(result.responses))]),
+            ],
+        ),
+        Section("Assumptions", [bullets_html(assumptions(metadata)), *_remarks(metadata)]),
+        Section("Provenance", [facts_html(provenance(metadata))]),
+    ]
+    lead = [Markup('<div class="answer">{}</div>').format(text_html(*answer(result)))]
+    subtitle = (
+        f"{metadata['code']['name']} on {motions_text(metadata['suite'])} ({metadata['suite']['name']}); "
+        f"seismass {metadata['package_version']}"
+    )
+    return page_html("How much of the live load acts as mass: a study", sections, subtitle=subtitle, lead=lead)
+
+
+_MODELS: Final = (
+    "Each building is solved three times under each motion: with goods that may slide (real), with the code's share of "
+    "their mass attached to the floors (code), and with all of their mass attached (attached). The numbers at the "
+    "right are (real \N{EN DASH} code) / code of the mean peak drifts."
+)
+
+
+class _Pictures:
+    """Drawings by name, as figures of the page."""
+
+    def __init__(self, drawings: Mapping[str, str]) -> None:
+        self._drawings = drawings
+
+    def named(self, stem: str) -> list[str]:
+        """Return the names of the drawings of one kind, in their order."""
+        return [name for name in self._drawings if name == stem or name.startswith(f"{stem}_")]
+
+    def figure(self, name: str, caption: str, alt: str) -> Markup:
+        """Return one figure; nothing where there is no such drawing."""
+        return figure_html(short_svg(self._drawings[name]), caption, alt) if name in self._drawings else Markup("")
+
+
+def bullets_html(lines: list[str]) -> Markup:
+    """Return sentences as a list."""
+    return Markup("<ul>{}</ul>").format(Markup("").join(Markup("<li>{}</li>").format(line) for line in lines))
+
+
+def long_html(text: str) -> Markup:
+    """Return a text that keeps some width in a table, on a narrow screen too."""
+    return Markup('<span class="long">{}</span>').format(text)
+
+
+def _remarks(metadata: dict[str, Any]) -> Iterator[Markup]:
+    if metadata["remarks"]:
+        yield Markup('<div class="note"><p>Remarks on the inputs</p>{}</div>').format(bullets_html(metadata["remarks"]))
+
+
+def _motions(result: StudyTables, page: _Pictures) -> list[Markup]:
+    metadata = result.metadata
+    factors = result.scaling.with_columns(
+        pl.Series("name", [motion["record"] for motion in metadata["suite"]["motions"]]),
+        pl.Series("pga", [motion["pga_g"] for motion in metadata["suite"]["motions"]], dtype=pl.Float64),
+        pl.Series("remarks", ["; ".join(motion["remarks"]) for motion in metadata["suite"]["motions"]]),
+    ).select("motion", "name", "record", "pga", "individual_factor", "common_factor", "factor", "remarks")
+    if not factors["remarks"].str.len_chars().sum():
+        factors = factors.drop("remarks")
+    if factors["name"].equals(factors["record"]):
+        factors = factors.drop("record")
+    least = metadata["scaling"]["governing_period"]
+    return [
+        page.figure(
+            "spectrum",
+            "Spectra of the scaled motions, their mean, and the target (the paper's Fig. 1).",
+            f"The mean spectrum of the scaled motions is not below the target in the range of scaling; they touch at "
+            f"{least:.2g} s.",
+        ),
+        table_html(
+            factors,
+            "Scaling factors: the factor of each motion is its own times the common one.",
+            headers={
+                "name": "motion",
+                "motion": "number",
+                "pga": "PGA unscaled (g)",
+                "individual_factor": "own factor",
+                "common_factor": "common factor",
+            },
+            formats={
+                "motion": "d",
+                **({"remarks": long_html} if "remarks" in factors.columns else {}),
+                "pga": ".3f",
+                **dict.fromkeys(("individual_factor", "common_factor", "factor"), ".4f"),
+            },
+        ),
+    ]
+
+
+def _validation(result: StudyTables, page: _Pictures) -> Iterator[Section]:
+    if result.section4 is None or result.platform is None:
+        return
+    about = result.metadata["validation"]
+    differences = result.section4.differences.rename({"second_slope": "r2"})
+    parts = [
+        text_html(
+            f"The three-storey building of the paper's section 4, its record scaled to {PEAK_G:g} g; motion: "
+            f"{about['section4_motion']}. The exact kernel stands beside OpenSees, whose results are kept with the "
+            "package, and beside stiff springs in the place of friction."
+        )
+    ]
+    for name in page.named("section4"):
+        if name == "section4_sliding":
+            continue
+        component = name.removeprefix("section4_")
+        parts.append(
+            page.figure(
+                name,
+                f"Drift of the storeys and slip of the blocks by several programs, component {component} (the paper's "
+                "Fig. 5).",
+                f"Histories of drift and slip under component {component}: the programs lie on one another.",
+            )
+        )
+    parts += [
+        table_html(
+            differences,
+            "Largest difference of histories from those of the exact kernel, and that over the largest drift or slip.",
+            headers={
+                "drift_mm": "drift (mm)",
+                "drift_percent": "drift (%)",
+                "slip_mm": "slip (mm)",
+                "slip_percent": "slip (%)",
+            },
+            formats=dict.fromkeys(("drift_mm", "drift_percent", "slip_mm", "slip_percent"), ".2g"),
+        ),
+        page.figure(
+            "section4_sliding",
+            "Peak slip of each block against the second slope r2, which the paper does not state.",
+            "Where goods slide most depends on the second slope, the component and the peak of the record.",
+        ),
+    ]
+    robust = result.platform.robust
+    table = [
+        text_html(
+            f"The platform at 1:15 of the paper's Fig. 4; motion: {about['platform_motion']}, compressed in time. The "
+            "paper gives neither its period nor friction and damping: bands are over the ranges stated in the figure. "
+            f"The block slides in {robust['slides']} of {robust['runs']} runs and lowers the drift in "
+            f"{robust['below_attached']} of these."
+        )
+    ]
+    for name in page.named("platform"):
+        component = name.removeprefix("platform_")
+        table.append(
+            page.figure(
+                name,
+                f"Drift of the platform with two blocks, component {component} (the paper's Fig. 4): bands over "
+                "friction and damping, and peaks over the period.",
+                "Bands of drift histories of the platform for both mass ratios, with the central values and with the "
+                "block attached.",
+            )
+        )
+    yield Section("Validation", [], [Section("Three storeys", parts), Section("Shaking table", table)])
+
+
+def _drifts(result: StudyTables, page: _Pictures) -> Iterator[Section]:
+    frictions, factors = labels_of(result.summary["mu"]), labels_of(result.summary["R"])
+    for factor, label in factors.items():
+        figures = []
+        for mu, name in frictions.items():
+            rows = result.summary.filter(R=factor, mu=mu)
+            missed = rows["underestimation_percent"].drop_nulls()
+            span = f"{percent(float(missed.min()))} to {percent(float(missed.max()))}" if missed.len() else "none"  # type: ignore[arg-type]
+            behind = f"_mu{name}" if len(frictions) > 1 else ""
+            figures.append(
+                page.figure(
+                    f"drift_R{label}{behind}",
+                    f"Mean peak drift of each storey, R = {label}, mu = {mu:g}{_PAPER_FIGURES.get(factor, '')}.",
+                    f"Drift by storey of real, code and attached models at R = {label}: underestimation {span}.",
+                )
+            )
+        yield Section(f"R = {label}", figures)
+
+
+def _underestimation(result: StudyTables, page: _Pictures) -> list[Markup]:
+    parts = [
+        page.figure(
+            name,
+            "Underestimation against R: the storey with the largest, and the range over the storeys of each building. "
+            "Rings: what the attached model gives over the code model, where none of it is due to sliding.",
+            f"The largest underestimation of a storey is {_extremes(result.summary)[1]}, the smallest "
+            f"{_extremes(result.summary)[0]}; rings of the attached model are beside the markers.",
+        )
+        for name in page.named("underestimation")
+    ]
+    parts += [
+        page.figure(
+            name,
+            "Underestimation of every storey (%): orange, the code model drifts less than the building; blue, it "
+            "drifts more. Colours end at 100 %.",
+            f"A number for every storey of every building, from {_extremes(result.summary)[0]} to "
+            f"{_extremes(result.summary)[1]}; the table of all storeys has them too.",
+        )
+        for name in page.named("heat")
+    ]
+    return parts
+
+
+def _shown_keys(table: pl.DataFrame) -> list[str]:
+    """Key columns, without a friction coefficient that is the same throughout."""
+    return [name for name in _KEYS if name != "mu" or table["mu"].n_unique() > 1]
+
+
+def _fraction(result: StudyTables, page: _Pictures) -> list[Markup]:
+    fractions = result.fractions
+    parts = []
+    if "effective" in page.named("effective"):
+        parts.append(
+            page.figure(
+                "effective",
+                "Effective fraction of each building with its 90 % interval over the motions, the two estimates in "
+                "closed form, and the fractions of the code.",
+                f"Effective fractions against eta, {span(fractions['effective'])}, beside both estimates.",
+            )
+        )
+        rules = compared_rules(fractions)
+        frame = pl.DataFrame([vars(rule) for rule in rules])
+        parts.append(
+            table_html(
+                frame,
+                f"Rules for the share to attach beside the effective fractions: short, by more than {SHORT:g}.",
+                headers={
+                    "name": "rule",
+                    "mean": "mean share",
+                    "short": "buildings short",
+                    "most": "most that is missing",
+                    "buildings": "of",
+                },
+                formats={"mean": ".2f", "most": ".2f"},
+            )
+        )
+    return parts
+
+
+def _slip(result: StudyTables, page: _Pictures) -> list[Markup]:
+    demand = slip_demand(result.responses)
+    parts = [
+        page.figure(
+            name,
+            "Largest peak slip of the goods on any floor: mean over the motions, and from 16 to 84 % of them.",
+            f"Mean largest slip of a building against R by alpha, at most {1e3 * _largest_slip(demand):.0f} mm.",
+        )
+        for name in page.named("slip")
+    ]
+    return parts
+
+
+def _extremes(summary: pl.DataFrame) -> tuple[str, str]:
+    """Smallest and largest underestimation as texts."""
+    missed = summary["underestimation_percent"].drop_nulls().to_numpy()
+    return (percent(float(missed.min())), percent(float(missed.max()))) if missed.size else ("none", "none")
+
+
+def _largest_slip(demand: pl.DataFrame) -> float:
+    known = demand["mean"].drop_nulls().to_numpy()
+    return float(known.max()) if known.size else 0.0
+
+
+def _storeys_table(result: StudyTables) -> Markup:
+    names = {
+        "storey": "storey",
+        "mean_peak_drift_real": "real (mm)",
+        "mean_peak_drift_code": "code (mm)",
+        "mean_peak_drift_attached": "attached (mm)",
+        "underestimation_percent": "under-estimation",
+        "p16_underestimation_percent": "16 %",
+        "median_underestimation_percent": "median",
+        "p84_underestimation_percent": "84 %",
+        "ratio_mass": "attached / code",
+        "ratio_sliding": "real / attached",
+    }
+    table = result.summary.select(*_shown_keys(result.summary), *names)
+    millimetres = [name for name in names if name.startswith("mean_peak")]
+    percents = [name for name in names if name.endswith("percent")]
+    return table_html(
+        table,
+        "Mean peak drift of every storey by the three models, and (real \N{EN DASH} code) / code: of the means, "
+        "and motion by motion.",
+        headers=names,
+        formats={
+            **dict.fromkeys(millimetres, lambda drift: f"{1e3 * drift:.1f}"),
+            **dict.fromkeys(percents, percent),
+            **dict.fromkeys(("ratio_mass", "ratio_sliding"), ".2f"),
+        },
+    )
+
+
+def _fractions_table(fractions: pl.DataFrame) -> Markup:
+    names = {
+        "base_shear_coefficient": "C1",
+        "eta": "eta",
+        "estimate": "min(1, eta\N{SUPERSCRIPT TWO})",
+        "conservative": "min(1, eta)",
+        "effective": "effective fraction",
+        "low": "5 %",
+        "high": "95 %",
+        "kind": "kind",
+    }
+    known = [name for name in names if fractions[name].null_count() < fractions.height]
+    return table_html(
+        fractions.select(*_shown_keys(fractions), *known),
+        "Every building: base shear coefficient C1 of the attached model, eta = mu/C1, the estimates"
+        + (", and the effective fraction with its interval." if "effective" in known else "."),
+        headers={name: names[name] for name in known},
+        formats={name: ".3f" if name.startswith("base") else ".2f" for name in known if name != "kind"},
+    )
+
+
+def _slip_table(demand: pl.DataFrame) -> Markup:
+    names = {
+        "mean": "mean (mm)",
+        "p16": "16 % (mm)",
+        "p84": "84 % (mm)",
+        "largest": "largest (mm)",
+        "residual": "residual, mean (mm)",
+    }
+    return table_html(
+        demand.select(*_shown_keys(demand), "slides", *names),
+        "Slip demand of each building: of the floor on which goods slide farthest, under each motion.",
+        headers={**names, "slides": "motions in which goods slide"},
+        formats=dict.fromkeys(names, lambda slip: f"{1e3 * slip:.1f}"),
+    )
+
+
+def _sensitivity(result: StudyTables, page: _Pictures) -> Iterator[Section]:
+    table = result.sensitivity
+    if table is None:
+        return
+    keys = ["choice", "setting", "occupancy", *(["mu"] if table["mu"].n_unique() > 1 else [])]
+    names = {
+        "largest_percent": "largest",
+        "least_R_percent": "R least",
+        "most_R_percent": "R most",
+        "mass_percent": "by mass",
+        "sliding_percent": "by sliding",
+        "collapses": "collapsed runs",
+    }
+    as_is = table.filter(choice=table["choice"][0])["largest_percent"].drop_nulls()
+    low, high = (table["largest_percent"].drop_nulls().to_numpy() for _ in range(2))
+    said = f"from {low.min():+.0f} to {high.max():+.0f} %" if as_is.len() else "without a number"
+    yield Section(
+        "Sensitivity",
+        [
+            text_html("The study again with each choice that the paper leaves open changed alone."),
+            page.figure(
+                "sensitivity",
+                "Largest underestimation of a first storey under each choice.",
+                f"The largest underestimation of a first storey goes {said} over the choices.",
+            ),
+            table_html(
+                table.select(*keys, *names),
+                "Underestimation of first storeys under each choice. R least, R most: mean of those with the largest "
+                "alpha at the smallest and the largest R; by mass, by sliding: what the last one is made of.",
+                headers=names,
+                formats={name: percent for name in names if name.endswith("percent")},
+            ),
+        ],
+    )
+
+
+def _example(result: StudyTables) -> Iterator[Section]:
+    if result.animation is None:
+        return
+    about = result.animation["about"]
+    labels = about["labels"]
+    yield Section(
+        "Example",
+        [
+            text_html(
+                f"A building of the study with goods that slide, beside the model of the code: {labels['occupancy']}, "
+                f"{labels['storeys']} storeys, R = {labels['R']:g}, alpha = {labels['alpha']:g}, mu = "
+                f"{labels['mu']:g}, under {about['motion']} scaled to {about['peak_g']:.2f} g. It is the building with "
+                "the largest underestimation of a first storey among those whose goods slide, under the motion whose "
+                "underestimation is closest to that of the means."
+            ),
+            element_html(result.animation["element"]),
+        ],
+    )
+
+
+def _claims(result: StudyTables) -> Iterator[Section]:
+    table = result.claims
+    if table is None:
+        return
+    counts = table["verdict"].value_counts(sort=True).rows()
+    said = ", ".join(f"{count} {verdict}" for verdict, count in counts)
+    yield Section(
+        "Claims of the paper",
+        [
+            text_html(
+                "Claims of the paper's abstract, sections 4 and 5 and conclusions, with the numbers of this study: "
+                f"{said}. Verdicts follow from rules on the tables."
+            ),
+            table_html(
+                table.select("number", "claim", "verdict", "numbers", "depends_on", "source"),
+                "Each claim: whether it holds here, our numbers, and what the verdict depends on.",
+                headers={"number": "no.", "numbers": "our numbers", "depends_on": "depends on"},
+                formats={
+                    "verdict": _verdict,
+                    "number": "d",
+                    **dict.fromkeys(("claim", "numbers", "depends_on"), long_html),
+                },
+            ),
+        ],
+    )
+
+
+def _verdict(verdict: str) -> Markup:
+    kind = VERDICT_CLASSES.get(verdict)
+    return Markup('<span class="{}">{}</span>').format(kind, verdict) if kind else escape(verdict)

@@ -1,0 +1,192 @@
+"""What a folder of a study holds: tables and documents that its page is made of, written, and read again."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, Final
+
+import polars as pl
+
+from seismass.animation import animate
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import refusal
+from seismass.show.animation.html import element_content
+from seismass.study import SCHEMA_VERSION, Sensitivity, StudyResult
+from seismass.study.example import Example
+from seismass.validation import Platform, Section4, Validation, claims_table
+from seismass.validation.tables import platform_of, platform_tables, section4_of, section4_tables
+
+DOCUMENT: Final = "study.json"
+"""File by which a folder is known as that of a study."""
+ANIMATION: Final = "animation.json"
+"""File of what the animation of the example shows."""
+_OWN: Final = ("responses", "summary", "fractions", "designs", "spectrum", "scaling")
+_SECTION4: Final = ("section4_runs", "section4_differences", "section4_histories")
+_PLATFORM: Final = ("platform_runs", "platform_bands")
+OPTIONAL_TABLES: Final = ("sensitivity", "claims", *_SECTION4, *_PLATFORM)
+"""Tables that a study has only where it was asked for them."""
+
+
+@dataclass(frozen=True, eq=False)
+class StudyTables:
+    """Everything that the page of a study is made of.
+
+    Attributes
+    ----------
+    metadata : dict
+        What study.json holds.
+    responses, summary, fractions, designs, spectrum, scaling : polars.DataFrame
+        Tables of the study; see docs/study_schema.md.
+    sensitivity, claims : polars.DataFrame or None
+        Tables of `study_sensitivity` and `claims_table`, where they were made.
+    section4, platform : Section4, Platform or None
+        Validations, with what is drawn of them.
+    animation : dict or None
+        What the animation of the example shows.
+    """
+
+    metadata: dict[str, Any]
+    responses: pl.DataFrame = field(repr=False)
+    summary: pl.DataFrame = field(repr=False)
+    fractions: pl.DataFrame = field(repr=False)
+    designs: pl.DataFrame = field(repr=False)
+    spectrum: pl.DataFrame = field(repr=False)
+    scaling: pl.DataFrame = field(repr=False)
+    sensitivity: pl.DataFrame | None = field(default=None, repr=False)
+    claims: pl.DataFrame | None = field(default=None, repr=False)
+    section4: Section4 | None = field(default=None, repr=False)
+    platform: Platform | None = field(default=None, repr=False)
+    animation: dict[str, Any] | None = field(default=None, repr=False)
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """All tables by name, as they are written."""
+        optional = {"sensitivity": self.sensitivity, "claims": self.claims}
+        return {
+            **{name: getattr(self, name) for name in _OWN},
+            **{name: table for name, table in optional.items() if table is not None},
+            **({} if self.section4 is None else section4_tables(self.section4)),
+            **({} if self.platform is None else platform_tables(self.platform)),
+        }
+
+
+def study_tables(
+    result: StudyResult,
+    *,
+    sensitivity: Sensitivity | None = None,
+    validation: Validation | None = None,
+    example: Example | None = None,
+) -> StudyTables:
+    """Return what a folder of the study holds.
+
+    Parameters
+    ----------
+    result : StudyResult
+        The study.
+    sensitivity, validation, example : optional
+        What was made of it besides.
+    """
+    metadata = result.to_dict()
+    if validation is not None:
+        metadata["validation"] = {
+            **validation.metadata(),
+            "section4_synthetic": validation.section4.synthetic,
+            "platform_synthetic": validation.platform.synthetic,
+        }
+    made = StudyTables(
+        metadata=metadata,
+        responses=result.responses,
+        summary=result.summary,
+        fractions=result.fractions,
+        designs=result.designs,
+        spectrum=result.spectrum,
+        scaling=result.scaling.table(),
+        sensitivity=None if sensitivity is None else sensitivity.table,
+        claims=None if validation is None else claims_table(validation.claims),
+        section4=None if validation is None else validation.section4,
+        platform=None if validation is None else validation.platform,
+        animation=None if example is None else _animation(example),
+    )
+    # As they are read again, so that a page of the study and one of its folder are the same.
+    return _validated(made, made.tables)
+
+
+def read_study_tables(folder: Path) -> StudyTables:
+    """Read the folder of a study.
+
+    Raises
+    ------
+    InvalidOption
+        The folder holds no study, one of another version, or not all of its tables.
+    """
+    metadata = _document(folder / DOCUMENT)
+    version = metadata.get("schema_version")
+    if version != SCHEMA_VERSION:
+        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", f"{version}")
+    tables = {name: _table(folder, name) for name in _OWN}
+    tables |= {name: _table(folder, name) for name in OPTIONAL_TABLES if (folder / f"{name}.parquet").exists()}
+    read = StudyTables(
+        metadata=metadata,
+        responses=tables["responses"],
+        summary=tables["summary"],
+        fractions=tables["fractions"],
+        designs=tables["designs"],
+        spectrum=tables["spectrum"],
+        scaling=tables["scaling"],
+        sensitivity=tables.get("sensitivity"),
+        claims=tables.get("claims"),
+        animation=_document(folder / ANIMATION) if (folder / ANIMATION).exists() else None,
+    )
+    return _validated(read, tables)
+
+
+def _validated(read: StudyTables, tables: dict[str, pl.DataFrame]) -> StudyTables:
+    """The same with the validations of the tables."""
+    about = read.metadata.get("validation")
+    if about is None or not set(_SECTION4 + _PLATFORM) <= set(tables):
+        return read
+    return replace(
+        read,
+        section4=section4_of(tables, synthetic=about["section4_synthetic"]),
+        platform=platform_of(tables, synthetic=about["platform_synthetic"]),
+    )
+
+
+def _document(path: Path) -> dict[str, Any]:
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise refusal(InvalidOption, "content", path.name, "JSON as `seismass study` writes it", f"{error}") from None
+    if not isinstance(content, dict):
+        raise refusal(InvalidOption, "content", path.name, "a JSON object", type(content).__name__)
+    return content
+
+
+def _table(folder: Path, name: str) -> pl.DataFrame:
+    path = folder / f"{name}.parquet"
+    if not path.exists():
+        raise refusal(InvalidOption, f"{name}.parquet", f"folder {folder}", "there beside study.json", "none")
+    try:
+        return pl.read_parquet(path)
+    except pl.exceptions.PolarsError as error:
+        raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
+
+
+def _animation(example: Example) -> dict[str, Any]:
+    labels, name = example.labels, example.name
+    animation = animate(
+        example.scene,
+        example.record.motion,
+        fraction=labels["lambda_analysis"],
+        title=f"{labels['storeys']} storeys, R = {labels['R']:g}",
+    )
+    about = {
+        "labels": labels,
+        "motion": name,
+        "peak_g": float(abs(example.record.acceleration).max()) / STANDARD_GRAVITY,
+    }
+    content: dict[str, Any] = json.loads(json.dumps({"about": about, "element": element_content(animation)}))
+    return content

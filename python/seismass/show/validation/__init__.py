@@ -1,0 +1,1 @@
+"""How the validations of the paper look."""

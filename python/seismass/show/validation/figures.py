@@ -1,0 +1,164 @@
+"""Figures of the validations: the paper's Fig. 5 by several programs, Fig. 4 as a band, and where goods slide most."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import matplotlib as mpl
+import numpy as np
+import polars as pl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.validation.shaking_table import CENTRAL, DAMPINGS, FRICTIONS, MASS_RATIOS, Platform
+from seismass.validation.tables import stiffest
+from seismass.validation.three_storeys import EXACT, OPENSEES, PEAK_G, STOREYS, Section4
+
+_LINES: Final = {
+    EXACT: {"color": BLUE, "linewidth": 3.0, "alpha": 0.4},
+    OPENSEES: {"color": VERMILION, "linewidth": 1.3},
+}
+_SPRINGS: Final = {"color": INK, "linewidth": 0.7, "linestyle": (0, (4, 4))}
+_STILL: Final = 0.02
+"""Histories are drawn from where they reach this share of their largest value."""
+
+
+def section4_figure(result: Section4, component: str, second_slope: float) -> Figure:
+    """Return drift of the storeys and slip of the blocks by all programs, as in the paper's Fig. 5.
+
+    Parameters
+    ----------
+    result : Section4
+        Result of `section4`.
+    component : str
+        Component of the record.
+    second_slope : float
+        Second slope, one of those compared.
+    """
+    drawn = stiffest(result.of(component, second_slope))
+    exact = drawn[0]
+    moving = np.flatnonzero((np.abs(exact.drift) > _STILL * np.abs(exact.drift).max()).any(axis=1))
+    start = max(0.0, float(exact.time[moving[0]]) - 0.5) if moving.size else 0.0
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.0, 6.4), layout="constrained")
+        panels = figure.subplots(STOREYS, 2, sharex=True)
+        for storey in range(STOREYS):
+            for axes, name in zip(panels[STOREYS - 1 - storey], ("drift", "slip"), strict=True):
+                for item in drawn:
+                    line = _LINES.get(item.program, _SPRINGS)
+                    label = f"{item.program}, {item.setting}" if item.setting else item.program
+                    axes.plot(item.time, 1e3 * getattr(item, name)[:, storey], label=label, **line)
+                axes.axhline(0.0, color=GREY, linewidth=0.5)
+                axes.set_xlim(start, float(exact.time[-1]))
+                what = f"storey {storey + 1}" if name == "drift" else f"block of floor {storey + 1}"
+                axes.set_title(f"{name}, {what}", fontsize=8.5, loc="left")
+                axes.set_ylabel("mm")
+                if np.abs(getattr(exact, name)[:, storey]).max() == 0.0:
+                    axes.set_ylim(-1.0, 1.0)
+        for axes in panels[-1]:
+            axes.set_xlabel("time (s)")
+        figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
+        figure.supxlabel(f"component {component}, peak {PEAK_G:g} g, r2 = {second_slope:g}", fontsize=7.5)
+    return figure
+
+
+def sliding_figure(result: Section4) -> Figure:
+    """Return the peak slip of each block over the second slope, a panel per component and peak of the record."""
+    runs = result.runs
+    peaks = runs["peak_g"].unique().sort().to_list()[1::2]
+    names = runs["component"].unique(maintain_order=True).to_list()
+    slopes = runs["second_slope"].unique().sort().to_list()
+    width = 0.26
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.0, 2.3 * len(names) + 0.8), layout="constrained")
+        panels = figure.subplots(len(names), len(peaks), squeeze=False, sharex=True)
+        for (i, name), (j, peak) in ((a, b) for a in enumerate(names) for b in enumerate(peaks)):
+            axes = panels[i, j]
+            rows = runs.filter(component=name, peak_g=peak).sort("second_slope")
+            for floor, color in enumerate((BLUE, GREEN, VERMILION)):
+                slip = 1e3 * rows["peak_slip"].list.get(floor).to_numpy()
+                place = np.arange(len(slopes)) + width * (floor - 1)
+                axes.bar(place, slip, width, color=color, label=f"floor {floor + 1}")
+            axes.set_title(f"{name}, peak {peak:g} g", fontsize=8.5)
+            axes.set_xticks(range(len(slopes)), [f"{slope:g}" for slope in slopes])
+        for axes in panels[-1]:
+            axes.set_xlabel("second slope r2")
+        for axes in panels[:, 0]:
+            axes.set_ylabel("peak slip (mm)")
+        figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
+    return figure
+
+
+def platform_figure(result: Platform, component: str) -> Figure:
+    """Return drift histories as a band for both mass ratios, as in the paper's Fig. 4, and peak drift over the period.
+
+    Parameters
+    ----------
+    result : Platform
+        Result of `platform`.
+    component : str
+        Component of the record.
+    """
+    bands = [band for band in result.bands if band.component == component]
+    period, mu, damping, amplitude = CENTRAL
+    every = f"µ {FRICTIONS[0]:g} to {FRICTIONS[-1]:g}, damping {DAMPINGS[0]:g} to {DAMPINGS[-1]:g}"
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.0, 6.6), layout="constrained")
+        panels = figure.subplot_mosaic([["first"] * 2, ["second"] * 2, ["drift", "ratio"]])
+        central = f"µ = {mu:g}, damping {damping:g}"
+        for name, band in zip(("first", "second"), bands, strict=True):
+            axes, time = panels[name], band.time
+            low, high, middle, attached = (1e3 * value for value in (band.low, band.high, band.central, band.attached))
+            axes.fill_between(time, low, high, color=BLUE, alpha=0.25, linewidth=0.0, label=every)
+            axes.plot(time, middle, color=BLUE, linewidth=1.1, label=central)
+            axes.plot(time, attached, color=GREY, linewidth=0.7, linestyle=(0, (3, 2)), label="block attached")
+            axes.set_title(rf"$\alpha$ = {band.mass_ratio:g}, platform of T = {period:g} s", fontsize=8.5, loc="left")
+            axes.set_ylabel("drift (mm)")
+            axes.set_xlim(0.0, float(band.time[-1]))
+            axes.set_xlabel("time of the model (s)")
+        _over_period(panels["drift"], result.runs.filter(component=component, amplitude=amplitude))
+        _heavier_over_lighter(panels["ratio"], result.runs.filter(component=component, amplitude=amplitude))
+        handles, labels = panels["first"].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
+    return figure
+
+
+def _over_period(axes: Axes, runs: pl.DataFrame) -> None:
+    """Range of peak drifts over friction and damping at each period."""
+    for ratio, color in zip(MASS_RATIOS, (GREEN, VERMILION), strict=True):
+        rows = (
+            runs.filter(mass_ratio=ratio)
+            .group_by("period")
+            .agg(low=pl.col("peak_drift").min(), high=pl.col("peak_drift").max())
+        )
+        rows = rows.sort("period")
+        low, high = (1e3 * rows[name].to_numpy() for name in ("low", "high"))
+        axes.fill_between(
+            rows["period"], low, high, color=color, alpha=0.3, linewidth=0.0, label=rf"$\alpha$ = {ratio:g}"
+        )
+    axes.set_yscale("log")
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.set_xlabel("period of the platform (s)")
+    axes.set_ylabel("peak drift (mm)")
+    axes.legend(frameon=False, fontsize=8.0, loc="upper left")
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+
+
+def _heavier_over_lighter(axes: Axes, runs: pl.DataFrame) -> None:
+    """Drift with the heavier block over that with the lighter, and with sliding over that of the attached block."""
+    keys = ["period", "mu", "damping"]
+    lighter, heavier = (runs.filter(mass_ratio=ratio).select(*keys, "peak_drift") for ratio in MASS_RATIOS)
+    both = lighter.join(heavier, on=keys, suffix="_heavier")
+    ratios = both.select("period", ratio=pl.col("peak_drift_heavier") / pl.col("peak_drift"))
+    sliding = runs.select("period", ratio=pl.col("peak_drift") / pl.col("attached_drift"))
+    labels = (rf"$\alpha$ = {MASS_RATIOS[1]:g} over {MASS_RATIOS[0]:g}", "sliding over attached")
+    for table, color, label in zip((ratios, sliding), (INK, BLUE), labels, strict=True):
+        rows = table.group_by("period").agg(low=pl.col("ratio").min(), high=pl.col("ratio").max()).sort("period")
+        axes.fill_between(rows["period"], rows["low"], rows["high"], color=color, alpha=0.3, linewidth=0.0, label=label)
+    axes.axhline(1.0, color=GREY, linewidth=0.6)
+    axes.set_ylim(0.0, None)
+    axes.set_xlabel("period of the platform (s)")
+    axes.set_ylabel("ratio of peak drifts")
+    axes.legend(frameon=False, fontsize=8.0, loc="lower right")
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
