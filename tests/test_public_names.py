@@ -15,7 +15,20 @@ def test_the_top_holds_what_a_first_hour_needs() -> None:
     names = [name for name in sm.__all__ if name not in GROUPS and not name.startswith("_")]
     assert len(names) <= 45
     assert {"Building", "Scene", "simulate", "assess", "effective_mass", "read_record"} <= set(names)
-    wanted = ["records", "spectra", "scaling", "matching", "pulses", "design", "fragility", "slip", "risk", "campaign", "plots", "codes"]
+    wanted = [
+        "records",
+        "spectra",
+        "scaling",
+        "matching",
+        "pulses",
+        "design",
+        "fragility",
+        "slip",
+        "risk",
+        "campaign",
+        "plots",
+        "codes",
+    ]
     assert set(wanted) <= set(GROUPS)
 
 

@@ -20,7 +20,7 @@ from seismass.spectra import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 2
+SCHEMA_VERSION: Final = 3
 """Version of the tables and of the JSON of an assessment."""
 
 

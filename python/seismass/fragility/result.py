@@ -246,7 +246,7 @@ class FragilityAnalysis(Result):
 
     @property
     def figure_names(self) -> tuple[str, ...]:
-        """fragility: the curves; demand_...: demand by intensity of each motion, of each quantity of the limits."""
+        """Names: fragility for the curves, and one for demand by intensity of each quantity of the limits."""
         return ("fragility", *(f"demand_{column}" for column in self.demands))
 
     @property
@@ -261,8 +261,8 @@ class FragilityAnalysis(Result):
         Parameters
         ----------
         name : str, optional
-            "fragility"; or "demand_" and the column of a demand, with the fractiles over the motions, one panel per
-            model.
+            "fragility", or a name that begins with "demand": demand by intensity of each motion with the fractiles over
+            the motions, one panel per model.
 
         Raises
         ------

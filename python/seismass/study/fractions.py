@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any, Final, Literal
 
@@ -14,6 +14,8 @@ from seismass.base.kept import NOTHING_KEPT, KeptResults
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass, effective_mass
+from seismass.effective_mass.estimate import best_estimate, conservative_estimate, exponent, height_ratio
+from seismass.effective_mass.models import building_of, goods_mass
 from seismass.model.scene import Scene
 from seismass.records import Record
 from seismass.study.buildings import MODELS, StudyBuilding
@@ -31,11 +33,13 @@ def fractions_table(
     table: pl.DataFrame,
     run_of: NDArray[np.int64],
     effective: dict[Scene, EffectiveMass] | None,
+    corner: float,
 ) -> pl.DataFrame:
-    """One row per building: C1, eta, min(1, eta^2), min(1, eta), and lambda_eff where it was computed.
+    """One row per building: C1, eta, both estimates with what they take, and lambda_eff where it was computed.
 
     C1 is the mean over the motions of the peak base shear of the fully attached model over the weight of building and
-    goods; null, with all that follows from it, where a run of that model collapsed or failed.
+    goods; null, with all that follows from it, where a run of that model collapsed or failed. `corner` is T_c of the
+    scaled motions (s).
     """
     runs = run_of.reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
     completed = (table["status"] == "completed").to_numpy()[runs].all(axis=1)
@@ -45,12 +49,15 @@ def fractions_table(
     mu = np.array([building.labels["mu"] for building in buildings])
     with np.errstate(divide="ignore"):
         eta: FloatArray = mu / coefficient
+    ratios, powers = (np.array(values) for values in zip(*_of_rule(buildings, table, runs, corner), strict=True))
     columns: dict[str, Any] = {
         **key_columns(buildings),
         "base_shear_coefficient": coefficient,
         "eta": eta,
-        "estimate": np.minimum(1.0, eta**2),
-        "conservative": np.minimum(1.0, eta),
+        "height_ratio": ratios,
+        "exponent": powers,
+        "estimate": best_estimate(eta, powers, ratios),
+        "conservative": conservative_estimate(eta, ratios),
     }
     found = [None if effective is None else effective[building.scenes["real"]] for building in buildings]
     columns |= {
@@ -61,6 +68,19 @@ def fractions_table(
         "excess": [None if one is None or one.kind != "one" else one.excess for one in found],
     }
     return typed(columns, list(FRACTION_COLUMNS))
+
+
+def _of_rule(
+    buildings: list[StudyBuilding], table: pl.DataFrame, runs: NDArray[np.int64], corner: float
+) -> Iterator[tuple[float, float]]:
+    """Yield h_g/h_m and the exponent of each building; it yields where its mean peak drift is above that of V_y."""
+    drifts = table["peak_drift"]
+    for building, own in zip(buildings, runs, strict=True):
+        bare = building_of(building.scenes["real"])
+        mean = np.mean([drifts[int(run)].to_numpy() for run in own], axis=0)
+        yields = bool((mean > bare.yield_shear / bare.stiffness).any())
+        ratio = height_ratio(goods_mass(building.scenes["real"]), bare.mass, bare.heights)
+        yield ratio, float(exponent(float(bare.periods[0]), corner, yields))
 
 
 def _attached_mass(scene: Scene) -> float:

@@ -27,7 +27,7 @@ from seismass.records import Suite
 from seismass.runs.batch import simulate_many
 from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.spectra import TargetSpectrum, mean_spectrum, response_spectrum
+from seismass.spectra import TargetSpectrum, corner_period, mean_spectrum, response_spectrum
 from seismass.spectra.remarks import target_remarks
 from seismass.study.buildings import MODELS, StudyBuilding, study_buildings
 from seismass.study.findings import findings
@@ -35,7 +35,7 @@ from seismass.study.fractions import effective_fractions, fractions_table
 from seismass.study.parameters import StudyParameters, code_fractions
 from seismass.study.tables import designs_table, responses_table, summary_table
 
-SCHEMA_VERSION: Final = 2
+SCHEMA_VERSION: Final = 3
 """Version of the tables and of the metadata that a study gives back; see docs/study_schema.md."""
 
 SPECTRUM_RANGE: Final = (0.05, 3.0)
@@ -207,7 +207,7 @@ def run_study(
     return StudyResult(
         responses=responses,
         summary=summary_table(buildings, responses, names, chosen),
-        fractions=fractions_table(buildings, table, run_of, fractions),
+        fractions=fractions_table(buildings, table, run_of, fractions, corner_period(design_spectrum)),
         designs=designs_table(buildings, chosen),
         spectrum=spectrum,
         scaling=scaling,

@@ -95,7 +95,7 @@ class Validation(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """The tables by name, without lists in their cells: claims, section4_..., platform_..."""
+        """The tables by name, without lists in their cells: claims, and those of section 4 and of the platform."""
         return {
             "claims": claims_table(self.claims),
             **section4_tables(self.section4),
@@ -114,7 +114,7 @@ class Validation(Result):
     @property
     @view
     def figure_names(self) -> tuple[str, ...]:
-        """section4_... by component and slope, section4_sliding, platform_... by component."""
+        """Names: those of section 4 by component and slope, its sliding, and those of the platform by component."""
         raise NotImplementedError
 
     @view

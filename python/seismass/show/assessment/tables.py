@@ -13,6 +13,7 @@ import polars as pl
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.values import refusal
+from seismass.effective_mass import ByHand
 from seismass.effective_mass.curve import Kind
 
 DOCUMENT: Final = "assessment.json"
@@ -35,6 +36,7 @@ class Fraction:
     base_shear_coefficient: float
     estimate: float
     conservative: float
+    by_hand: ByHand
     curve: pl.DataFrame = field(repr=False)
 
 
@@ -157,6 +159,7 @@ def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
         **{name: number(values[name]) for name in names},
         kind=values["kind"],
         statistic=values["statistic"],
+        by_hand=ByHand(**values["by_hand"]),
         interval=None if ends is None else (number(ends[0]), number(ends[1])),
         curve=curve,
     )
