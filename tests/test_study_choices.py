@@ -147,8 +147,9 @@ def test_eta_and_its_estimates_are_those_of_the_attached_model(small: StudyResul
         coefficient = shear * row["storeys"] / (2 * row["storeys"] - 1)
         assert row["base_shear_coefficient"] == pytest.approx(coefficient, rel=1e-12)
         assert row["eta"] == pytest.approx(0.4 / coefficient, rel=1e-12)
-        assert row["estimate"] == pytest.approx(min(1.0, (0.4 / coefficient) ** 2), rel=1e-12)
-        assert row["conservative"] == pytest.approx(min(1.0, 0.4 / coefficient), rel=1e-12)
+        share = min(1.0, (0.4 / coefficient / row["height_ratio"] ** 0.5) ** row["exponent"])
+        assert row["estimate"] == pytest.approx(share, rel=1e-12)
+        assert row["conservative"] == pytest.approx(min(1.0, 0.4 / coefficient / row["height_ratio"] ** 0.5), rel=1e-12)
     assert small.fractions["effective"].null_count() == small.fractions.height
 
 
@@ -259,7 +260,7 @@ def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: 
     document = json.loads((tmp_path / "tables.json").read_text())
     for file in tables:
         found = pl.read_parquet_metadata(file)
-        assert json.loads(found["seismass.schema_version"]) == 2
+        assert json.loads(found["seismass.schema_version"]) == 3
         assert json.loads(found["seismass.package_version"]) == sm.__version__
         assert json.loads(found["seismass.inputs_sha256"]) == small.metadata["inputs_sha256"]
         assert json.loads(found["seismass.target"])["label"] == TARGET.label

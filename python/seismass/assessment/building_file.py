@@ -142,9 +142,9 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         return np.array([_spring(storey, building, name) for storey in storeys])
 
     return OwnBuilding(
-        name=top.text("name") or ("building" if path is None else printable(path.stem)),
-        note=top.text("note"),
-        storey_names=tuple(storey.text("name") for storey in storeys),
+        name=printable(top.text("name")) or ("building" if path is None else printable(path.stem)),
+        note=printable(top.text("note"), lines=True),
+        storey_names=tuple(printable(storey.text("name")) for storey in storeys),
         mass=mass,
         stiffness=_stiffness(storeys, building, mass),
         heights=heights,

@@ -11,7 +11,8 @@ import polars as pl
 from seismass.assessment.advice import NAMES
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
 from seismass.assessment.result import Assessment
-from seismass.effective_mass import EffectiveMass
+from seismass.effective_mass import ByHand, EffectiveMass
+from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.media.text_table import number_text, text_table
 
@@ -60,10 +61,22 @@ def _answer(result: Assessment) -> list[str]:
     told = f"{code.code}, {code.use}: {code.fraction:g}{spread} of the design live load{of_present}{source}"
     lines += textwrap.wrap(told, WIDTH, initial_indent="code      ", subsequent_indent=" " * 10)
     lines += [
-        f"by hand   eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}: min(1, eta^2) = "
-        f"{real.estimate:.2f} at best, min(1, eta) = {real.conservative:.2f} to be safe",
+        f"rule      eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}, mean peak base shear of "
+        f"the runs: {RULE} = {real.estimate:.2f} at best,",
+        f"          {SAFE_RULE} = {real.conservative:.2f} to be safe",
+        *_rule(real.by_hand),
     ]
     return lines
+
+
+def _rule(rule: ByHand) -> list[str]:
+    behaviour = "yields" if rule.yields else "elastic"
+    return [
+        f"by hand   eta = {rule.eta:.3f}, C1 = {rule.base_shear_coefficient:.4f} without a run: {RULE} = "
+        f"{rule.estimate:.2f}",
+        f"          p = {rule.exponent:.2f} ({behaviour}, T = {rule.period:.3g} s, T_c = {rule.corner_period:.3g} s), "
+        f"h_g/h_m = {rule.height_ratio:.2f}",
+    ]
 
 
 def _fraction(result: EffectiveMass) -> str:
