@@ -4,59 +4,32 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.options import threads_option
+from seismass.commands.command import Command, seconds
+from seismass.commands.options import add_jobs_option, add_json_option, add_out_option, threads_option
+from seismass.commands.progress import progress
 
 if TYPE_CHECKING:
-    from seismass.campaign import CampaignFolder, CampaignProgress
-    from seismass.campaign.progress import Report
-
-_EPILOG = """examples:
-  seismass campaign --example > campaign.toml
-  seismass campaign campaign.toml --out results
-  seismass campaign results
-  seismass campaign results --status
-  seismass campaign campaign.toml --out results --workers 4
-  seismass campaign campaign.toml --out /shared/results --scheduler tcp://head:8786
-  seismass campaign campaign.toml --out /shared/results --shard 3/20
-
-The third line goes on after an interruption. Results are read by
-seismass.campaign.CampaignFolder("results").scan() or by any reader of Parquet.
-docs/campaign.md explains every key of a campaign file.
-
-exit codes: 0 done, 1 a run failed (its rows say why) or a part is damaged, 2 bad input, 130 interrupted"""
+    from seismass.campaign import CampaignFolder
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "campaign",
-        help=help,
-        description="Solve the runs that a campaign file (TOML or JSON) describes, into a folder of Parquet files. The "
-        "same command goes on where it was stopped, and ends in the same bytes.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("source", type=Path, nargs="?", metavar="FILE", help="campaign file, or folder of a campaign")
     what.add_argument("--example", action="store_true", help="print a campaign file to start from, and stop")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="folder to write to, where FILE is a campaign file")
+    add_out_option(parser, "DIR", "folder to write to, where FILE is a campaign file")
     engine = parser.add_argument_group("where runs are solved").add_mutually_exclusive_group()
     engine.add_argument("--workers", type=threads_option, metavar="N", help="N worker processes here, by dask")
     engine.add_argument("--scheduler", metavar="ADDRESS", help="running dask scheduler, as tcp://host:8786")
     engine.add_argument("--shard", type=shard_option, metavar="I/N", help="parts I, I + N, ... alone: job I of N")
-    parser.add_argument(
-        "--jobs", type=threads_option, metavar="N", help="threads of the process, or of each task (all cores, or one)"
-    )
+    add_jobs_option(parser, "threads of the process, or of each task (all cores, or one)")
     look = parser.add_argument_group("looking at a folder").add_mutually_exclusive_group()
     look.add_argument("--status", action="store_true", help="print what is there and what is missing, and stop")
     look.add_argument("--verify", action="store_true", help="read every part and compare it with its runs, and stop")
-    parser.add_argument("--json", action="store_true", help="print the state of the folder as JSON")
-    parser.set_defaults(run=run)
+    add_json_option(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -81,18 +54,17 @@ def run(args: argparse.Namespace) -> int:
             raise refusal(InvalidOption, "--out", "command", "given with a campaign file", "none")
         campaign, place = (None, args.out) if looks else (read_campaign(args.source), args.out)
     if campaign is not None:
-        started = time.perf_counter()
         if not args.json:
-            print(f"{campaign.total} runs in {campaign.parts} parts of {campaign.part_runs}")
-        campaign.run(
-            place,
-            workers=args.workers,
-            scheduler=args.scheduler,
-            shard=args.shard,
-            threads=args.jobs,
-            progress=progress_line(),
-        )
-        seconds = time.perf_counter() - started
+            print(f"{campaign.total} runs in {campaign.parts} parts of {campaign.part_runs}", flush=True)
+        with progress() as tell:
+            campaign.run(
+                place,
+                workers=args.workers,
+                scheduler=args.scheduler,
+                shard=args.shard,
+                threads=args.jobs,
+                progress=None if tell is None else lambda state: tell(state.runs_done, state.runs),
+            )
     folder = CampaignFolder(place)
     problems = _problems(folder) if args.verify else []
     state = _state(folder, problems if args.verify else None)
@@ -101,7 +73,7 @@ def run(args: argparse.Namespace) -> int:
     else:
         print(_text(folder, state))
         if campaign is not None:
-            print(f"time     {seconds:.1f} s")
+            print(f"time     {seconds(args)}")
         for part, problem in problems:
             print(f"part {part}: {problem}")
     return 1 if state["failed"] or problems else 0
@@ -171,14 +143,26 @@ def shard_option(text: str) -> tuple[int, int]:
     return int(first), int(jobs)
 
 
-def progress_line() -> Report | None:
-    """Return a callable that draws one line on standard error, or None where that is no terminal."""
-    if not sys.stderr.isatty():
-        return None
-
-    def draw(progress: CampaignProgress) -> None:
-        end = "\n" if progress.parts_done == progress.parts else ""
-        sys.stderr.write(f"\r\033[K{progress.text}{end}")
-        sys.stderr.flush()
-
-    return draw
+COMMAND = Command(
+    description=(
+        "Solve the runs that a campaign file (TOML or JSON) describes, into a folder of Parquet files. The "
+        "same command goes on where it was stopped, and ends in the same bytes."
+    ),
+    examples="""
+campaign --example > campaign.toml
+campaign campaign.toml --out results
+campaign results
+campaign results --status
+campaign campaign.toml --out results --workers 4
+campaign campaign.toml --out /shared/results --scheduler tcp://head:8786
+campaign campaign.toml --out /shared/results --shard 3/20
+""",
+    options=options,
+    run=run,
+    note="""
+The third line goes on after an interruption. Results are read by
+seismass.campaign.CampaignFolder("results").scan() or by any reader of Parquet.
+docs/campaign.md explains every key of a campaign file.
+""",
+    codes={1: "a run failed (its rows say why) or a part is damaged"},
+)
