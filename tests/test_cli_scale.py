@@ -138,12 +138,12 @@ def test_a_building_gives_period_and_pushover(tmp_path: Path, capsys: pytest.Cap
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--reduction", "4"], "--reduction of scale must be left out with asce7-10; got 4.0"),
+        (["--reduction", "4"], "--reduction of scale must be left out with asce7-10; got 4"),
         (["--lowest-period", "0.1"], "--lowest-period of scale must be left out with asce7-10; got 0.1"),
         (["--method", "sa-t1", "--building", "b.toml"], "--building of scale must be left out with sa-t1; got b.toml"),
         (
             ["--method", "mps", "--building", "b.toml", "--reduction", "4"],
-            "--reduction of scale must be left out with --building; got 4.0",
+            "--reduction of scale must be left out with --building; got 4",
         ),
         (["--pairs"], "--pairs of scale must be given with --method asce7-16 and --records; got asce7-10"),
         (
