@@ -43,12 +43,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader has gone, as with `| head`; nothing more can be printed, not even by the interpreter at its end.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
-    except SimulationError as error:
-        print(f"seismass: run failed: {error}", file=sys.stderr)
-        return FAILED
     except (SeismassError, OSError) as error:
-        print(f"seismass: error: {error}", file=sys.stderr)
-        return BAD_INPUT
+        from seismass.base.values import printable  # numpy, which --help does not need
+
+        failed = isinstance(error, SimulationError)
+        kind = "run failed" if failed else "error"
+        print(f"seismass: {kind}: {printable(str(error), lines=True)}", file=sys.stderr)
+        return FAILED if failed else BAD_INPUT
     except KeyboardInterrupt:
         # On a terminal a progress bar, or the ^C itself, has begun the line.
         # One Ctrl-C may be heard twice, by a library and by Python.

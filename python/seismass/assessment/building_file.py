@@ -16,7 +16,7 @@ from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_
 from seismass.base.errors import InvalidBuildingFile, InvalidOption, SeismassError
 from seismass.base.input_table import Table, load_table
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import as_number, as_path, brief, printable
+from seismass.base.values import as_number, as_path, brief, is_one_of, printable
 from seismass.design import Combination, vibration_modes
 from seismass.model.codes import CodeFraction, code_fraction
 from seismass.model.damping import DEFAULT_DAMPING
@@ -141,9 +141,9 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         return np.array([_spring(storey, building, name) for storey in storeys])
 
     return OwnBuilding(
-        name=top.text("name") or ("building" if path is None else printable(path.stem)),
-        note=top.text("note"),
-        storey_names=tuple(storey.text("name") for storey in storeys),
+        name=printable(top.text("name")) or ("building" if path is None else printable(path.stem)),
+        note=printable(top.text("note"), lines=True),
+        storey_names=tuple(printable(storey.text("name")) for storey in storeys),
         mass=mass,
         stiffness=_stiffness(storeys, building, mass),
         heights=heights,
@@ -314,7 +314,7 @@ def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, De
         building.needed("R")
         reduction = _number(building, "R", "finite and at least 1", lambda number: 1.0 <= number < np.inf)
         combination = building.values.get("combination", "srss")
-        if combination not in get_args(Combination):
+        if not is_one_of(combination, get_args(Combination)):
             building.refuse("combination", f"one of {', '.join(get_args(Combination))}", brief(combination))
         stated = "design_fraction" in building.values
         fraction = _between(building, building, "design_fraction", 0.0, 0.0, 1.0) if stated else None

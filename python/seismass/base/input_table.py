@@ -4,13 +4,28 @@ from __future__ import annotations
 
 import difflib
 import json
+import re
 import tomllib
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, Final, NoReturn
 
 from seismass.base.errors import InvalidScene, SeismassError
-from seismass.base.values import FloatArray, as_array, as_number, brief, refusal
+from seismass.base.files import MOST_BYTES, read_file
+from seismass.base.values import FloatArray, as_array, as_number, brief, printable, refusal
+
+MOST_TOML: Final = 2**22
+"""Largest TOML file that is read (bytes): some seconds. JSON, which is read a hundred times as fast, may have more."""
+_SHOWN: Final = 60
+"""Letters of a key that a message shows."""
+MOST_KEY_PARTS: Final = 50
+"""Most parts of a dotted key of TOML, whose reader takes the square of their number."""
+
+_WORD: Final = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_LONG_KEY: Final = re.compile(
+    rf"(?:^|[{{\[,])[ \t]*+{_WORD}(?:[ \t]*+\.[ \t]*+{_WORD}){{{MOST_KEY_PARTS}}}", re.MULTILINE
+)
+"""A key can begin a line, a table's name or an entry of a table."""
 
 
 def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
@@ -24,23 +39,35 @@ def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
         What it is, as errors name it: "scene file".
     kind : type
         Class of the errors.
+
+    Raises
+    ------
+    SeismassError
+        Of the class `kind`: it cannot be read, is no regular file or larger than `MOST_BYTES` (TOML: `MOST_TOML`), or
+        is not what its suffix says.
     """
     suffix = source.suffix.lower()
     if suffix not in (".toml", ".json"):
         raise refusal(kind, "suffix", f"{what} {source.name}", ".toml or .json", brief(suffix))
     try:
-        text = source.read_bytes().decode("utf-8-sig")
-        loaded = tomllib.loads(text) if suffix == ".toml" else json.loads(text, object_pairs_hook=_without_repeats)
+        text = read_file(source, MOST_TOML if suffix == ".toml" else MOST_BYTES).decode("utf-8-sig")
+        loaded = _toml(text) if suffix == ".toml" else json.loads(text, object_pairs_hook=_without_repeats)
     except OSError as error:
         raise kind(f"{what} must be a file that can be read; got {source} ({error.strerror or error})") from error
     except (ValueError, RecursionError) as error:
         form = suffix[1:].upper()
         raise refusal(kind, "content", source.name, f"valid {form}", str(error)) from error
     except _RepeatedKey as error:
-        raise refusal(kind, str(error), source.name, "given once", "it twice") from None
+        raise refusal(kind, brief(str(error)).strip("'"), source.name, "given once", "it twice") from None
     if not isinstance(loaded, dict):
         raise refusal(kind, "content", source.name, "a table of keys", brief(loaded))
     return Table(loaded, "", source.name, kind)
+
+
+def _toml(text: str) -> dict[str, Any]:
+    if _LONG_KEY.search(text):
+        raise ValueError(f"a key of more than {MOST_KEY_PARTS} parts between dots")
+    return tomllib.loads(text)
 
 
 class _RepeatedKey(Exception):
@@ -50,8 +77,11 @@ class _RepeatedKey(Exception):
 def _without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     table = dict(pairs)
     if len(table) < len(pairs):
-        keys = [key for key, _ in pairs]
-        raise _RepeatedKey(next(key for key in keys if keys.count(key) > 1))
+        seen = set()
+        for key, _ in pairs:
+            if key in seen:
+                raise _RepeatedKey(key)
+            seen.add(key)
     return table
 
 
@@ -70,7 +100,8 @@ class Table:
 
     def key(self, key: str) -> str:
         """Where a key stands: building.damping.ratio."""
-        return f"{self.place}.{key}" if self.place else key
+        shown = printable(key if len(key) <= _SHOWN else f"{key[:_SHOWN]}...")
+        return f"{self.place}.{shown}" if self.place else shown
 
     def refuse(self, key: str, requirement: str, got: str) -> NoReturn:
         """Raise the error of the one form."""

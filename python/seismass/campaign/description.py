@@ -10,7 +10,7 @@ from typing import Any, Final
 from seismass.base.errors import InvalidCampaignFile
 from seismass.base.input_table import Table, load_table
 from seismass.base.values import as_count, as_path, brief
-from seismass.campaign.campaign import Campaign
+from seismass.campaign.folder import Campaign
 from seismass.campaign.values import axis_values
 from seismass.records import Record, Suite, builtin_suite, read_suite
 from seismass.records.builtin import data_directory

@@ -11,6 +11,8 @@ from seismass.base.errors import InvalidCampaignFile, InvalidOption
 from seismass.base.input_table import Table
 from seismass.base.values import as_count, as_number, brief
 
+MOST_VALUES: Final = 2**24
+"""Most values of a range, which are in memory."""
 _RANGE: Final = ("from", "to", "count", "spacing")
 
 
@@ -54,6 +56,8 @@ def _range(table: Table) -> Any:
         table.needed(key)
     first, last = (table.number(key, 0.0) for key in _RANGE[:2])
     count = as_count(table.values["count"], table.key("count"), table.file, InvalidCampaignFile, least=1)
+    if count > MOST_VALUES:
+        table.refuse("count", f"at most {MOST_VALUES}", str(count))
     spacing = table.text("spacing") or "linear"
     if spacing == "linear":
         return np.linspace(first, last, count)

@@ -60,6 +60,7 @@ def run(args: argparse.Namespace) -> int:
     """Print the table; return the exit code."""
     import numpy as np
 
+    from seismass.base.files import without_formulas
     from seismass.records.named import records_named
 
     inelastic = args.strength is not None or args.ductility is not None
@@ -70,7 +71,7 @@ def run(args: argparse.Namespace) -> int:
     warn_remarks(suite)
     periods = np.geomspace(0.01, 10.0, 100) if args.period is None else np.array(args.period)
     table = _inelastic(suite, periods, args) if inelastic else _elastic(suite, periods, args)
-    sys.stdout.write(table.write_csv())
+    sys.stdout.write(without_formulas(table).write_csv())
     return 0
 
 

@@ -86,7 +86,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
-    from seismass.base.kept import KeptResults, kept_folder
+    from seismass.base.kept import kept_folder
     from seismass.media.folder import check_out, folder_for
     from seismass.runs.simulate import instruction_set
     from seismass.study import StudyParameters
@@ -109,8 +109,8 @@ def run(args: argparse.Namespace) -> int:
     target = read_target(args)
     suite = read_motions(args)
     inputs = f"{inputs_digest(suite, target, parameters)} {VERSION} {instruction_set()}"
-    with folder_for(args.out), kept_folder(args.out, "study", inputs) as folder:
-        tables = _solved(args, suite, target, parameters, KeptResults(folder))
+    with folder_for(args.out), kept_folder(args.out, "study", inputs) as kept:
+        tables = _solved(args, suite, target, parameters, kept)
         metadata = tables.metadata
         if args.json:
             for remark in metadata["remarks"]:

@@ -17,7 +17,7 @@ from seismass.base.values import FloatArray, as_array, as_count, as_number, as_p
 from seismass.model.block import Block
 from seismass.model.building import Building, as_fraction_of_weight
 from seismass.model.damping import Rayleigh
-from seismass.model.motion import Motion
+from seismass.model.motion import Motion, check_size
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.model.spring_laws import is_per_storey
@@ -329,6 +329,7 @@ def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | No
         samples = as_array(table.values["acceleration"], "acceleration", "motion", InvalidMotion)
         in_si = ACCELERATION_UNITS[unit or "m/s2"]
         dt = as_number(table.values["dt"], "dt", "motion", InvalidMotion)
+    check_size(len(samples), dt * dt_scale, f"motion of {table.file}")
     with np.errstate(over="ignore"):  # the motion refuses what is not finite
         return samples * in_si * scale, dt * dt_scale, record
 

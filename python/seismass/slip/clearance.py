@@ -81,7 +81,7 @@ def _single(value: Any) -> bool:
 
 
 def _clearance(value: Any) -> Clearance | None:
-    return value if value is None or isinstance(value, Clearance) else Clearance(float(value), float(value))
+    return value if value is None or isinstance(value, Clearance) else Clearance(value, value)
 
 
 def signed_peaks(slip: FloatArray, rate: FloatArray, dt: float, peak: FloatArray) -> tuple[FloatArray, FloatArray]:
