@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Final
 
+from seismass.base.files import written_whole
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.records.record import Record
 from seismass.records.synthetic.seven import RECIPES, Recipe, generate
@@ -51,12 +52,13 @@ def at2_text(record: Record, generator: int = 1) -> str:
 def write_motion(directory: Path, recipe: Recipe | SiteRecipe) -> None:
     """Write the motion of a recipe as an .AT2 file."""
     text = at2_text(made(recipe), version(recipe))
-    (directory / f"{recipe.name}.AT2").write_text(text, encoding="utf-8", newline="\n")
+    with written_whole(directory / f"{recipe.name}.AT2") as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
 
 
 def write_list(file: Path, recipes: Iterable[Recipe | SiteRecipe]) -> None:
     """Write a list of motions as `read_suite` takes it."""
-    with file.open("w", newline="", encoding="utf-8") as stream:
+    with written_whole(file) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
         rows = csv.writer(stream, lineterminator="\n")
         rows.writerow(("number", "event", "station", "file", "note"))
         for recipe in recipes:

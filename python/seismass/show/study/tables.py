@@ -11,7 +11,7 @@ import polars as pl
 
 from seismass.animation import animate
 from seismass.base.errors import InvalidOption
-from seismass.base.files import open_regular, read_file
+from seismass.base.files import read_file, read_table
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import refusal
 from seismass.show.animation.html import element_content
@@ -171,8 +171,7 @@ def _table(folder: Path, name: str) -> pl.DataFrame:
     if not path.exists():
         raise refusal(InvalidOption, f"{name}.parquet", f"folder {folder}", "there beside study.json", "none")
     try:
-        with open_regular(path) as file:
-            return pl.read_parquet(file)
+        return read_table(path)
     except pl.exceptions.PolarsError as error:
         raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
 
