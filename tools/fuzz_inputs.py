@@ -34,6 +34,8 @@ from seismass.show.assessment.tables import read_assessment_tables
 
 SECONDS_PER_FILE = 5.0
 MEMORY_GROWTH_KB = 512 * 1024
+LONGEST_MESSAGE = 6000
+"""Letters; a path of 5000 stands whole in the errors of the system."""
 
 VALUES: tuple[Any, ...] = (
     *(None, True, False, 0, -1, 1, 2, 1.5, 1e-300, 1e300, -1e300, 1e-9, 10**30, 2**53, float("nan"), float("inf")),
@@ -219,7 +221,7 @@ def outcome_of(kind: Kind, content: bytes, place: Path) -> str:
         seen = kind.read is not _verified or _same(content, kind.content)
         outcome = "read" if seen else "defect: a change that is not seen"
     except (sm.SeismassError, OSError) as error:
-        outcome = "refused" if len(str(error)) < 5000 else "defect: a message without end"
+        outcome = "refused" if len(str(error)) < LONGEST_MESSAGE else "defect: a message without end"
     except Exception as error:
         outcome = f"defect: {type(error).__name__}: {error}"[:200]
     finally:

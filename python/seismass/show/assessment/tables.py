@@ -13,7 +13,7 @@ import polars as pl
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.files import read_file, read_table
-from seismass.base.values import refusal
+from seismass.base.values import brief, refusal
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.curve import Kind
 from seismass.media.folder import as_written
@@ -120,7 +120,7 @@ def read_assessment_tables(folder: Path) -> AssessmentTables:
         raise refusal(InvalidOption, "content", DOCUMENT, "JSON as `seismass building` writes it", f"{error}") from None
     version = document.get("schema_version") if isinstance(document, dict) else None
     if version != SCHEMA_VERSION:
-        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", f"{version}")
+        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", brief(version))
     with as_written(folder):
         names = [*NEEDED, *(["curve"] if document["effective"] else []), *(["scaling"] if document["factors"] else [])]
     tables = {}
