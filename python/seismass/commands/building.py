@@ -78,6 +78,8 @@ def run(args: argparse.Namespace) -> int:
 
 def _listing(args: argparse.Namespace) -> str:
     """Return the example file, or the requested table."""
+    from seismass.media.text_table import text_table
+
     if args.example:
         from seismass.assessment.building_file import example_file
 
@@ -96,9 +98,7 @@ def _listing(args: argparse.Namespace) -> str:
         for row in friction_table().iter_rows(named=True):
             source = f"{row['source']} ({row['kind']})"
             rows.append([row["pair_id"], f"{row['mu_s']:g}", f"{row['mu_k']:.4g}", row["contact"], source])
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows)
-    return "\n".join(lines) + "\n"
+    return "\n".join(text_table(rows, left=len(rows[0]), indent=0)) + "\n"
 
 
 def _target(args: argparse.Namespace) -> TargetSpectrum | None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidOption
+from seismass.base.quantiles import interval_of
 from seismass.base.values import (
     FloatArray,
     as_array,
@@ -22,7 +23,7 @@ from seismass.base.values import (
     same_content,
 )
 from seismass.fragility.likelihood import Fits, capacity_fits, cloud_fits, probit_fits
-from seismass.fragility.probability import NO_COLLAPSE, interval_of, medians_and_dispersions, probabilities, quantiles
+from seismass.fragility.probability import NO_COLLAPSE, medians_and_dispersions, probabilities, quantiles
 
 FragilityKind: TypeAlias = Literal["fitted", "step", "never", "always", "falling", "none"]
 """How a fit ended; see `Fragility`."""

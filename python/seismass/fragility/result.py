@@ -11,6 +11,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
+from seismass.base.quantiles import quantile
 from seismass.base.values import FloatArray, brief, content_hash, is_one_of, refusal, same_content
 from seismass.base.views import view
 from seismass.fragility.compare import reference_of
@@ -161,8 +162,6 @@ class FragilityAnalysis(Result):
         -----
         Vamvatsikos and Cornell (2002), section 5. Between intensities that were solved curves are linear.
         """
-        from seismass.study.tables import quantile  # brings the whole study
-
         if not is_one_of(given, ("intensity", "demand")):
             raise refusal(InvalidOption, "given", "fractiles", "intensity or demand", brief(given))
         if self.capacities.is_empty():
