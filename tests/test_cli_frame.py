@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+import rich.progress
 
 import seismass as sm
 from seismass import cli, commands
@@ -216,11 +217,19 @@ def test_progress_is_drawn_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch, 
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setattr(sys, "stderr", drawn)
+    bars: list[rich.progress.Progress] = []
+    start = rich.progress.Progress.start
+    monkeypatch.setattr(rich.progress.Progress, "start", lambda bar: (bars.append(bar), start(bar)))
     with progress("records") as tell:
         assert tell is not None
         tell(0, 7)
         tell(3, 7)
-        tell(7, 7)
+        assert [(task.completed, task.total) for task in bars[0].tasks] == [(3, 7)]
+        tell(4, 9)
+        assert [(task.completed, task.total, task.fields["first"]) for task in bars[0].tasks] == [(4, 9, 0)]
+        tell(9, 9)
+        tell(0, 5)
+        assert [(task.completed, task.total) for task in bars[0].tasks] == [(0, 5)]
     assert "of 7 records" in drawn.getvalue()
     assert bool(re.search(r"\x1b\[[0-9;]*[39][0-7]m", drawn.getvalue())) is not no_color
     # The line is erased at the end, and the cursor is there again.
