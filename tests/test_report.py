@@ -203,7 +203,9 @@ def test_page_of_a_study_of_several_frictions_without_validation(tmp_path: Path)
     write_study(made, tmp_path)
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "Claims of the paper" not in page
-    write_study_page(tmp_path, tmp_path / "again.html")
+    told: list[tuple[int, int]] = []
+    write_study_page(tmp_path, tmp_path / "again.html", progress=lambda done, total: told.append((done, total)))
+    assert told == [(number, told[0][1]) for number in range(told[0][1] + 1)]
     assert (tmp_path / "again.html").read_text(encoding="utf-8") == page
 
 
