@@ -24,6 +24,7 @@ def azimuth_of(component: str) -> float | None:
     positive to north and east. "UP", "H1", "LONGITUDINAL" and what is not understood give None.
     """
     text = component.strip().upper()
+    text = text.partition("(")[0].strip() or text  # "N (CWB)": what stands in brackets is the operator
     degrees = _DEGREES.fullmatch(text)
     if degrees:
         return float(degrees[1]) % 360.0 if int(degrees[1]) <= 360 else None

@@ -56,10 +56,7 @@ _LINES: Final[tuple[tuple[re.Pattern[str], str, str], ...]] = tuple(
         ),
         (r"\s*<\?xml|\s*<q:quakeml|\s*<FDSNStationXML", "XML", _NETWORK),
         (r"\s*[{\[]\s*(?:[\"{\[]|$)", "JSON", _NETWORK),
-        (r"(?s).{0,400}?\bGNS Science\b", "GeoNet V1A or V2A", _NETWORK),
-        (r"STRONG GROUND MOTION RECORDS OF TURKIYE", "NSMN (AFAD) text", "read its ESM ASCII file"),
         (r"\* VOL[12]", "BHRC (ISMN, Iran)", _NETWORK),
-        (r"#Earthquake Information|(?s:#?\s*StationCode\s*:.{0,800}?AmplitudeUnit)", "CWB (CWA, Taiwan)", _NETWORK),
         (
             r"\*{20,}\s+INSTITUTO DE INGENIERIA|(?s:.{0,800}?ARCHIVO ESTANDAR DE ACELERACION)",
             "UNAM standard acceleration",
