@@ -16,6 +16,7 @@ from seismass.commands.options import (
     check_files,
     positive_option,
     read_target,
+    reading,
     warn_left_out,
     warn_remarks,
 )
@@ -95,7 +96,7 @@ def run(args: argparse.Namespace) -> int:
 
     _check_outputs(args)
     target = read_target(args)
-    suite = records_named(args.records, dt=args.dt, unit=args.unit)
+    suite = records_named(args.records, reading(args))
     _check_out(args.out, args.records, suite)
     matched = match_suite(
         suite,

@@ -12,6 +12,7 @@ from seismass.commands.options import (
     add_reading_options,
     add_spring_options,
     positive_option,
+    reading,
     warn_left_out,
     warn_remarks,
 )
@@ -88,7 +89,7 @@ def run(args: argparse.Namespace) -> int:
             when = "with --strength or --ductility" if inelastic else "without --strength or --ductility"
             option = name.replace("_", "-")
             raise InvalidOption(f"--{option} of spectrum must be left out {when}; got {getattr(args, name)}")
-    suite = records_named(args.records, dt=args.dt, unit=args.unit)
+    suite = records_named(args.records, reading(args))
     warn_left_out(suite)
     warn_remarks(suite)
     periods = np.geomspace(0.01, 10.0, 100) if args.periods is None else np.array(args.periods)

@@ -16,6 +16,7 @@ from seismass.base.errors import InvalidMotion, RecordFormatError
 from seismass.base.units import stated_unit
 from seismass.base.values import as_path, brief, printable, refusal
 from seismass.base.views import view
+from seismass.records.archive import is_archive, unpacked
 from seismass.records.checks import no_motion
 from seismass.records.formats import COLUMNS, NotRead
 from seismass.records.formats.directions import is_vertical
@@ -24,12 +25,14 @@ from seismass.records.formats.table import is_row_of_numbers
 from seismass.records.place import has_vertical_name, reason_to_leave, vertical_reason
 from seismass.records.read import (
     HEAD_BYTES,
+    FormatName,
     decoded,
     format_of,
     read_record,
     read_records,
     read_text,
     refuse_binary,
+    wide_encoding,
 )
 from seismass.records.record import Record
 
@@ -153,16 +156,16 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     Parameters
     ----------
     path : path-like
-        A directory: every file in it and below that shows a record format (see `read_record`), and text of columns that
-        states its unit and step, sorted by path, every horizontal channel of each. Vertical components are left out by
-        header and by file name (-UP, VER, -V, ...), sensors in structures and below the surface by their header, files
-        of other kinds with the reason; hidden ones are not looked at.
-        Or a CSV with a column `file`, relative to the CSV, one row per record in the order to keep, and a column
-        `channel` for files of several; its columns `name`, `event`, `station`, `component` replace what the files say,
-        `dt` and `unit` are passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the
-        remarks; a `number` is for the reader. Other columns are not used, and named in the remarks of the suite. A
-        vertical component in the list is an error: by header, by `component`, and by file name unless `component` is
-        given. Sensors in structures are read where a list names them.
+        A directory, or a ZIP archive of one: every file in it and below that shows a record format (see `read_record`),
+        and text of columns that states its unit and step, sorted by path, every horizontal channel of each. Vertical
+        components are left out by header and by file name (-UP, VER, -V, ...), sensors in structures and below the
+        surface by their header, files of other kinds with the reason; hidden ones are not looked at. Or a CSV with a
+        column `file`, relative to the CSV, one row per record in the order to keep, and a column `channel` for files of
+        several; its columns `name`, `event`, `station`, `component` replace what the files say, `dt` and `unit` are
+        passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the remarks; a `number`
+        is for the reader. Other columns are not used, and named in the remarks of the suite. A vertical component in
+        the list is an error: by header, by `component`, and by file name unless `component` is given. Sensors in
+        structures are read where a list names them.
 
     Raises
     ------
@@ -173,12 +176,22 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     source = as_path(path, "suite", RecordFormatError)
     if source.is_dir():
         return _read_directory(source)
+    if is_archive(source):
+        with unpacked(source) as (folder, names):
+            return named_after(_read_directory(folder), source, names)
     if source.suffix.lower() == ".csv":
         return _read_list(source)
-    raise RecordFormatError(f"suite of records must be a directory or a .csv file; got {source}")
+    raise RecordFormatError(f"suite of records must be a directory, a ZIP archive or a .csv file; got {source}")
 
 
-def suite_of_file(path: Path, *, dt: float | None = None, unit: str | None = None) -> Suite:
+def suite_of_file(
+    path: Path,
+    *,
+    dt: float | None = None,
+    unit: str | None = None,
+    format: FormatName | None = None,
+    skip: int | None = None,
+) -> Suite:
     """Return the one record of a file, vertical or not, or the horizontal channels of a file of several.
 
     Raises
@@ -186,7 +199,7 @@ def suite_of_file(path: Path, *, dt: float | None = None, unit: str | None = Non
     RecordFormatError
         As for `read_records`, or all of several channels are vertical.
     """
-    records = read_records(path, dt=dt, unit=unit)
+    records = read_records(path, dt=dt, unit=unit, format=format, skip=skip)
     if len(records) == 1:
         return Suite(records[0].name, records)
     taken = tuple(record for record in records if not reason_to_leave(record))
@@ -223,6 +236,15 @@ def _read_directory(directory: Path) -> Suite:
     return Suite(printable(directory.resolve().name), tuple(_with_copies(records)), tuple(excluded))
 
 
+def named_after(suite: Suite, archive: Path, names: dict[Path, str]) -> Suite:
+    """Return the suite of an unpacked archive, with its files named as they are in the archive."""
+    records = tuple(
+        record.replace(source=archive / names[record.source]) if record.source in names else record for record in suite
+    )
+    excluded = tuple(Excluded(archive / names.get(one.file, one.file.name), one.reason) for one in suite.excluded)
+    return Suite(printable(archive.stem), records, excluded, suite.remarks)
+
+
 def read_file(file: Path) -> tuple[Record, ...] | str:
     """Return the records of a file, or why it is left out.
 
@@ -238,8 +260,10 @@ def read_file(file: Path) -> tuple[Record, ...] | str:
         with file.open("rb") as opened:
             head = opened.read(HEAD_BYTES)
             size = os.fstat(opened.fileno()).st_size
-        refuse_binary(head, file)
-        if b"\0" in head:
+        wide = wide_encoding(head) is not None
+        if not wide:
+            refuse_binary(head, file)
+        if b"\0" in head and not wide:
             return "not read: binary data"
         if not head.strip():
             return read_records(file) if file.suffix.lower() == ".at2" else "not read: an empty file"

@@ -81,7 +81,7 @@ def known_binary(head: bytes) -> tuple[str, str] | None:
     if head.startswith(b"PK\x03\x04"):
         if b"[Content_Types].xml" in head or b"xl/" in head:
             return "Excel (.xlsx)", "save the sheet as CSV"
-        return "ZIP", _UNPACK
+        return "ZIP", "unpack it, or read it as a folder (read_suite, seismass records)"
     if head[_TAR_AT : _TAR_AT + 5] == b"ustar":
         return "tar", _UNPACK
     if _SEED.match(head):
