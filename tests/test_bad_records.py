@@ -197,7 +197,11 @@ CALLS: list[tuple[Callable[[Path], object], type[SeismassError], str]] = [
         RecordFormatError,
         r"must be at least one horizontal record; got no file$",
     ),
-    (lambda folder: read_suite(folder / "no"), RecordFormatError, r"must be a directory, a ZIP archive or a .csv file; got .*no"),
+    (
+        lambda folder: read_suite(folder / "no"),
+        RecordFormatError,
+        r"must be a directory, a ZIP archive or a .csv file; got .*no",
+    ),
     (lambda folder: read_suite(folder / "no.csv"), RecordFormatError, r"must be a file that can be read; got .*no.csv"),
     (only_verticals, RecordFormatError, r"must be at least one horizontal record; got 1 vertical components$"),
     (a_damaged_file, RecordFormatError, r"last number of b.AT2 must be written as the others are"),
