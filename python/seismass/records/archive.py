@@ -75,7 +75,8 @@ def unpacked(path: Path) -> Iterator[tuple[Path, dict[Path, str]]]:
 
 
 def _is_hidden(name: str) -> bool:
-    return any(part.startswith((".", "__MACOSX")) for part in PurePosixPath(name.replace("\\", "/")).parts)
+    parts = PurePosixPath(name.replace("\\", "/")).parts
+    return any(part.startswith((".", "__MACOSX")) and part != ".." for part in parts)
 
 
 def _safe_name(name: str) -> str:

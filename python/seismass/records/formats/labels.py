@@ -160,6 +160,9 @@ def labels_of(header: list[str], columns: int) -> list[Label] | None:
 
 def _with_vertical(labels: list[Label]) -> list[Label]:
     """Take a label V beside those of compass directions for what it is there: the vertical, no velocity."""
+    if any(label.kind == "acceleration" and label.unit for label in labels):
+        # "x, acceleration (g)": a letter without the unit of the others is no component beside them.
+        labels = [Label(one.text, "") if one.text.lower() == "x" and not one.unit else one for one in labels]
     if not any(azimuth_of(label.direction) is not None for label in labels if label.direction):
         return labels
     return [
