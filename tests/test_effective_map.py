@@ -13,6 +13,7 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
+from seismass.effective_mass.rules import RULES
 from seismass.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
@@ -79,7 +80,21 @@ def test_interval_of_goods_without_friction(small: sm.EffectiveMassMap) -> None:
 def test_table(small: sm.EffectiveMassMap) -> None:
     assert small.table.columns == [
         *("building", "storeys", "period", "roof", "R", "alpha", "intensity", "mu", "eta", "base_shear_coefficient"),
-        *("slides", "value", "kind", "low", "high", "real", "ratio_at_0", "ratio_at_0_25", "ratio_at_1"),
+        *(
+            "base_shear_coefficient_by_hand",
+            "height_ratio",
+            "yields",
+            "exponent",
+            "slides",
+            "value",
+            "kind",
+            "low",
+            "high",
+            "real",
+            "ratio_at_0",
+            "ratio_at_0_25",
+            "ratio_at_1",
+        ),
         *("worst_storey_ratio", "worst_storey_ratio_at_1", "worst_storey_envelope_ratio"),
     ]
     assert small.table["building"].unique().sort().to_list() == [1, 2]
@@ -92,7 +107,7 @@ def test_table(small: sm.EffectiveMassMap) -> None:
 def test_rules_of_eta_by_hand(small: sm.EffectiveMassMap) -> None:
     """Every sliding case by a loop: the model's curve at min(1, eta^2) and min(1, eta), over the real drift."""
     table = small.rules()
-    for name, power in (("min(1, eta^2)", 2), ("min(1, eta)", 1)):
+    for name, power in (("min(1, eta^2), earlier", 2), ("min(1, eta), earlier", 1)):
         ratios = []
         for case, row in enumerate(small.table.iter_rows(named=True)):
             if row["slides"]:
@@ -105,6 +120,46 @@ def test_rules_of_eta_by_hand(small: sm.EffectiveMassMap) -> None:
         assert found["unsafe"] == pytest.approx(sum(1.05 * ratio < 1.0 for ratio in ratios) / len(ratios))
         assert found["low"] == pytest.approx(np.percentile(ratios, 5.0), rel=1e-12)
         assert found["high"] == pytest.approx(np.percentile(ratios, 95.0), rel=1e-12)
+        assert found["worst"] == pytest.approx(min(ratios), rel=1e-12)
+
+
+def test_rule_by_period_by_hand(small: sm.EffectiveMassMap) -> None:
+    """The formula written out, T_c from the mean spectrum; the estimates of `effective_mass` are the same numbers."""
+    scaled = [record.scaled(factor) for record, factor in zip(SUITE, small.scaling.factors, strict=True)]
+    periods = np.geomspace(0.05, 4.0, 60)
+    mean = mean_spectrum(scaled, np.ones(len(scaled)), periods)
+    corner = (mean * periods).max() / mean.max()
+    assert small.metadata["corner_period"] == pytest.approx(corner, rel=1e-12)
+    shares = RULES["min(1, eta_h^p)"](small.table)
+    for row, share in zip(small.table.iter_rows(named=True), shares, strict=True):
+        alpha, storeys = row["alpha"], row["storeys"]
+        # Two storeys, bare roof: goods at 1, masses 1 + alpha at 1 and 1 at 2. A loaded roof: goods as the masses.
+        ratio = 1.0 if row["roof"] == "loaded" else 1.0 / ((3.0 + alpha) / (2.0 + alpha))
+        assert row["height_ratio"] == pytest.approx(ratio, rel=1e-12)
+        assert row["yields"] == (row["R"] > 1.0)
+        power = 1.2 * (1.0 + row["period"] / corner) if row["yields"] else 1.0 + row["period"] / (2.0 * corner)
+        assert row["exponent"] == pytest.approx(power, rel=1e-9)
+        assert share == pytest.approx(min(1.0, (row["eta"] / ratio**0.5) ** power), rel=1e-9)
+        bare = sm.Building.uniform(storeys, row["period"], mass=1.0)
+        goods = [alpha] * (storeys - 1) + [alpha if row["roof"] == "loaded" else 0.0]
+        if row["R"] == 1.0:
+            answer = sm.effective_mass(
+                sm.Scene(bare, sm.blocks_on_floors(goods, row["mu"])), scaled, fractions=[0.0, 1.0], resamples=1
+            )
+            assert answer.estimate == pytest.approx(share, rel=1e-9)
+            assert answer.by_hand.base_shear_coefficient == pytest.approx(row["base_shear_coefficient_by_hand"])
+
+
+def test_rules_by_period_are_the_rules_of_their_cases(small: sm.EffectiveMassMap) -> None:
+    """Periods of 0.38 and 0.6 s are in two classes; each class is the map of its cases alone."""
+    whole, classes = small.rules(), small.rules_by_period()
+    assert classes["period_from"].unique().to_list() == [0.225, 0.435]
+    for rule in whole["rule"]:
+        rows = classes.filter(rule=rule)
+        assert rows["cases"].sum() == whole.filter(rule=rule)["cases"][0]
+        assert rows["worst"].min() == whole.filter(rule=rule)["worst"][0]
+        logarithm = (rows["bias"].log() * rows["cases"]).sum() / rows["cases"].sum()
+        assert np.exp(logarithm) == pytest.approx(whole.filter(rule=rule)["bias"][0], rel=1e-12)
 
 
 def test_threads_and_progress() -> None:
@@ -126,7 +181,7 @@ def test_rules_by_hand(small: sm.EffectiveMassMap) -> None:
     assert none["bias"] == pytest.approx(np.exp(np.log(ratio).mean()), rel=1e-12)
     assert none["log_scatter"] == pytest.approx(np.log(ratio).std(), rel=1e-12)
     assert none["unsafe"] == pytest.approx((1.0 / ratio > 1.05).mean())
-    quarter = small.rules({"a quarter": lambda eta: np.full_like(eta, 0.25)}).row(0, named=True)
+    quarter = small.rules({"a quarter": lambda cases: np.full(cases.height, 0.25)}).row(0, named=True)
     assert quarter["bias"] == pytest.approx(np.exp(np.log(1.0 / sliding["ratio_at_0_25"].to_numpy()).mean()), rel=1e-12)
     bins = small.by_eta()
     assert bins["cases"].sum() == sliding.height
@@ -145,15 +200,16 @@ def test_intensity_is_strength_and_friction() -> None:
 
 
 def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    arguments = ["map", "--mu", "0.1,0.3", "--R", "2,4", "--alpha", "1", "--intensity", "0.5,1"]
+    arguments = ["map", "--mu", "0.1,0.3", "--R", "2,4", "--alpha", "1", "--factor", "0.5,1"]
     assert main([*arguments, "--out", str(tmp_path)]) == 0
     printed = capsys.readouterr().out
-    assert "min(1, eta^2)" in printed
+    assert "min(1, eta_h^p)" in printed
+    assert "By period of the bare building" in printed
     assert "Effective fraction by eta" in printed
     names = {file.name for file in tmp_path.iterdir()}
     assert {"map.parquet", "rules.csv", "map.json", "collapse.png", "rules.svg", "intensity.png"} <= names
     assert pl.read_parquet(tmp_path / "map.parquet").height == 16 * 2 * 2 * 2
-    assert json.loads((tmp_path / "map.json").read_text())["rules"][0]["rule"] == "min(1, eta^2)"
+    assert json.loads((tmp_path / "map.json").read_text())["rules"][0]["rule"] == "min(1, eta_h^p)"
 
 
 def test_figures_of_one_intensity(small: sm.EffectiveMassMap) -> None:

@@ -10,6 +10,7 @@ import ast
 import importlib
 import inspect
 import pkgutil
+import re
 import tomllib
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -153,3 +154,11 @@ def test_every_view_has_a_maker_that_takes_the_same_arguments() -> None:
         wanted = list(inspect.signature(declaration).parameters.values())[1:]
         given = list(inspect.signature(maker_of(name)).parameters.values())[1:]
         assert [(p.name, p.kind, p.default) for p in wanted] == [(p.name, p.kind, p.default) for p in given], name
+
+
+def test_places_that_the_guide_names_are_there() -> None:
+    guide = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    places = re.findall(r"^\| where [^|]*\| `([\w/.]+)` \|$", guide, re.MULTILINE)
+    assert len(places) == 10
+    for place in places:
+        assert (SOURCES / "seismass" / place).is_file(), place

@@ -326,7 +326,7 @@ def test_options_of_one_file_on_the_command_line(tmp_path: Path, capsys: pytest.
     assert cli.main(["records", str(named), "--format", "v9"]) == 2
     scaled = put(tmp_path, "b.txt", "9.81\n0.01\n" + "".join(f"{value:.6f}\n" for value in SAMPLES))
     assert cli.main(["records", str(scaled), "--unit", "g", "--dt", "0.01", "--skip", "2"]) == 0
-    assert cli.main(["spectrum", str(components), "--channel", "NS", "--periods", "1"]) == 0
+    assert cli.main(["spectrum", str(components), "--channel", "NS", "--period", "1"]) == 0
     capsys.readouterr()
     assert cli.main(["records", str(tmp_path), "--format", "columns"]) == 2
     assert "--format of" in capsys.readouterr().err

@@ -17,6 +17,7 @@ import pytest
 import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.cli import main
+from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.show.study.answer import answer, compared_rules, percent
 from seismass.show.study.slip import slip_demand
 from seismass.show.study.tables import StudyTables, read_study_tables, study_tables
@@ -141,9 +142,9 @@ def test_rules_are_counted_by_hand() -> None:
         )
     }
     # Short by more than 0.1: of the code 0.25, 0.65, 0.75; of eta squared 0.14 and 0.26; of eta 0.1 once, which is not.
-    assert [rules[name].short for name in ("code", "min(1, eta\u00b2)", "min(1, eta)", "all, 1")] == [3, 2, 0, 0]
-    assert rules["min(1, eta\u00b2)"].most == pytest.approx(0.26, abs=1e-12)
-    assert rules["min(1, eta)"].most == pytest.approx(0.1, abs=1e-12)
+    assert [rules[name].short for name in ("code", RULE, SAFE_RULE, "all, 1")] == [3, 2, 0, 0]
+    assert rules[RULE].most == pytest.approx(0.26, abs=1e-12)
+    assert rules[SAFE_RULE].most == pytest.approx(0.1, abs=1e-12)
     assert rules["all, 1"].mean == 1.0
     assert [rule.serves for rule in rules.values()] == [False, False, True, True]
 
@@ -151,12 +152,12 @@ def test_rules_are_counted_by_hand() -> None:
 def test_advice_is_the_least_rule_that_seldom_falls_short(result: StudyResult) -> None:
     fractions = result.fractions.with_columns(effective=pl.lit(0.0))
     said = str(answer(replace(result, fractions=fractions))[-1])
-    assert "Attach <strong>min(1, eta\u00b2)</strong>" in said
+    assert f"Attach <strong>{RULE}</strong>" in said
     fractions = result.fractions.with_columns(effective=pl.lit(1.0), estimate=pl.lit(0.1), conservative=pl.lit(0.5))
     said = str(answer(replace(result, fractions=fractions))[-1])
     assert "Attach <strong>all, 1</strong>" in said
     count = result.fractions.height
-    assert f"min(1, eta): {count} of {count}" in said
+    assert f"{SAFE_RULE}: {count} of {count}" in said
 
 
 def test_slip_of_a_building_is_that_of_its_worst_floor(result: StudyResult) -> None:
@@ -216,7 +217,7 @@ def test_page_of_a_study_of_several_frictions_without_validation(tmp_path: Path)
         (lambda out: (out / "summary.parquet").write_bytes(b"x"), "content of summary.parquet must be a Parquet table"),
         (lambda out: (out / "study.json").write_text("{"), "content of study.json must be JSON"),
         (lambda out: (out / "study.json").write_text("[]"), "content of study.json must be a JSON object; got list"),
-        (lambda out: (out / "study.json").write_text("{}"), "schema_version of study.json must be 2; got None"),
+        (lambda out: (out / "study.json").write_text("{}"), "schema_version of study.json must be 3; got None"),
         (lambda out: (out / "study.json").unlink(), "No such file"),
     ],
 )

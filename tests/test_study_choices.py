@@ -10,6 +10,7 @@ import pytest
 
 import seismass as sm
 from seismass import cli
+from seismass.base.quantiles import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.show.study.figures import study_figures
 from seismass.show.study.findings import findings_text
@@ -21,7 +22,6 @@ from seismass.study.columns import TABLES
 from seismass.study.findings import findings
 from seismass.study.fractions import SHARES
 from seismass.study.sensitivity import MATCHED_TOLERANCE
-from seismass.study.tables import quantile
 from seismass.validation import validate
 
 TARGET = sm.TargetSpectrum.asce7()
@@ -147,8 +147,9 @@ def test_eta_and_its_estimates_are_those_of_the_attached_model(small: StudyResul
         coefficient = shear * row["storeys"] / (2 * row["storeys"] - 1)
         assert row["base_shear_coefficient"] == pytest.approx(coefficient, rel=1e-12)
         assert row["eta"] == pytest.approx(0.4 / coefficient, rel=1e-12)
-        assert row["estimate"] == pytest.approx(min(1.0, (0.4 / coefficient) ** 2), rel=1e-12)
-        assert row["conservative"] == pytest.approx(min(1.0, 0.4 / coefficient), rel=1e-12)
+        share = min(1.0, (0.4 / coefficient / row["height_ratio"] ** 0.5) ** row["exponent"])
+        assert row["estimate"] == pytest.approx(share, rel=1e-12)
+        assert row["conservative"] == pytest.approx(min(1.0, 0.4 / coefficient / row["height_ratio"] ** 0.5), rel=1e-12)
     assert small.fractions["effective"].null_count() == small.fractions.height
 
 
@@ -259,7 +260,7 @@ def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: 
     document = json.loads((tmp_path / "tables.json").read_text())
     for file in tables:
         found = pl.read_parquet_metadata(file)
-        assert json.loads(found["seismass.schema_version"]) == 2
+        assert json.loads(found["seismass.schema_version"]) == 3
         assert json.loads(found["seismass.package_version"]) == sm.__version__
         assert json.loads(found["seismass.inputs_sha256"]) == small.metadata["inputs_sha256"]
         assert json.loads(found["seismass.target"])["label"] == TARGET.label

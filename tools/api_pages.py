@@ -5,7 +5,6 @@ Usage: python tools/api_pages.py FOLDER. The names of the top level are grouped 
 
 from __future__ import annotations
 
-import importlib
 import inspect
 import sys
 from pathlib import Path
@@ -14,29 +13,37 @@ from typing import Any, Final, Literal, get_args, get_origin
 import seismass
 
 MODULES: Final = {
-    "design": "Modes, response spectrum analysis, lateral forces, weights, periods and limits of codes, pushover.",
-    "intensity": "Incremental dynamic analysis, stripes, clouds, fragility.",
-    "plots": "Figures of one run, of batches, and of a pushover.",
-    "slip": "Slip demand, clearances, blocks that rock.",
-    "records": "Records, readers, pairs, suites, synthetic motions.",
-    "scaling": "Scaling and selection of motions.",
+    "records": "Records, readers, pairs, suites, intensity measures, synthetic motions.",
     "spectra": "Response spectra and target spectra.",
+    "scaling": "Scaling and selection of motions.",
+    "matching": "Spectral matching.",
+    "pulses": "Velocity pulses of near-fault motions.",
+    "design": "Modes, response spectrum analysis, lateral forces, weights, periods and limits of codes, pushover.",
+    "runs": "Runs, batches, grids of scenes, scene files.",
+    "fragility": "Incremental dynamic analysis, stripes, clouds, fragility.",
+    "risk": "Hazard curves, annual rates, the risk-targeted share.",
+    "slip": "Slip demand, clearances, blocks that rock.",
+    "campaign": "Studies of any size in a folder.",
     "study": "The parametric study and its sensitivity.",
     "validation": "The validations of the paper.",
+    "plots": "Figures of one run, of batches, and of a pushover.",
     "explore": "The live page.",
+    "codes": "Live load fractions of codes.",
+    "friction": "Friction of contacts.",
+    "distributions": "Distributions of what is not known.",
+    "errors": "The exceptions of the package.",
 }
 """Modules that have a page of their own, beside the top level, and what they hold."""
 
 GROUPS: Final = (
-    ("Scenes", ("building", "block", "scene", "damping", "scene_file", "building_file", "own_building", "grid")),
-    ("Runs", ("simulate", "response", "batch", "long_table", "motion", "spring_path", "campaign")),
-    ("How much acts as mass", ("effective_mass", "assessment", "distributions", "codes", "friction")),
-    ("Fragility, risk, slip", ("intensity", "slip")),
-    ("Motions", ("records", "scaling", "matching", "pulses", "spectra")),
+    ("Scenes", ("model", "runs.grid", "runs.scene_file")),
+    ("Runs", ("runs",)),
+    ("How much acts as mass", ("effective_mass", "assessment")),
+    ("Motions", ("records", "spectra")),
     ("Figures and pages", ("animation",)),
-    ("Errors", ("errors",)),
+    ("Errors", ("base",)),
 )
-"""Groups of the top level, by the modules that define the names; what is left is listed last."""
+"""Groups of the top level, by the packages that define the names; what is left is listed last."""
 
 
 def is_documented(value: Any) -> bool:
@@ -62,8 +69,8 @@ def top_level() -> str:
     numbers = [name for name in left if not is_documented(getattr(seismass, name))]
     left = [name for name in left if name not in numbers]
     text = rule("seismass") + "\n.. code-block:: python\n\n   import seismass as sm\n\n"
-    for title, modules in GROUPS:
-        found = [name for name in left if _module(name) in modules]
+    for title, places in GROUPS:
+        found = [name for name in left if _place(name).startswith(places)]
         left = [name for name in left if name not in found]
         text += rule(title, "-") + "\n" + table("seismass", found) + "\n"
     shown = ", ".join(f"``{name}`` = {getattr(seismass, name)}" for name in numbers)
@@ -71,28 +78,29 @@ def top_level() -> str:
     return f"{text}{rule('Other', '-')}\n{others}\nConstants, in SI units: {shown}.\n"
 
 
-def _module(name: str) -> str:
-    """Module below the package that defines a name."""
-    defined = getattr(getattr(seismass, name), "__module__", "seismass") or "seismass"
-    first = defined.partition(".")[2].partition(".")[0]
-    return "grid" if first.startswith("grid") else first
+def _place(name: str) -> str:
+    """Where a name is defined, below the package."""
+    defined: str = getattr(getattr(seismass, name), "__module__", "seismass")
+    return defined.partition(".")[2]
 
 
 def of_module(name: str, text: str) -> str:
     """Return the page of a module; names of the top level are listed with links to their pages there."""
-    module = importlib.import_module(f"seismass.{name}")
+    module = getattr(seismass, name)
     public = [item for item in module.__all__ if not inspect.ismodule(getattr(module, item))]
     objects = [item for item in public if is_documented(getattr(module, item))]
     types = {item: get_args(getattr(module, item)) for item in public if get_origin(getattr(module, item)) is Literal}
     numbers = [item for item in public if item not in objects and item not in types]
     above = [item for item in objects if getattr(seismass, item, None) is getattr(module, item)]
     own = [item for item in objects if item not in above]
-    page = rule(f"seismass.{name}") + f"\n{text}\n\n"
+    page = (
+        rule(f"seismass.{name}") + f"\n{text}\n\n.. code-block:: python\n\n   import seismass as sm\n\n   sm.{name}\n\n"
+    )
     if above:
         lines = "\n".join(f"   {item}" for item in above)
         page += f"Also at the top level:\n\n.. currentmodule:: seismass\n\n.. autosummary::\n\n{lines}\n\n"
     if own:
-        page += table(f"seismass.{name}", own)
+        page += table(module.__name__, own)
     if types:
         page += "\n" + "".join(
             f"``{item}``: {' or '.join(f'``{value!r}``' for value in types[item])}.\n\n" for item in types

@@ -5,6 +5,24 @@ Messages have one form: *parameter* of *what* must be *what*; got *value*.
 
 from __future__ import annotations
 
+__all__ = [
+    "InvalidBuildingFile",
+    "InvalidCampaignFile",
+    "InvalidMotion",
+    "InvalidOption",
+    "InvalidScene",
+    "InvalidSceneFile",
+    "MissingPackage",
+    "RecordFormatError",
+    "SeismassError",
+    "SimulationError",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
+
 
 class SeismassError(Exception):
     """Base class of every error that seismass raises on purpose."""

@@ -85,3 +85,8 @@ __all__ = [
     "upper_limit_coefficient",
     "vibration_modes",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

@@ -6,17 +6,18 @@ import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, TypeAlias, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.errors import InvalidMotion
+from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content
 from seismass.base.views import view
-from seismass.design import Combination, response_spectrum_analysis
+from seismass.design import response_spectrum_analysis
+from seismass.effective_mass.by_hand import yield_drift
 from seismass.effective_mass.curve import (
     DEFAULT_FRACTIONS,
     Kind,
@@ -26,163 +27,30 @@ from seismass.effective_mass.curve import (
     over_records,
     resampled,
 )
-from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, full_weight
+from seismass.effective_mass.estimate import base_shear_by_hand, exponent, height_ratio
+from seismass.effective_mass.map_parameters import EffectiveMassParameters
+from seismass.effective_mass.models import attached, building_of, full_weight
+from seismass.effective_mass.rules import RULES, Rule, by_period, compared
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.media.result import Result
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
-from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
-from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 from seismass.records import Suite
 from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.spectra import TargetSpectrum, mean_spectrum
+from seismass.spectra import TargetSpectrum, corner_period, mean_spectrum
 from seismass.spectra.remarks import target_remarks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 1
+SCHEMA_VERSION: Final = 2
 """Version of the tables and of the metadata of a map; see docs/effective_mass.md."""
 
-Roof: TypeAlias = Literal["bare", "loaded"]
-"""Whether the roof carries goods as the other floors do."""
-MapBuilding: TypeAlias = tuple[int, float, Roof]
-"""Number of storeys, first period of the bare building (s), and roof."""
-
-DEFAULT_BUILDINGS: Final[tuple[MapBuilding, ...]] = (
-    (1, 0.2, "loaded"),
-    (1, 0.4, "loaded"),
-    (1, 0.8, "loaded"),
-    (1, 1.6, "loaded"),
-    (2, 0.2, "bare"),
-    (2, 0.38, "bare"),
-    (2, 0.8, "bare"),
-    (3, 0.25, "bare"),
-    (3, 0.47, "bare"),
-    (3, 1.0, "bare"),
-    (3, 0.6, "loaded"),
-    (4, 0.3, "bare"),
-    (4, 0.57, "bare"),
-    (4, 1.2, "bare"),
-    (6, 0.6, "bare"),
-    (6, 1.2, "bare"),
-)
-
-RULES: Final[Mapping[str, Callable[[FloatArray], FloatArray]]] = {
-    "min(1, eta^2)": lambda eta: np.minimum(1.0, eta**2),
-    "min(1, eta)": lambda eta: np.minimum(1.0, eta),
-    "1 - exp(-(eta/0.751)^2.737)": lambda eta: -np.expm1(-((eta / 0.751) ** 2.737)),
-    "none, 0": lambda eta: np.zeros_like(eta),
-    "ASCE 61, 0.10": lambda eta: np.full_like(eta, 0.10),
-    "ASCE 7 storage, 0.25": lambda eta: np.full_like(eta, 0.25),
-    "IS 1893, 0.5": lambda eta: np.full_like(eta, 0.50),
-    "NBC and NZS 1170.5, 0.6": lambda eta: np.full_like(eta, 0.60),
-    "MH16.1 racks, 0.67": lambda eta: np.full_like(eta, 0.67),
-    "Eurocode 8, 0.8": lambda eta: np.full_like(eta, 0.80),
-    "all, 1": lambda eta: np.ones_like(eta),
-}
-"""Rules that are compared: a share of the live load from eta. The third was fitted to a map under 42 recordings."""
-
-UNSAFE: Final = 1.05
-"""A rule counts as unsafe for a case where the real building drifts more than so many times its model."""
 ETA_EDGES: Final = (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, np.inf)
 """Edges of the bins of eta for which the scatter of the fraction is tabulated."""
-
-
-@dataclass(frozen=True)
-class EffectiveMassParameters:
-    """What a map varies and what it holds fixed.
-
-    Attributes
-    ----------
-    buildings : tuple of (int, float, {"bare", "loaded"})
-        Number of storeys, first period of the bare building (s), roof.
-    mass_ratios : tuple of float
-        Mass of the goods over that of their floor, alpha, the same on every loaded floor.
-    response_modification : tuple of float
-        R; V_y = V_e/R of the building designed with `design_fraction`. R = 1 is elastic unless `yield_at_r1`.
-    mus : tuple of float
-        Friction coefficients, static and kinetic.
-    intensities : tuple of float
-        Factors of the scaled motions, strengths unchanged. Intensity s with V_y and mu is exactly intensity 1 with
-        V_y/s and mu/s.
-    design_fraction : float
-        Share of the live load in the design of the strengths.
-    overstrength, second_slope, third_slope, damping
-        Of all buildings; the slopes are inferences.
-    scaling_period : float
-        Period (s) for which motions are scaled.
-    combination : {"srss", "cqc"}
-        Modal combination of the design.
-    yield_at_r1 : bool
-        Let R = 1 yield at V_e.
-    model_damping : {"same", "ratio"}
-        Damping of the models, see `attached_scene`.
-    confidence, resamples, seed
-        Of the bootstrap intervals.
-
-    Raises
-    ------
-    InvalidOption
-        A parameter is out of its range or of another kind.
-    """
-
-    buildings: tuple[MapBuilding, ...] = DEFAULT_BUILDINGS
-    mass_ratios: tuple[float, ...] = (0.25, 0.5, 1.0, 1.5)
-    response_modification: tuple[float, ...] = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
-    mus: tuple[float, ...] = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1.2)
-    intensities: tuple[float, ...] = (1.0,)
-    design_fraction: float = 0.25
-    overstrength: float = DEFAULT_OVERSTRENGTH
-    second_slope: float = DEFAULT_SECOND_SLOPE
-    third_slope: float = DEFAULT_THIRD_SLOPE
-    damping: float = DEFAULT_DAMPING
-    scaling_period: float = 1.0
-    combination: Combination = "srss"
-    yield_at_r1: bool = False
-    model_damping: ModelDamping = SAME_DAMPING
-    confidence: float = 0.90
-    resamples: int = 500
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        """Judge the axes and keep numbers as Python's own; building, design and scaling judge the rest."""
-        owner = "effective mass map"
-        buildings = []
-        for building in _listed(self.buildings, "buildings"):
-            if not isinstance(building, tuple) or len(building) != 3 or building[2] not in get_args(Roof):
-                requirement = 'a tuple of (storeys, period, "bare" or "loaded")'
-                raise refusal(InvalidOption, "buildings", owner, requirement, f"{brief(building)} in it")
-            storeys = as_count(building[0], "storeys", owner, InvalidOption, least=1)
-            if storeys == 1 and building[2] == "bare":
-                raise refusal(InvalidOption, "roof", owner, "loaded where it is the only floor", "bare")
-            buildings.append((storeys, _number(building[1], "period", above=0.0), building[2]))
-        checked: dict[str, Any] = {"buildings": tuple(buildings)}
-        above, least = {"mass_ratios": 0.0, "intensities": 0.0}, {"response_modification": 1.0, "mus": 0.0}
-        for name in (*above, *least):
-            values = _listed(getattr(self, name), name)
-            checked[name] = tuple(
-                _number(value, name, above=above.get(name), least=least.get(name)) for value in values
-            )
-        for name, values in checked.items():
-            if len(set(values)) != len(values):
-                raise refusal(InvalidOption, name, owner, "a tuple of values, none twice", brief(values))
-        for name in ("design_fraction", "confidence"):
-            checked[name] = _number(getattr(self, name), name, least=0.0)
-            if checked[name] > 1.0:
-                raise refusal(InvalidOption, name, owner, "between 0 and 1", f"{checked[name]:g}")
-        if not 0.0 < checked["confidence"] < 1.0:
-            raise refusal(InvalidOption, "confidence", owner, "above 0 and below 1", f"{checked['confidence']:g}")
-        for name in ("overstrength", "second_slope", "third_slope", "damping", "scaling_period"):
-            checked[name] = _number(getattr(self, name), name, least=0.0)
-        checked["resamples"] = as_count(self.resamples, "resamples", owner, InvalidOption, least=1)
-        checked["seed"] = as_count(self.seed, "seed", owner, InvalidOption)
-        check_damping(self.model_damping, owner)
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,7 +61,8 @@ class EffectiveMassMap(Result):
     ----------
     table : polars.DataFrame
         One row per case: building (from 1), storeys, period, roof, R, alpha, intensity, mu; eta,
-        base_shear_coefficient; `slides` (under any motion); value, kind, low, high (bootstrap interval); real (mean
+        base_shear_coefficient, base_shear_coefficient_by_hand; height_ratio, yields, exponent, as in `ByHand`; `slides`
+        (under any motion); value, kind, low, high (bootstrap interval); real (mean
         largest drift, m); ratio_at_0, ratio_at_0_25, ratio_at_1 (real over model); worst_storey_ratio,
         worst_storey_ratio_at_1 and worst_storey_envelope_ratio, the largest over the storeys of real over model at the
         value, at 1, and over the larger of the models at the value and at 0.
@@ -218,6 +87,9 @@ class EffectiveMassMap(Result):
     scaling: ScalingResult
     metadata: dict[str, Any] = field(repr=False)
 
+    __eq__ = same_content
+    __hash__ = content_hash
+
     def model_drift(self, shares: FloatArray) -> FloatArray:
         """Return the mean largest drift of the model (m) of each case at its own share, interpolated on the grid."""
         place = np.clip(np.searchsorted(self.fractions, shares, side="right") - 1, 0, len(self.fractions) - 2)
@@ -236,12 +108,15 @@ class EffectiveMassMap(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """The tables by name: map, rules, by_eta, scaling."""
-        return {"map": self.table, "rules": self.rules(), "by_eta": self.by_eta(), "scaling": self.scaling.table()}
+        """The tables by name: map, rules, rules_by_period, by_eta, scaling."""
+        return {"map": self.table, **self._named(), "scaling": self.scaling.table()}
+
+    def _named(self) -> dict[str, pl.DataFrame]:
+        return {"rules": self.rules(), "rules_by_period": self.rules_by_period(), "by_eta": self.by_eta()}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the metadata with the rules and the scatter by eta as plain values."""
-        return {**self.metadata, "rules": self.rules().to_dicts(), "by_eta": self.by_eta().to_dicts()}
+        """Return the metadata with the rules, over all and by period, and the scatter by eta as plain values."""
+        return {**self.metadata, **{name: table.to_dicts() for name, table in self._named().items()}}
 
     def _table_metadata(self) -> dict[str, str]:
         return {f"seismass.{key}": json.dumps(value) for key, value in self.metadata.items()}
@@ -268,40 +143,42 @@ class EffectiveMassMap(Result):
         """
         raise NotImplementedError
 
-    def rules(self, rules: Mapping[str, Callable[[FloatArray], FloatArray]] | None = None) -> pl.DataFrame:
+    def rules(self, rules: Mapping[str, Rule] | None = None) -> pl.DataFrame:
         """Return how the models of simple rules compare with the real drift, over all cases in which goods slide.
 
         Parameters
         ----------
         rules : mapping of str to callable, optional
-            Each takes eta, shape (cases,), and returns the share of the live load. By default the two of the page on
-            the effective fraction, its fit, and the fractions of codes.
+            Each takes `table` and returns the share of the live load, shape (cases,). By default the rule by period,
+            its conservative form, the same with C1 by hand, those of eta alone, and the fractions of codes.
 
         Returns
         -------
         polars.DataFrame
             One row per rule: rule; cases; bias, the geometric mean of model over real drift; log_scatter, the standard
             deviation of its logarithm; unsafe, the share of cases in which the real building drifts more than 1.05
-            times the model; low, high: 5 and 95 % of model over real.
+            times the model; low, high: 5 and 95 % of model over real; worst, its least value.
         """
+        return pl.DataFrame([{"rule": name, **compared(ratio)} for name, ratio, _ in self._ratios(rules)])
+
+    def rules_by_period(self, rules: Mapping[str, Rule] | None = None) -> pl.DataFrame:
+        """Return the table of `rules` for each class of the bare building's period, class by class.
+
+        Returns
+        -------
+        polars.DataFrame
+            One row per class and rule: period_from, period_to (s; null: open), and the columns of `rules`.
+        """
+        rows = [row for name, ratio, period in self._ratios(rules) for row in by_period(name, ratio, period)]
+        return pl.DataFrame(rows, schema_overrides={"period_to": pl.Float64}).sort("period_from", maintain_order=True)
+
+    def _ratios(self, rules: Mapping[str, Rule] | None) -> Iterator[tuple[str, FloatArray, FloatArray]]:
+        """Yield each rule's name with model over real drift and the period of the cases in which goods slide."""
         slides = self.table["slides"].to_numpy()
-        eta, real = self.table["eta"].to_numpy(), self.table["real"].to_numpy()
-        rows = []
+        real, period = self.table["real"].to_numpy()[slides], self.table["period"].to_numpy()[slides]
         for name, rule in (RULES if rules is None else rules).items():
-            ratio = (self.model_drift(np.asarray(rule(eta), dtype=np.float64)) / real)[slides]
-            logarithm = np.log(ratio)
-            rows.append(
-                {
-                    "rule": name,
-                    "cases": len(ratio),
-                    "bias": float(np.exp(logarithm.mean())),
-                    "log_scatter": float(logarithm.std()),
-                    "unsafe": float(np.mean(1.0 / ratio > UNSAFE)),
-                    "low": float(np.percentile(ratio, 5.0)),
-                    "high": float(np.percentile(ratio, 95.0)),
-                }
-            )
-        return pl.DataFrame(rows)
+            shares = np.asarray(rule(self.table), dtype=np.float64)
+            yield name, self.model_drift(shares)[slides] / real, period
 
     def by_eta(self) -> pl.DataFrame:
         """Return the scatter of the fraction in bins of eta, over all cases in which goods slide.
@@ -327,10 +204,17 @@ class EffectiveMassMap(Result):
 
 @dataclass(frozen=True, slots=True)
 class _Loaded:
-    """One building with one load and one strength: its scenes differ in friction alone."""
+    """One building with one load and one strength: its scenes differ in friction alone.
+
+    `elastic` is V_e over the full weight, of the motions at intensity 1 with all goods attached, `attached_period` the
+    first period of that model.
+    """
 
     labels: dict[str, Any]
     scenes: list[Scene]
+    height_ratio: float
+    elastic: float
+    attached_period: float
 
 
 def effective_mass_map(
@@ -376,6 +260,7 @@ def effective_mass_map(
     def design_spectrum(periods: FloatArray) -> FloatArray:
         return mean_spectrum(suite, scaling.factors, periods, chosen.damping, threads=threads)
 
+    corner = corner_period(design_spectrum)
     buildings = [list(_loaded(chosen, number, design_spectrum)) for number in range(1, len(chosen.buildings) + 1)]
     scaled = [record.scaled(factor) for record, factor in zip(suite, scaling.factors, strict=True)]
     per_building = len(chosen.mass_ratios) * len(chosen.response_modification)
@@ -397,7 +282,7 @@ def effective_mass_map(
             for number, load in enumerate(loads):
                 own = model.part(number * len(DEFAULT_FRACTIONS), len(DEFAULT_FRACTIONS))
                 sliding = real.part(number * len(chosen.mus), len(chosen.mus))
-                rows += _cases(load, {"intensity": intensity}, own, sliding, motions, chosen)
+                rows += _cases(load, {"intensity": intensity}, own, sliding, motions, corner, chosen)
                 curve_of += [len(curves)] * len(chosen.mus)
                 curves.append(over_records(own.largest, "mean"))
     return EffectiveMassMap(
@@ -413,6 +298,7 @@ def effective_mass_map(
             "parameters": asdict(chosen),
             "target": {"label": target.label, **target.parameters},
             "suite": {"name": suite.name, "motions": list(scaling.names), "factors": scaling.factors.tolist()},
+            "corner_period": corner,
             "runs": total,
             "remarks": [
                 *target_remarks(target),
@@ -448,14 +334,22 @@ def _loaded(
             combination=chosen.combination,
             damping=chosen.damping,
         )
+        full = response_spectrum_analysis(
+            bare.mass + ratios, bare.stiffness, spectrum, combination=chosen.combination, damping=chosen.damping
+        )
+        heights = height_ratio(ratios, bare.mass)
         for reduction in chosen.response_modification:
             elastic = reduction == 1.0 and not chosen.yield_at_r1
             strength = np.full(storeys, np.inf) if elastic else analysis.storey_shear / reduction
             building = bare.replace(yield_shear=strength)
             labels = {"building": number, "storeys": storeys, "period": period, "roof": roof}
+            scenes = [Scene(building, blocks_on_floors(ratios, mu)) for mu in chosen.mus]
             yield _Loaded(
                 {**labels, "R": reduction, "alpha": alpha},
-                [Scene(building, blocks_on_floors(ratios, mu)) for mu in chosen.mus],
+                scenes,
+                heights,
+                full.base_shear / full_weight(scenes[0]),
+                float(full.modes.periods[0]),
             )
 
 
@@ -465,6 +359,7 @@ def _cases(
     model: Peaks,
     real: Peaks,
     motions: NamedMotions,
+    corner: float,
     chosen: EffectiveMassParameters,
 ) -> list[dict[str, Any]]:
     """One row per friction coefficient."""
@@ -475,7 +370,17 @@ def _cases(
     values = np.where(slides, interpolated(shares, curves, np.repeat(real_drift[:, None], len(shares), axis=1)), 1.0)
     values[mus == 0.0] = 0.0
     low, high = _intervals(model, real, slides, motions, chosen)
-    coefficient = float(model.base_shear[-1].mean()) / full_weight(load.scenes[0])
+    weight, building = full_weight(load.scenes[0]), building_of(load.scenes[0])
+    coefficient = float(model.base_shear[-1].mean()) / weight
+    by_hand = base_shear_by_hand(
+        building.yield_shear[0] / weight,
+        load.elastic * more["intensity"],
+        load.attached_period,
+        corner,
+        chosen.second_slope,
+        chosen.overstrength,
+    )
+    yields = bool((model.drift[-1].mean(axis=0) > yield_drift(building)).any())
     storeys_model, storeys_real = (over_records(np.moveaxis(peaks.drift, 1, -1), "mean") for peaks in (model, real))
     rows = []
     for case, mu in enumerate(chosen.mus):
@@ -490,6 +395,10 @@ def _cases(
                 "mu": mu,
                 "eta": mu / coefficient,
                 "base_shear_coefficient": coefficient,
+                "base_shear_coefficient_by_hand": float(by_hand),
+                "height_ratio": load.height_ratio,
+                "yields": yields,
+                "exponent": float(exponent(load.labels["period"], corner, yields)),
                 "slides": bool(slides[case]),
                 "value": float(values[case]),
                 "kind": kind,
@@ -530,17 +439,3 @@ def _intervals(
         ends[:, case] = np.percentile(interpolated(DEFAULT_FRACTIONS, drawn[:, :shares], against), [tail, 100.0 - tail])
     ends[:, np.array(chosen.mus) == 0.0] = 0.0
     return ends[0], ends[1]
-
-
-def _listed(values: Any, name: str) -> tuple[Any, ...]:
-    if not isinstance(values, tuple) or not values:
-        raise refusal(InvalidOption, name, "effective mass map", "a tuple of at least one value", brief(values))
-    return values
-
-
-def _number(value: Any, name: str, *, above: float | None = None, least: float | None = None) -> float:
-    number = as_number(value, name, "effective mass map", InvalidOption)
-    if not np.isfinite(number) or (above is not None and number <= above) or (least is not None and number < least):
-        requirement = f"above {above:g}" if above is not None else f"at least {least:g}"
-        raise refusal(InvalidOption, name, "effective mass map", requirement, f"{number:g}")
-    return number

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
+from seismass.base.values import content_hash, same_content
 from seismass.base.views import view
+from seismass.effective_mass.by_hand import ByHand
 from seismass.effective_mass.curve import Kind
+from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.media.result import Result, finite_values
 
 if TYPE_CHECKING:
@@ -65,10 +68,14 @@ class EffectiveMass(Result):
     eta : float
         mu_k over `base_shear_coefficient`, mu_k averaged over the goods by mass.
     base_shear_coefficient : float
-        C1: mean over the motions of the peak base shear of the fully attached model, over the weight of building and
-        goods.
+        C1: mean over the motions of the peak base shear of the fully attached model in the runs, over the weight of
+        building and goods.
     estimate, conservative : float
-        Closed-form estimates without any simulation of sliding: min(1, eta^2) and min(1, eta).
+        The rule by period and its conservative form with this eta, see `seismass.effective_mass.estimate`:
+        min(1, eta_h^p) and min(1, eta_h) with eta_h = eta/sqrt(h_g/h_m).
+    by_hand : ByHand
+        What the rule takes, T, T_c, p, h_g/h_m and whether the building yields, and eta and the estimate with C1 by
+        hand, without any run.
     curve : polars.DataFrame
         One row per share and storey (0: the largest over the storeys of each run): fraction, storey, model_drift,
         real_drift, ratio (real over model), ratio_low and ratio_high (its bootstrap interval, for storey 0).
@@ -103,12 +110,16 @@ class EffectiveMass(Result):
     base_shear_coefficient: float
     estimate: float
     conservative: float
+    by_hand: ByHand
     curve: pl.DataFrame = field(repr=False)
     storeys: pl.DataFrame = field(repr=False)
     records: pl.DataFrame = field(repr=False)
     collapses: dict[str, int] = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def text(self) -> str:
@@ -125,10 +136,24 @@ class EffectiveMass(Result):
             f"                    {self.kind}: {KIND_TEXTS[self.kind]}",
             f"largest drift       {self.statistic} of {self.records.height} motions: real {scale * self.real:.4g}, "
             f"model {scale * self.model:.4g} {unit}",
-            f"estimates           eta = mu_k/C1 = {self.eta:.3f} (C1 = {self.base_shear_coefficient:.4f}): "
-            f"min(1, eta^2) = {self.estimate:.3f}, conservative min(1, eta) = {self.conservative:.3f}",
+            *self.rule_lines,
         ]
         return "\n".join([*lines, *(f"remark              {remark}" for remark in self.remarks)])
+
+    @property
+    def rule_lines(self) -> tuple[str, ...]:
+        """The estimates in three lines: with the mean peak base shear of the runs, what the exponent is of, by hand."""
+        rule = self.by_hand
+        behaviour = "yields" if rule.yields else "stays elastic"
+        return (
+            f"estimates           eta = mu_k/C1 = {self.eta:.3f}, C1 = {self.base_shear_coefficient:.4f} (mean peak "
+            f"base shear of the runs): {RULE} = {self.estimate:.3f}, conservative {SAFE_RULE} = "
+            f"{self.conservative:.3f}",
+            f"                    p = {rule.exponent:.2f}: {behaviour}, T = {rule.period:.3g} s, T_c = "
+            f"{rule.corner_period:.3g} s; h_g/h_m = {rule.height_ratio:.2f}",
+            f"by hand             eta = {rule.eta:.3f}, C1 = {rule.base_shear_coefficient:.4f} without a run: {RULE} = "
+            f"{rule.estimate:.3f}",
+        )
 
     @view
     def _repr_html_(self) -> str:
@@ -139,6 +164,7 @@ class EffectiveMass(Result):
         names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]
         names += ["eta", "base_shear_coefficient", "estimate", "conservative", "collapses", "remarks"]
         document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
+        document |= {"by_hand": asdict(self.by_hand)}
         document |= {"storeys": self.storeys.to_dicts(), "records": self.records.to_dicts(), "metadata": self.metadata}
         finite: dict[str, Any] = finite_values(document)
         return finite

@@ -10,6 +10,7 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.base.values import FloatArray
+from seismass.effective_mass.by_hand import by_hand
 from seismass.effective_mass.curve import (
     Kind,
     Statistic,
@@ -21,6 +22,7 @@ from seismass.effective_mass.curve import (
     refined_root,
     resampled,
 )
+from seismass.effective_mass.estimate import best_estimate, conservative_estimate
 from seismass.effective_mass.models import ModelDamping, attached, building_of, friction, full_weight
 from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
@@ -78,8 +80,10 @@ class Search:
         place = 1.0 if np.isnan(value) else value
         real_there, model_there = self._peaks_at(place, real, model)
         scene = self.scene_at(place)
-        coefficient = self._base_shear_coefficient(scene, real, model)
+        full = self._fully_attached(scene, real, model)
+        coefficient = float(full.base_shear.mean()) / full_weight(scene)
         eta = friction(scene) / coefficient
+        rule = by_hand(scene, self.motions, full)
         real_drift, model_drift = (
             float(over_records(peaks.largest[0], options.statistic)) for peaks in (real_there, model_there)
         )
@@ -106,8 +110,9 @@ class Search:
             excess=excess,
             eta=eta,
             base_shear_coefficient=coefficient,
-            estimate=min(1.0, eta**2),
-            conservative=min(1.0, eta),
+            estimate=float(best_estimate(eta, rule.exponent, rule.height_ratio)),
+            conservative=float(conservative_estimate(eta, rule.height_ratio)),
+            by_hand=rule,
             curve=curve_table(shares, real, model, band, options.statistic),
             storeys=storeys,
             records=record_table(self.motions, shares, real, model),
@@ -139,12 +144,11 @@ class Search:
         index = int(on_grid[0])
         return real.one(index if real.scenes > 1 else 0), model.one(index)
 
-    def _base_shear_coefficient(self, scene: Scene, real: Peaks, model: Peaks) -> float:
-        """C1 of the building of `scene`: mean peak base shear with all goods attached, over the full weight."""
-        full = model.one(-1)
+    def _fully_attached(self, scene: Scene, real: Peaks, model: Peaks) -> Peaks:
+        """Peaks of the building of `scene` with all goods attached."""
         if real.scenes > 1:  # the strength depends on the share
-            full = solve([attached(scene, 1.0, self.options.damping)], self.motions, threads=self.options.threads)
-        return float(full.base_shear.mean()) / full_weight(scene)
+            return solve([attached(scene, 1.0, self.options.damping)], self.motions, threads=self.options.threads)
+        return model.one(-1)
 
     def _scatter(self, kind: Kind, real: Peaks, model: Peaks) -> tuple[tuple[float, float] | None, FloatArray | None]:
         """Bootstrap interval of the fraction, and of real over model drift at every share, shape (2, shares)."""

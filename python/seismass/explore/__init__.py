@@ -10,3 +10,8 @@ from seismass.explore.compiled import kernel_file
 from seismass.explore.page import explorer_html
 
 __all__ = ["explorer_html", "kernel_file"]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

@@ -26,3 +26,8 @@ __all__ = [
     "parse_limit",
     "solve_grid",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

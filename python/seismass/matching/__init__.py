@@ -4,3 +4,8 @@ from seismass.matching.match import match_spectrum, match_suite
 from seismass.matching.result import MatchedRecord, MatchedSuite, Misfit
 
 __all__ = ["MatchedRecord", "MatchedSuite", "Misfit", "match_spectrum", "match_suite"]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

@@ -13,6 +13,21 @@ import polars as pl
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_number, brief, known_id, refusal
 
+__all__ = [
+    "BOUNDS_SOURCE",
+    "BOUND_FACTORS",
+    "FRICTION_IDS",
+    "FrictionPair",
+    "friction_pair",
+    "friction_table",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
+
+
 BOUND_FACTORS: Final = (0.67, 1.5)
 """Factors of mu for its lower and upper bound, as EN 16681 has them by second-hand text: slip, and drift of racks."""
 BOUNDS_SOURCE: Final = "EN 16681, second-hand"

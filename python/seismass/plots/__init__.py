@@ -33,3 +33,8 @@ __all__ = [
     "slip",
     "slip_path",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

@@ -17,3 +17,8 @@ __all__ = [
     "pulse_indicator_2014",
     "shahi_baker2014",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

@@ -37,3 +37,8 @@ __all__ = [
     "rotd",
     "synthetic_motion",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

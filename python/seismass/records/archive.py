@@ -11,6 +11,7 @@ from pathlib import Path, PurePosixPath
 from typing import Final
 
 from seismass.base.errors import RecordFormatError
+from seismass.base.files import open_regular
 from seismass.base.values import printable
 
 MOST_MEMBERS: Final = 5000
@@ -26,13 +27,11 @@ _NO_RECORDS: Final = ("[Content_Types].xml", "xl/")
 def is_archive(path: Path) -> bool:
     """Whether a path is a ZIP archive by its first bytes, and no sheet of Excel."""
     try:
-        if not path.is_file():
-            return False
-        with path.open("rb") as file:
+        with open_regular(path) as file:
             if file.read(len(_SIGNATURE)) != _SIGNATURE:
                 return False
-        with zipfile.ZipFile(path) as archive:
-            return not any(name.startswith(_NO_RECORDS) for name in archive.namelist())
+            with zipfile.ZipFile(file) as archive:
+                return not any(name.startswith(_NO_RECORDS) for name in archive.namelist())
     except (OSError, zipfile.BadZipFile, ValueError, NotImplementedError):
         return False
 
@@ -53,7 +52,7 @@ def unpacked(path: Path) -> Iterator[tuple[Path, dict[Path, str]]]:
         folder = Path(name)
         names: dict[Path, str] = {}
         try:
-            with zipfile.ZipFile(path) as archive:
+            with open_regular(path) as file, zipfile.ZipFile(file) as archive:
                 members = [one for one in archive.infolist() if not one.is_dir() and not _is_hidden(one.filename)]
                 _refuse_large(path, members)
                 left = LARGEST_UNPACKED

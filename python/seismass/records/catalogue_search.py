@@ -11,14 +11,15 @@ from typing import Any, Final, Literal
 import numpy as np
 
 from seismass.base.errors import RecordFormatError
+from seismass.base.files import open_regular
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import as_path, printable
 from seismass.records.catalogue import RECORDINGS, SUBSTITUTES, Component, Recording
 from seismass.records.catalogue_report import CatalogueSearch, FoundFile, Judged
+from seismass.records.folder import files_below
 from seismass.records.formats.directions import azimuth_of, is_vertical
 from seismass.records.read import HEAD_BYTES, format_of, read_records
 from seismass.records.record import Record
-from seismass.records.suite import files_below
 
 _ALL: Final = (*RECORDINGS, *SUBSTITUTES)
 _LARGEST_BYTES: Final = 8 * 1024 * 1024
@@ -190,7 +191,7 @@ def _by_name(file: Path) -> Recording | None:
 def _title(file: Path) -> tuple[str, str, str] | None:
     """Event, station and component of the title of a damaged .AT2 file, or of one of velocities; else None."""
     try:
-        with file.open("rb") as opened:
+        with open_regular(file) as opened:
             head = opened.read(HEAD_BYTES).decode("latin-1")
         if format_of(head, file).name != "at2":
             return None

@@ -13,11 +13,13 @@ from pathlib import Path
 import polars as pl
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
+from seismass.base.files import open_regular
 from seismass.base.units import stated_unit
 from seismass.base.values import as_path, brief, printable, refusal
 from seismass.base.views import view
 from seismass.records.archive import is_archive, unpacked
 from seismass.records.checks import no_motion
+from seismass.records.folder import files_below
 from seismass.records.formats import COLUMNS, NotRead
 from seismass.records.formats.directions import is_vertical
 from seismass.records.formats.headers import names_acceleration, stated_step
@@ -80,6 +82,7 @@ class Suite:
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
             raise refusal(InvalidMotion, "name", "suite", "a string", brief(self.name))
+        object.__setattr__(self, "name", printable(self.name))
         what = f"suite {self.name}"
         for parameter, item, kind in (
             ("records", "record", Record),
@@ -257,7 +260,7 @@ def read_file(file: Path) -> tuple[Record, ...] | str:
     if quantity:
         return f"not read: {printable(file.suffix)} files hold {quantity}"
     try:
-        with file.open("rb") as opened:
+        with open_regular(file) as opened:
             head = opened.read(HEAD_BYTES)
             size = os.fstat(opened.fileno()).st_size
         wide = wide_encoding(head) is not None
@@ -311,21 +314,6 @@ def _with_copies(records: list[Record]) -> Iterator[Record]:
             copy = f"the same file as {printable(original.source.name)}"
             record = record.replace(remarks=(*record.remarks, copy))
         yield record
-
-
-def files_below(directory: Path) -> list[Path]:
-    """Return the files in a directory and below, sorted by path, without hidden ones and those out of reach."""
-    inside = ((file.relative_to(directory), file) for file in directory.rglob("*") if _is_file(file))
-    seen = [(path.as_posix(), file) for path, file in inside if not any(part.startswith(".") for part in path.parts)]
-    return [file for _, file in sorted(seen)]
-
-
-def _is_file(path: Path) -> bool:
-    """Whether a path is a file; a link to a place that may not be looked at is none."""
-    try:
-        return path.is_file()
-    except OSError:
-        return False
 
 
 def _counted(excluded: list[Excluded]) -> str:

@@ -6,3 +6,8 @@ from seismass.risk.result import RiskTargetedShare
 from seismass.risk.targeted_share import risk_targeted_share
 
 __all__ = ["AnnualRate", "HazardCurve", "RiskTargetedShare", "annual_rate", "risk_targeted_share"]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

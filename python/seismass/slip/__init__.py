@@ -20,3 +20,8 @@ __all__ = [
     "slip_demand",
     "wilson_interval",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

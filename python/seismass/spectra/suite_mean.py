@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +16,32 @@ from seismass.base.values import FloatArray, as_array, as_number, counted, froze
 from seismass.spectra.checks import OWNER
 from seismass.spectra.elastic import mean_spectrum
 from seismass.spectra.motions import GroundMotion, as_motions
+
+CORNER_PERIODS: Final = np.geomspace(0.05, 4.0, 60)
+"""Periods (s) among which `corner_period` looks for the peaks of a spectrum."""
+
+
+def corner_period(spectrum: Callable[[FloatArray], ArrayLike]) -> float:
+    """Return T_c, where constant acceleration and constant velocity at the peaks of a spectrum would meet.
+
+    T_c = 2 pi max(Sv)/max(Sa) with Sv = Sa T/(2 pi), over periods from 0.05 to 4 s. Of the two-period shape of ASCE 7
+    it is T_S = S_D1/S_DS.
+
+    Parameters
+    ----------
+    spectrum : callable
+        Takes periods (s), returns pseudo-accelerations; their unit does not matter. A `TargetSpectrum` is one, and
+        `TargetSpectrum.mean_of` makes one of motions.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> from seismass.spectra import corner_period
+    >>> round(corner_period(sm.TargetSpectrum.asce7(sds_g=1.0, sd1_g=0.6)), 6)
+    0.6
+    """
+    accelerations = np.asarray(spectrum(CORNER_PERIODS), dtype=np.float64)
+    return float(np.max(accelerations * CORNER_PERIODS) / np.max(accelerations))
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,3 +28,8 @@ __all__ = [
     "study_buildings",
     "study_sensitivity",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

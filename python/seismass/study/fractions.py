@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
 import polars as pl
@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 from seismass.base.kept import NOTHING_KEPT, KeptResults
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
-from seismass.effective_mass import EffectiveMass, effective_mass
+from seismass.effective_mass import effective_mass
+from seismass.effective_mass.estimate import best_estimate, conservative_estimate, exponent, height_ratio
+from seismass.effective_mass.models import building_of, goods_mass
 from seismass.model.scene import Scene
 from seismass.records import Record
 from seismass.study.buildings import MODELS, StudyBuilding
@@ -26,16 +28,28 @@ SHARES: Final = np.linspace(0.0, 1.0, 41)
 has dozens of buildings. Refined roots are the same."""
 
 
+class Fraction(NamedTuple):
+    """What a study takes from an `EffectiveMass`; the ends of its interval are None where there is none."""
+
+    value: float
+    kind: str
+    low: float | None
+    high: float | None
+    excess: float
+
+
 def fractions_table(
     buildings: list[StudyBuilding],
     table: pl.DataFrame,
     run_of: NDArray[np.int64],
-    effective: dict[Scene, EffectiveMass] | None,
+    effective: dict[Scene, Fraction] | None,
+    corner: float,
 ) -> pl.DataFrame:
-    """One row per building: C1, eta, min(1, eta^2), min(1, eta), and lambda_eff where it was computed.
+    """One row per building: C1, eta, both estimates with what they take, and lambda_eff where it was computed.
 
     C1 is the mean over the motions of the peak base shear of the fully attached model over the weight of building and
-    goods; null, with all that follows from it, where a run of that model collapsed or failed.
+    goods; null, with all that follows from it, where a run of that model collapsed or failed. `corner` is T_c of the
+    scaled motions (s).
     """
     runs = run_of.reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
     completed = (table["status"] == "completed").to_numpy()[runs].all(axis=1)
@@ -45,22 +59,38 @@ def fractions_table(
     mu = np.array([building.labels["mu"] for building in buildings])
     with np.errstate(divide="ignore"):
         eta: FloatArray = mu / coefficient
+    ratios, powers = (np.array(values) for values in zip(*_of_rule(buildings, table, runs, corner), strict=True))
     columns: dict[str, Any] = {
         **key_columns(buildings),
         "base_shear_coefficient": coefficient,
         "eta": eta,
-        "estimate": np.minimum(1.0, eta**2),
-        "conservative": np.minimum(1.0, eta),
+        "height_ratio": ratios,
+        "exponent": powers,
+        "estimate": best_estimate(eta, powers, ratios),
+        "conservative": conservative_estimate(eta, ratios),
     }
     found = [None if effective is None else effective[building.scenes["real"]] for building in buildings]
     columns |= {
         "effective": [np.nan if one is None else one.value for one in found],
         "kind": [None if one is None else one.kind for one in found],
-        "low": [None if one is None or one.interval is None else one.interval[0] for one in found],
-        "high": [None if one is None or one.interval is None else one.interval[1] for one in found],
+        "low": [None if one is None else one.low for one in found],
+        "high": [None if one is None else one.high for one in found],
         "excess": [None if one is None or one.kind != "one" else one.excess for one in found],
     }
     return typed(columns, list(FRACTION_COLUMNS))
+
+
+def _of_rule(
+    buildings: list[StudyBuilding], table: pl.DataFrame, runs: NDArray[np.int64], corner: float
+) -> Iterator[tuple[float, float]]:
+    """Yield h_g/h_m and the exponent of each building; it yields where its mean peak drift is above that of V_y."""
+    drifts = table["peak_drift"]
+    for building, own in zip(buildings, runs, strict=True):
+        bare = building_of(building.scenes["real"])
+        mean = np.mean([drifts[int(run)].to_numpy() for run in own], axis=0)
+        yields = bool((mean > bare.yield_shear / bare.stiffness).any())
+        ratio = height_ratio(goods_mass(building.scenes["real"]), bare.mass, bare.heights)
+        yield ratio, float(exponent(float(bare.periods[0]), corner, yields))
 
 
 def _attached_mass(scene: Scene) -> float:
@@ -75,7 +105,7 @@ def effective_fractions(
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     kept: KeptResults = NOTHING_KEPT,
-) -> dict[Scene, EffectiveMass]:
+) -> dict[Scene, Fraction]:
     """Return the effective fraction of each distinct building with its goods.
 
     The attached models have the damping that the study's have: the real building's matrix, or with
@@ -85,10 +115,18 @@ def effective_fractions(
     damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
     found = {}
     for number, scene in enumerate(scenes, start=1):
-        found[scene] = kept.of(
-            f"effective-{number}",
-            partial(effective_mass, scene, records, damping=damping, fractions=SHARES, threads=threads),
-        )
+        solve = partial(_solved, scene, records, damping, threads)
+        found[scene] = Fraction(*kept.of(f"effective-{number}", solve).row(0))
         if progress is not None:
             progress(number, len(scenes))
     return found
+
+
+def _solved(
+    scene: Scene, records: list[Record], damping: Literal["same", "ratio"], threads: int | None
+) -> pl.DataFrame:
+    """A `Fraction` as a table of one row."""
+    one = effective_mass(scene, records, damping=damping, fractions=SHARES, threads=threads)
+    low, high = one.interval or (None, None)
+    types = {"value": pl.Float64, "kind": pl.String, "low": pl.Float64, "high": pl.Float64, "excess": pl.Float64}
+    return pl.DataFrame([Fraction(one.value, one.kind, low, high, one.excess)], schema=types, orient="row")

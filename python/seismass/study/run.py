@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.kept import NOTHING_KEPT, KeptResults
-from seismass.base.values import FloatArray, brief, printable, refusal
+from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content
 from seismass.base.views import view
 from seismass.media.result import Result
 from seismass.model.motion import Motion
@@ -27,7 +27,7 @@ from seismass.records import Suite
 from seismass.runs.batch import simulate_many
 from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
-from seismass.spectra import TargetSpectrum, mean_spectrum, response_spectrum
+from seismass.spectra import TargetSpectrum, corner_period, mean_spectrum, response_spectrum
 from seismass.spectra.remarks import target_remarks
 from seismass.study.buildings import MODELS, StudyBuilding, study_buildings
 from seismass.study.findings import findings
@@ -35,7 +35,7 @@ from seismass.study.fractions import effective_fractions, fractions_table
 from seismass.study.parameters import StudyParameters, code_fractions
 from seismass.study.tables import designs_table, responses_table, summary_table
 
-SCHEMA_VERSION: Final = 2
+SCHEMA_VERSION: Final = 3
 """Version of the tables and of the metadata that a study gives back; see docs/study_schema.md."""
 
 SPECTRUM_RANGE: Final = (0.05, 3.0)
@@ -81,6 +81,9 @@ class StudyResult(Result):
     spectrum: pl.DataFrame
     scaling: ScalingResult
     metadata: dict[str, Any] = field(repr=False)
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     @view
@@ -207,7 +210,7 @@ def run_study(
     return StudyResult(
         responses=responses,
         summary=summary_table(buildings, responses, names, chosen),
-        fractions=fractions_table(buildings, table, run_of, fractions),
+        fractions=fractions_table(buildings, table, run_of, fractions, corner_period(design_spectrum)),
         designs=designs_table(buildings, chosen),
         spectrum=spectrum,
         scaling=scaling,

@@ -50,6 +50,11 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
+
+
 @dataclass(frozen=True, eq=False)
 class Validation(Result):
     """All validations.
@@ -90,7 +95,7 @@ class Validation(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """The tables by name, without lists in their cells: claims, section4_..., platform_..."""
+        """The tables by name, without lists in their cells: claims, and those of section 4 and of the platform."""
         return {
             "claims": claims_table(self.claims),
             **section4_tables(self.section4),
@@ -109,7 +114,7 @@ class Validation(Result):
     @property
     @view
     def figure_names(self) -> tuple[str, ...]:
-        """section4_... by component and slope, section4_sliding, platform_... by component."""
+        """Names: those of section 4 by component and slope, its sliding, and those of the platform by component."""
         raise NotImplementedError
 
     @view
@@ -136,7 +141,10 @@ def _motion_text(station: Station, synthetic: bool) -> str:
 
 
 def paper_scenes(
-    suite: Suite | None = None, *, springs: Sequence[tuple[float, int]] = SPRINGS
+    suite: Suite | None = None,
+    *,
+    springs: Sequence[tuple[float, int]] = SPRINGS,
+    progress: Callable[[int, int], object] | None = None,
 ) -> tuple[Section4, Platform]:
     """Solve the scenes of the paper's section 4: the three-storey building and the platform.
 
@@ -146,13 +154,16 @@ def paper_scenes(
         As for `validate`.
     springs : sequence of (float, int)
         As for `section4`.
+    progress : callable, optional
+        As for `section4`.
 
     Raises
     ------
     RecordFormatError
         As for `validate`.
     """
-    return section4(components("Brawley Airport", suite), springs=springs), platform(components("Erzincan", suite))
+    building = section4(components("Brawley Airport", suite), springs=springs, progress=progress)
+    return building, platform(components("Erzincan", suite))
 
 
 def validate(
@@ -184,7 +195,7 @@ def validate(
     threads : int, optional
         Number of threads; default all cores.
     progress : callable, optional
-        Called with (analyses done, distinct analyses) of the study.
+        Called with (analyses done, distinct analyses) of the study, then as for `section4`.
 
     Returns
     -------
@@ -210,5 +221,5 @@ def validate(
     if study is None:
         chosen = builtin_suite("seven") if suite is None else suite
         study = run_study(chosen, target or TargetSpectrum.asce7(), threads=threads, progress=progress)
-    building, table = paper_scenes(suite) if scenes is None else scenes
+    building, table = paper_scenes(suite, progress=progress) if scenes is None else scenes
     return Validation(study, building, table, claims(study, building, table, sensitivity=sensitivity))

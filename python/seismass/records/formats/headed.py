@@ -202,7 +202,7 @@ def _step(
     if "" in header.columns:
         width = len(header.columns)
         at = header.columns.index("")
-        times = uniform_step(matrix[:, at], tokens[at::width], file)
+        times = uniform_step(matrix[:, at], tokens[at::width], file, rounding=False)
         if stated is not None and abs(times - stated) * max(len(matrix) - 1, 1) > 0.1 * stated + 0.5 * last_digit(
             tokens[-width + at]
         ):

@@ -12,9 +12,12 @@ from markupsafe import Markup
 from seismass.assessment.advice import NAMES
 from seismass.assessment.models import REAL, REAL_HIGH, REAL_LOW
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
+from seismass.effective_mass.rules import BY_HAND
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
 from seismass.media.svg import short_svg
+from seismass.media.text_table import number_text
 from seismass.show.assessment.tables import AssessmentTables, Fraction
 from seismass.show.study.page import bullets_html, long_html
 
@@ -93,7 +96,7 @@ def _answer(result: AssessmentTables) -> list[Markup]:
 
 
 def _number(value: float | None, digits: int = 2) -> str:
-    return "\N{EN DASH}" if value is None or not math.isfinite(value) else f"{value:.{digits}f}"
+    return number_text(value, f".{digits}f", missing="\N{EN DASH}", infinite="\N{EN DASH}")
 
 
 def _interval(fraction: Fraction) -> str:
@@ -187,10 +190,12 @@ def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Ma
             "eta": one.eta,
             "estimate": one.estimate,
             "conservative": one.conservative,
+            "by_hand": one.by_hand.estimate,
         }
         for model, one in result.effective.items()
     ]
     real = result.effective[REAL]
+    rule = real.by_hand
     return [
         _figure(
             drawings,
@@ -200,17 +205,21 @@ def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Ma
         ),
         table_html(
             pl.DataFrame(rows, schema_overrides={"value": pl.Float64}),
-            f"Effective fraction of the goods present by friction; C1 = {real.base_shear_coefficient:.4f} is the base "
-            "shear coefficient of the building with all goods attached, eta = mu_k/C1.",
+            f"Effective fraction of the goods present by friction; C1 = {real.base_shear_coefficient:.4f} is the mean "
+            f"peak base shear of the runs with all goods attached over the weight of all, eta = mu_k/C1; without a run "
+            f"C1 = {rule.base_shear_coefficient:.4f} and eta = {rule.eta:.3f}. {RULE_IN_WORDS}: here p = "
+            f"{rule.exponent:.2f}, T = {rule.period:.3g} s, T_c = {rule.corner_period:.3g} s, h_g/h_m = "
+            f"{rule.height_ratio:.2f}.",
             headers={
                 "value": "effective fraction",
                 "interval": f"{100.0 * real.confidence:g} % interval",
-                "estimate": "min(1, eta\N{SUPERSCRIPT TWO})",
-                "conservative": "min(1, eta), conservative",
+                "estimate": RULE,
+                "conservative": f"{SAFE_RULE}, conservative",
+                "by_hand": BY_HAND,
             },
             formats={
                 "kind": long_html,
-                **dict.fromkeys(("value", "eta", "estimate", "conservative"), ".2f"),
+                **dict.fromkeys(("value", "eta", "estimate", "conservative", "by_hand"), ".2f"),
             },
         ),
     ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.media.card import COLOUR, SECOND, card, history, line, rows, stroke, svg, text
 from seismass.media.result import Result
 
@@ -125,8 +126,8 @@ def effective_mass_html(result: EffectiveMass) -> str:
         f"Effective fraction {result.value:.3f}",
         f"of the live load, under {result.records.height} motions",
         svg(580.0, 84.0, label, *parts),
-        line("filled: value and interval; triangles: estimates min(1, eta^2) and min(1, eta)"),
-        "".join(line(said) for said in result.text.splitlines()[:4]),
+        line(f"filled: value and interval; triangles: estimates {RULE} and {SAFE_RULE}"),
+        "".join(line(said) for said in result.text.splitlines()[:6]),
         notes=result.remarks,
     )
 

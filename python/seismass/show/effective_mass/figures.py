@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
+from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.effective_mass.result import EffectiveMass
 from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
@@ -61,8 +62,8 @@ def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None
             axes.fill_between(share, low, high, color=BLUE, alpha=0.18, linewidth=0.0, label=label)
         axes.plot(share, ratio, color=BLUE, linewidth=2.0, label=f"real / model, {result.statistic} of largest drift")
         for name, (value, style) in {
-            "min(1, eta\N{SUPERSCRIPT TWO})": (result.estimate, (0, (1, 1))),
-            "min(1, eta)": (result.conservative, (0, (5, 2, 1, 2))),
+            RULE: (result.estimate, (0, (1, 1))),
+            SAFE_RULE: (result.conservative, (0, (5, 2, 1, 2))),
         }.items():
             axes.axvline(value, color=GREEN, linewidth=1.3, linestyle=style, label=f"{name} = {value:.2f}")
         if np.isfinite(result.value):

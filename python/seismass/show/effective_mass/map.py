@@ -7,23 +7,23 @@ from typing import Final
 import matplotlib as mpl
 import numpy as np
 import polars as pl
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
 from seismass.effective_mass.design_map import EffectiveMassMap
+from seismass.effective_mass.estimate import best_estimate, conservative_estimate
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE
 from seismass.show.effective_mass.figures import STORAGE_CODES
 
 LONGEST_ETA: Final = 2.2
 """Largest eta that the figure shows; beyond it the fraction is 1."""
 _GROUPS: Final = (
-    ("R = 1", 0.0, 1.0, GREY, "^"),
-    ("R above 1 to 3", 1.0, 3.0, "#56B4E9", "s"),
-    ("R above 3", 3.0, np.inf, BLUE, "o"),
+    ("p up to 1.8", 0.0, 1.8, "#56B4E9", "^"),
+    ("p up to 2.6", 1.8, 2.6, BLUE, "s"),
+    ("p above 2.6", 2.6, np.inf, GREY, "o"),
 )
-"""Label, largest R of the group before and of this one, colour, marker."""
+"""Label, largest exponent of the rule in the group before and in this one, colour, marker."""
 _RATIOS: Final = (0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
 _INTENSITY_LOOKS: Final = ("o", "s", "D", "^", "v", "P", "X", "<", ">", "*", "h")
 
@@ -36,15 +36,24 @@ def map_figure(result: EffectiveMassMap, name: str | None = None) -> Figure:
 
 
 def collapse_figure(result: EffectiveMassMap) -> Figure:
-    """Effective fraction against eta, every case in which goods slide, with its scatter, both rules and the codes."""
-    sliding = result.table.filter(pl.col("slides"))
+    """Effective fraction against eta_h, every case in which goods slide, in classes of the exponent, and the codes.
+
+    A curve per class is the best estimate with the median exponent of its cases.
+    """
+    sliding = result.table.filter(pl.col("slides")).with_columns(eta_h=pl.col("eta") / pl.col("height_ratio").sqrt())
+    eta = np.linspace(0.0, LONGEST_ETA, 400)
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 5.2), layout="constrained")
         axes = figure.add_subplot()
         for label, above, most, colour, marker in _GROUPS:
-            here = sliding.filter((pl.col("R") > above) & (pl.col("R") <= most))
+            here = sliding.filter((pl.col("exponent") > above) & (pl.col("exponent") <= most))
+            if not here.height:
+                continue
+            power = float(np.median(here["exponent"].to_numpy()))
+            axes.plot(eta, best_estimate(eta, power), color="white", linewidth=4.0, zorder=3)
+            axes.plot(eta, best_estimate(eta, power), color=colour, linewidth=2.2, zorder=4)
             axes.plot(
-                here["eta"].to_numpy(),
+                here["eta_h"].to_numpy(),
                 here["value"].to_numpy(),
                 linestyle="",
                 marker=marker,
@@ -52,19 +61,10 @@ def collapse_figure(result: EffectiveMassMap) -> Figure:
                 markeredgewidth=0.0,
                 color=colour,
                 alpha=0.55,
-                label=label,
+                label=f"{label}; curve: p = {power:.1f}",
             )
-        eta = np.linspace(0.0, LONGEST_ETA, 400)
-        axes.plot(eta, np.minimum(1.0, eta**2), color=VERMILION, linewidth=2.2, label="best estimate min(1, eta²)")
-        axes.plot(
-            eta,
-            np.minimum(1.0, eta),
-            color=GREEN,
-            linewidth=2.0,
-            linestyle=(0, (5, 2)),
-            label="conservative min(1, eta)",
-        )
-        _bins(axes, result.by_eta())
+        safe = conservative_estimate(eta)
+        axes.plot(eta, safe, color=GREEN, linewidth=2.0, linestyle=(0, (5, 2)), zorder=4, label="conservative, p = 1")
         for name, share in {"none: ASCE 7 ordinary": 0.0, **STORAGE_CODES, "all": 1.0}.items():
             axes.plot([0.985, 1.0], [share, share], transform=axes.get_yaxis_transform(), color=INK, linewidth=1.6)
             axes.annotate(
@@ -76,35 +76,18 @@ def collapse_figure(result: EffectiveMassMap) -> Figure:
             )
         axes.set_xlim(0.0, LONGEST_ETA)
         axes.set_ylim(-0.03, 1.05)
-        axes.set_xlabel(r"$\eta$ = $\mu_k$ / $C_1$   ($C_1$: peak base shear with all goods attached / full weight)")
+        axes.set_xlabel(
+            r"$\eta_h$ = $\mu_k$ / ($C_1$ ($h_g$/$h_m$)$^{1/2}$)   ($C_1$: mean peak base shear of the runs, "
+            "all attached / full weight)"
+        )
         axes.set_ylabel("effective fraction of live load")
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-        legend = figure.legend(loc="outside upper center", ncols=3, frameon=False)
-        for handle in legend.get_lines()[: len(_GROUPS)]:
+        legend = figure.legend(loc="outside upper center", ncols=2, frameon=False)
+        for handle in legend.get_lines()[:-1]:
             handle.set_alpha(1.0)
             handle.set_markersize(5.0)
         figure.supxlabel(map_caption(result), fontsize=7.5)
     return figure
-
-
-def _bins(axes: Axes, bins: pl.DataFrame) -> None:
-    """Median and 16 to 84 % in each bin of eta."""
-    shown = bins.filter(pl.col("eta_to").is_not_null() & (pl.col("eta_to") <= LONGEST_ETA))
-    centre = 0.5 * (shown["eta_from"] + shown["eta_to"]).to_numpy()
-    median, p16, p84 = (shown[name].to_numpy() for name in ("median", "p16", "p84"))
-    axes.errorbar(
-        centre,
-        median,
-        yerr=np.maximum([median - p16, p84 - median], 0.0),
-        color=INK,
-        linestyle="",
-        marker="D",
-        markersize=4.5,
-        capsize=3.0,
-        linewidth=1.2,
-        zorder=5,
-        label="median, 16 to 84 % in bins of eta",
-    )
 
 
 def rules_figure(result: EffectiveMassMap) -> Figure:
@@ -145,16 +128,16 @@ def rules_figure(result: EffectiveMassMap) -> Figure:
     return figure
 
 
-def intensity_figure(result: EffectiveMassMap, building: int | None = None, alpha: float | None = None) -> Figure:
+def intensity_figure(result: EffectiveMassMap) -> Figure:
     """Effective fraction against intensity for one building and load: a panel for each R, a line for each friction.
 
     Bands are bootstrap intervals over the records.
-    By default the building in the middle of the list, and the load nearest to alpha = 1.
+    The building is that in the middle of the list, and the load the one nearest to alpha = 1.
     """
     numbers = result.table["building"].unique().sort().to_list()
-    number = numbers[len(numbers) // 2] if building is None else building
+    number = numbers[len(numbers) // 2]
     alphas = result.table["alpha"].unique().sort().to_list()
-    load = min(alphas, key=lambda value: abs(value - 1.0)) if alpha is None else alpha
+    load = min(alphas, key=lambda value: abs(value - 1.0))
     here = result.table.filter((pl.col("building") == number) & (pl.col("alpha") == load)).sort("intensity")
     factors = here["R"].unique().sort().to_list()
     mus = here["mu"].unique().sort().to_list()

@@ -9,6 +9,7 @@ import numpy as np
 import polars as pl
 from markupsafe import Markup
 
+from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.show.study.captions import StudyFrames
 
 SHORT: Final = 0.1
@@ -17,7 +18,7 @@ SELDOM: Final = 0.05
 """Share of the buildings in which it may fall short by more."""
 GROWS: Final = 1.05
 """Real drift over that of the attached model from which on sliding is said to add to it."""
-RULES: Final = {"min(1, eta\N{SUPERSCRIPT TWO})": "estimate", "min(1, eta)": "conservative", "all, 1": None}
+RULES: Final = {RULE: "estimate", SAFE_RULE: "conservative", "all, 1": None}
 """Rules for the share to attach, by the mass that they attach, and their columns of the table of fractions."""
 
 
@@ -156,10 +157,9 @@ def _fraction_against_eta(fractions: pl.DataFrame) -> Markup:
         if not finite.height:
             return head + "No fully attached model has a result."
         return head + Markup(
-            "eta = mu<sub>k</sub>/C<sub>1</sub> is {eta}, for which min(1, eta\N{SUPERSCRIPT TWO}) "
-            "estimates that {estimate} of the live load acts as mass. The effective fractions themselves "
-            "were not computed."
-        ).format(eta=span(finite["eta"]), estimate=span(finite["estimate"]))
+            "eta = mu<sub>k</sub>/C<sub>1</sub> is {eta}, for which {rule} estimates that {estimate} of the live load "
+            "acts as mass. The effective fractions themselves were not computed."
+        ).format(eta=span(finite["eta"]), estimate=span(finite["estimate"]), rule=RULE)
     parts = []
     for name, rows in (
         ("elastic buildings (R = 1)", known.filter(R=1.0)),
@@ -173,7 +173,7 @@ def _fraction_against_eta(fractions: pl.DataFrame) -> Markup:
     between = known.filter(pl.col("eta") < 1.0)
     misses = ""
     if between.height:
-        closed = {"min(1, eta\N{SUPERSCRIPT TWO})": "estimate", "min(1, eta)": "conservative"}
+        closed = {RULE: "estimate", SAFE_RULE: "conservative"}
         said = " and ".join(
             f"{name} by {_number((between[column] - between['effective']).mean()):+.2f}".replace("-", "\N{MINUS SIGN}")
             for name, column in closed.items()
@@ -200,10 +200,10 @@ def _what_to_use(fractions: pl.DataFrame, rows: pl.DataFrame) -> Markup:
     head = Markup("<strong>What to use.</strong> ")
     if serving is None:
         text = (
-            "Attach min(1, eta) of the live load as mass, the conservative estimate; run the study with "
+            "Attach {rule} of the live load as mass, the conservative estimate; run the study with "
             "<code>--effective</code> to see how far it holds for these motions."
         )
-        return head + Markup(text) + second
+        return head + Markup(text).format(rule=SAFE_RULE) + second
     others = "; ".join(
         f"{rule.name}: {rule.short} of {rule.buildings}" for rule in compared_rules(fractions) if rule != serving
     )

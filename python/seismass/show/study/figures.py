@@ -9,6 +9,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from seismass.effective_mass.estimate import best_estimate, conservative_estimate
 from seismass.media.style import BLUE, ETA, GREEN, GREY, INK, ORANGE, PURPLE, SKY, STYLE, VERMILION, lay_out, plain
 from seismass.show.study.captions import StudyFrames, labels_of, spectrum_figure, suite_caption
 from seismass.show.study.drift import drift_figure
@@ -85,7 +86,7 @@ def effective_figure(result: StudyFrames) -> Figure:
     colours = (VERMILION, BLUE, GREEN, PURPLE, ORANGE, SKY)
     for position, (factor, label) in enumerate(labels_of(table["R"]).items()):
         here = table.filter(R=factor).unique(["eta", "effective"], maintain_order=True)
-        eta, value = here["eta"].to_numpy(), here["effective"].to_numpy()
+        eta, value = here["eta"].to_numpy() / np.sqrt(here["height_ratio"].to_numpy()), here["effective"].to_numpy()
         colour = colours[position % len(colours)]
         axes.vlines(eta, here["low"].to_numpy(), here["high"].to_numpy(), color=colour, linewidth=0.7, alpha=0.5)
         axes.plot(
@@ -100,9 +101,14 @@ def effective_figure(result: StudyFrames) -> Figure:
         )
     end = 1.05 * max(1.2, float(table["eta"].filter(table["eta"].is_finite()).max() or 0.0))  # type: ignore[arg-type]
     eta = np.linspace(0.0, end, 400)
-    axes.plot(eta, np.minimum(1.0, eta**2), color=INK, linewidth=1.8, label=f"min(1, {ETA}\N{SUPERSCRIPT TWO})")
-    rule = np.minimum(1.0, eta)
-    axes.plot(eta, rule, color=INK, linewidth=1.4, linestyle=(0, (5, 2)), label=f"min(1, {ETA}), conservative")
+    if table.height:
+        powers = table["exponent"].to_numpy()
+        least, most = powers.min(), powers.max()
+        label = f"best estimate, p = {least:.1f} to {most:.1f}"
+        ends = best_estimate(eta, most), best_estimate(eta, least)
+        axes.fill_between(eta, *ends, color=INK, alpha=0.15, linewidth=0.0, label=label)
+    rule = conservative_estimate(eta)
+    axes.plot(eta, rule, color=INK, linewidth=1.4, linestyle=(0, (5, 2)), label="p = 1, conservative")
     shares = result.summary.select("occupancy", "lambda_analysis").unique(maintain_order=True).rows()
     for occupancy, share in shares:
         axes.axhline(share, color=GREY, linewidth=1.0, linestyle=(0, (1, 2)))
@@ -110,7 +116,9 @@ def effective_figure(result: StudyFrames) -> Figure:
         axes.annotate(text, (end, share), xytext=(-3, 3), textcoords="offset points", ha="right", fontsize=7.5)
     axes.set_xlim(0.0, end)
     axes.set_ylim(-0.03, 1.06)
-    axes.set_xlabel(f"{ETA} = friction coefficient over base shear coefficient of the attached model")
+    axes.set_xlabel(
+        f"{ETA}$_h$ = friction over base shear coefficient of the attached model over (h$_g$/h$_m$)$^{{1/2}}$"
+    )
     axes.set_ylabel("effective fraction of the live load")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=3, frameon=False)

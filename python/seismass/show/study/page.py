@@ -8,6 +8,7 @@ from typing import Any, Final
 import polars as pl
 from markupsafe import Markup, escape
 
+from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
 from seismass.media.svg import short_svg
 from seismass.show.animation.html import element_html
@@ -351,8 +352,10 @@ def _fractions_table(fractions: pl.DataFrame) -> Markup:
     names = {
         "base_shear_coefficient": "C1",
         "eta": "eta",
-        "estimate": "min(1, eta\N{SUPERSCRIPT TWO})",
-        "conservative": "min(1, eta)",
+        "height_ratio": "h_g/h_m",
+        "exponent": "p",
+        "estimate": RULE,
+        "conservative": SAFE_RULE,
         "effective": "effective fraction",
         "low": "5 %",
         "high": "95 %",
@@ -361,8 +364,8 @@ def _fractions_table(fractions: pl.DataFrame) -> Markup:
     known = [name for name in names if fractions[name].null_count() < fractions.height]
     return table_html(
         fractions.select(*_shown_keys(fractions), *known),
-        "Every building: base shear coefficient C1 of the attached model, eta = mu/C1, the estimates"
-        + (", and the effective fraction with its interval." if "effective" in known else "."),
+        "Every building: mean peak base shear coefficient C1 of the attached model, eta = mu/C1, the estimates with "
+        f"{RULE_IN_WORDS}" + (", and the effective fraction with its interval." if "effective" in known else "."),
         headers={name: names[name] for name in known},
         formats={name: ".3f" if name.startswith("base") else ".2f" for name in known if name != "kind"},
     )

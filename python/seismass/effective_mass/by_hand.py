@@ -1,0 +1,86 @@
+"""What the rule by hand says of one building under one suite, beside the numbers that it takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from seismass.base.values import FloatArray
+from seismass.design import response_spectrum_analysis
+from seismass.effective_mass.estimate import base_shear_by_hand, best_estimate, exponent, height_ratio
+from seismass.effective_mass.models import building_of, friction, full_weight, goods_mass
+from seismass.effective_mass.runs import NamedMotions, Peaks
+from seismass.model.building import Building
+from seismass.model.scene import Scene
+from seismass.spectra import corner_period, mean_spectrum
+
+
+@dataclass(frozen=True, slots=True)
+class ByHand:
+    """The rule for one building and one suite.
+
+    Attributes
+    ----------
+    period : float
+        First period of the building without goods (s).
+    corner_period : float
+        T_c of the motions (s), see `seismass.spectra.corner_period`.
+    yields : bool
+        Whether a storey of the building with all goods attached yields: its mean peak drift over the motions is above
+        that of its yield force.
+    height_ratio : float
+        Mean height of the goods by mass, over that of building and goods together.
+    exponent : float
+        p of the rule.
+    base_shear_coefficient : float
+        C1 without a run, see `seismass.effective_mass.estimate.base_shear_by_hand`.
+    eta : float
+        mu_k over that coefficient.
+    estimate : float
+        The best estimate with that eta.
+    """
+
+    period: float
+    corner_period: float
+    yields: bool
+    height_ratio: float
+    exponent: float
+    base_shear_coefficient: float
+    eta: float
+    estimate: float
+
+
+def by_hand(scene: Scene, motions: NamedMotions, full: Peaks) -> ByHand:
+    """Return what the rule says of the building of a scene; `full` has the peaks of the fully attached model."""
+    building, goods = building_of(scene), goods_mass(scene)
+
+    def spectrum(periods: FloatArray) -> FloatArray:
+        return mean_spectrum(motions.motions, np.ones(len(motions)), periods)
+
+    attached = building.mass + goods
+    elastic = response_spectrum_analysis(attached, building.stiffness, spectrum)
+    weight = full_weight(scene)
+    corner, period = corner_period(spectrum), float(building.periods[0])
+    yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building)).any())
+    heights = height_ratio(goods, building.mass, building.heights)
+    power = float(exponent(period, corner, yields))
+    coefficient = float(
+        base_shear_by_hand(
+            building.yield_shear[0] / weight,
+            elastic.storey_shear[0] / weight,
+            elastic.modes.periods[0],
+            corner,
+            building.second_slope[0],
+            building.overstrength[0],
+        )
+    )
+    eta = friction(scene) / coefficient
+    return ByHand(period, corner, yields, heights, power, coefficient, eta, float(best_estimate(eta, power, heights)))
+
+
+def yield_drift(building: Building) -> FloatArray:
+    """Return the drift of each storey at V_y, in the measure of `Peaks.drift`: a ratio where heights are known."""
+    drift = building.yield_shear / building.stiffness
+    found: FloatArray = drift if building.heights is None else drift / building.heights
+    return found
