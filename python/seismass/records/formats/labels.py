@@ -33,7 +33,7 @@ _WORDS: Final[tuple[tuple[str, re.Pattern[str]], ...]] = tuple(
             r"|phase|magnitude|distance|rsn|vs30|target|design|mean|median|sigma|husid|arias|rotation|temperature"
             r"|pressure|latitude|longitude|lat|lon",
         ),
-        ("acceleration", r"acc\w*|acel\w*|ac|beschl\w*|ag|a|ug|xg|u\"g|ga"),
+        ("acceleration", r"acc\w*|acel\w*|ac|beschl\w*|a[gc]?[ ]?[xyz]|ag|a|ug|xg|u\"g|ga"),
         ("velocity", r"(?<!wave )(?<!wave-)vel\w*|geschwindigkeit|vitesse|vgx?"),
         ("displacement", r"disp\w*|desp\w*|dis|verschiebung|d[eé]placement"),
         ("times", r"time\w*|t|tiempo|zeit|temps|tempo|relativetime|elapsed|sec(?:onds?)?|zaman"),
@@ -53,13 +53,15 @@ SHORT_LABEL: Final = 3
 _PROSE = re.compile(r"[=:]|\d\.\d|\d{4}")
 _DATE = re.compile(r"(?<![a-z])(?:date|datetime|utc|fecha|timestamp|hour|clock)(?![a-z])", re.IGNORECASE)
 _BRACKET = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]")
+_BRACKETED = re.compile(r"[^(\[)\]]+[(\[][^)\]]*[)\]]")
 _NO_NUMBERS = re.compile(r"^\s*(?:#|%|//|!|\*)\s*")
 _DIRECTION = re.compile(
-    r"(?<![A-Za-z])([NS]-?[NS]|[EW]-?[EW]|U-?[DP]|[NSEWZUVXYHLT]|north|south|east|west|up|down|vert(?:ical)?"
+    r"(?<![A-Za-z])([NS]-?[NS]|[EWO]-?[EWO]|U-?[DP]|[NSEWZUVXYHLT]|north|south|east|west|up|down|vert(?:ical)?"
     r"|[BEHLS][HNGL][NEZ12]|long(?:itudinal)?|trans(?:verse)?|h[12xy]|[NS]\d{1,2}[EW]|(?:comp\w*|ch\w*)[ ._-]?\d+"
     r"|\d{1,3})(?![A-Za-z\d])",
     re.IGNORECASE,
 )
+_AXIS = re.compile(r"a[gc]?[ ]?([xyz])", re.IGNORECASE)
 _VELOCITIES: Final = re.compile(r"(?:[cm]?m|in(?:ch)?|ft|km)\s*/\s*s(?:ec)?|kine|cm s-1|m s-1", re.IGNORECASE)
 _DISPLACEMENTS: Final = frozenset({"m", "cm", "mm", "in", "inch", "inches", "ft", "feet"})
 _UNITS_OF_NO_MOTION: Final = re.compile(
@@ -128,6 +130,9 @@ def _is_acceleration(unit: str) -> bool:
 
 def _direction(words: str) -> str:
     """Return the direction that a label names, as it writes it."""
+    axis = _AXIS.fullmatch(words.strip())
+    if axis:
+        return axis[1]
     found: list[str] = _DIRECTION.findall(words)
     known = [one for one in found if azimuth_of(one) is not None or is_vertical(one)]
     return next(iter([*known, *found]), "")
@@ -147,7 +152,7 @@ def labels_of(header: list[str], columns: int) -> list[Label] | None:
         if len(line) > LINE_WIDTH or _PROSE.search(line):
             continue
         for parts, separated in _splits(_NO_NUMBERS.sub("", line), columns):
-            found = _with_vertical([label_of(part) for part in parts])
+            found = _beside_each_other([label_of(part) for part in parts])
             named = sum(1 for label in found if label.kind)
             if named == columns or (separated and named and _short(found)):
                 units = _units_below(header, line, columns)
@@ -158,16 +163,26 @@ def labels_of(header: list[str], columns: int) -> list[Label] | None:
     return None
 
 
-def _with_vertical(labels: list[Label]) -> list[Label]:
-    """Take a label V beside those of compass directions for what it is there: the vertical, no velocity."""
-    if any(label.kind == "acceleration" and label.unit for label in labels):
-        # "x, acceleration (g)": a letter without the unit of the others is no component beside them.
-        labels = [Label(one.text, "") if one.text.lower() == "x" and not one.unit else one for one in labels]
-    if not any(azimuth_of(label.direction) is not None for label in labels if label.direction):
+def _beside_each_other(labels: list[Label]) -> list[Label]:
+    """Return labels of one or two letters as what they are beside the others.
+
+    V and N beside compass directions are the vertical and the north, no velocity and no number. X without the unit that
+    others have, or X and Y alone, are axes of a plot. Units alone say their quantities.
+    """
+    texts = [one.text.strip().lower() for one in labels]
+    if len(labels) > 1 and all(text in PER_SECOND or unit_by_name(text) for text in texts):
+        return [
+            Label(one.text, "times" if text in PER_SECOND else "acceleration", one.text)
+            for one, text in zip(labels, texts, strict=True)
+        ]
+    units = any(label.kind == "acceleration" and label.unit for label in labels)
+    if texts == ["x", "y"] or units:
+        labels = [Label(one.text, "") if one.text.lower() in ("x", "y") and not one.unit else one for one in labels]
+    if not any(azimuth_of(one.direction) is not None for one in labels if one.direction):
         return labels
     return [
-        Label(one.text, "acceleration", one.unit, one.text) if one.text.strip().upper() == "V" else one
-        for one in labels
+        Label(one.text, "acceleration", one.unit, one.text) if text in ("v", "n") else one
+        for one, text in zip(labels, texts, strict=True)
     ]
 
 
@@ -196,6 +211,7 @@ def _splits(line: str, columns: int) -> list[tuple[list[str], bool]]:
     if columns == 1:
         ways.append(([line], False))
     ways.append((re.split(r"\s{2,}", line.strip()), False))
+    ways.append((_BRACKETED.findall(line), False))
     joined: list[str] = []
     for word in line.split():
         opened = bool(joined) and re.search(r"[(\[][^)\]]*$", joined[-1]) is not None
