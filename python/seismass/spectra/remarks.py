@@ -63,9 +63,10 @@ def target_remarks(target: TargetSpectrum) -> tuple[str, ...]:
         for name, (least, most, unit, doubt) in ranges.items()
         if not least <= parameters[name] <= most
     )
-    return outside + tuple(
+    large = tuple(
         f"{name} of the target spectrum is {value:.4g} g, above {MAX_ORDINATE:g} g: "
         "spectral accelerations are in g, not per cent"
         for name, value in ordinates.items()
         if value > MAX_ORDINATE
     )
+    return large + outside
