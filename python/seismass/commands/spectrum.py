@@ -14,6 +14,7 @@ from seismass.commands.options import (
     add_reading_options,
     add_spring_options,
     numbers_option,
+    reading,
     refuse_given,
     warn_left_out,
     warn_remarks,
@@ -67,7 +68,7 @@ def run(args: argparse.Namespace) -> int:
     inelastic = args.strength is not None or args.ductility is not None
     unused = ("kind",) if inelastic else tuple(SPRING_OPTIONS)
     refuse_given(args, unused, "spectrum", f"{'with' if inelastic else 'without'} --strength or --ductility")
-    suite = records_named(args.records, dt=args.dt, unit=args.unit)
+    suite = records_named(args.records, reading(args))
     warn_left_out(suite)
     warn_remarks(suite)
     periods = np.geomspace(0.01, 10.0, 100) if args.period is None else np.array(args.period)

@@ -61,6 +61,9 @@ class Record(Value):
         Network or agency that recorded it; empty where the source does not say.
     sha256 : str
         Digest of the bytes of the source file; empty for a record that no file holds.
+    place : str
+        Where the sensor stands, as the source says: "Roof", "borehole"; empty for the surface of the ground, or where
+        the source does not say.
     history : tuple of str
         What was done to the samples after reading, in order.
 
@@ -86,6 +89,7 @@ class Record(Value):
     network: str = ""
     sha256: str = ""
     history: tuple[str, ...] = ()
+    place: str = ""
 
     def __post_init__(self) -> None:
         for label in ("name", "event", "station", "component", "network"):

@@ -63,10 +63,11 @@ def read_table(path: str | os.PathLike[str], *, zero: bool = False) -> tuple[Flo
 
 
 def _parse_csv(text: str, file: str, zero: bool) -> tuple[FloatArray, FloatArray]:
+    text, separator = _with_points(text)
     try:
         rows = [
             [cell.strip() for cell in row]
-            for row in csv.reader(io.StringIO(text))
+            for row in csv.reader(io.StringIO(text), delimiter=separator)
             if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
         ]
     except csv.Error as error:
@@ -93,6 +94,16 @@ def _parse_csv(text: str, file: str, zero: bool) -> tuple[FloatArray, FloatArray
     return periods, ordinates
 
 
+def _with_points(text: str) -> tuple[str, str]:
+    """Return a text with points for decimal commas, and what separates its cells: where there are semicolons, those."""
+    if ";" not in text:
+        return text, ","
+    rows = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    cells = [cell for line in rows[-1:] for cell in line.split(";")]
+    decimal = any("," in cell for cell in cells) and not any("." in cell for cell in cells)
+    return text.replace(",", ".") if decimal else text, ";"
+
+
 def _named_columns(header: list[str], file: str) -> tuple[int, int]:
     words = [cell.lower().replace("(", " ").replace("_", " ").split() for cell in header]
     found = []
@@ -102,6 +113,9 @@ def _named_columns(header: list[str], file: str) -> tuple[int, int]:
             requirement = "one period or T and one Sa"
             raise refusal(RecordFormatError, "columns", file, requirement, short(", ".join(header)))
         found.append(columns[0])
+    of_period = [word.strip("()[]") for word in words[found[0]][1:]]
+    if of_period and of_period[0] not in ("s", "sec", "seconds", ""):
+        raise refusal(RecordFormatError, "unit of period", file, "s", " ".join(of_period))
     unit = [word.strip("()[]") for word in words[found[1]][1:]]
     if unit and unit != ["g"]:
         raise refusal(RecordFormatError, "unit of Sa", file, "g", short(" ".join(unit)))
