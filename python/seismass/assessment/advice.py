@@ -36,6 +36,14 @@ NAMES: Final = {
 """What texts and figures call the models."""
 
 
+def motions_in_words(suite: dict[str, Any]) -> str:
+    """Return how many motions there are and of what kind, and what to do where none was recorded."""
+    motions, synthetic = len(suite["motions"]), suite["synthetic"]
+    if synthetic == motions:
+        return f"{motions} synthetic motions: use recordings of the site for a decision"
+    return f"{motions} motions" + (f", of which {synthetic} are synthetic" if synthetic else ", recorded")
+
+
 def advice_of(
     building: OwnBuilding,
     advised: float | None,

@@ -77,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
     }
     parameters = EffectiveMassParameters(**{name: value for name, value in given.items() if value is not None})
     target = read_target(args)
-    suite = read_motions(args)
+    suite = read_motions(args, "seven")
     result = effective_mass_map(suite, target, parameters, threads=args.jobs, progress=progress_bar())
     files = result.write(args.out, figures=not args.no_figures)
     if args.json:

@@ -89,7 +89,7 @@ def run(args: argparse.Namespace) -> int:
         raise InvalidOption("--intensities of ida must be left out where --method is cloud")
     models, rule, drift_limit = models_of(args.file, args.code_share)
     limits = [parse_limit(text) for text in args.limit or [drift_limit]]
-    suite = read_motions(args, "eleven")
+    suite = read_motions(args)
     common: dict[str, Any] = {"measure": args.measure, "period": args.period, "at": args.at or (), "seed": args.seed}
     common |= {"threads": args.jobs, "progress": progress_bar()}
     try:

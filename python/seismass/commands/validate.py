@@ -62,7 +62,7 @@ def run(args: argparse.Namespace) -> int:
     if args.out is not None:
         check_out(args.out, "validation")
     target = read_target(args)
-    suite = read_motions(args)
+    suite = read_motions(args, "seven")
     warn_left_out(suite)
     sensitivity = (
         study_sensitivity(suite, target, threads=args.jobs, progress=progress_bar(unit="studies"))

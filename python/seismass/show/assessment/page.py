@@ -9,7 +9,7 @@ from typing import Any, Final
 import polars as pl
 from markupsafe import Markup
 
-from seismass.assessment.advice import NAMES
+from seismass.assessment.advice import NAMES, motions_in_words
 from seismass.assessment.models import REAL, REAL_HIGH, REAL_LOW
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
@@ -85,6 +85,7 @@ def _answer(result: AssessmentTables) -> list[Markup]:
             "Use <strong>lambda = {advised:.2f}</strong> of the goods present, {share:.2f} of the design live load, as "
             "mass in an analysis."
         ).format(advised=result.advised, share=share),
+        Markup("On {}.").format(motions_in_words(document["suite"])),
         Markup(
             "With friction as stated the effective fraction is {value}{spread}; {code} counts {fraction:g} of the "
             "design live load. {verdict}"
