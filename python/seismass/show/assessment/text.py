@@ -83,8 +83,8 @@ def _fraction(result: EffectiveMass) -> str:
     if not math.isfinite(result.value):
         return "no value: the building collapses under too many motions"
     scatter = "no interval"
-    if result.interval is not None and all(math.isfinite(end) for end in result.interval):
-        low, high = result.interval
+    if result.suite_interval is not None and all(math.isfinite(end) for end in result.suite_interval):
+        low, high = result.suite_interval
         scatter = f"{100.0 * result.confidence:g} % interval {low:.2f} to {high:.2f}"
     kind = {"stuck": "no goods slide", "one": "all act, and a little more", "zero": "none needs to be attached"}
     of = "" if result.statistic == "mean" else f", by the {result.statistic}"
