@@ -4,59 +4,38 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
-import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.options import threads_option
+from seismass.commands.command import Command, seconds
+from seismass.commands.options import add_jobs_option, add_json_option, add_out_option, threads_option
+from seismass.commands.progress import progress
 
 if TYPE_CHECKING:
-    from seismass.campaign import CampaignFolder, CampaignProgress
-    from seismass.campaign.progress import Report
+    from seismass.campaign import Campaign, CampaignFolder
 
-_EPILOG = """examples:
-  seismass campaign --example > campaign.toml
-  seismass campaign campaign.toml --out results
-  seismass campaign results
-  seismass campaign results --status
-  seismass campaign campaign.toml --out results --workers 4
-  seismass campaign campaign.toml --out /shared/results --scheduler tcp://head:8786
-  seismass campaign campaign.toml --out /shared/results --shard 3/20
-
-The third line goes on after an interruption. Results are read by
-seismass.campaign.CampaignFolder("results").scan() or by any reader of Parquet.
-docs/campaign.md explains every key of a campaign file.
-
-exit codes: 0 done, 1 a run failed (its rows say why) or a part is damaged, 2 bad input, 130 interrupted"""
+_MANY_RUNS: Final = 1_000_000
+"""Runs from which on their time is estimated before they begin."""
+_LONG: Final = 86400.0
+"""Time (s) beyond which a campaign must be asked for."""
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "campaign",
-        help=help,
-        description="Solve the runs that a campaign file (TOML or JSON) describes, into a folder of Parquet files. The "
-        "same command goes on where it was stopped, and ends in the same bytes.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("source", type=Path, nargs="?", metavar="FILE", help="campaign file, or folder of a campaign")
     what.add_argument("--example", action="store_true", help="print a campaign file to start from, and stop")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="folder to write to, where FILE is a campaign file")
+    add_out_option(parser, "DIR", "folder to write to, where FILE is a campaign file")
     engine = parser.add_argument_group("where runs are solved").add_mutually_exclusive_group()
     engine.add_argument("--workers", type=threads_option, metavar="N", help="N worker processes here, by dask")
     engine.add_argument("--scheduler", metavar="ADDRESS", help="running dask scheduler, as tcp://host:8786")
     engine.add_argument("--shard", type=shard_option, metavar="I/N", help="parts I, I + N, ... alone: job I of N")
-    parser.add_argument(
-        "--jobs", type=threads_option, metavar="N", help="threads of the process, or of each task (all cores, or one)"
-    )
+    add_jobs_option(parser, "threads of the process, or of each task (all cores, or one)")
+    parser.add_argument("--long", action="store_true", help="begin also what takes this machine more than a day")
     look = parser.add_argument_group("looking at a folder").add_mutually_exclusive_group()
     look.add_argument("--status", action="store_true", help="print what is there and what is missing, and stop")
-    look.add_argument("--verify", action="store_true", help="read every part and compare it with its runs, and stop")
-    parser.add_argument("--json", action="store_true", help="print the state of the folder as JSON")
-    parser.set_defaults(run=run)
+    look.add_argument("--verify", action="store_true", help="compare every part with its digest and its runs, and stop")
+    add_json_option(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -81,18 +60,16 @@ def run(args: argparse.Namespace) -> int:
             raise refusal(InvalidOption, "--out", "command", "given with a campaign file", "none")
         campaign, place = (None, args.out) if looks else (read_campaign(args.source), args.out)
     if campaign is not None:
-        started = time.perf_counter()
-        if not args.json:
-            print(f"{campaign.total} runs in {campaign.parts} parts of {campaign.part_runs}")
-        campaign.run(
-            place,
-            workers=args.workers,
-            scheduler=args.scheduler,
-            shard=args.shard,
-            threads=args.jobs,
-            progress=progress_line(),
-        )
-        seconds = time.perf_counter() - started
+        _announce(campaign, place, args)
+        with progress() as tell:
+            campaign.run(
+                place,
+                workers=args.workers,
+                scheduler=args.scheduler,
+                shard=args.shard,
+                threads=args.jobs,
+                progress=None if tell is None else lambda state: tell(state.runs_done, state.runs),
+            )
     folder = CampaignFolder(place)
     problems = _problems(folder) if args.verify else []
     state = _state(folder, problems if args.verify else None)
@@ -101,48 +78,78 @@ def run(args: argparse.Namespace) -> int:
     else:
         print(_text(folder, state))
         if campaign is not None:
-            print(f"time     {seconds:.1f} s")
+            print(f"time     {seconds(args)}")
         for part, problem in problems:
             print(f"part {part}: {problem}")
-    return 1 if state["failed"] or problems else 0
+    return 1 if state["failed"] or state["unreadable"] or problems else 0
+
+
+def _announce(campaign: Campaign, place: Path, args: argparse.Namespace) -> None:
+    """Print what is about to be solved, and what it takes where that is much; refuse more than a day without --long."""
+    from seismass.base.errors import InvalidOption
+    from seismass.base.values import refusal
+    from seismass.campaign import CampaignFolder
+    from seismass.campaign.estimate import estimated
+    from seismass.campaign.places import MANIFEST
+    from seismass.campaign.progress import duration_text
+
+    line = f"{campaign.total} runs in {campaign.parts} parts of {campaign.part_runs}"
+    there = CampaignFolder(place).runs_present if (place / MANIFEST).is_file() else 0
+    share = max(1.0 - there / campaign.total, 0.0) / (1 if args.shard is None else args.shard[1])
+    if campaign.total * share >= _MANY_RUNS:
+        found = estimated(campaign, threads=args.jobs)
+        size = f"{found.bytes * share / 1e9:.3g} GB"
+        line += f", about {duration_text(found.seconds * share)} by the threads of this machine, and {size}"
+        if found.seconds * share > _LONG and not args.long:
+            got = f"about {duration_text(found.seconds * share)} and {size} for {campaign.total * share:.3g} runs"
+            raise refusal(InvalidOption, "time", "campaign", "at most a day unless --long is given", got)
+    if not args.json:
+        print(line, flush=True)
 
 
 def _state(folder: CampaignFolder, problems: list[tuple[int, str]] | None) -> dict[str, Any]:
     """How far a folder is, for JSON."""
-    present, runs = len(folder.present()), folder.runs_present
-    failed = _failed(folder, {part for part, _ in problems or ()})
+    present, strange = folder.present(), folder.strange()
+    failed, unreadable = _failed(folder, sorted(present - {part for part, _ in problems or ()}))
     state = {
         "folder": str(folder.path),
         "name": folder.manifest["name"],
         "inputs_sha256": folder.manifest["inputs_sha256"],
         "runs": folder.manifest["runs"],
-        "runs_present": runs,
+        "runs_present": folder.runs_present,
         "parts": folder.parts,
-        "parts_present": present,
+        "parts_present": len(present),
+        "unreadable": sorted(strange | unreadable),
         "bytes": folder.bytes,
         "failed": failed,
-        "complete": present == folder.parts,
+        "complete": len(present) == folder.parts,
     }
     return state if problems is None else {**state, "problems": dict(problems)}
 
 
-def _failed(folder: CampaignFolder, damaged: set[int]) -> int:
-    """Number of runs that failed, in the parts that can be read."""
+def _failed(folder: CampaignFolder, parts: list[int]) -> tuple[int, set[int]]:
+    """Number of runs that failed in parts, and the parts that cannot be read."""
     import polars as pl
 
-    from seismass.base.errors import InvalidOption
-    from seismass.base.values import refusal
-    from seismass.campaign.folder import part_path
+    from seismass.campaign.places import part_path
 
-    paths = [part_path(folder.path, part) for part in sorted(folder.present() - damaged)]
-    if not paths:
-        return 0
+    def count(chosen: list[int]) -> int:
+        paths = [part_path(folder.path, part) for part in chosen]
+        rows = pl.scan_parquet(paths, glob=False).select((pl.col("status") == "failed").sum())
+        return int(rows.collect().item())
+
+    if not parts:
+        return 0, set()
     try:
-        status = pl.scan_parquet(paths, glob=False).select((pl.col("status") == "failed").sum())
-        return int(status.collect().item())
-    except pl.exceptions.PolarsError as error:
-        requirement = "whole (--verify names those that are not)"
-        raise refusal(InvalidOption, f"parts of {folder.path}", "campaign", requirement, str(error)) from error
+        return count(parts), set()
+    except pl.exceptions.PolarsError:
+        failed, unreadable = 0, set()
+    for part in parts:
+        try:
+            failed += count([part])
+        except pl.exceptions.PolarsError:
+            unreadable.add(part)
+    return failed, unreadable
 
 
 def _text(folder: CampaignFolder, state: dict[str, Any]) -> str:
@@ -153,7 +160,15 @@ def _text(folder: CampaignFolder, state: dict[str, Any]) -> str:
         f"parts    {state['parts_present']} of {state['parts']}" + (f", {missing} missing" if missing else ""),
         f"size     {state['bytes'] / 1e6:.1f} MB" + (f", {state['bytes'] / runs:.1f} bytes a run" if runs else ""),
     ]
+    if state["unreadable"]:
+        damaged = f"damaged  parts {_listed(state['unreadable'])}; remove them, and the same command solves them again"
+        lines.append(damaged)
     return "\n".join(lines)
+
+
+def _listed(parts: list[int], most: int = 10) -> str:
+    more = f" and {len(parts) - most} more" if len(parts) > most else ""
+    return ", ".join(map(str, parts[:most])) + more
 
 
 def _problems(folder: CampaignFolder) -> list[tuple[int, str]]:
@@ -171,14 +186,26 @@ def shard_option(text: str) -> tuple[int, int]:
     return int(first), int(jobs)
 
 
-def progress_line() -> Report | None:
-    """Return a callable that draws one line on standard error, or None where that is no terminal."""
-    if not sys.stderr.isatty():
-        return None
-
-    def draw(progress: CampaignProgress) -> None:
-        end = "\n" if progress.parts_done == progress.parts else ""
-        sys.stderr.write(f"\r\033[K{progress.text}{end}")
-        sys.stderr.flush()
-
-    return draw
+COMMAND = Command(
+    description=(
+        "Solve the runs that a campaign file (TOML or JSON) describes, into a folder of Parquet files. The "
+        "same command goes on where it was stopped, and ends in the same bytes."
+    ),
+    examples="""
+campaign --example > campaign.toml
+campaign campaign.toml --out results
+campaign results
+campaign results --status
+campaign campaign.toml --out results --workers 4
+campaign campaign.toml --out /shared/results --scheduler tcp://head:8786
+campaign campaign.toml --out /shared/results --shard 3/20
+""",
+    options=options,
+    run=run,
+    note="""
+The third line goes on after an interruption. Results are read by
+seismass.campaign.CampaignFolder("results").scan() or by any reader of Parquet.
+docs/campaign.md explains every key of a campaign file.
+""",
+    codes={1: "a run failed (its rows say why) or a part is damaged"},
+)

@@ -8,41 +8,24 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.options import add_reading_options
+from seismass.commands.command import Command
+from seismass.commands.options import add_json_option, add_reading_options, refuse_given
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.records import Record, Suite
 
 _UNREADABLE_LISTED: Final = 20
-_EPILOG = """examples:
-  seismass records RSN767_LOMAP_G03000.AT2
-  seismass records records/ --json
-  seismass records column.txt --dt 0.01 --unit cm/s2
-  seismass records --find Downloads/
-  seismass records
-
-Without a path: the seven records of the paper's Table 1, and how to get them.
-exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "records",
-        help=help,
-        description="A table of the records in a file, a folder or a list: labels, points, step, peaks, Arias "
-        "intensity, duration and what is odd about them. With --find: which of the paper's seven records a folder "
-        "holds, judged by header and content.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     parser.add_argument(
         "path", type=Path, nargs="?", metavar="PATH", help="a record, a folder, or a CSV with a column `file`"
     )
     parser.add_argument("--find", type=Path, metavar="DIR", help="look there for the paper's seven records")
     add_reading_options(parser)
-    parser.add_argument("--json", action="store_true", help="print everything as JSON")
-    parser.set_defaults(run=run)
+    add_json_option(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -56,11 +39,9 @@ def run(args: argparse.Namespace) -> int:
     from seismass.base.errors import InvalidOption
 
     if args.path is not None and args.find is not None:
-        raise InvalidOption(f"PATH of seismass records must be left out where --find is given; got {args.path}")
+        raise InvalidOption(f"PATH of records must be left out where --find is given; got {args.path}")
     if args.path is None:
-        for name, value in (("--dt", args.dt), ("--unit", args.unit)):
-            if value is not None:
-                raise InvalidOption(f"{name} of seismass records must be left out without PATH; got {value}")
+        refuse_given(args, ("dt", "unit"), "records", "without PATH")
         return _find(args.find, args.json) if args.find is not None else _catalogue(args.json)
     suite = _read(args.path, args.dt, args.unit)
     if args.json:
@@ -68,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
         document = {"name": suite.name, "records": _rows(suite), "not_read": unreadable, "remarks": list(suite.remarks)}
         print(json.dumps(document, indent=2, allow_nan=False))
         return 0
-    print("\n".join(_table(suite)))
+    show("\n".join(_table(suite)))
     return 0
 
 
@@ -131,22 +112,29 @@ def _rows(suite: Suite) -> list[dict[str, Any]]:
 
 def _table(suite: Suite) -> list[str]:
     from seismass.base.values import printable
+    from seismass.media.text_table import number_text, text_line
 
     rows = _rows(suite)
     width = max(len("record"), *(len(printable(row["name"])) for row in rows))
-    head = (
-        f"{'':3} {'record':{width}}  {'comp.':8} {'points':>6} {'dt (s)':>7} {'PGA (g)':>8} {'PGV (cm/s)':>10} "
-        f"{'Arias (m/s)':>11} {'D5-95 (s)':>9}  event, station"
-    )
+    widths = (3, -width - 1, -8, 6, 7, 8, 10, 11, 9, 0)
+    heads = ("", "record", "comp.", "points", "dt (s)", "PGA (g)", "PGV (cm/s)", "Arias (m/s)", "D5-95 (s)")
+    head = text_line((*heads, " event, station"), widths, indent=0, gap=1)
     lines = [f"{suite.name}: {len(suite)} {'record' if len(suite) == 1 else 'records'}", *suite.remarks, "", head]
     for row in rows:
         label = ", ".join(text for text in (row["event"], row["station"]) if text)
-        duration = "-" if row["d5_95"] is None else f"{row['d5_95']:.2f}"
-        lines.append(
-            f"{row['motion']:>3} {printable(row['name']):{width}}  {_direction(row['component']):8} "
-            f"{row['samples']:>6} {row['dt']:>7g} {row['pga_g']:>8.4f} {100.0 * row['pgv']:>10.2f} "
-            f"{row['arias']:>11.3f} {duration:>9}  {label}".rstrip()
+        cells = (
+            str(row["motion"]),
+            printable(row["name"]),
+            _direction(row["component"]),
+            str(row["samples"]),
+            f"{row['dt']:g}",
+            f"{row['pga_g']:.4f}",
+            f"{100.0 * row['pgv']:.2f}",
+            f"{row['arias']:.3f}",
+            number_text(row["d5_95"]),
+            f" {label}",
         )
+        lines.append(text_line(cells, widths, indent=0, gap=1))
         lines += [f"{'':5}{remark}" for remark in row["remarks"]]
     if suite.excluded:
         lines += ["", f"not read: {len(suite.excluded)} {'file' if len(suite.excluded) == 1 else 'files'}"]
@@ -177,7 +165,7 @@ def _find(folder: Path, as_json: bool) -> int:
         }
         print(json.dumps(document, indent=2))
     else:
-        print(found.text)
+        show(found.text)
     return 0
 
 
@@ -205,3 +193,24 @@ def _catalogue(as_json: bool) -> int:
         print(f"   {row['how_to_get']}")
     print(f"\n{TERMS}")
     return 0
+
+
+COMMAND = Command(
+    description=(
+        "A table of the records in a file, a folder or a list: labels, points, step, peaks, Arias "
+        "intensity, duration and what is odd about them. With --find: which of the paper's seven records a folder "
+        "holds, judged by header and content."
+    ),
+    examples="""
+records RSN767_LOMAP_G03000.AT2
+records records/ --json
+records column.txt --dt 0.01 --unit cm/s2
+records --find Downloads/
+records
+""",
+    options=options,
+    run=run,
+    note="""
+Without a path: the seven records of the paper's Table 1, and how to get them.
+""",
+)

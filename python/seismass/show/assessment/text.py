@@ -14,6 +14,7 @@ from seismass.assessment.result import Assessment
 from seismass.effective_mass import ByHand, EffectiveMass
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
+from seismass.media.text_table import number_text, text_table
 
 WIDTH: Final = 108
 """Columns of the page."""
@@ -125,7 +126,7 @@ def _drifts(result: Assessment) -> list[str]:
         cells = []
         for model in models:
             row = _of(result, storey, model)
-            mean, low, high = (_number(row[name], scale) for name in ("mean", "p16", "p84"))
+            mean, low, high = (number_text(row[name], scale=scale) for name in ("mean", "p16", "p84"))
             above = (
                 "*" if building.heights is not None and (row["mean"] is None or row["mean_over_limit"] > 1.0) else " "
             )
@@ -133,7 +134,7 @@ def _drifts(result: Assessment) -> list[str]:
         rows.append([_storey_label(_of(result, storey, models[0])), *cells])
     if building.heights is not None:
         rows.append(["motions above limit", *(f"{_above(result, model)} of {motions}" for model in models)])
-    lines += [*_aligned(rows), *_at_bounds(result, scale)]
+    lines += [*text_table(rows), *_at_bounds(result, scale)]
     if any("*" in line for line in lines):
         lines.append("  * mean above the limit, or no mean because runs collapsed")
     return lines
@@ -148,7 +149,7 @@ def _at_bounds(result: Assessment, scale: float) -> list[str]:
         means = result.storeys.filter(pl.col("model") == model)["mean"]
         if len(means):
             worst = None if means.null_count() else float(means.to_numpy().max())
-            found.append(f"{word} {_number(worst, scale)}")
+            found.append(f"{word} {number_text(worst, scale=scale)}")
     return [f"  worst storey while goods slide: {', '.join(found)}"] if len(found) > 1 else []
 
 
@@ -166,8 +167,8 @@ def _stability(result: Assessment) -> list[str]:
     for storey in range(1, result.building.storeys + 1):
         of = [_of(result, storey, model) for model in models]
         values = [*(row["theta"] for row in of), of[0]["theta_elastic"]]
-        rows.append([_storey_label(of[0]), *("-" if value is None else f"{value:.3f}" for value in values)])
-    return lines + _aligned(rows)
+        rows.append([_storey_label(of[0]), *(number_text(value, ".3f") for value in values)])
+    return lines + text_table(rows)
 
 
 def _slips(result: Assessment) -> list[str]:
@@ -182,10 +183,10 @@ def _slips(result: Assessment) -> list[str]:
                     f"{row['floor']} {row['name']}".rstrip()[:18],
                     f"{row['mu_s']:.3g}" + (f"/{row['mu_k']:.3g}" if row["mu_k"] != row["mu_s"] else ""),
                     f"{row['motions_that_slide']} of {motions}",
-                    *(_number(row[name], 1e3, 1) for name in names),
+                    *(number_text(row[name], ".1f", scale=1e3) for name in names),
                 ]
             )
-    return lines + _aligned(rows)
+    return lines + text_table(rows)
 
 
 def _motions(result: Assessment) -> list[str]:
@@ -201,25 +202,8 @@ def _motions(result: Assessment) -> list[str]:
     return [*lines, *(f"{'motions' if number == 0 else '':10}{line}" for number, line in enumerate(wrapped))]
 
 
-def _number(value: float | None, scale: float, digits: int = 2) -> str:
-    return "-" if value is None else f"{scale * value:.{digits}f}"
-
-
 def _bullets(sentences: tuple[str, ...]) -> list[str]:
     lines: list[str] = []
     for sentence in sentences:
         lines += textwrap.wrap(sentence, WIDTH, initial_indent="  - ", subsequent_indent="    ")
     return lines
-
-
-def _aligned(rows: list[list[str]]) -> list[str]:
-    """Return rows of cells as lines, the first column to the left, the others to the right."""
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return [
-        "  "
-        + "  ".join(
-            cell.ljust(width) if not column else cell.rjust(width)
-            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in rows
-    ]
