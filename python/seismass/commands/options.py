@@ -88,8 +88,8 @@ def add_records_options(group: argparse._ArgumentGroup) -> None:
         "--suite",
         choices=("forty", "eleven", "seven"),
         help="built-in synthetic motions, where --records is left out: forty with the scatter of recordings (default "
-        "of building, fragility, risk and slip), seven as ASCE 7-10 asks for, with which published numbers are (default of "
-        "study, map, validate and scale), or eleven as ASCE 7-16 does (default of scaling by it)",
+        "of building, fragility, risk and slip), seven as ASCE 7-10 asks for, with published numbers (default "
+        "of study, map, validate and scale), or eleven as ASCE 7-16 does (default of scaling by it)",
     )
 
 
