@@ -107,7 +107,7 @@ def run(args: argparse.Namespace) -> int:
         collapse_drift_ratio=args.collapse_drift_ratio,
     )
     target = read_target(args)
-    suite = read_motions(args)
+    suite = read_motions(args, "seven")
     inputs = f"{inputs_digest(suite, target, parameters)} {VERSION} {instruction_set()}"
     with folder_for(args.out), kept_folder(args.out, "study", inputs) as kept:
         answer = _Answer(_solved(args, suite, target, parameters, kept), args.png)

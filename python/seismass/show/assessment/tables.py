@@ -25,7 +25,10 @@ NEEDED: Final = ("storeys", "slip", "runs", "checks")
 
 @dataclass(frozen=True)
 class Fraction:
-    """Effective fraction at one friction, as figures draw it; the names are those of `EffectiveMass`."""
+    """Effective fraction at one friction, as figures draw it; the names are those of `EffectiveMass`.
+
+    `interval` is its `suite_interval`.
+    """
 
     value: float
     kind: Kind
@@ -158,7 +161,7 @@ def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
         return math.nan if value is None else float(value)
 
     names = ("value", "real", "model", "eta", "base_shear_coefficient", "estimate", "conservative", "confidence")
-    ends = values["interval"]
+    ends = values["suite_interval"]
     return Fraction(
         **{name: number(values[name]) for name in names},
         kind=values["kind"],
