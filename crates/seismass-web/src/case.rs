@@ -113,9 +113,15 @@ impl Case {
         if goods == 0.0 { 1.0 } else { (goods_moment / goods) / (all_moment / all) }
     }
 
+    /// Stiffness of every storey (N/m).
+    fn stiffness(&self) -> Result<f64> {
+        let (storeys, period) = (self.storeys(), self.period);
+        UniformBuilding { storeys, period, mass: FLOOR_MASS, ..Default::default() }.stiffness()
+    }
+
     /// Drift of each storey at its first yield (m); infinite: elastic.
     pub(crate) fn yield_drift(&self) -> Result<Vec<f64>> {
-        let stiffness = uniform_stiffness(self.storeys(), self.period, FLOOR_MASS)?;
+        let stiffness = self.stiffness()?;
         Ok(self.yield_shear_over_weight.iter().map(|over_weight| over_weight * self.weight() / stiffness).collect())
     }
 
@@ -125,8 +131,7 @@ impl Case {
     }
 
     fn building(&self, mass: Vec<f64>, damping: Damping) -> Result<Building> {
-        let (storeys, period) = (self.storeys(), self.period);
-        let stiffness = UniformBuilding { storeys, period, mass: FLOOR_MASS, ..Default::default() }.stiffness()?;
+        let stiffness = self.stiffness()?;
         let weight = self.weight();
         let storey = |&over_weight: &f64| Storey {
             stiffness,
