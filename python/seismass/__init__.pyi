@@ -38,7 +38,9 @@ from .model.block import Block, blocks_on_floors
 from .model.building import Building
 from .model.damping import Rayleigh
 from .model.motion import Motion
+from .model.rack import Rack, RackBlock
 from .model.scene import Scene
+from .model.stops import Stops
 from .records import (
     Pair,
     Record,
@@ -79,12 +81,15 @@ __all__ = [
     "Motion",
     "OwnBuilding",
     "Pair",
+    "Rack",
+    "RackBlock",
     "Rayleigh",
     "Record",
     "Response",
     "Scene",
     "SceneFile",
     "SeismassError",
+    "Stops",
     "Suite",
     "TargetSpectrum",
     "__version__",

@@ -22,7 +22,11 @@ __all__ = [
     "Batch",
     "Building",
     "Columns",
+    "GeneralBuilding",
+    "GeneralResponse",
+    "GeneralScene",
     "Motion",
+    "Rack",
     "ReferenceRun",
     "Response",
     "Scene",
@@ -33,6 +37,7 @@ __all__ = [
     "response_spectra",
     "simulate",
     "simulate_columns",
+    "simulate_general",
     "simulate_many",
     "uniform_stiffness",
 ]
@@ -249,6 +254,311 @@ class Columns:
         """
 
 @final
+class GeneralBuilding:
+    """
+    Building with an elastic matrix held by the kernel.
+    """
+    def __new__(
+        cls,
+        /,
+        mass: NDArray[float64],
+        springs: dict[str, NDArray[float64]],
+        *,
+        stiffness_matrix: NDArray[float64],
+        backbones: SupportsGetItem[int, NDArray[float64] | None] | None = None,
+        hysteresis: SupportsGetItem[int, str] | None = None,
+        damping_ratio: SupportsFloat | SupportsIndex | None = None,
+        rayleigh_modes: tuple[SupportsIndex, SupportsIndex] | None = None,
+        damping_matrix: NDArray[float64] | None = None,
+        heights: NDArray[float64] | None = None,
+        gravity_load: NDArray[float64] | None = None,
+        geometric_stiffness: NDArray[float64] | None = None,
+    ) -> GeneralBuilding:
+        """
+        As `Building`, with an elastic matrix over the floors (N/m); storeys may have a spring of stiffness 0.
+        """
+    @property
+    def damping_matrix(self, /) -> NDArray[float64]:
+        """
+        Damping matrix C in floor coordinates (N s/m).
+        """
+    @property
+    def periods(self, /) -> NDArray[float64]:
+        """
+        Natural periods of the bare building without P-Delta (s), longest first.
+        """
+    def spring_path(self, /, storey: SupportsIndex, drifts: NDArray[float64]) -> SpringPath:
+        """
+        Drives the spring of a storey, given by its index, from one drift (m) to the next.
+        """
+
+@final
+class GeneralResponse:
+    """
+    The response of one run of the general engine.
+    """
+    @property
+    def block_velocity(self, /) -> NDArray[float64] | None:
+        """
+        Block velocity relative to the ground (m/s), rows x blocks.
+        """
+    @property
+    def collapsed_storey(self, /) -> int | None:
+        """
+        Storey that collapsed, counted from 1; levels of racks count on.
+        """
+    @property
+    def drift(self, /) -> NDArray[float64] | None:
+        """
+        Drift history (m), rows x storeys.
+        """
+    @property
+    def end_time(self, /) -> float:
+        """
+        Time reached (s).
+        """
+    @property
+    def energy(self, /) -> dict[str, float] | None:
+        """
+        Energies (J) and their relative residual, if asked for.
+        """
+    @property
+    def event_counts(self, /) -> list[int]:
+        """
+        Number of events of each kind, in the order of `Response.event_kinds`.
+        """
+    @property
+    def event_element(self, /) -> NDArray[uint8] | None:
+        """
+        Segments of the backbone left at each yield, 1 at the first; stage of wear that begins; otherwise 0.
+        """
+    @property
+    def event_kind(self, /) -> NDArray[uint8] | None:
+        """
+        Kinds of the events, as indices of `Response.event_kinds`.
+        """
+    @property
+    def event_number(self, /) -> NDArray[uint32] | None:
+        """
+        Storey (levels of racks count on) or block of each event, counted from 1.
+        """
+    @property
+    def event_sign(self, /) -> NDArray[int8] | None:
+        """
+        Sign of each event.
+        """
+    @property
+    def event_time(self, /) -> NDArray[float64] | None:
+        """
+        Times of the events (s).
+        """
+    @property
+    def event_velocity(self, /) -> NDArray[float64] | None:
+        """
+        Relative velocity of a block that comes to its stop or leaves it, wears, lifts or lands (m/s); otherwise 0.
+        """
+    @property
+    def every(self, /) -> int | None:
+        """
+        Samples per row of the histories; None without histories.
+        """
+    @property
+    def floor_acceleration(self, /) -> NDArray[float64] | None:
+        """
+        Absolute floor acceleration (m/s2), rows x storeys.
+        """
+    @property
+    def floor_velocity(self, /) -> NDArray[float64] | None:
+        """
+        Floor velocity relative to the ground (m/s), rows x storeys.
+        """
+    @property
+    def instructions(self, /) -> str:
+        """
+        Name of the instruction set that the kernel uses.
+        """
+    @property
+    def peak_base_shear(self, /) -> float:
+        """
+        Peak of the spring force of storey 1 and the matrix's share of the base shear together (N).
+        """
+    @property
+    def peak_contact_force(self, /) -> NDArray[float64]:
+        """
+        Peak force of each block on its stop (N).
+        """
+    @property
+    def peak_contact_velocity(self, /) -> NDArray[float64]:
+        """
+        Peak relative velocity at which each block comes to its stop (m/s).
+        """
+    @property
+    def peak_drift(self, /) -> NDArray[float64]:
+        """
+        Peak storey drift (m).
+        """
+    @property
+    def peak_drift_time(self, /) -> NDArray[float64]:
+        """
+        Time of the peak drift (s).
+        """
+    @property
+    def peak_floor_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak absolute floor acceleration (m/s2).
+        """
+    @property
+    def peak_floor_acceleration_time(self, /) -> NDArray[float64]:
+        """
+        Time of the peak floor acceleration (s).
+        """
+    @property
+    def peak_rack_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak absolute acceleration of rack levels (m/s2).
+        """
+    @property
+    def peak_rack_drift(self, /) -> NDArray[float64]:
+        """
+        Peak drift of rack levels (m).
+        """
+    @property
+    def peak_rack_drift_time(self, /) -> NDArray[float64]:
+        """
+        Time of the peak drift of rack levels (s).
+        """
+    @property
+    def peak_rack_shear(self, /) -> NDArray[float64]:
+        """
+        Peak shear of rack levels, the spring force alone (N).
+        """
+    @property
+    def peak_slip(self, /) -> NDArray[float64]:
+        """
+        Peak slip of each block (m).
+        """
+    @property
+    def peak_slip_time(self, /) -> NDArray[float64]:
+        """
+        Time of the peak slip (s).
+        """
+    @property
+    def peak_storey_shear(self, /) -> NDArray[float64]:
+        """
+        Peak storey shear, the spring force alone (N).
+        """
+    @property
+    def peak_storey_shear_time(self, /) -> NDArray[float64]:
+        """
+        Time of the peak storey shear (s).
+        """
+    @property
+    def rack_acceleration(self, /) -> NDArray[float64] | None:
+        """
+        Absolute acceleration of rack levels (m/s2), rows x levels.
+        """
+    @property
+    def rack_drift(self, /) -> NDArray[float64] | None:
+        """
+        Drift history of rack levels (m), rows x levels.
+        """
+    @property
+    def rack_force(self, /) -> NDArray[float64] | None:
+        """
+        Spring force of rack levels (N), rows x levels.
+        """
+    @property
+    def rack_levels(self, /) -> list[int]:
+        """
+        Number of levels of each rack.
+        """
+    @property
+    def residual_drift(self, /) -> NDArray[float64]:
+        """
+        Drift at the end (m).
+        """
+    @property
+    def residual_rack_drift(self, /) -> NDArray[float64]:
+        """
+        Drift of rack levels at the end (m).
+        """
+    @property
+    def residual_slip(self, /) -> NDArray[float64]:
+        """
+        Slip at the end (m).
+        """
+    @property
+    def slip(self, /) -> NDArray[float64] | None:
+        """
+        Slip history (m), rows x blocks.
+        """
+    @property
+    def slip_path(self, /) -> NDArray[float64]:
+        """
+        Path slipped in contact with what carries the block (m).
+        """
+    @property
+    def statistics(self, /) -> dict[str, int]:
+        """
+        Work done and skipped.
+        """
+    @property
+    def status(self, /) -> str:
+        """
+        "completed" or "collapsed".
+        """
+    @property
+    def storey_force(self, /) -> NDArray[float64] | None:
+        """
+        Spring force (N), rows x storeys.
+        """
+
+@final
+class GeneralScene:
+    """
+    Scene of the general engine held by the kernel.
+    """
+    def __new__(
+        cls,
+        /,
+        building: Building | GeneralBuilding | None,
+        blocks: SupportsGetItem[
+            int,
+            tuple[
+                SupportsIndex,
+                SupportsFloat | SupportsIndex,
+                SupportsFloat | SupportsIndex,
+                SupportsFloat | SupportsIndex,
+                SupportsFloat | SupportsIndex | None,
+                SupportsGetItem[
+                    int,
+                    tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex],
+                ],
+                tuple[
+                    SupportsFloat | SupportsIndex,
+                    SupportsFloat | SupportsIndex,
+                    SupportsFloat | SupportsIndex,
+                    SupportsFloat | SupportsIndex,
+                ]
+                | None,
+            ],
+        ],
+        racks: SupportsGetItem[int, Rack],
+        *,
+        initial_drift: NDArray[float64] | None = None,
+        initial_velocity: NDArray[float64] | None = None,
+        collapse_drift: NDArray[float64] | None = None,
+    ) -> GeneralScene:
+        """
+        As `Scene`; blocks have stops or None at the end of their tuples.
+        """
+    @property
+    def geometric_stiffness(self, /) -> NDArray[float64]:
+        """
+        P/h of each storey (N/m), the weight of goods and racks included; zero without P-Delta.
+        """
+
+@final
 class Motion:
     """
     Ground motion held by the kernel.
@@ -285,6 +595,56 @@ class Motion:
     def with_duration(self, /, duration: SupportsFloat | SupportsIndex) -> Motion:
         """
         The motion up to the sample nearest to `duration` (s): cut, or continued at zero.
+        """
+
+@final
+class Rack:
+    """
+    Rack held by the kernel.
+    """
+    def __new__(
+        cls,
+        /,
+        floor: SupportsIndex,
+        mass: NDArray[float64],
+        springs: dict[str, NDArray[float64]],
+        *,
+        backbones: SupportsGetItem[int, NDArray[float64] | None] | None = None,
+        hysteresis: SupportsGetItem[int, str] | None = None,
+        damping_ratio: SupportsFloat | SupportsIndex,
+        geometric_stiffness: NDArray[float64] | None = None,
+        blocks: SupportsGetItem[
+            int,
+            tuple[
+                SupportsIndex,
+                SupportsFloat | SupportsIndex,
+                SupportsFloat | SupportsIndex,
+                SupportsFloat | SupportsIndex,
+                SupportsFloat | SupportsIndex | None,
+                SupportsGetItem[
+                    int,
+                    tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex],
+                ],
+                tuple[
+                    SupportsFloat | SupportsIndex,
+                    SupportsFloat | SupportsIndex,
+                    SupportsFloat | SupportsIndex,
+                    SupportsFloat | SupportsIndex,
+                ]
+                | None,
+            ],
+        ],
+    ) -> Rack:
+        """
+        Lists have one value per level, from the lowest up; springs as those of `Building`. Masses are of the frame
+        with the goods that are fixed to it; other goods are tuples of level, mass, mu_s, mu_k, initial velocity, stages
+        of wear, and stops or None.
+        """
+    @staticmethod
+    def uniform_stiffness(mass: NDArray[float64], period: SupportsFloat | SupportsIndex) -> float:
+        """
+        Stiffness of equally stiff levels (N/m) that gives the first period (s) to levels of these masses (kg), the
+        goods included.
         """
 
 @final
@@ -641,6 +1001,13 @@ def simulate_columns(
     """
     Solves `runs`, rows of (row of the columns, index of motion), with the motion of run i multiplied by `scale[i]`;
     otherwise as `simulate_many`.
+    """
+
+def simulate_general(
+    scene: GeneralScene, motion: Motion, every: SupportsIndex, displacements_only: bool, energy: bool, events: bool
+) -> GeneralResponse:
+    """
+    Solves one scene of the general engine under one motion; arguments as of `simulate`.
     """
 
 def simulate_many(

@@ -4,6 +4,8 @@
 mod arrays;
 mod batch;
 mod errors;
+mod general_response;
+mod general_scene;
 mod interrupt;
 mod reference;
 mod response;
@@ -45,6 +47,10 @@ mod _kernel {
 
     #[pymodule_export]
     use crate::batch::{Batch, Columns, simulate_columns, simulate_many};
+    #[pymodule_export]
+    use crate::general_response::{GeneralResponse, simulate_general};
+    #[pymodule_export]
+    use crate::general_scene::{GeneralBuilding, GeneralScene, Rack};
     #[pymodule_export]
     use crate::reference::{ReferenceRun, integrate_reference};
     #[pymodule_export]

@@ -323,21 +323,25 @@ impl Response {
     /// Work done and skipped.
     #[getter]
     fn statistics(&self) -> Named<usize, 12> {
-        let statistics = &self.run.statistics;
-        let skipped = &statistics.skipped;
-        Named([
-            ("intervals", statistics.intervals),
-            ("substeps", statistics.substeps),
-            ("plain_steps", statistics.plain_steps),
-            ("series_steps", statistics.series_steps),
-            ("guards_isolated", statistics.guards_isolated),
-            ("events", statistics.events.total()),
-            ("regimes", statistics.regimes),
-            ("regime_hits", statistics.regime_hits),
-            ("skipped_elastic_storeys", skipped.elastic_storeys),
-            ("skipped_bare_floors", skipped.bare_floors),
-            ("skipped_head_samples", skipped.head_samples),
-            ("skipped_tail_samples", skipped.tail_samples),
-        ])
+        statistics(&self.run.statistics)
     }
+}
+
+/// Work done and skipped, by name.
+pub(crate) fn statistics(statistics: &seismass::Statistics) -> Named<usize, 12> {
+    let skipped = &statistics.skipped;
+    Named([
+        ("intervals", statistics.intervals),
+        ("substeps", statistics.substeps),
+        ("plain_steps", statistics.plain_steps),
+        ("series_steps", statistics.series_steps),
+        ("guards_isolated", statistics.guards_isolated),
+        ("events", statistics.events.total()),
+        ("regimes", statistics.regimes),
+        ("regime_hits", statistics.regime_hits),
+        ("skipped_elastic_storeys", skipped.elastic_storeys),
+        ("skipped_bare_floors", skipped.bare_floors),
+        ("skipped_head_samples", skipped.head_samples),
+        ("skipped_tail_samples", skipped.tail_samples),
+    ])
 }

@@ -14,7 +14,7 @@ use crate::springs::{self, SpringPath};
 
 /// Runs work that finds the frequencies of so many storeys, watched for Ctrl-C where it takes longer than milliseconds: it
 /// grows like their cube.
-fn find_frequencies<T: Send + 'static>(
+pub(crate) fn find_frequencies<T: Send + 'static>(
     py: Python<'_>,
     storeys: usize,
     work: impl FnOnce() -> seismass::Result<T> + Send + 'static,
@@ -50,18 +50,8 @@ impl Building {
         gravity_load: Option<Values<f64>>,
         geometric_stiffness: Option<Values<f64>>,
     ) -> PyResult<Self> {
-        let damping = match (damping_ratio, rayleigh_modes, damping_matrix) {
-            (Some(ratio), None, None) => Ok(Damping::Modal { ratio }),
-            (Some(ratio), Some((first, second)), None) => Ok(Damping::Rayleigh { ratio, modes: [first, second] }),
-            (None, None, Some(matrix)) => square(&matrix).map(Damping::Matrix),
-            _ => Err(refuse("damping", "a ratio, a ratio in two modes or a matrix", "another combination")),
-        };
-        let gravity = match (heights, gravity_load, geometric_stiffness) {
-            (None, None, Some(values)) => Ok(GravityEffect::GeometricStiffness(values.0)),
-            (Some(heights), Some(loads), None) => Ok(GravityEffect::Loads { heights: heights.0, floor_loads: loads.0 }),
-            (None, None, None) => Ok(GravityEffect::None),
-            _ => Err(refuse("P-Delta", "geometric_stiffness, or heights and gravity_load", "another combination")),
-        };
+        let damping = damping(damping_ratio, rayleigh_modes, damping_matrix);
+        let gravity = gravity(heights, gravity_load, geometric_stiffness);
         let count = mass.0.len();
         let storeys = springs::storeys(count, &springs, backbones.as_deref(), hysteresis.as_deref());
         find_frequencies(py, count, move || seismass::Building::new(mass.0, storeys?, damping?)?.with_gravity(gravity?))
@@ -92,10 +82,38 @@ impl Building {
     }
 }
 
-fn square(matrix: &Table<f64>) -> seismass::Result<DMatrix<f64>> {
+/// How damping was given.
+pub(crate) fn damping(
+    ratio: Option<f64>,
+    rayleigh_modes: Option<(usize, usize)>,
+    matrix: Option<Table<f64>>,
+) -> seismass::Result<Damping> {
+    match (ratio, rayleigh_modes, matrix) {
+        (Some(ratio), None, None) => Ok(Damping::Modal { ratio }),
+        (Some(ratio), Some((first, second)), None) => Ok(Damping::Rayleigh { ratio, modes: [first, second] }),
+        (None, None, Some(matrix)) => square(&matrix, "damping").map(Damping::Matrix),
+        _ => Err(refuse("damping", "a ratio, a ratio in two modes or a matrix", "another combination")),
+    }
+}
+
+/// How P-Delta was given.
+pub(crate) fn gravity(
+    heights: Option<Values<f64>>,
+    gravity_load: Option<Values<f64>>,
+    geometric_stiffness: Option<Values<f64>>,
+) -> seismass::Result<GravityEffect> {
+    match (heights, gravity_load, geometric_stiffness) {
+        (None, None, Some(values)) => Ok(GravityEffect::GeometricStiffness(values.0)),
+        (Some(heights), Some(loads), None) => Ok(GravityEffect::Loads { heights: heights.0, floor_loads: loads.0 }),
+        (None, None, None) => Ok(GravityEffect::None),
+        _ => Err(refuse("P-Delta", "geometric_stiffness, or heights and gravity_load", "another combination")),
+    }
+}
+
+pub(crate) fn square(matrix: &Table<f64>, name: &str) -> seismass::Result<DMatrix<f64>> {
     if matrix.rows != matrix.columns {
         let shape = format!("{} x {}", matrix.rows, matrix.columns);
-        return Err(refuse("damping", "a square matrix", &shape));
+        return Err(refuse(name, "a square matrix", &shape));
     }
     Ok(DMatrix::from_row_slice(matrix.rows, matrix.columns, &matrix.values))
 }

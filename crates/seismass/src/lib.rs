@@ -25,6 +25,26 @@
 //! step is accepted only when bounds prove that no guard of any machine fell inside it; otherwise the guards'
 //! polynomials are searched by their Bernstein coefficients, and the first root over all of them is refined to rounding.
 //!
+//! # Racks, walls and stops
+//!
+//! What a chain of storeys does not describe is a [`GeneralScene`]: racks on floors, an elastic matrix beside the storeys,
+//! stops on the slip of goods. [`simulate_general`] solves it by an engine of its own, as exactly.
+//!
+//! ```
+//! use std::sync::Arc;
+//! use seismass::{Block, Building, Damping, GeneralBuilding, GeneralScene, Goods, Motion, Options, Stops, simulate_general};
+//!
+//! # fn main() -> seismass::Result<()> {
+//! let building = Building::uniform(3, 0.60, 1000.0, Damping::Modal { ratio: 0.05 })?;
+//! let goods = Goods { block: Block::new(3, 500.0, 0.1), stops: Some(Stops::new(0.01, 1e5)) };
+//! let scene = GeneralScene::new(Some(Arc::new(GeneralBuilding::from(&building))), vec![goods], Vec::new())?;
+//! let samples: Vec<f64> = (0..1000).map(|i| 4.0 * (0.1 * f64::from(i)).sin()).collect();
+//! let response = simulate_general(&scene, &Motion::new(samples, 0.01, None)?, &Options::default())?;
+//! assert!(response.peaks.contact_force[0].value > 0.0);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Limitation
 //!
 //! Blocks slide and do not rock; motion is in one horizontal direction; contact is lost and regained with the sign of
@@ -37,6 +57,7 @@ mod batch;
 mod classes;
 pub mod error;
 mod events;
+mod general;
 mod lanes;
 mod machines;
 mod memory;
@@ -57,6 +78,9 @@ mod units;
 
 pub use batch::{Run, simulate_each, simulate_many};
 pub use error::{Domain, Error, Result};
+pub use general::{
+    GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, simulate_general, simulate_general_until,
+};
 pub use lanes::InstructionSet;
 pub use machines::spring_path::{SpringEvent, SpringPath, spring_path};
 pub use response::{
@@ -64,8 +88,8 @@ pub use response::{
 };
 pub use run::{simulate, simulate_until};
 pub use scene::{
-    Block, Building, Damping, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion, Options, PeakOriented, Scene,
-    SceneColumns, SpringLaw, Storey, UniformBuilding, Wear,
+    Block, Building, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion,
+    Options, PeakOriented, Rack, Scene, SceneColumns, SpringLaw, Stops, Storey, UniformBuilding, Wear,
 };
 pub use threads::Control;
 pub use units::STANDARD_GRAVITY;

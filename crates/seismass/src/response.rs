@@ -59,9 +59,9 @@ pub enum EventKind {
     Unload,
     /// A peak-oriented spring begins to reload: at zero force, or where it had begun to unload.
     Reload,
-    /// A stop touches.
+    /// A stop of a storey touches.
     Close,
-    /// A stop is left.
+    /// A stop of a storey is left.
     Open,
     /// A stuck block breaks away.
     Slip,
@@ -77,11 +77,15 @@ pub enum EventKind {
     Land,
     /// The friction coefficients of a block change with the path it has slipped.
     Wear,
+    /// A block comes to a stop of its own.
+    TouchStop,
+    /// A block leaves a stop of its own.
+    LeaveStop,
 }
 
 impl EventKind {
     /// All kinds, in the order of [`EventCounts`].
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::Yield,
         Self::Unload,
         Self::Reload,
@@ -94,6 +98,8 @@ impl EventKind {
         Self::Lift,
         Self::Land,
         Self::Wear,
+        Self::TouchStop,
+        Self::LeaveStop,
     ];
 
     /// Lower-case name as in event tables.
@@ -111,6 +117,8 @@ impl EventKind {
             Self::Lift => "lift",
             Self::Land => "land",
             Self::Wear => "wear",
+            Self::TouchStop => "touch_stop",
+            Self::LeaveStop => "leave_stop",
         }
     }
 }
@@ -133,7 +141,7 @@ pub struct Event {
     pub number: usize,
     /// Sign: yield, of the force; unload, of the force before; reload, of the force that follows; close and open, of the
     /// drift; slip and reverse, of the relative velocity that follows; stick, of the one before; touch, lift, land, wear,
-    /// of the one then (0: none).
+    /// of the one then (0: none); touch_stop and leave_stop, of the side of the stop.
     pub sign: i8,
     /// Yield: how many segments of the backbone have been left, 1 at first yield; wear: the stage that begins; otherwise 0.
     pub element: u8,

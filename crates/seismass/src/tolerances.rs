@@ -8,6 +8,13 @@ pub(crate) const SAME_SLOPE: f64 = 1e-9;
 /// Columns whose cosine is below this are orthogonal to rounding.
 pub(crate) const ORTHOGONAL: f64 = 1e-16;
 
+/// Entries of a matrix across its diagonal that differ by less than this part of the diagonal are equal.
+pub(crate) const SAME_ENTRY: f64 = 1e-12;
+
+/// A matrix whose pivots are not below zero by more than this part of its largest diagonal entry is positive
+/// semi-definite: matrices are often given with few digits more.
+pub(crate) const SEMI_DEFINITE: f64 = 1e-9;
+
 /// Forces of a backbone that agree to this fraction of the largest are equal.
 pub(crate) const SAME_FORCE: f64 = 1e-12;
 
@@ -60,3 +67,7 @@ pub(crate) const SUBSTEP_PHASE: f64 = 4.0;
 
 /// Most radians of the stiffest vibration in a step: each takes a series of its own where something happens.
 pub(crate) const REFUSED_PHASE: f64 = 65536.0;
+
+/// What a decision of blocks at stops takes as equal, as a part of limits and accelerations, times how much heavier a node
+/// is with its goods than without: a smaller one releases and sticks for ever where goods are far heavier.
+pub(crate) const AT_STOPS_ROUNDING: f64 = 1000.0 * f64::EPSILON;

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Layers of the kernel, the lowest first (drawn in CONTRIBUTING.md): a module imports from its own and from those before.
-const KERNEL: [&str; 22] = [
+const KERNEL: [&str; 23] = [
     "units",
     "tolerances",
     "error",
@@ -26,6 +26,7 @@ const KERNEL: [&str; 22] = [
     "record",
     "plain",
     "run",
+    "general",
     "batch",
     "reference",
     "spectrum",

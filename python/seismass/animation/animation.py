@@ -143,6 +143,7 @@ def animate(
     """
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "animation", "a Scene", brief(scene))
+    scene.of_chain("animations")
     chosen = as_motion(motion, "motion", "animation")
     scenes: list[tuple[str, float | None, Scene]] = [
         ("real building" if scene.building else "blocks on the ground", None, scene)

@@ -89,6 +89,8 @@ def as_json(file: SceneFile, response: Response) -> dict[str, Any]:
         **{name: getattr(response, name).tolist() for name in lists},
         "peak_base_shear": response.peak_base_shear,
     }
+    if file.scene.engine == "general":
+        result |= response.rack_values()
     if response.peak_drift_ratio is not None and response.residual_drift_ratio is not None:
         result["peak_drift_ratio"] = response.peak_drift_ratio.tolist()
         result["residual_drift_ratio"] = response.residual_drift_ratio.tolist()

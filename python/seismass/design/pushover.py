@@ -15,7 +15,7 @@ from seismass.base.views import view
 from seismass.design.lateral_force import exponent_k
 from seismass.design.modes import positive_of_length, vibration_modes
 from seismass.design.storey_springs import StoreySpring, storey_spring
-from seismass.model.building import Building
+from seismass.model.building import Building, of_storeys_alone
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -194,6 +194,7 @@ def pushover(
     """
     if not isinstance(building, Building):
         raise refusal(InvalidOption, "building", "pushover", "a Building", brief(building))
+    of_storeys_alone(building, "pushover")
     force = _forces(building, pattern)
     share = np.cumsum(force[::-1])[::-1]
     limits = _limits(building, drift_limit)

@@ -102,6 +102,7 @@ def check_loaded(scene: Any) -> Scene:
     """Return a scene whose building carries at least one block."""
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "effective mass", "a Scene", brief(scene))
+    scene.of_chain("effective mass")
     building_of(scene)
     if not any(floor > 0 for floor in scene.block_floor):
         requirement = "at least one on a floor of the building, as there is no live load otherwise"

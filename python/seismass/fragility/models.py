@@ -77,6 +77,7 @@ def as_models(models: Any, owner: str) -> dict[str, Scene]:
             raise refusal(InvalidScene, "models", owner, "named by text", brief(name))
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"model {name}", owner, "a Scene", brief(scene))
+        scene.of_chain(owner)
     found = dict(given)
     first = next(iter(found.values()))
     for name, scene in found.items():

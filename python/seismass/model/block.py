@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from seismass.base.errors import InvalidScene
 from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
 from seismass.model.building import Building
+from seismass.model.stops import Stops
 
 
 class Block(Value):
@@ -32,6 +33,8 @@ class Block(Value):
         Initial velocity relative to the ground (m/s); by default that of its floor.
     wear : list of (path, mu_s, mu_k), optional
         Coefficients that hold from a path slipped (m) on, in order of the path; those above hold until the first.
+    stops : Stops, optional
+        What limits its slip. Scenes with stops are solved by the general engine: `simulate` takes them.
 
     Raises
     ------
@@ -45,7 +48,7 @@ class Block(Value):
     Block(floor=1, mass_ratio=0.5, mu=0.3)
     """
 
-    __slots__ = ("floor", "mass", "mass_ratio", "mu_k", "mu_s", "velocity", "wear")
+    __slots__ = ("floor", "mass", "mass_ratio", "mu_k", "mu_s", "stops", "velocity", "wear")
     floor: int
     mass: float | None
     mass_ratio: float | None
@@ -53,6 +56,7 @@ class Block(Value):
     mu_k: float
     velocity: float | None
     wear: tuple[tuple[float, float, float], ...]
+    stops: Stops | None
 
     def __init__(
         self,
@@ -65,7 +69,11 @@ class Block(Value):
         mu_k: float | None = None,
         velocity: float | None = None,
         wear: Sequence[tuple[float, float, float]] = (),
+        stops: Stops | None = None,
     ) -> None:
+        if stops is not None and not isinstance(stops, Stops):
+            raise refusal(InvalidScene, "stops", "block", "Stops or None", brief(stops))
+
         def number(name: str, value: float | None) -> float | None:
             return None if value is None else as_number(value, name, "block", InvalidScene)
 
@@ -85,12 +93,18 @@ class Block(Value):
             mu_k=number("mu_k", static if mu_k is None else mu_k),
             velocity=number("velocity", velocity),
             wear=_stages(wear),
+            stops=stops,
         )
 
     @property
     def contact(self) -> tuple[float, float, float | None, list[tuple[float, float, float]]]:
         """What the kernel takes beside floor and mass: mu_s, mu_k, velocity, and the stages of wear."""
         return self.mu_s, self.mu_k, self.velocity, list(self.wear)
+
+    @property
+    def stop_numbers(self) -> tuple[float, float, float, float] | None:
+        """What the kernel takes of the stops; None without."""
+        return None if self.stops is None else self.stops.numbers
 
     def _arguments(self) -> dict[str, Any]:
         return {
@@ -101,6 +115,7 @@ class Block(Value):
             "mu_k": self.mu_k,
             "velocity": self.velocity,
             "wear": self.wear,
+            "stops": self.stops,
         }
 
     def __repr__(self) -> str:
@@ -109,7 +124,8 @@ class Block(Value):
         friction = f"mu={self.mu_s:g}" if equal else f"mu_s={self.mu_s:g}, mu_k={self.mu_k:g}"
         velocity = "" if self.velocity is None else f", velocity={self.velocity:g}"
         wear = f", wear={list(self.wear)}" if self.wear else ""
-        return f"Block(floor={self.floor}, {mass}, {friction}{velocity}{wear})"
+        stops = "" if self.stops is None else f", stops={self.stops}"
+        return f"Block(floor={self.floor}, {mass}, {friction}{velocity}{wear}{stops})"
 
 
 def _stages(wear: Any) -> tuple[tuple[float, float, float], ...]:

@@ -71,6 +71,10 @@ class Building(Value):
         blocks is added: P_i/h_i is subtracted from the tangent stiffness of storey i.
     geometric_stiffness : array_like, optional
         Finished P/h of each storey (N/m), instead of `gravity_load`.
+    stiffness_matrix : array_like of shape (storeys, storeys), optional
+        Elastic stiffness (N/m) over the floors beside the storey springs: walls, braces over several storeys, a
+        condensed model. Symmetric, positive semi-definite; a storey's own spring may then have stiffness 0. Damping is
+        formed with springs and matrix together. Such buildings are solved by the general engine: `simulate` takes them.
     mass_is_stated : bool, default True
         False where the masses are only a convention, as `uniform` makes them where it is given none: then blocks have
         to be given by `mass_ratio`, and forces mean something as fractions of the weight alone.
@@ -121,9 +125,10 @@ class Building(Value):
         "mass",
         "mass_is_stated",
         "stiffness",
+        "stiffness_matrix",
         *SPRING_FIELDS,
     )
-    _kernel: _kernel.Building
+    _kernel: _kernel.Building | _kernel.GeneralBuilding
     mass: FloatArray
     stiffness: FloatArray
     yield_shear: FloatArray
@@ -142,6 +147,7 @@ class Building(Value):
     heights: FloatArray | None
     gravity_load: FloatArray | None
     geometric_stiffness: FloatArray | None
+    stiffness_matrix: FloatArray | None
     mass_is_stated: bool
 
     @takes_springs(SPRING_FIELDS)
@@ -156,6 +162,7 @@ class Building(Value):
         heights: ArrayLike | None = None,
         gravity_load: ArrayLike | None = None,
         geometric_stiffness: ArrayLike | None = None,
+        stiffness_matrix: ArrayLike | None = None,
         mass_is_stated: bool = True,
         **springs: Unpack[SpringArguments],
     ) -> None:
@@ -192,6 +199,7 @@ class Building(Value):
             backbone=backbones,
             hysteresis=read_hysteresis(hysteresis, storeys),
             damping=read_damping(damping),
+            stiffness_matrix=_matrix(stiffness_matrix),
             mass_is_stated=as_flag(mass_is_stated, "mass_is_stated", "building", InvalidScene),
         )
         stated = {name: values for name, values in self.springs.items() if not is_default(values, name)}
@@ -199,17 +207,20 @@ class Building(Value):
         heights_only = gravity_load is None
         if heights_only and self.heights is not None:
             _check_heights(self.heights, len(self.mass))
-        self._set(
-            _kernel=_kernel.Building(
-                self.mass,
-                stated,
-                **_law_arguments(self),
-                **kernel_damping(self.damping),
-                heights=None if heights_only else self.heights,
-                gravity_load=self.gravity_load,
-                geometric_stiffness=self.geometric_stiffness,
-            )
-        )
+        (positional, laws) = kernel_springs(self)
+        arguments_of_kernel: dict[str, Any] = {
+            **laws,
+            **kernel_damping(self.damping),
+            "heights": None if heights_only else self.heights,
+            "gravity_load": self.gravity_load,
+            "geometric_stiffness": self.geometric_stiffness,
+        }
+        if self.stiffness_matrix is None:
+            self._set(_kernel=_kernel.Building(self.mass, *positional, **arguments_of_kernel))
+        else:
+            matrix = self.stiffness_matrix
+            kernel = _kernel.GeneralBuilding(self.mass, *positional, stiffness_matrix=matrix, **arguments_of_kernel)
+            self._set(_kernel=kernel)
 
     @classmethod
     @takes_springs(SHAPE_FIELDS)
@@ -384,6 +395,7 @@ class Building(Value):
             "heights": self.heights,
             "gravity_load": self.gravity_load,
             "geometric_stiffness": self.geometric_stiffness,
+            "stiffness_matrix": self.stiffness_matrix,
             "mass_is_stated": self.mass_is_stated,
         }
 
@@ -400,6 +412,7 @@ class Building(Value):
         )
         laws = "".join(f", {law}" for law in self.laws)
         damping = "matrix" if isinstance(self.damping, np.ndarray) else self.damping
+        damping = f"{damping}" if self.stiffness_matrix is None else f"{damping}, stiffness matrix"
         p_delta = ", P-Delta" if self.gravity_load is not None or self.geometric_stiffness is not None else ""
         noun = "storey" if self.storeys == 1 else "storeys"
         springs += laws
@@ -443,14 +456,48 @@ def _filled(array: FloatArray | None, storeys: int) -> FloatArray | None:
     return frozen(np.full(storeys, array)) if array is not None and array.ndim == 0 else array
 
 
-def _law_arguments(building: Building) -> dict[str, Any]:
-    """What the kernel takes of the laws beside the numbers; nothing of trilinear springs with Masing unloading."""
+def kernel_springs(building: Building) -> tuple[tuple[dict[str, FloatArray]], dict[str, Any]]:
+    """What the kernel takes of springs: numbers that are not the defaults, and laws where they are not Masing's."""
+    stated = {name: values for name, values in building.springs.items() if not is_default(values, name)}
     found: dict[str, Any] = {}
     if building.backbone is not None:
         found["backbones"] = [None if points is None else np.array(points) for points in building.backbone]
     if any(name != "masing" for name in building.hysteresis):
         found["hysteresis"] = list(building.hysteresis)
-    return found
+    return (stated,), found
+
+
+def of_storeys_alone(building: Building, owner: str) -> None:
+    """Refuse a building with an elastic matrix where only shear buildings are taken.
+
+    Raises
+    ------
+    InvalidScene
+        It has one.
+    """
+    if building.stiffness_matrix is not None:
+        requirement = f"left out in {owner}; simulate takes it"
+        raise refusal(InvalidScene, "stiffness_matrix", "building", requirement, "a matrix")
+
+
+def chain_kernel(building: Building, owner: str) -> _kernel.Building:
+    """Return what the kernel's chain engine takes of a building.
+
+    Raises
+    ------
+    InvalidScene
+        It has an elastic matrix.
+    """
+    of_storeys_alone(building, owner)
+    kernel: Any = building._kernel
+    shear_building: _kernel.Building = kernel
+    return shear_building
+
+
+def _matrix(value: ArrayLike | None) -> FloatArray | None:
+    if value is None:
+        return None
+    return as_array(value, "stiffness_matrix", "building", InvalidScene, dimensions=2)
 
 
 def _check_heights(heights: FloatArray, storeys: int) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +15,10 @@ from seismass.base.views import view
 from seismass.model.block import Block, block_mass
 from seismass.model.building import Building
 from seismass.model.plausibility import model_remarks
+from seismass.model.rack import Rack
+
+_ChainScene: TypeAlias = _kernel.Scene
+_GeneralScene: TypeAlias = _kernel.GeneralScene
 
 
 class Scene(Value):
@@ -26,6 +30,8 @@ class Scene(Value):
         None: there are blocks on the ground only.
     blocks : iterable of Block
         Any number, in any order; several may share a floor. They are counted from 1 as listed.
+    racks : iterable of Rack
+        Racks on floors or on the ground. Their goods that may slide are counted on from the blocks, rack by rack.
     initial_drift : array_like, optional
         Storey drifts at the start (m), within the elastic range. It and the next two need a building.
     initial_velocity : array_like, optional
@@ -37,8 +43,8 @@ class Scene(Value):
 
     Attributes
     ----------
-    building, blocks, initial_drift, initial_velocity, collapse_drift, name, note
-        As given; `blocks` is a tuple, arrays are read-only.
+    building, blocks, racks, initial_drift, initial_velocity, collapse_drift, name, note
+        As given; `blocks` and `racks` are tuples, arrays are read-only.
 
     Raises
     ------
@@ -55,7 +61,8 @@ class Scene(Value):
     """
 
     __slots__ = (
-        "_kernel",
+        "_chain",
+        "_general",
         "blocks",
         "building",
         "collapse_drift",
@@ -63,10 +70,13 @@ class Scene(Value):
         "initial_velocity",
         "name",
         "note",
+        "racks",
     )
-    _kernel: _kernel.Scene
+    _chain: _ChainScene | None
+    _general: _GeneralScene | None
     building: Building | None
     blocks: tuple[Block, ...]
+    racks: tuple[Rack, ...]
     initial_drift: FloatArray | None
     initial_velocity: FloatArray | None
     collapse_drift: FloatArray | None
@@ -78,6 +88,7 @@ class Scene(Value):
         building: Building | None,
         blocks: Iterable[Block] = (),
         *,
+        racks: Iterable[Rack] = (),
         initial_drift: ArrayLike | None = None,
         initial_velocity: ArrayLike | None = None,
         collapse_drift: ArrayLike | None = None,
@@ -94,6 +105,8 @@ class Scene(Value):
             if not isinstance(block, Block):
                 raise refusal(InvalidScene, f"block {number}", "scene", "a Block", brief(block))
 
+        standing = _racks(racks)
+
         def per_storey(name: str, value: ArrayLike | None) -> FloatArray | None:
             if value is None:
                 return None
@@ -105,24 +118,67 @@ class Scene(Value):
         self._set(
             building=building,
             blocks=placed,
+            racks=standing,
             initial_drift=per_storey("initial_drift", initial_drift),
             initial_velocity=per_storey("initial_velocity", initial_velocity),
             collapse_drift=per_storey("collapse_drift", collapse_drift),
             name=as_name(name, "name", "scene", InvalidScene),
             note=as_name(note, "note", "scene", InvalidScene, lines=True),
         )
-        self._set(
-            _kernel=_kernel.Scene(
-                None if building is None else building._kernel,
-                [
-                    (block.floor, block_mass(block, number, building), *block.contact)
-                    for number, block in enumerate(placed, start=1)
-                ],
-                initial_drift=self.initial_drift,
-                initial_velocity=self.initial_velocity,
-                collapse_drift=self.collapse_drift,
-            )
-        )
+        masses = [block_mass(block, number, building) for number, block in enumerate(placed, start=1)]
+        state: dict[str, Any] = {
+            "initial_drift": self.initial_drift,
+            "initial_velocity": self.initial_velocity,
+            "collapse_drift": self.collapse_drift,
+        }
+        self._set(_chain=None, _general=None)
+        kernel: Any = None if building is None else building._kernel
+        goods = [(block.floor, mass, *block.contact) for block, mass in zip(placed, masses, strict=True)]
+        if self.engine == "chain":
+            self._set(_chain=_kernel.Scene(kernel, goods, **state))
+            return
+        stopped = [(*each, block.stop_numbers) for each, block in zip(goods, placed, strict=True)]
+        kernels = [rack.of_kernel(number, building) for number, rack in enumerate(standing, start=1)]
+        self._set(_general=_kernel.GeneralScene(kernel, stopped, kernels, **state))
+
+    @property
+    def engine(self) -> Literal["chain", "general"]:
+        """Which engine solves it: "chain" for shear buildings; "general" with racks, stops or a stiffness matrix."""
+        return "general" if self._beyond_chain() is not None else "chain"
+
+    def _beyond_chain(self) -> tuple[str, str, str] | None:
+        """What the chain engine does not take: its parameter, whose it is, and what it is; None where it takes all."""
+        if self.building is not None and self.building.stiffness_matrix is not None:
+            return "stiffness_matrix", "building", "a matrix"
+        if self.racks:
+            return "racks", "scene", f"{len(self.racks)}"
+        stopped = [number for number, block in enumerate(self.blocks, start=1) if block.stops is not None]
+        return ("stops", f"block {stopped[0]}", "stops") if stopped else None
+
+    def of_chain(self, owner: str) -> Scene:
+        """Return the scene itself, for what takes scenes of the chain engine alone.
+
+        Parameters
+        ----------
+        owner : str
+            What takes it, as errors name it.
+
+        Raises
+        ------
+        InvalidScene
+            It has racks, stops or a stiffness matrix.
+        """
+        beyond = self._beyond_chain()
+        if beyond is not None:
+            parameter, of, value = beyond
+            raise refusal(InvalidScene, parameter, of, f"left out in {owner}; simulate takes it", value)
+        return self
+
+    @property
+    def _kernel(self) -> _ChainScene:
+        scene: Any = self.of_chain("this function")._chain
+        chain: _ChainScene = scene
+        return chain
 
     @property
     def storeys(self) -> int:
@@ -135,6 +191,15 @@ class Scene(Value):
         return frozen([block_mass(block, number, self.building) for number, block in enumerate(self.blocks, start=1)])
 
     @property
+    def goods(self) -> tuple[Block, ...]:
+        """All blocks that may slide, in the order of results: those on floors, then those of racks, rack by rack.
+
+        The floor of a block of a rack is its level.
+        """
+        of_racks = (block.block for rack in self.racks for block in rack.blocks if not block.fixed)
+        return (*self.blocks, *of_racks)
+
+    @property
     def block_floor(self) -> tuple[int, ...]:
         """Floor of each block; 0 is the ground."""
         return tuple(block.floor for block in self.blocks)
@@ -142,7 +207,9 @@ class Scene(Value):
     @property
     def geometric_stiffness(self) -> FloatArray:
         """P/h of each storey (N/m), the weight of the blocks included, shape (storeys,); zero without P-Delta."""
-        return self._kernel.geometric_stiffness
+        kernel: Any = self._chain if self._chain is not None else self._general
+        values: FloatArray = kernel.geometric_stiffness
+        return values
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -153,6 +220,7 @@ class Scene(Value):
         return {
             "building": self.building,
             "blocks": self.blocks,
+            "racks": self.racks,
             "initial_drift": self.initial_drift,
             "initial_velocity": self.initial_velocity,
             "collapse_drift": self.collapse_drift,
@@ -165,6 +233,7 @@ class Scene(Value):
         return (
             self.building,
             self.blocks,
+            self.racks,
             *(None if array is None else (array + 0.0).tobytes() for array in arrays),
         )
 
@@ -175,7 +244,19 @@ class Scene(Value):
     def __repr__(self) -> str:
         name = f"{self.name!r}, " if self.name else ""
         blocks = {0: "no block", 1: "1 block"}.get(len(self.blocks), f"{len(self.blocks)} blocks")
+        racks = {0: "", 1: ", 1 rack"}.get(len(self.racks), f", {len(self.racks)} racks")
         if self.building is None:
-            return f"Scene({name}ground only, {blocks})"
+            return f"Scene({name}ground only, {blocks}{racks})"
         noun = "storey" if self.storeys == 1 else "storeys"
-        return f"Scene({name}{self.storeys} {noun}, T1 = {self.building.periods[0]:.4g} s, {blocks})"
+        return f"Scene({name}{self.storeys} {noun}, T1 = {self.building.periods[0]:.4g} s, {blocks}{racks})"
+
+
+def _racks(racks: Iterable[Rack]) -> tuple[Rack, ...]:
+    try:
+        standing = tuple(racks)
+    except TypeError:
+        raise refusal(InvalidScene, "racks", "scene", "a list of Racks", brief(racks)) from None
+    for number, rack in enumerate(standing, start=1):
+        if not isinstance(rack, Rack):
+            raise refusal(InvalidScene, f"rack {number}", "scene", "a Rack", brief(rack))
+    return standing

@@ -54,6 +54,7 @@ def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None 
     InvalidOption
         There are fewer than two points, or `ax` is no Axes.
     """
+    response.scene.of_chain("the energy figure")
     times, runs = _shortened(response, points, "energy figure", energy=True)
     stated = response.scene.building is None or response.scene.building.mass_is_stated
     scale, unit = (1e-3, "kJ") if stated else (1.0, "J for floors of 1 kg")
@@ -120,7 +121,7 @@ def slip_path(
     InvalidOption
         There is no such block, there are fewer than two points, or `ax` is no Axes.
     """
-    floors = response.scene.block_floor
+    floors = response.scene.of_chain("the figure of slip paths").block_floor
     chosen = numbers(blocks, len(floors), "blocks", "figure of slip paths")
     times, runs = _shortened(response, points, "figure of slip paths", energy=False)
     paths = 1e3 * np.array([run.slip_path for run in runs])

@@ -100,7 +100,7 @@ def slip(
     InvalidOption
         The run has no histories, there is no such block or kind of events, or `ax` fits not.
     """
-    floors = response.scene.block_floor
+    floors = response.scene.of_chain("the slip figure").block_floor
     chosen = numbers(blocks, len(floors), "blocks", "slip figure")
     with mpl.rc_context(STYLE):
         place = panels(ax, len(chosen), "slip figure")

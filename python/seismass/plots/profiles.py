@@ -105,7 +105,7 @@ _LIMIT: Final[dict[str, Any]] = {"color": VERMILION, "linestyle": (0, (5, 2)), "
 
 def _quantities(response: Response) -> dict[str, _Quantity]:
     """What can be shown of a run by name."""
-    building, floors = response.scene.building, response.scene.block_floor
+    building, floors = response.scene.building, response.scene.of_chain("the profile figure").block_floor
     if building is None:
         raise refusal(InvalidOption, "scene", "profile", "one with a building", "none")
     storey = np.arange(building.storeys) + 0.5

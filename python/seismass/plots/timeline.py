@@ -30,6 +30,8 @@ MARKS: Final[dict[str, dict[str, Any]]] = {
     "lift": {"marker": "2", "color": PURPLE, "markersize": 6.0},
     "land": {"marker": "1", "color": PURPLE, "markersize": 6.0},
     "wear": {"marker": "d", "color": INK, "markersize": 4.5},
+    "touch_stop": {"marker": "p", "color": PURPLE, "markersize": 4.5},
+    "leave_stop": {"marker": "p", "color": PURPLE, "markerfacecolor": PAPER, "markersize": 4.5},
 }
 """How each kind of event is drawn; they differ in marker as well as in colour."""
 
@@ -115,7 +117,7 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
         The run has no event log, or `ax` is no Axes.
     """
     log = response.event_log
-    storeys, blocks = response.scene.storeys, response.scene.block_floor
+    storeys, blocks = response.scene.storeys, response.scene.of_chain("the timeline").block_floor
     rows = [f"storey {number}" for number in range(1, storeys + 1)]
     rows += [f"block {number}, {floor_name(floor)}" for number, floor in enumerate(blocks, start=1)]
     with mpl.rc_context(STYLE):

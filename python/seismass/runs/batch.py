@@ -397,6 +397,7 @@ def _listed_scenes(scenes: Any) -> list[Scene]:
     for number, scene in enumerate(listed, start=1):
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"scene {number}", "batch", "a Scene", brief(scene))
+        scene.of_chain("batches")
     return listed
 
 

@@ -151,6 +151,7 @@ def _of_scenes(scenes: Any, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataF
     for number, scene in enumerate(listed, start=1):
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"scene {number}", "long_table", "a Scene", brief(scene))
+        scene.of_chain("long_table")
     used = _used(table, len(listed))
     chosen = [listed[number - 1] for number in used.tolist()]
     periods = [None if scene.building is None else float(scene.building.periods[0]) for scene in chosen]

@@ -15,6 +15,7 @@ from seismass.base.values import FloatArray, frozen, read_only, refusal
 from seismass.base.views import view
 from seismass.model.motion import Motion
 from seismass.model.scene import Scene
+from seismass.runs.rack_results import RackResults
 from seismass.runs.response_views import ResponseAnimation, ResponsePlots
 
 if TYPE_CHECKING:
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
 """Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""
+
+_WITH_VELOCITY: Final = ("touch_stop", "leave_stop", "wear", "lift", "land")
+"""Kinds of events whose relative velocity is kept in scenes of the general engine."""
 
 _EVENT: Final = np.dtype(
     [
@@ -66,7 +70,7 @@ class Statistics(TypedDict):
     """Instruction set in use, as `instruction_set` names it."""
 
 
-class Response:
+class Response(RackResults):
     """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
 
     Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
@@ -75,7 +79,7 @@ class Response:
     """
 
     __slots__ = ("_known", "_run", "motion", "record", "scene")
-    _run: _kernel.Response | None
+    _run: _kernel.Response | _kernel.GeneralResponse | None
     _known: dict[str, Any]
     scene: Scene
     """The scene that was solved."""
@@ -84,7 +88,9 @@ class Response:
     record: Record | None
     """The record that was given as the motion, whole; None where it was a `Motion`."""
 
-    def __init__(self, run: _kernel.Response, scene: Scene, motion: Motion, record: Record | None) -> None:
+    def __init__(
+        self, run: _kernel.Response | _kernel.GeneralResponse, scene: Scene, motion: Motion, record: Record | None
+    ) -> None:
         self._run = run
         self._known = {}
         self.scene = scene
@@ -176,7 +182,9 @@ class Response:
 
     @property
     def peak_base_shear(self) -> float:
-        """Peak shear of storey 1 (N); NaN without a building."""
+        """Peak shear of storey 1 (N), with the share of a stiffness matrix; NaN without a building."""
+        if self.scene.engine == "general":
+            return float(self._get("peak_base_shear"))
         shear = self.peak_storey_shear
         return float(shear[0]) if len(shear) else float("nan")
 
@@ -197,7 +205,10 @@ class Response:
 
     @property
     def slip_path(self) -> FloatArray:
-        """Path slipped by each block, airborne motion included (m), shape (blocks,)."""
+        """Path slipped by each block (m), shape (blocks,).
+
+        Airborne motion is included; in scenes of the general engine it is not.
+        """
         return self._array("slip_path")
 
     @property
@@ -250,8 +261,13 @@ class Response:
         Columns: `time` (s); `kind` (one of `EVENT_KINDS`); `number`, the storey for yield, unload, reload, close and
         open, otherwise the block, counted from 1; `sign` (yield: of the force; unload: of the force before; reload: of
         the force that follows; close, open: of the drift; slip, reverse: of the relative velocity that follows; stick:
-        of the one before; touch, lift, land, wear: of the one then, 0: none); `element` (yield: number of segments of
-        the backbone that have been left, 1 at the first yield; wear: the stage that begins, from 1; otherwise null).
+        of the one before; touch, lift, land, wear: of the one then, 0: none; touch_stop, leave_stop: of the side of the
+        stop); `element` (yield: number of segments of the backbone that have been left, 1 at the first yield; wear: the
+        stage that begins, from 1; otherwise null).
+
+        Levels of racks are counted on from the storeys, rack by rack, and their blocks on from those of the floors. In
+        scenes of the general engine there is also `velocity`, the relative velocity (m/s) at which a block comes to its
+        stop or leaves it, wears, lifts or lands; otherwise null.
 
         In a process that was forked from one in which Polars had been used, it is a SimulationError: `event_log` is the
         same without Polars.
@@ -260,15 +276,18 @@ class Response:
             self._asked("events", "events", stored="event_time")
             listed = self.event_log
             require_polars("events", "event_log")
-            self._known["events"] = pl.DataFrame(
-                {
-                    "time": pl.Series(listed["time"], dtype=pl.Float64),
-                    "kind": pl.Series(listed["kind"].tolist(), dtype=pl.String),
-                    "number": pl.Series(listed["number"]),
-                    "sign": pl.Series(listed["sign"]),
-                    "element": pl.Series(listed["element"]).replace(0, None),
-                }
-            )
+            columns = {
+                "time": pl.Series(listed["time"], dtype=pl.Float64),
+                "kind": pl.Series(listed["kind"].tolist(), dtype=pl.String),
+                "number": pl.Series(listed["number"]),
+                "sign": pl.Series(listed["sign"]),
+                "element": pl.Series(listed["element"]).replace(0, None),
+            }
+            if self.scene.engine == "general":
+                known = np.isin(listed["kind"], _WITH_VELOCITY)
+                velocity = np.where(known, self._get("event_velocity"), np.nan)
+                columns["velocity"] = pl.Series(velocity, dtype=pl.Float64).fill_nan(None)
+            self._known["events"] = pl.DataFrame(columns)
         log: pl.DataFrame = self._known["events"]
         return log
 
@@ -299,8 +318,8 @@ class Response:
         """Energies at the end, relative to the moving ground (J).
 
         Keys: `initial`, `input`, `kinetic`, `viscous`, `elastic` (the work of P-Delta, which is negative, included),
-        `hysteretic`, `friction`; and `relative_residual`, what is missing in the balance over the initial energy
-        plus the largest input.
+        `hysteretic`, `friction`; in scenes of the general engine `contact`, what stops have dissipated; and
+        `relative_residual`, what is missing in the balance over the initial energy plus the largest input.
         """
         return dict(self._asked("energy", "energy"))
 
@@ -343,22 +362,24 @@ class Response:
         return array
 
     def _history(self, name: str) -> FloatArray:
-        displacement = name in ("drift", "slip")
+        displacement = name in ("drift", "slip", "rack_drift")
         if not displacement and self._get(name) is None and self._get("drift") is not None:
             raise refusal(InvalidOption, "displacements_only", "simulate", f"False, if {name} is wanted", "True")
         array: FloatArray = self._asked(name, "histories")
         return array
 
     def _everything(self) -> dict[str, Any]:
-        return {name: self._get(name) for name in _KERNEL_VALUES}
+        return {name: self._get(name) for name in _KERNEL_VALUES[self.scene.engine]}
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Response):
             return NotImplemented
         if self.motion.dt != other.motion.dt or not _same(self._heights, other._heights):
             return False
+        if self.scene.engine != other.scene.engine:
+            return False
         mine, theirs = self._everything(), other._everything()
-        return all(_same(mine[name], theirs[name]) for name in _KERNEL_VALUES)
+        return all(_same(mine[name], theirs[name]) for name in mine)
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -385,11 +406,16 @@ class Response:
         return f"Response({self.status}{collapsed} at {self.end_time:g} s{drift}{slip})"
 
 
-_KERNEL_VALUES: Final = tuple(
-    name
-    for name, member in vars(_kernel.Response).items()
-    if not name.startswith("_") and not callable(member) and not isinstance(member, staticmethod)
-)
+def _values(of: type) -> tuple[str, ...]:
+    """Names of the values of a response of the kernel."""
+    return tuple(
+        name
+        for name, member in vars(of).items()
+        if not name.startswith("_") and not callable(member) and not isinstance(member, staticmethod)
+    )
+
+
+_KERNEL_VALUES: Final = {"chain": _values(_kernel.Response), "general": _values(_kernel.GeneralResponse)}
 
 
 def _same(one: Any, other: Any) -> bool:

@@ -14,7 +14,6 @@ from seismass.base.errors import InvalidMotion, InvalidScene, InvalidSceneFile
 from seismass.base.input_table import FINITE, POSITIVE, Table, load_table
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
-from seismass.model.block import Block
 from seismass.model.building import Building, as_fraction_of_weight
 from seismass.model.damping import Rayleigh
 from seismass.model.motion import Motion, check_size
@@ -24,6 +23,7 @@ from seismass.model.spring_laws import is_per_storey
 from seismass.model.springs import SPRING_FIELDS
 from seismass.records import Record, builtin_record, read_record
 from seismass.records.builtin import builtin_names, data_directory
+from seismass.runs.scene_goods import GOODS_KEYS, read_block, read_rack
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
@@ -33,6 +33,7 @@ KEYS: Final = {
         "note",
         "building",
         "blocks",
+        "racks",
         "motion",
         "vertical_motion",
         "duration",
@@ -50,9 +51,10 @@ KEYS: Final = {
         "hysteresis",
         "yield_shear_over_weight",
         "damping",
+        "stiffness_matrix",
     ),
     "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
-    "blocks": ("floor", "mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear"),
+    **GOODS_KEYS,
     "motion": ("file", "builtin", "acceleration", "dt", "unit", "scale", "dt_scale"),
     "initial": ("drift", "velocity"),
 }
@@ -176,7 +178,8 @@ def _scene(top: Table) -> Scene:
             initial.empty("there is no building")
     return Scene(
         building,
-        [_block(table, number) for number, table in enumerate(top.tables("blocks"), start=1)],
+        [read_block(table, number) for number, table in enumerate(top.tables("blocks"), start=1)],
+        racks=[read_rack(table, number) for number, table in enumerate(top.tables("racks"), start=1)],
         initial_drift=None if initial is None else initial.per_storey("drift"),
         initial_velocity=None if initial is None else initial.per_storey("velocity"),
         collapse_drift=top.values.get("collapse_drift"),
@@ -207,11 +210,12 @@ def building_of_table(table: Table) -> Building:
     if "damping" in table.values:
         springs["damping"] = _damping(table)
     over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
-    springs |= table.given("backbone", "hysteresis")
+    springs |= table.given("backbone", "hysteresis", "stiffness_matrix")
     if isinstance(springs.get("backbone"), list):  # TOML has no null
         springs["backbone"] = [None if points == [] else points for points in springs["backbone"]]
     if "period" in table.values:
         table.excluded("stiffness", "period")
+        table.excluded("stiffness_matrix", "period")
         table.excluded("backbone", "period")
         table.needed("storeys")
         if isinstance(table.values.get("mass"), list):
@@ -268,22 +272,6 @@ def _damping(building: Table) -> float | Rayleigh | FloatArray:
         return as_array(table.values["matrix"], "damping matrix", "building", InvalidScene, dimensions=2)
     ratio = as_number(table.values["ratio"], "damping ratio", "building", InvalidScene)
     return Rayleigh(ratio, table.values["modes"]) if kind == "rayleigh" else ratio
-
-
-def _block(table: Table, number: int) -> Block:
-    table.known(KEYS["blocks"])
-    table.needed("floor")
-    table.needed("mass", "mass_ratio")
-    table.needed("mu", "mu_s")
-    table.excluded("mass_ratio", "mass")
-    table.excluded("mu", "mu_s", "mu_k")
-    owner = f"block {number}"
-    floor = as_count(table.values["floor"], "floor", owner, InvalidScene)
-    others = {key: value for key, value in table.values.items() if key not in ("floor", "wear")}
-    values = {key: as_number(value, key, owner, InvalidScene) for key, value in others.items()}
-    if "mu" in values and not 0.0 <= values["mu"] < np.inf:  # the kernel would call it mu_s
-        raise refusal(InvalidScene, "mu", owner, "finite and not negative", f"{values['mu']:g}")
-    return Block(floor, **values, wear=table.values.get("wear", ()))
 
 
 def _motions(top: Table, folder: Path) -> tuple[Motion, tuple[Record, ...]]:

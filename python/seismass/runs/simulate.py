@@ -26,7 +26,7 @@ def simulate(
     Parameters
     ----------
     scene : Scene
-        Building and blocks.
+        Building, blocks and racks.
     motion : Motion or Record
         Ground motion.
     histories : bool or int, default False
@@ -74,7 +74,11 @@ def simulate(
     )
     given = (("displacements_only", displacements_only), ("energy", energy), ("events", events))
     flags = [as_flag(value, name, "simulate", InvalidOption) for name, value in given]
-    run = _kernel.simulate(scene._kernel, chosen._kernel, every, *flags)
+    run: _kernel.Response | _kernel.GeneralResponse
+    if scene._general is not None:
+        run = _kernel.simulate_general(scene._general, chosen._kernel, every, *flags)
+    else:
+        run = _kernel.simulate(scene._kernel, chosen._kernel, every, *flags)
     return Response(run, scene, chosen, motion if isinstance(motion, Record) else None)
 
 

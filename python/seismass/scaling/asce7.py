@@ -11,7 +11,7 @@ import numpy as np
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, brief, frozen, refusal
 from seismass.design import vibration_modes
-from seismass.model.building import Building
+from seismass.model.building import Building, of_storeys_alone
 from seismass.model.motion import Motion
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import SuiteSpectra, positive_number, positive_period, suite_spectra
@@ -135,6 +135,8 @@ def scale_asce7_16(
     """
     if building is not None and not isinstance(building, Building):
         raise refusal(InvalidOption, "building", "scaling", "a Building", brief(building))
+    if building is not None:
+        of_storeys_alone(building, "scaling")
     if building is not None and (period is not None or lowest_period is not None):
         name = "period" if period is not None else "lowest_period"
         value = period if period is not None else lowest_period

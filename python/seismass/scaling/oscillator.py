@@ -11,7 +11,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design import vibration_modes
-from seismass.model.building import Building
+from seismass.model.building import Building, of_storeys_alone
 
 
 @dataclass(frozen=True)
@@ -96,6 +96,7 @@ def first_mode_oscillator(building: Building) -> FirstModeOscillator:
     """
     if not isinstance(building, Building):
         raise refusal(InvalidOption, "building", "scaling", "a Building", brief(building))
+    of_storeys_alone(building, "scaling")
     if building.laws:
         requirement = "of trilinear springs with Masing unloading, as those of the oscillator are"
         raise refusal(InvalidOption, "building", "scaling", requirement, ", ".join(building.laws))

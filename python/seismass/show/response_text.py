@@ -12,6 +12,7 @@ from seismass.model.building import Building
 from seismass.model.damping import Rayleigh
 from seismass.model.scene import Scene
 from seismass.runs.response import Response
+from seismass.show.rack_text import goods_masses, goods_places, rack_table
 
 
 def response_text(response: Response) -> str:
@@ -54,7 +55,9 @@ def run_text(
     lines += [f"            {remark}" for remark in remarks or scene.remarks]
     if scene.building is not None:
         lines += ["", *text_table(_storey_table(scene.building, response), left=0)]
-    if scene.blocks:
+    if scene.racks:
+        lines += ["", *text_table(rack_table(scene, response), left=0)]
+    if scene.goods:
         lines += ["", *text_table(_block_table(scene, response), left=0)]
     counts = ", ".join(f"{count} {kind}" for kind, count in response.counts.items() if count) or "none"
     end = f"{response.status} at {response.end_time:g} s"
@@ -84,7 +87,9 @@ def _building_lines(building: Building, scene: Scene) -> list[str]:
     parameters = ", ".join(f"{symbol} {numbers_text(values)}" for symbol, values in building.spring_summary().items())
     elastic = math.isinf(building.yield_shear.min()) and not building.laws
     lines.append(f"springs   {'elastic' if elastic else ', '.join([parameters, *building.laws])}")
-    if scene.geometric_stiffness.any():
+    if building.stiffness_matrix is not None:
+        lines.append("walls     elastic stiffness matrix over the floors")
+    if scene.geometric_stiffness.any() and building.stiffness.all():
         lines.append(f"P-Delta   P/(h k) {numbers_text(scene.geometric_stiffness / building.stiffness)}")
     return lines
 
@@ -138,18 +143,19 @@ def _block_table(scene: Scene, response: Response) -> list[list[str]]:
         "residual mm",
         "slip path mm",
     ]
+    places, masses = goods_places(scene), goods_masses(scene)
     rows = [
         [
             str(j + 1),
-            str(block.floor) if block.floor else "ground",
-            _mass_text(block, mass, stated),
+            places[j],
+            _mass_text(block, masses[j], stated),
             f"{block.mu_s:g}" if block.mu_s == block.mu_k else f"{block.mu_s:g}/{block.mu_k:g}",
             f"{1000.0 * response.peak_slip[j]:.3f}",
             f"{response.peak_slip_time[j]:.3f}",
             f"{1000.0 * response.residual_slip[j]:.3f}",
             f"{1000.0 * response.slip_path[j]:.3f}",
         ]
-        for j, (block, mass) in enumerate(zip(scene.blocks, scene.block_mass, strict=True))
+        for j, block in enumerate(scene.goods)
     ]
     return [header, *rows]
 

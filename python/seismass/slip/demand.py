@@ -120,6 +120,7 @@ def slip_demand(
     """
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", OWNER, "a Scene", brief(scene))
+    scene.of_chain("slip_demand")
     if not scene.blocks:
         raise refusal(InvalidScene, "blocks", OWNER, "at least one", "none")
     given: Any = motions

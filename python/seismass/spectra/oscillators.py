@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.errors import SimulationError
 from seismass.base.values import FloatArray
-from seismass.model.building import Building
+from seismass.model.building import Building, chain_kernel
 from seismass.spectra.motions import GroundMotion, held
 
 IndexArray: TypeAlias = NDArray[np.int64]
@@ -43,7 +43,7 @@ class Oscillators:
         self, buildings: Sequence[Building], motions: Sequence[GroundMotion], largest: float, threads: int | None
     ) -> None:
         none = np.zeros((len(buildings), 0))
-        kernels = [building._kernel for building in buildings]
+        kernels = [chain_kernel(building, "inelastic spectra") for building in buildings]
         self._columns = _kernel.Columns(kernels, [], np.arange(len(buildings)), none, none, none)
         self._motions = []
         self._threads = threads

@@ -110,6 +110,11 @@ impl BlockMotion {
         self.path + (self.slip - self.turn).abs()
     }
 
+    /// Path slipped so far in contact (m).
+    pub(crate) fn path_in_contact(&self) -> f64 {
+        if self.state == BlockState::Airborne { -self.flown } else { self.path() - self.flown }
+    }
+
     /// Leaves contact: the path from here on does not wear it.
     pub(crate) fn lift(&mut self) {
         self.state = BlockState::Airborne;

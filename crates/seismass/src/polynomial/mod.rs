@@ -4,4 +4,5 @@ mod bernstein;
 pub(crate) mod enclosure;
 pub(crate) mod orders;
 pub(crate) mod power;
+pub(crate) mod quadrature;
 mod roots;

@@ -32,6 +32,36 @@ pub enum GravityEffect {
     },
 }
 
+impl GravityEffect {
+    /// The same, if it suits a building of so many storeys.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when a list has the wrong length or a number is out of its range.
+    pub(super) fn checked(self, storeys: usize) -> Result<Self> {
+        let n = storeys;
+        match &self {
+            Self::None => {}
+            Self::GeometricStiffness(values) => {
+                check_length("geometric_stiffness", "building", n, "storey", values.len())?;
+                for (i, &value) in values.iter().enumerate() {
+                    let owner = Nth("storey", i);
+                    check(value.is_finite() && value >= 0.0, "geometric_stiffness", owner, "zero or positive", value)?;
+                }
+            }
+            Self::Loads { heights, floor_loads } => {
+                check_length("heights", "building", n, "storey", heights.len())?;
+                check_length("gravity_load", "building", n, "floor", floor_loads.len())?;
+                for (i, (&height, &load)) in heights.iter().zip(floor_loads).enumerate() {
+                    let (storey, floor) = (Nth("storey", i), Nth("floor", i));
+                    check(height.is_finite() && height > 0.0, "heights", storey, "a positive number", height)?;
+                    check(load.is_finite() && load >= 0.0, "gravity_load", floor, "zero or positive", load)?;
+                }
+            }
+        }
+        Ok(self)
+    }
+}
+
 /// A shear building: lumped floor masses, storey springs, damping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Building {
@@ -76,27 +106,7 @@ impl Building {
     /// # Errors
     /// [`Error::Invalid`] when a list has the wrong length or a number is out of its range.
     pub fn with_gravity(mut self, gravity: GravityEffect) -> Result<Self> {
-        let n = self.mass.len();
-        match &gravity {
-            GravityEffect::None => {}
-            GravityEffect::GeometricStiffness(values) => {
-                check_length("geometric_stiffness", "building", n, "storey", values.len())?;
-                for (i, &value) in values.iter().enumerate() {
-                    let owner = Nth("storey", i);
-                    check(value.is_finite() && value >= 0.0, "geometric_stiffness", owner, "zero or positive", value)?;
-                }
-            }
-            GravityEffect::Loads { heights, floor_loads } => {
-                check_length("heights", "building", n, "storey", heights.len())?;
-                check_length("gravity_load", "building", n, "floor", floor_loads.len())?;
-                for (i, (&height, &load)) in heights.iter().zip(floor_loads).enumerate() {
-                    let (storey, floor) = (Nth("storey", i), Nth("floor", i));
-                    check(height.is_finite() && height > 0.0, "heights", storey, "a positive number", height)?;
-                    check(load.is_finite() && load >= 0.0, "gravity_load", floor, "zero or positive", load)?;
-                }
-            }
-        }
-        self.gravity = gravity;
+        self.gravity = gravity.checked(self.mass.len())?;
         Ok(self)
     }
 

@@ -174,6 +174,13 @@ fn orthogonal_columns(mass: &[f64], stiffness: &[f64]) -> DMatrix<f64> {
             g[(i, i - 1)] = -(stiffness[i] / mass[i - 1]).sqrt();
         }
     }
+    orthogonalise(&mut g, None);
+    g
+}
+
+/// Makes columns orthogonal by rotations (one-sided Jacobi), which another matrix follows.
+pub(super) fn orthogonalise(g: &mut DMatrix<f64>, mut follower: Option<&mut DMatrix<f64>>) {
+    let n = g.ncols();
     for _ in 0..MAX_SWEEPS {
         let mut rotated = false;
         for p in 0..n {
@@ -188,10 +195,9 @@ fn orthogonal_columns(mass: &[f64], stiffness: &[f64]) -> DMatrix<f64> {
                 let t = 1.0f64.copysign(zeta) / (zeta.abs() + libm::hypot(zeta, 1.0));
                 let cosine = 1.0 / libm::hypot(t, 1.0);
                 let sine = cosine * t;
-                for r in 0..n {
-                    let (x, y) = (g[(r, p)], g[(r, q)]);
-                    g[(r, p)] = cosine * x - sine * y;
-                    g[(r, q)] = sine * x + cosine * y;
+                rotate(g, [p, q], cosine, sine);
+                if let Some(follower) = &mut follower {
+                    rotate(follower, [p, q], cosine, sine);
                 }
             }
         }
@@ -199,7 +205,15 @@ fn orthogonal_columns(mass: &[f64], stiffness: &[f64]) -> DMatrix<f64> {
             break;
         }
     }
-    g
+}
+
+/// Rotates two columns.
+fn rotate(g: &mut DMatrix<f64>, [p, q]: [usize; 2], cosine: f64, sine: f64) {
+    for r in 0..g.nrows() {
+        let (x, y) = (g[(r, p)], g[(r, q)]);
+        g[(r, p)] = cosine * x - sine * y;
+        g[(r, q)] = sine * x + cosine * y;
+    }
 }
 
 #[cfg(test)]

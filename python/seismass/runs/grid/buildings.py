@@ -11,7 +11,7 @@ import numpy as np
 from seismass.base.errors import InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, refusal
-from seismass.model.building import Building, changed_building
+from seismass.model.building import Building, changed_building, of_storeys_alone
 from seismass.model.springs import SHAPE_FIELDS
 from seismass.runs.grid.columns import Column, IndexArray, index_values, number_values, strength_table
 from seismass.runs.grid.design import StrengthDesign
@@ -205,6 +205,8 @@ def given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Bui
         listed = (building,) if isinstance(building, Building) else building
         if not isinstance(listed, Sequence) or not listed or not all(isinstance(item, Building) for item in listed):
             raise refusal(InvalidScene, "building", "grid", "a Building or a list of Buildings", brief(building))
+        for item in listed:
+            of_storeys_alone(item, "grids")
         of_given = np.array([float(item.periods[0]) for item in listed])
         return tuple(listed), np.zeros(1, dtype=np.int64), of_given
     if period is None:

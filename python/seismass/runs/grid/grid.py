@@ -14,7 +14,7 @@ from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.forks import require_polars
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, is_one_of, refusal, same_content
 from seismass.model.block import Block
-from seismass.model.building import Building
+from seismass.model.building import Building, chain_kernel
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS, SpringShape, checked_names, takes_springs
 from seismass.runs.grid.axes import AXIS_OF, GridAxis, axes_of, described, table_of
@@ -557,7 +557,7 @@ class Grid:
         live_load = self._per_block("mass_ratio", scenes)
         formed = self._formed.of(scenes, self._building_of(scenes), live_load)
         return _kernel.Columns(
-            [building._kernel for building in formed.buildings],
+            [chain_kernel(building, "grids") for building in formed.buildings],
             self.floors,
             formed.which,
             formed.mass_ratio,

@@ -1,0 +1,361 @@
+//! One run of the general engine, and its response as arrays. What storeys and floors have has the names of `Response`;
+//! levels of racks come after each other, rack by rack.
+
+use std::num::NonZeroUsize;
+
+use pyo3::prelude::*;
+use seismass::{GeneralEvent, GeneralStatus, Options, Peak, simulate_general_until};
+
+use crate::arrays::{Named, Output};
+use crate::general_scene::GeneralScene;
+use crate::interrupt::run_watched;
+use crate::response::{instruction_set, statistics};
+use crate::scene::Motion;
+
+/// Solves one scene of the general engine under one motion; arguments as of `simulate`.
+#[pyfunction]
+#[pyo3(signature = (scene, motion, every, displacements_only, energy, events))]
+pub(crate) fn simulate_general(
+    py: Python<'_>,
+    scene: PyRef<'_, GeneralScene>,
+    motion: PyRef<'_, Motion>,
+    every: usize,
+    displacements_only: bool,
+    energy: bool,
+    events: bool,
+) -> PyResult<GeneralResponse> {
+    let histories = NonZeroUsize::new(every);
+    let options = Options { histories, displacements_only, energy, events, peaks_only: false };
+    let (scene, motion) = (scene.0.clone(), motion.0.clone());
+    let run =
+        run_watched(py, |_| Ok(()), move |control| simulate_general_until(&scene, &motion, &options, &control.stop));
+    Ok(GeneralResponse(run?))
+}
+
+/// The response of one run of the general engine.
+#[pyclass(frozen, module = "seismass._kernel")]
+pub(crate) struct GeneralResponse(seismass::GeneralResponse);
+
+impl GeneralResponse {
+    /// Of storeys and floors, or of rack levels, one value each.
+    fn part<T: Copy>(&self, of_nodes: &[T], racks: bool) -> Vec<T> {
+        let (floors, levels) = of_nodes.split_at(self.0.storeys);
+        if racks { levels.to_vec() } else { floors.to_vec() }
+    }
+
+    fn peaks(&self, of_nodes: &[Peak], racks: bool) -> Output<f64> {
+        Output::new(self.part(of_nodes, racks).into_iter().map(|peak| peak.value))
+    }
+
+    fn times(&self, of_nodes: &[Peak], racks: bool) -> Output<f64> {
+        Output::new(self.part(of_nodes, racks).into_iter().map(|peak| peak.time))
+    }
+
+    /// Columns of storeys and floors, or of rack levels, of a history.
+    fn history(&self, of: impl Fn(&seismass::Histories) -> &Vec<f64>, racks: bool) -> Option<Output<f64>> {
+        let histories = self.0.histories.as_ref()?;
+        let (nodes, storeys, rows) = (self.0.residual_drift.len(), self.0.storeys, histories.rows);
+        let values = of(histories);
+        if values.len() != rows * nodes {
+            return None;
+        }
+        let columns = if racks { storeys..nodes } else { 0..storeys };
+        let taken = (0..rows).flat_map(|row| values[row * nodes..][columns.clone()].to_vec()).collect();
+        Some(Output::shaped(&[rows, columns.len()], taken))
+    }
+
+    fn of_blocks(&self, of: impl Fn(&seismass::Histories) -> &Vec<f64>) -> Option<Output<f64>> {
+        let histories = self.0.histories.as_ref()?;
+        let (rows, blocks) = (histories.rows, self.0.residual_slip.len());
+        let values = of(histories);
+        (values.len() == rows * blocks).then(|| Output::shaped(&[rows, blocks], values.clone()))
+    }
+
+    fn event_column<T>(&self, of: impl Fn(&GeneralEvent) -> T) -> Option<Output<T>> {
+        self.0.events.as_ref().map(|events| Output::new(events.iter().map(of)))
+    }
+}
+
+/// A getter of a list of blocks' peaks: its values and its times.
+fn values(peaks: &[Peak]) -> Output<f64> {
+    Output::new(peaks.iter().map(|peak| peak.value))
+}
+
+#[pymethods]
+impl GeneralResponse {
+    /// "completed" or "collapsed".
+    #[getter]
+    fn status(&self) -> &'static str {
+        match self.0.status {
+            GeneralStatus::Completed => "completed",
+            GeneralStatus::Collapsed { .. } => "collapsed",
+        }
+    }
+
+    /// Time reached (s).
+    #[getter]
+    fn end_time(&self) -> f64 {
+        self.0.end_time
+    }
+
+    /// Storey that collapsed, counted from 1; levels of racks count on.
+    #[getter]
+    fn collapsed_storey(&self) -> Option<usize> {
+        match self.0.status {
+            GeneralStatus::Completed => None,
+            GeneralStatus::Collapsed { number, .. } => Some(number),
+        }
+    }
+
+    /// Number of levels of each rack.
+    #[getter]
+    fn rack_levels(&self) -> Vec<usize> {
+        self.0.levels.clone()
+    }
+
+    /// Peak storey drift (m).
+    #[getter]
+    fn peak_drift(&self) -> Output<f64> {
+        self.peaks(&self.0.peaks.drift, false)
+    }
+
+    /// Time of the peak drift (s).
+    #[getter]
+    fn peak_drift_time(&self) -> Output<f64> {
+        self.times(&self.0.peaks.drift, false)
+    }
+
+    /// Peak drift of rack levels (m).
+    #[getter]
+    fn peak_rack_drift(&self) -> Output<f64> {
+        self.peaks(&self.0.peaks.drift, true)
+    }
+
+    /// Time of the peak drift of rack levels (s).
+    #[getter]
+    fn peak_rack_drift_time(&self) -> Output<f64> {
+        self.times(&self.0.peaks.drift, true)
+    }
+
+    /// Peak slip of each block (m).
+    #[getter]
+    fn peak_slip(&self) -> Output<f64> {
+        values(&self.0.peaks.slip)
+    }
+
+    /// Time of the peak slip (s).
+    #[getter]
+    fn peak_slip_time(&self) -> Output<f64> {
+        Output::new(self.0.peaks.slip.iter().map(|peak| peak.time))
+    }
+
+    /// Peak force of each block on its stop (N).
+    #[getter]
+    fn peak_contact_force(&self) -> Output<f64> {
+        values(&self.0.peaks.contact_force)
+    }
+
+    /// Peak relative velocity at which each block comes to its stop (m/s).
+    #[getter]
+    fn peak_contact_velocity(&self) -> Output<f64> {
+        values(&self.0.peaks.contact_velocity)
+    }
+
+    /// Peak absolute floor acceleration (m/s2).
+    #[getter]
+    fn peak_floor_acceleration(&self) -> Output<f64> {
+        self.peaks(&self.0.peaks.acceleration, false)
+    }
+
+    /// Time of the peak floor acceleration (s).
+    #[getter]
+    fn peak_floor_acceleration_time(&self) -> Output<f64> {
+        self.times(&self.0.peaks.acceleration, false)
+    }
+
+    /// Peak absolute acceleration of rack levels (m/s2).
+    #[getter]
+    fn peak_rack_acceleration(&self) -> Output<f64> {
+        self.peaks(&self.0.peaks.acceleration, true)
+    }
+
+    /// Peak storey shear, the spring force alone (N).
+    #[getter]
+    fn peak_storey_shear(&self) -> Output<f64> {
+        self.peaks(&self.0.peaks.shear, false)
+    }
+
+    /// Time of the peak storey shear (s).
+    #[getter]
+    fn peak_storey_shear_time(&self) -> Output<f64> {
+        self.times(&self.0.peaks.shear, false)
+    }
+
+    /// Peak shear of rack levels, the spring force alone (N).
+    #[getter]
+    fn peak_rack_shear(&self) -> Output<f64> {
+        self.peaks(&self.0.peaks.shear, true)
+    }
+
+    /// Peak of the spring force of storey 1 and the matrix's share of the base shear together (N).
+    #[getter]
+    fn peak_base_shear(&self) -> f64 {
+        if self.0.storeys > 0 { self.0.peaks.base_shear.value } else { f64::NAN }
+    }
+
+    /// Drift at the end (m).
+    #[getter]
+    fn residual_drift(&self) -> Output<f64> {
+        Output::new(self.part(&self.0.residual_drift, false))
+    }
+
+    /// Drift of rack levels at the end (m).
+    #[getter]
+    fn residual_rack_drift(&self) -> Output<f64> {
+        Output::new(self.part(&self.0.residual_drift, true))
+    }
+
+    /// Slip at the end (m).
+    #[getter]
+    fn residual_slip(&self) -> Output<f64> {
+        Output::new(self.0.residual_slip.iter().copied())
+    }
+
+    /// Path slipped in contact with what carries the block (m).
+    #[getter]
+    fn slip_path(&self) -> Output<f64> {
+        Output::new(self.0.slip_path.iter().copied())
+    }
+
+    /// Samples per row of the histories; None without histories.
+    #[getter]
+    fn every(&self) -> Option<usize> {
+        self.0.histories.as_ref().map(|histories| histories.every)
+    }
+
+    /// Drift history (m), rows x storeys.
+    #[getter]
+    fn drift(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.drift, false)
+    }
+
+    /// Drift history of rack levels (m), rows x levels.
+    #[getter]
+    fn rack_drift(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.drift, true)
+    }
+
+    /// Slip history (m), rows x blocks.
+    #[getter]
+    fn slip(&self) -> Option<Output<f64>> {
+        self.of_blocks(|h| &h.slip)
+    }
+
+    /// Floor velocity relative to the ground (m/s), rows x storeys.
+    #[getter]
+    fn floor_velocity(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.floor_velocity, false)
+    }
+
+    /// Block velocity relative to the ground (m/s), rows x blocks.
+    #[getter]
+    fn block_velocity(&self) -> Option<Output<f64>> {
+        self.of_blocks(|h| &h.block_velocity)
+    }
+
+    /// Absolute floor acceleration (m/s2), rows x storeys.
+    #[getter]
+    fn floor_acceleration(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.floor_acceleration, false)
+    }
+
+    /// Absolute acceleration of rack levels (m/s2), rows x levels.
+    #[getter]
+    fn rack_acceleration(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.floor_acceleration, true)
+    }
+
+    /// Spring force (N), rows x storeys.
+    #[getter]
+    fn storey_force(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.storey_force, false)
+    }
+
+    /// Spring force of rack levels (N), rows x levels.
+    #[getter]
+    fn rack_force(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.storey_force, true)
+    }
+
+    /// Times of the events (s).
+    #[getter]
+    fn event_time(&self) -> Option<Output<f64>> {
+        self.event_column(|entry| entry.event.time)
+    }
+
+    /// Kinds of the events, as indices of `Response.event_kinds`.
+    #[getter]
+    fn event_kind(&self) -> Option<Output<u8>> {
+        self.event_column(|entry| entry.event.kind as u8)
+    }
+
+    /// Storey (levels of racks count on) or block of each event, counted from 1.
+    #[getter]
+    fn event_number(&self) -> Option<Output<u32>> {
+        self.event_column(|entry| u32::try_from(entry.event.number).unwrap_or(u32::MAX))
+    }
+
+    /// Sign of each event.
+    #[getter]
+    fn event_sign(&self) -> Option<Output<i8>> {
+        self.event_column(|entry| entry.event.sign)
+    }
+
+    /// Segments of the backbone left at each yield, 1 at the first; stage of wear that begins; otherwise 0.
+    #[getter]
+    fn event_element(&self) -> Option<Output<u8>> {
+        self.event_column(|entry| entry.event.element)
+    }
+
+    /// Relative velocity of a block that comes to its stop or leaves it, wears, lifts or lands (m/s); otherwise 0.
+    #[getter]
+    fn event_velocity(&self) -> Option<Output<f64>> {
+        self.event_column(|entry| entry.velocity)
+    }
+
+    /// Number of events of each kind, in the order of `Response.event_kinds`.
+    #[getter]
+    fn event_counts(&self) -> Vec<usize> {
+        self.0.statistics.events.0.to_vec()
+    }
+
+    /// Energies (J) and their relative residual, if asked for.
+    #[getter]
+    fn energy(&self) -> Option<Named<f64, 9>> {
+        self.0.energy.map(|energy| {
+            Named([
+                ("initial", energy.initial),
+                ("input", energy.input),
+                ("kinetic", energy.kinetic),
+                ("viscous", energy.viscous),
+                ("elastic", energy.elastic),
+                ("hysteretic", energy.hysteretic),
+                ("friction", energy.friction),
+                ("contact", energy.contact),
+                ("relative_residual", energy.relative_residual),
+            ])
+        })
+    }
+
+    /// Name of the instruction set that the kernel uses.
+    #[getter]
+    fn instructions(&self) -> &'static str {
+        instruction_set()
+    }
+
+    /// Work done and skipped.
+    #[getter]
+    fn statistics(&self) -> Named<usize, 12> {
+        statistics(&self.0.statistics)
+    }
+}

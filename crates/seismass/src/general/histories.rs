@@ -1,0 +1,69 @@
+//! Histories while a run writes them, row by row.
+
+use std::num::NonZeroUsize;
+
+use crate::error::{Domain, Error, Result};
+use crate::general::state::GeneralState;
+use crate::general::system::System;
+use crate::memory::is_there_memory;
+use crate::response::Histories;
+use crate::scene::Options;
+
+/// Writes histories.
+pub(super) struct Recorder {
+    histories: Histories,
+    displacements_only: bool,
+    nodes: usize,
+    goods: usize,
+}
+
+impl Recorder {
+    /// # Errors
+    /// [`Error::Invalid`] when the histories do not fit into memory.
+    pub(super) fn new(system: &System, options: &Options, samples: usize, every: NonZeroUsize) -> Result<Self> {
+        let (rows, nodes, goods) = ((samples - 1) / every + 1, system.nodes, system.blocks.len());
+        let per_row = if options.displacements_only { nodes + goods } else { 4 * nodes + 2 * goods };
+        let numbers = rows.saturating_mul(per_row);
+        if !is_there_memory(numbers) {
+            let requirement = "small enough for memory; take a larger decimation";
+            let value = format!("{rows} rows of {per_row} numbers");
+            return Err(Error::invalid(Domain::Options, "histories", "run", requirement, value));
+        }
+        let histories = Histories { every: every.get(), rows, ..Histories::default() };
+        Ok(Self { histories, displacements_only: options.displacements_only, nodes, goods })
+    }
+
+    /// Appends the state at `tau` of the present interval, if there is a row at the sample.
+    pub(super) fn append(&mut self, state: &GeneralState, sample: usize, tau: f64) {
+        let histories = &mut self.histories;
+        if !sample.is_multiple_of(histories.every) {
+            return;
+        }
+        histories.drift.extend((1..=self.nodes).map(|p| state.drift(p)));
+        histories.slip.extend(state.motions.iter().map(|motion| motion.slip));
+        if self.displacements_only {
+            return;
+        }
+        let velocities = state.node_velocities(&state.v);
+        histories.floor_velocity.extend(&velocities[1..]);
+        let of_goods = state.motions.iter().zip(&state.system.blocks);
+        histories.block_velocity.extend(of_goods.map(|(motion, law)| motion.velocity + velocities[law.floor]));
+        histories.floor_acceleration.extend(&state.accelerations(tau)[1..]);
+        histories.storey_force.extend((1..=self.nodes).map(|p| state.spring_force(p)));
+    }
+
+    /// The histories, with NaN in rows that were not reached.
+    pub(super) fn finish(mut self) -> Histories {
+        let (rows, histories) = (self.histories.rows, &mut self.histories);
+        let complete = |values: &mut Vec<f64>, width: usize| values.resize(rows * width, f64::NAN);
+        complete(&mut histories.drift, self.nodes);
+        complete(&mut histories.slip, self.goods);
+        if !self.displacements_only {
+            complete(&mut histories.floor_velocity, self.nodes);
+            complete(&mut histories.block_velocity, self.goods);
+            complete(&mut histories.floor_acceleration, self.nodes);
+            complete(&mut histories.storey_force, self.nodes);
+        }
+        self.histories
+    }
+}

@@ -1,0 +1,24 @@
+//! The general engine: any tree of springs beside an elastic matrix, with blocks on every node and stops on their slip
+//! (`numerics`, section 9).
+//!
+//! It solves what the chain engine of the other modules does not take, with the same machines and the same exactness: the
+//! Taylor series of the solution from event to event, guards as polynomials, the first root of all refined to rounding.
+
+mod block_guards;
+mod decide;
+mod energy;
+mod forces;
+mod guards;
+mod histories;
+mod outcome;
+mod peaks;
+mod regime;
+mod response;
+mod run;
+mod series;
+mod state;
+mod stops;
+mod system;
+
+pub use response::{GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus};
+pub use run::{simulate_general, simulate_general_until};

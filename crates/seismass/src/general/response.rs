@@ -1,0 +1,99 @@
+//! What a run of the general engine gives back.
+
+use crate::response::{Event, Histories, Peak, Statistics};
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum GeneralStatus {
+    /// The motion ended.
+    Completed,
+    /// A spring reached its collapse drift: the run stops there, later history is NaN.
+    Collapsed {
+        /// Storey, counted from 1; levels of racks are counted on from the storeys, rack by rack.
+        number: usize,
+        /// Time (s).
+        time: f64,
+    },
+}
+
+/// Peaks in continuous time. Storeys and floors in order, then the levels of each rack; goods on floors, then those of
+/// racks.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GeneralPeaks {
+    /// Drift of each storey, and of each rack level relative to the one below or to what the rack stands on (m).
+    pub drift: Vec<Peak>,
+    /// Absolute acceleration; where it jumps both one-sided limits count (m/s2).
+    pub acceleration: Vec<Peak>,
+    /// Spring force of each storey and rack level, without damping and P-Delta (N).
+    pub shear: Vec<Peak>,
+    /// Spring of storey 1 with the matrix's share of the base shear (N).
+    pub base_shear: Peak,
+    /// Slip, block displacement minus that of its node (m).
+    pub slip: Vec<Peak>,
+    /// Force of a block on its stop (N).
+    pub contact_force: Vec<Peak>,
+    /// Relative velocity at which a block comes to its stop (m/s).
+    pub contact_velocity: Vec<Peak>,
+}
+
+/// An event with the relative velocity of its block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GeneralEvent {
+    /// The event. Numbers of springs count storeys, then rack levels; numbers of blocks the goods on floors, then those of
+    /// racks.
+    pub event: Event,
+    /// Relative velocity of the block where it comes to its stop or leaves it, wears, lifts or lands (m/s); otherwise zero.
+    pub velocity: f64,
+}
+
+/// Energies at the end of the run, relative to the moving ground (J).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GeneralEnergy {
+    /// Kinetic plus elastic energy at the start.
+    pub initial: f64,
+    /// Input, -int (sum m v) a_g dt over floors, levels and goods.
+    pub input: f64,
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Stored in springs, matrix and stops, less the work of P-Delta.
+    pub elastic: f64,
+    /// Dissipated by viscous damping of building and racks.
+    pub viscous: f64,
+    /// Dissipated by yielding.
+    pub hysteretic: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Dissipated by stops, what is left in one where it parts included.
+    pub contact: f64,
+    /// (initial + input - all others), relative to the initial energy plus the largest input so far.
+    pub relative_residual: f64,
+}
+
+/// The result of one run of the general engine. Lists by node and by goods are as in [`GeneralPeaks`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct GeneralResponse {
+    /// Number of storeys of the building.
+    pub storeys: usize,
+    /// Number of levels of each rack.
+    pub levels: Vec<usize>,
+    /// How the run ended.
+    pub status: GeneralStatus,
+    /// Time reached (s): the last sample, or the collapse.
+    pub end_time: f64,
+    /// Peaks in continuous time.
+    pub peaks: GeneralPeaks,
+    /// Drift of each storey and rack level at the end (m).
+    pub residual_drift: Vec<f64>,
+    /// Slip of each block at the end (m).
+    pub residual_slip: Vec<f64>,
+    /// Path slipped by each block in contact with its node (m).
+    pub slip_path: Vec<f64>,
+    /// Event log, if asked for.
+    pub events: Option<Vec<GeneralEvent>>,
+    /// Histories, if asked for: columns of storeys and floors have the rack levels after them.
+    pub histories: Option<Histories>,
+    /// Energies, if asked for.
+    pub energy: Option<GeneralEnergy>,
+    /// Work done.
+    pub statistics: Statistics,
+}

@@ -1,0 +1,252 @@
+//! The Taylor series of the solution over a step: dense output of all that guards and peaks are formed of
+//! (`numerics`, sections 4.3 and 9.2).
+
+use crate::general::state::GeneralState;
+use crate::lanes::Plain;
+use crate::polynomial::orders::{INVERSE, terms};
+use crate::polynomial::power::{MAX_DEGREE, Polynomial};
+
+/// Coefficients of a block's relative velocity and slip since the start of the step, lowest first.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BlockSeries {
+    pub(super) velocity: [f64; MAX_DEGREE + 1],
+    pub(super) slip: [f64; MAX_DEGREE + 1],
+    /// Bounds of the sums of all terms but the first.
+    pub(super) velocity_change: f64,
+    pub(super) slip_change: f64,
+}
+
+/// The series in s = t / h on [0, 1], from `tau` on. Rows of one order by node.
+#[derive(Default)]
+pub(super) struct Series {
+    pub(super) tau: f64,
+    pub(super) h: f64,
+    width: usize,
+    /// Highest order of accelerations; rates have one more, drifts two.
+    order: usize,
+    acceleration: Vec<f64>,
+    rate: Vec<f64>,
+    drift: Vec<f64>,
+    /// Bounds of the sums of all terms but the first, by node.
+    pub(super) acceleration_change: Vec<f64>,
+    pub(super) rate_change: Vec<f64>,
+    pub(super) drift_change: Vec<f64>,
+    /// Of the blocks that move, in their order.
+    pub(super) blocks: Vec<BlockSeries>,
+    friction: [Vec<f64>; 2],
+    shear: Vec<f64>,
+}
+
+/// Which of a node's quantities.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Quantity {
+    /// Drift from the base of the segment (m).
+    Drift,
+    /// Drift rate (m/s).
+    Rate,
+    /// Absolute acceleration (m/s2).
+    Acceleration,
+}
+
+impl Series {
+    /// Forms the series of a step of `h` from `tau`.
+    pub(super) fn form(&mut self, state: &GeneralState, tau: f64, h: f64) {
+        let system = state.system;
+        let width = system.nodes + 1;
+        let order = terms::<Plain>(state.regime.frequency * h);
+        (self.tau, self.h, self.width, self.order) = (tau, h, width, order);
+        self.acceleration.resize((MAX_DEGREE + 1) * width, 0.0);
+        self.rate.resize((MAX_DEGREE + 1) * width, 0.0);
+        self.drift.resize((MAX_DEGREE + 1) * width, 0.0);
+        self.drift[..width].copy_from_slice(&state.x);
+        self.rate[..width].copy_from_slice(&state.v);
+        for p in 0..width {
+            self.drift[width + p] = h * state.v[p];
+        }
+        self.begin_blocks(state, tau);
+        for k in 0..=order {
+            self.form_order(state, k);
+        }
+        self.bound_changes();
+    }
+
+    /// Friction of sliding blocks on their nodes, and the first terms of the blocks.
+    fn begin_blocks(&mut self, state: &GeneralState, tau: f64) {
+        let (contact, slope) = (state.contact_at(tau), state.interval.contact_slope * self.h);
+        for list in &mut self.friction {
+            list.clear();
+            list.resize(self.width, 0.0);
+        }
+        self.blocks.clear();
+        for &j in &state.moving {
+            let law = &state.system.blocks[j];
+            let force = state.friction_coefficient(j) * law.mass;
+            self.friction[0][law.floor] += force * contact;
+            self.friction[1][law.floor] += force * slope;
+            let mut block = BlockSeries {
+                velocity: [0.0; MAX_DEGREE + 1],
+                slip: [0.0; MAX_DEGREE + 1],
+                velocity_change: 0.0,
+                slip_change: 0.0,
+            };
+            block.velocity[0] = state.motions[j].velocity;
+            block.slip[1] = self.h * state.motions[j].velocity;
+            self.blocks.push(block);
+        }
+    }
+
+    /// Terms of order k of accelerations, and those of rates, drifts and blocks that follow.
+    fn form_order(&mut self, state: &GeneralState, k: usize) {
+        let (system, width, h) = (state.system, self.width, self.h);
+        let row = k * width;
+        self.shear.clear();
+        self.shear.extend(state.regime.tangent.iter().zip(&self.drift[row..row + width]).map(|(t, x)| t * x));
+        if k == 0 {
+            self.shear.iter_mut().zip(&state.base_load).for_each(|(shear, load)| *shear += load);
+        }
+        for part in &system.parts {
+            let nodes = part.first..part.first + part.count;
+            for (matrix, values) in [(&part.damping, &self.rate), (&part.elastic, &self.drift)] {
+                for (column, value) in matrix.chunks_exact(part.count).zip(&values[row + part.first..]) {
+                    for (shear, entry) in self.shear[nodes.clone()].iter_mut().zip(column) {
+                        *shear += entry * value;
+                    }
+                }
+            }
+        }
+        let force = &mut self.acceleration[row..row + width];
+        match self.friction.get(k) {
+            Some(friction) => force.copy_from_slice(friction),
+            None => force.fill(0.0),
+        }
+        for contact in &state.moving_contacts {
+            let (node, of_stop) = (system.blocks[contact.block].floor, self.stop_term(state, contact.block, k));
+            self.acceleration[row + node] -= of_stop;
+        }
+        let force = &mut self.acceleration[row..row + width];
+        for p in (1..width).rev() {
+            let shear = self.shear[p];
+            force[p] = (force[p] - shear) * state.regime.inverse_mass[p];
+            force[system.parent[p]] += shear;
+        }
+        force[0] = match k {
+            0 => state.interval.ground_at(self.tau),
+            1 => state.interval.ground_slope * h,
+            _ => 0.0,
+        };
+        let (of_rate, of_drift) = (h * INVERSE[k + 1], h * INVERSE[k + 2]);
+        let rates = &mut self.rate[row + width..row + 2 * width];
+        let drifts = &mut self.drift[row + 2 * width..row + 3 * width];
+        for p in 1..width {
+            rates[p] = of_rate * (force[p] - force[system.parent[p]]);
+            drifts[p] = of_drift * rates[p];
+        }
+        for (position, &j) in state.moving.iter().enumerate() {
+            let law = &system.blocks[j];
+            let friction = match k {
+                0 => state.contact_at(self.tau),
+                1 => state.interval.contact_slope * h,
+                _ => 0.0,
+            };
+            let own = self.stop_term(state, j, k) / law.mass - state.friction_coefficient(j) * friction;
+            let velocity = of_rate * (own - self.acceleration[row + law.floor]);
+            let block = &mut self.blocks[position];
+            block.velocity[k + 1] = velocity;
+            block.slip[k + 2] = of_drift * velocity;
+        }
+    }
+
+    /// Term of order k of the force of its stop on a block (N).
+    fn stop_term(&self, state: &GeneralState, block: usize, k: usize) -> f64 {
+        let (Some(_), Some(stops)) = (state.stops[block].touching(), &state.system.stops[block]) else { return 0.0 };
+        let Some(position) = state.moving.iter().position(|&j| j == block) else { return 0.0 };
+        let terms = &self.blocks[position];
+        let beyond = if k == 0 { state.stops[block].beyond } else { terms.slip[k] };
+        -(stops.stiffness * beyond + stops.damping * terms.velocity[k])
+    }
+
+    fn bound_changes(&mut self) {
+        let (width, order) = (self.width, self.order);
+        let bound = |rows: &[f64], sums: &mut Vec<f64>, last: usize| {
+            sums.clear();
+            sums.resize(width, 0.0);
+            for row in rows[width..(last + 1) * width].chunks_exact(width) {
+                for (sum, term) in sums.iter_mut().zip(row) {
+                    *sum += term.abs();
+                }
+            }
+        };
+        bound(&self.acceleration, &mut self.acceleration_change, order);
+        bound(&self.rate, &mut self.rate_change, order + 1);
+        bound(&self.drift, &mut self.drift_change, order + 2);
+        for block in &mut self.blocks {
+            block.velocity_change = block.velocity[1..=order + 1].iter().map(|term| term.abs()).sum();
+            block.slip_change = block.slip[1..=order + 2].iter().map(|term| term.abs()).sum();
+        }
+    }
+
+    fn rows(&self, quantity: Quantity) -> (&[f64], usize) {
+        match quantity {
+            Quantity::Drift => (&self.drift, self.order + 2),
+            Quantity::Rate => (&self.rate, self.order + 1),
+            Quantity::Acceleration => (&self.acceleration, self.order),
+        }
+    }
+
+    /// `constant` + `factor` times a quantity of a node as a polynomial, and the sum of the sizes of its terms.
+    pub(super) fn polynomial(&self, quantity: Quantity, node: usize, factor: f64, constant: f64) -> (Polynomial, f64) {
+        let (rows, last) = self.rows(quantity);
+        let mut polynomial = Polynomial::new((0..=last).map(|k| factor * rows[k * self.width + node]));
+        let size = polynomial.coefficients().iter().map(|c| c.abs()).sum();
+        polynomial.coefficients[0] += constant;
+        (polynomial, size)
+    }
+
+    /// Range of a quantity of a node over the step.
+    #[inline]
+    pub(super) fn range(&self, quantity: Quantity, node: usize) -> (f64, f64) {
+        let (start, change) = match quantity {
+            Quantity::Drift => (self.drift[node], self.drift_change[node]),
+            Quantity::Rate => (self.rate[node], self.rate_change[node]),
+            Quantity::Acceleration => (self.acceleration[node], self.acceleration_change[node]),
+        };
+        (start - change, start + change)
+    }
+
+    /// Change of a quantity of all nodes from the start of the step to its place `s`.
+    pub(super) fn changes(&self, quantity: Quantity, s: f64) -> Vec<f64> {
+        let (rows, last) = self.rows(quantity);
+        let mut sums = rows[last * self.width..(last + 1) * self.width].to_vec();
+        for k in (1..last).rev() {
+            for (sum, term) in sums.iter_mut().zip(&rows[k * self.width..]) {
+                *sum = *sum * s + term;
+            }
+        }
+        sums.iter_mut().for_each(|sum| *sum *= s);
+        sums
+    }
+
+    /// Value of a quantity of all nodes at the place `s`.
+    pub(super) fn values(&self, quantity: Quantity, s: f64) -> Vec<f64> {
+        let mut values = self.changes(quantity, s);
+        values.iter_mut().zip(self.rows(quantity).0).for_each(|(value, start)| *value += start);
+        values
+    }
+
+    /// Relative velocity of the moving block at `position` as a polynomial.
+    pub(super) fn velocity_of(&self, position: usize) -> Polynomial {
+        Polynomial::new(self.blocks[position].velocity[..=self.order + 1].iter().copied())
+    }
+
+    /// Its slip since the start of the step.
+    pub(super) fn slip_of(&self, position: usize) -> Polynomial {
+        Polynomial::new(self.blocks[position].slip[..=self.order + 2].iter().copied())
+    }
+
+    /// Changes of its relative velocity and slip from the start of the step to its place `s`.
+    pub(super) fn block_changes(&self, position: usize, s: f64) -> (f64, f64) {
+        let block = &self.blocks[position];
+        let sum = |terms: &[f64]| terms.iter().skip(1).rev().fold(0.0, |sum, term| (sum + term) * s);
+        (sum(&block.velocity[..=self.order + 1]), sum(&block.slip[..=self.order + 2]))
+    }
+}
