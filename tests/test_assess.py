@@ -64,7 +64,7 @@ def test_drifts_and_slips_are_those_of_single_runs(small: sm.Assessment) -> None
     building = sm.read_building(tables())
     scene = building.scene()
     assert scene.building is not None
-    motions = [r.scaled(f).motion for r, f in zip(sm.builtin_suite("seven"), small.scaling.factors, strict=True)]
+    motions = [r.scaled(f).motion for r, f in zip(sm.builtin_suite("forty"), small.scaling.factors, strict=True)]
     real = [sm.simulate(scene, motion) for motion in motions]
     ratios = np.array([response.peak_drift / 4.0 for response in real])
     np.testing.assert_allclose(mean_of(small, "real"), ratios.mean(axis=0), rtol=1e-12)
@@ -88,7 +88,7 @@ def test_drifts_and_slips_are_those_of_single_runs(small: sm.Assessment) -> None
 
 def test_the_effective_fraction_is_that_of_the_scene(small: sm.Assessment) -> None:
     assert small.scaling is not None
-    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite("seven"), small.scaling.factors, strict=True)]
+    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite("forty"), small.scaling.factors, strict=True)]
     for model, factor in (("real", 1.0), ("real_mu_low", 0.67), ("real_mu_high", 1.5)):
         alone = sm.effective_mass(sm.read_building(tables()).scene(mu_factor=factor), motions, resamples=200)
         assert small.effective[model].value == alone.value
@@ -102,14 +102,14 @@ def test_attached_models_are_those_of_the_effective_fraction() -> None:
     scene = sm.read_building(tables()).scene()
     goods = np.array([0.8 * 3.0e6 / G, 0.0])
     ours, theirs = with_mass(scene, 0.4 * goods), sm.attached_scene(scene, 0.4)
-    motion = sm.builtin_suite("seven")[0].motion
+    motion = sm.builtin_suite("forty")[0].motion
     np.testing.assert_allclose(sm.simulate(ours, motion).peak_drift, sm.simulate(theirs, motion).peak_drift, rtol=1e-12)
 
 
 def test_motions_are_scaled_for_the_period_with_goods(small: sm.Assessment) -> None:
     building = sm.read_building(tables())
     scaling = sm.scaling.scale_asce7_10(
-        sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods)
+        sm.builtin_suite("forty"), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods)
     )
     assert small.scaling is not None
     np.testing.assert_array_equal(small.scaling.factors, scaling.factors)
@@ -201,7 +201,7 @@ def test_collapses_are_counted_and_leave_no_mean() -> None:
     assert mean_of(result, "real", "collapsed")[0] == collapsed
     assert mean_of(result, "real")[0] is None
     assert mean_of(result, "real", "theta")[0] is None
-    assert f"The building collapses under {collapsed} of 7 motions (goods slide)." in result.advice
+    assert f"The building collapses under {collapsed} of 40 motions (goods slide)." in result.advice
     assert f"goods slide {collapsed}" in result.text
     json.loads(result.to_json())
 
@@ -237,8 +237,8 @@ def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
     one = sm.assess(tables(), resamples=20, threads=1, progress=lambda done, total: calls.append((done, total)))
     two = sm.assess(tables(), resamples=20, threads=2)
     assert one.to_dict() == two.to_dict()
-    # Seven models, and 102 for each of three frictions, under seven motions.
-    assert calls[-1] == ((7 + 3 * 102) * 7, (7 + 3 * 102) * 7)
+    # Seven models, and 102 for each of three frictions, under forty motions.
+    assert calls[-1] == ((7 + 3 * 102) * 40, (7 + 3 * 102) * 40)
     assert [done for done, _ in calls] == sorted(done for done, _ in calls)
 
 

@@ -37,6 +37,14 @@ NAMES: Final = {
 """What texts and figures call the models."""
 
 
+def motions_in_words(suite: dict[str, Any]) -> str:
+    """Return how many motions there are and of what kind, and what to do where none was recorded."""
+    motions, synthetic = len(suite["motions"]), suite["synthetic"]
+    if synthetic == motions:
+        return f"{motions} synthetic motions: use recordings of the site for a decision"
+    return f"{motions} motions" + (f", of which {synthetic} are synthetic" if synthetic else ", recorded")
+
+
 def advice_of(
     building: OwnBuilding,
     advised: float | None,
@@ -298,7 +306,7 @@ def _about_goods(building: OwnBuilding) -> list[str]:
         *lines,
         f"Goods present: {building.present_share:.3g} of the design live load of the whole building.",
         "Effective fraction: smallest share with a mean largest drift not below that with sliding goods, there and at "
-        "every larger share; its interval resamples the motions and covers a little less than it says.",
+        "every larger share; its interval resamples the motions, and is 0.05 wider at each end for another suite.",
     ]
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.command import Command
+from seismass.commands.exit_codes import RUNS
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_reading_options,
@@ -131,4 +132,5 @@ spectrum record.AT2 --ductility 2 4 --overstrength 1 --second-slope 0
 Columns: motion (number from 1), record, damping, period (s) and the ordinate: psa_g, sa_g (g), psv (m/s) or sd (m).
 Inelastic: strength (V_y/W), ductility, displacement (m), elastic_strength and reduction (R) instead.
 """,
+    codes=RUNS,
 )

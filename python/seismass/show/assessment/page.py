@@ -9,7 +9,7 @@ from typing import Any, Final
 import polars as pl
 from markupsafe import Markup
 
-from seismass.assessment.advice import NAMES
+from seismass.assessment.advice import NAMES, motions_in_words
 from seismass.assessment.models import REAL, REAL_HIGH, REAL_LOW
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
@@ -25,7 +25,7 @@ LIMITS: Final = (
     "Shear buildings in one direction: no torsion, no flexible floors, no foundation.",
     "Rigid goods that slide by Coulomb friction; goods that rock, topple, strike or deform are not covered.",
     "Trilinear storeys without loss of strength but by P-Delta; Omega, r2 and r3 decide about large drifts.",
-    "The interval of a fraction is over these motions alone, and covers a little less than it says.",
+    "The interval of a fraction resamples these motions, and is 0.05 wider at each end for another suite.",
     "This page checks drift and stability of a model. It replaces neither the design of members nor the judgement of "
     "the engineer who signs it.",
 )
@@ -86,6 +86,7 @@ def _answer(result: AssessmentTables) -> list[Markup]:
             "Use <strong>lambda = {advised:.2f}</strong> of the goods present, {share:.2f} of the design live load, as "
             "mass in an analysis."
         ).format(advised=result.advised, share=share),
+        Markup("On {}.").format(motions_in_words(document["suite"])),
         Markup(
             "With friction as stated the effective fraction is {value}{spread}; {code} counts {fraction:g} of the "
             "design live load. {verdict}"

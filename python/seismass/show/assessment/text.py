@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import polars as pl
 
-from seismass.assessment.advice import NAMES
+from seismass.assessment.advice import NAMES, motions_in_words
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
 from seismass.assessment.result import Assessment
 from seismass.effective_mass import ByHand, EffectiveMass
@@ -53,6 +53,7 @@ def _answer(result: Assessment) -> list[str]:
         if name in result.effective:
             low, high = building.mu_factors
             lines.append(f"          {words.format(low=low, high=high):14}{_fraction(result.effective[name])}")
+    lines.append(f"          on {motions_in_words(result.suite)}")
     real = result.effective[REAL]
     lines.append(f"          {real.kind}: {KIND_TEXTS[real.kind]}")
     of_present = "" if share == 1.0 else f" ({code.fraction / share:.2f} of the goods present)"
@@ -83,8 +84,8 @@ def _fraction(result: EffectiveMass) -> str:
     if not math.isfinite(result.value):
         return "no value: the building collapses under too many motions"
     scatter = "no interval"
-    if result.interval is not None and all(math.isfinite(end) for end in result.interval):
-        low, high = result.interval
+    if result.suite_interval is not None and all(math.isfinite(end) for end in result.suite_interval):
+        low, high = result.suite_interval
         scatter = f"{100.0 * result.confidence:g} % interval {low:.2f} to {high:.2f}"
     kind = {"stuck": "no goods slide", "one": "all act, and a little more", "zero": "none needs to be attached"}
     of = "" if result.statistic == "mean" else f", by the {result.statistic}"
