@@ -18,7 +18,7 @@ from seismass import cli
 from seismass.base.errors import RecordFormatError
 from seismass.base.units import ACCELERATION_UNITS, STANDARD_GRAVITY
 from seismass.matching import match
-from seismass.matching.solver import Stopped
+from seismass.matching.stopping import Stopped
 from seismass.records import Record, find_pairs, read_record, read_records, read_suite
 from seismass.records.archive import is_archive
 from seismass.records.formats import NotRead

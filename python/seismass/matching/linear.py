@@ -16,6 +16,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from seismass.base.values import FloatArray
+from seismass.matching.stopping import end_if_stopped
 
 Halves: TypeAlias = tuple[FloatArray, FloatArray]
 
@@ -74,6 +75,7 @@ def exact_product(left: FloatArray, right: FloatArray) -> FloatArray:
     width = SINGLE_THREAD // (height * depth)
     result = np.zeros((rows, columns))
     for top in range(0, rows, height):
+        end_if_stopped()
         for start in range(0, columns, width):
             tile = result[top : top + height, start : start + width]
             for first in range(0, inner, depth):

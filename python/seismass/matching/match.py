@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from threading import Event
 from typing import Any, Final, Literal, TypeAlias
 
@@ -15,7 +15,8 @@ from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, is_one_of, refusal
 from seismass.matching.remarks import matching_remarks
 from seismass.matching.result import MatchedRecord, MatchedSuite
-from seismass.matching.solver import STOP, Ratios, adjust
+from seismass.matching.solver import Ratios, adjust
+from seismass.matching.stopping import STOP
 from seismass.records.record import Record
 from seismass.records.suite import Suite
 from seismass.spectra import TargetSpectrum
@@ -43,6 +44,8 @@ STEPS_PER_PERIOD: Final = 4.0
 """Time steps in the shortest period that is matched."""
 WIDE: Final = (0.02, 10.0)
 """Range of periods (s) over which the spectra are given before and after, outside the range that is matched too."""
+AWAKE: Final = 0.1
+"""Longest time (s) after which a suite that is being matched sees that it was interrupted."""
 AT_ONCE: Final = 2
 """Records of a suite that are matched at a time."""
 FACTOR_BITS, LIMIT_BITS = 41, 32
@@ -241,8 +244,11 @@ def match_suite(
     # Two at a time: what one does in Python, the other does in libraries that let it.
     with ThreadPoolExecutor(AT_ONCE) as pool:
         try:
-            for one in pool.map(matched_until_stopped, given):
-                done.append(one)
+            for future in [pool.submit(matched_until_stopped, record) for record in given]:
+                # A signal may reach another thread than this one, which sees it when it wakes.
+                while not wait([future], timeout=AWAKE).done:
+                    pass
+                done.append(future.result())
                 tell(len(done), len(given))
         except BaseException:
             stop.set()

@@ -24,6 +24,7 @@ from seismass.base.elementary import (
     times,
 )
 from seismass.base.values import FloatArray
+from seismass.matching.stopping import end_if_stopped
 
 UNDERSHOOT: Final = 0.6
 """Share of an extremum that the samples beside it reach at least, with four samples or more in a period."""
@@ -119,6 +120,7 @@ class Oscillators:
         samples = np.concatenate([acceleration, np.zeros(longest)])
         rows: list[Any] = []
         for number, period in enumerate(self.periods):
+            end_if_stopped()
             end = len(acceleration) + int(np.ceil(period / self.dt)) + 3
             moved = self.response(number, samples[:end])
             size = np.abs(moved)

@@ -8,9 +8,7 @@ that none is left behind.
 
 from __future__ import annotations
 
-from contextvars import ContextVar
 from dataclasses import dataclass
-from threading import Event
 from typing import Final
 
 import numpy as np
@@ -21,6 +19,7 @@ from seismass.base.elementary import power
 from seismass.base.values import FloatArray
 from seismass.matching.linear import coarse, exact_product, halves, product, solved
 from seismass.matching.oscillators import Extrema, Oscillators
+from seismass.matching.stopping import end_if_stopped
 from seismass.matching.wavelets import Placed, half_width, place
 
 SHARE: Final = 0.8
@@ -89,20 +88,6 @@ class Ratios:
         return np.asarray(peaks)[:, 0, :] * self.over
 
 
-class Stopped(Exception):
-    """The suite that a motion belongs to is given up."""
-
-
-STOP: Final[ContextVar[Event | None]] = ContextVar("STOP", default=None)
-"""Set where the threads of a suite are to end before they are done, as on Ctrl-C."""
-
-
-def _end_if_stopped() -> None:
-    stop = STOP.get()
-    if stop is not None and stop.is_set():
-        raise Stopped
-
-
 def adjust(
     given: FloatArray,
     dt: float,
@@ -142,7 +127,7 @@ def adjust(
     Raises
     ------
     Stopped
-        `STOP` is set.
+        The suite is given up.
     """
     matched = len(periods)
     periods, target = np.concatenate([periods, guards[0]]), np.concatenate([target, guards[1]])
@@ -156,7 +141,7 @@ def adjust(
     shortened = False
     span = (len(given), 0)  # of all wavelets so far
     while passes < max_iterations and not reached and passes - chosen < PATIENCE:
-        _end_if_stopped()
+        end_if_stopped()
         extrema = oscillators.extrema(acceleration, SHARE, MOST)
         sought = extrema.largest & (extrema.oscillator < matched)
         # Those of the guards come last; they have no wavelets.
@@ -164,7 +149,7 @@ def adjust(
         time = dt * (extrema.step + extrema.fraction)[: len(own)]
         wavelets = place(time - delay[own], periods[own], damping, dt, len(given))
         first, last = min(span[0], wavelets.first), max(span[1], wavelets.last)
-        _end_if_stopped()
+        end_if_stopped()
         influence = oscillators.influence(extrema, first, last)
         scale = np.sign(extrema.value) / displacement[extrema.oscillator]
         added = (acceleration - given)[first:last]
@@ -172,7 +157,7 @@ def adjust(
         taken_back = forget * scale * np.einsum("es,s->e", influence, added)
         within = slice(wavelets.first - first, wavelets.last - first)
         effect = _effect(influence[:, within], extrema.step, wavelets) * scale[:, None]
-        _end_if_stopped()
+        end_if_stopped()
         weight = max(REGULARISATION[0] * float(power(REGULARISATION[1], passes)), REGULARISATION[2])
         ease = min(SECONDARY[0] * float(power(SECONDARY[1], passes)), 1.0)
         candidates = []
@@ -183,7 +168,7 @@ def adjust(
                 motion = acceleration.copy()
                 motion[first:last] += step * change
                 candidates.append(motion)
-        _end_if_stopped()
+        end_if_stopped()
         scores = [_score(ratios) for ratios in between(candidates)]
         number = min(range(len(scores)), key=lambda which: scores[which][0])
         acceleration = candidates[number]
@@ -208,6 +193,7 @@ def _delays(oscillators: Oscillators) -> FloatArray:
     """Time (s) from the crest of a wavelet to the largest response of its own oscillator."""
     delays = []
     for period, width in zip(oscillators.periods, half_width(oscillators.periods), strict=True):
+        end_if_stopped()
         dt = oscillators.dt
         crest = np.array([width + 2.0 * dt])
         samples = int(np.ceil(2.0 * (width + period) / dt)) + 8
@@ -280,7 +266,7 @@ def _amplitudes(
     found = []
     for share in WEAKER:
         regular = (share * weight) ** 2 / emphasis
-        _end_if_stopped()
+        end_if_stopped()
         held = largest.copy()
         for _ in range(HOLDS):
             added = held & ~known
