@@ -71,8 +71,11 @@ def test_motions_are_counted_from_1_and_named():
 
 
 def test_targets(tmp_path):
-    assert target_remarks(sm.TargetSpectrum.asce7(9.9, 5.0)) == ()
-    assert target_remarks(sm.TargetSpectrum.asce7(10.1, 5.0))[0].startswith("S_DS of the target spectrum is 10.1 g")
+    assert target_remarks(sm.TargetSpectrum.asce7(3.9, 2.0)) == ()
+    assert target_remarks(sm.TargetSpectrum.asce7(4.1, 2.0))[0].startswith("S_DS of the target spectrum is 4.1 g")
+    assert target_remarks(sm.TargetSpectrum.asce7(1.0, 6.0)) == (
+        "S_D1 of the target spectrum is 6 g, above S_DS = 1 g: are they exchanged?",
+    )
     file = tmp_path / "hazard.csv"
     file.write_text("0.1,11\n2.0,0.3\n")
     assert target_remarks(sm.TargetSpectrum.from_csv(file))[0].startswith("largest Sa of the target spectrum is 11 g")

@@ -18,7 +18,7 @@ from seismass.base.input_table import Table, load_table
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import as_number, as_path, brief, printable
 from seismass.design import Combination, vibration_modes
-from seismass.model.codes import CodeFraction, code_fraction
+from seismass.model.codes import AS_STATED, CodeFraction, code_fraction
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.friction import BOUND_FACTORS, bound_factors, friction_pair
 from seismass.model.springs import DEFAULT_THIRD_SLOPE, SHAPE_FIELDS
@@ -156,6 +156,8 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         ),
         damping=_between(building, building, "damping", DEFAULT_DAMPING, 0.0, 1.0),
         gravity_load=_gravity_load(storeys, building, mass) if p_delta else None,
+        area=np.array([_positive(storey, building, "area_m2", np.nan) for storey in storeys]),
+        dead_load_stated=np.array([_key_of(storey, building, _MASS) == "dead_load_kpa" for storey in storeys]),
         live_load=live_load,
         occupied=occupied,
         friction=tuple(name for name, _, _ in friction),
@@ -202,6 +204,12 @@ def _held(storey: Table, default: Table, group: tuple[str, ...]) -> tuple[Table,
             if key in table.values:
                 return table, key
     return None
+
+
+def _key_of(storey: Table, default: Table, group: tuple[str, ...]) -> str:
+    """Return by which key a storey's value stands; empty where there is none."""
+    held = _held(storey, default, group)
+    return "" if held is None else held[1]
 
 
 def _number(table: Table, key: str, requirement: str, fits: Callable[[float], bool]) -> float:
@@ -379,7 +387,7 @@ def _code(table: Table) -> CodeFraction:
         table.excluded("id", "fraction")
         table.excluded("use", "fraction")
         value = _number(table, "fraction", "from 0 to 1", lambda number: 0.0 <= number <= 1.0)
-        return CodeFraction("own", "a fraction of one's own", "storage", value, value, value, "", "", "as stated")
+        return CodeFraction("own", "a fraction of one's own", "storage", value, value, value, "", "", AS_STATED)
     names = {key: table.text(key) for key in ("id", "use")}
     try:
         found = code_fraction(names["id"] or DEFAULT_CODE)

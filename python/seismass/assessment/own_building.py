@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
@@ -73,6 +74,10 @@ class OwnBuilding:
         Ratio of critical damping in every mode of the building without goods.
     gravity_load : ndarray, shape (storeys,), or None
         Gravity load of each floor without goods (N), to which the weight of the goods is added; None: no P-Delta.
+    area : ndarray, shape (storeys,)
+        Floor areas (m2); NaN where they are not stated.
+    dead_load_stated : ndarray of bool, shape (storeys,)
+        Whether the mass of a floor was stated as a dead load per area.
     live_load : ndarray, shape (storeys,)
         Design live load of each floor as a mass (kg).
     occupied : ndarray, shape (storeys,)
@@ -112,6 +117,8 @@ class OwnBuilding:
     third_slope: FloatArray
     damping: float
     gravity_load: FloatArray | None
+    area: FloatArray
+    dead_load_stated: NDArray[np.bool_]
     live_load: FloatArray
     occupied: FloatArray
     friction: tuple[str, ...]
@@ -159,13 +166,15 @@ class OwnBuilding:
         """Return the first period (s) with a mass attached to each floor (kg)."""
         return float(vibration_modes(self.mass + attached, self.stiffness).periods[0])
 
-    def analysis(self, target: TargetSpectrum | None = None) -> SpectrumAnalysis:
+    def analysis(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> SpectrumAnalysis:
         """Return the response spectrum analysis of the building with the mass of its design.
 
         Parameters
         ----------
         target : TargetSpectrum, optional
             Site spectrum; default the building's own.
+        attached : ndarray, shape (storeys,), optional
+            Mass of the design beside that of the floors (kg); default the fraction of the design live load.
 
         Raises
         ------
@@ -173,7 +182,7 @@ class OwnBuilding:
             There is no site spectrum, or it does not cover the modal periods.
         """
         return response_spectrum_analysis(
-            self.mass + self.design_fraction * self.live_load,
+            self.mass + (self.design_fraction * self.live_load if attached is None else attached),
             self.stiffness,
             self.site_spectrum(target),
             combination="srss" if self.design is None else self.design.combination,
@@ -188,8 +197,13 @@ class OwnBuilding:
             raise refusal(InvalidOption, "target", f"building {self.name}", requirement, brief(chosen))
         return chosen
 
-    def structure(self, target: TargetSpectrum | None = None) -> Building:
+    def structure(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> Building:
         """Return the building without goods; strengths of a design need the site spectrum.
+
+        Parameters
+        ----------
+        target, attached
+            As for `analysis`.
 
         Raises
         ------
@@ -200,7 +214,7 @@ class OwnBuilding:
         """
         strength = self.yield_shear
         if strength is None and self.design is not None:
-            strength = self.analysis(target).storey_shear / self.design.R
+            strength = self.analysis(target, attached).storey_shear / self.design.R
         return Building(
             self.mass,
             self.stiffness,

@@ -14,9 +14,12 @@ from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, known_id, refusal
 
 __all__ = [
+    "AS_STATED",
     "CODE_IDS",
     "CODE_NAMES",
     "FROM_MEMORY",
+    "MARK",
+    "NOT_CHECKED",
     "SECOND_HAND",
     "VERIFIED",
     "CodeFraction",
@@ -38,6 +41,12 @@ VERIFIED: Final = "verified"
 SECOND_HAND: Final = "second-hand"
 FROM_MEMORY: Final = "from memory, unverified"
 """Status of a row: read in the text named, read in a text that quotes it, or neither."""
+AS_STATED: Final = "as stated"
+"""Status of a fraction of one's own."""
+NOT_CHECKED: Final = "not checked against the code"
+"""What every table, figure and page says of a row that was not read in the code's own text."""
+MARK: Final = "\N{DAGGER}"
+"""Mark of such a row."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +82,16 @@ class CodeFraction:
     clause: str
     note: str
     status: str
+
+    @property
+    def checked(self) -> bool:
+        """Whether the fraction was read in the code's own text, or stated by the user."""
+        return self.status in (VERIFIED, AS_STATED)
+
+    @property
+    def mark(self) -> str:
+        """`MARK` where the fraction was not checked against the code's text; else nothing."""
+        return "" if self.checked else MARK
 
 
 def _row(
