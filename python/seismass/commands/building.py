@@ -134,12 +134,21 @@ def _listing(args: argparse.Namespace) -> str:
 
         return example_file().read_text(encoding="utf-8")
     if args.codes:
-        from seismass.model.codes import code_table
+        from seismass.model.codes import MARK, code_legend, code_table
 
         rows = [["id", "use", "fraction", "clause", "status", "code"]]
         for row in code_table().iter_rows(named=True):
             fraction = f"{row['low']:g} to {row['high']:g}" if row["low"] < row["high"] else f"{row['fraction']:g}"
-            rows.append([row["code_id"], row["use"], fraction, row["clause"], row["status"], row["code"]])
+            rows.append(
+                [
+                    row["code_id"],
+                    row["use"],
+                    fraction,
+                    row["clause"],
+                    row["status"],
+                    row["code"] + MARK * (not row["checked"]),
+                ]
+            )
     else:
         from seismass.model.friction import friction_table
 
@@ -149,7 +158,7 @@ def _listing(args: argparse.Namespace) -> str:
             rows.append([row["pair_id"], f"{row['mu_s']:g}", f"{row['mu_k']:.4g}", row["contact"], source])
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows)
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *([f"\n{code_legend()}"] if args.codes else [])]) + "\n"
 
 
 def _code(args: argparse.Namespace) -> CodeFraction | None:

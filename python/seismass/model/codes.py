@@ -25,6 +25,7 @@ __all__ = [
     "CodeFraction",
     "Use",
     "code_fraction",
+    "code_legend",
     "code_table",
 ]
 
@@ -331,7 +332,23 @@ def code_table() -> pl.DataFrame:
     Returns
     -------
     polars.DataFrame
-        Columns `code_id`, `code`, `use`, `fraction`, `low`, `high`, `clause`, `note`, `status`, as `CodeFraction` has
-        them.
+        Columns `code_id`, `code`, `use`, `fraction`, `low`, `high`, `clause`, `note`, `status`, `checked`, as
+        `CodeFraction` has them.
     """
-    return pl.DataFrame([asdict(row) for row in _ROWS])
+    return pl.DataFrame([asdict(row) | {"checked": row.checked} for row in _ROWS])
+
+
+def code_legend() -> str:
+    """Return what `MARK` means, with the number of rows of each status.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.codes.code_legend().partition(":")[0]
+    '\N{DAGGER} not checked against the code'
+    """
+    counts = {status: sum(row.status == status for row in _ROWS) for status in (VERIFIED, SECOND_HAND, FROM_MEMORY)}
+    return (
+        f"{MARK} {NOT_CHECKED}: {counts[SECOND_HAND]} of {len(_ROWS)} rows are second-hand, {counts[FROM_MEMORY]} from "
+        f"memory; {counts[VERIFIED]} were read in the text named"
+    )

@@ -19,7 +19,7 @@ from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
 from seismass.model.codes import AS_STATED, MARK, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.tables import AssessmentTables, Fraction, assessment_tables
-from seismass.show.effective_mass.figures import STORAGE_CODES
+from seismass.show.effective_mass.figures import STORAGE_CODES, marked_legend
 
 PURPLE: Final = "#CC79A7"
 DASH: Final = (0, (5, 2))
@@ -94,7 +94,8 @@ def fraction_figure(result: AssessmentTables) -> Figure:
     axes.set_ylabel("largest storey drift, mean over the motions:\ngoods slide / model (above 1: the model is unsafe)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=1, frameon=False)
-    figure.supxlabel(_caption(result), fontsize=7.5)
+    shown = STORAGE_CODES if result.code["use"] == "storage" else {}
+    figure.supxlabel(f"{_caption(result)}{marked_legend(shown)}", fontsize=7.5)
     return figure
 
 
