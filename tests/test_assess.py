@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 import seismass as sm
 from seismass.assessment.answer import rounded_up
 from seismass.assessment.building_file import example_file
+from seismass.assessment.damping import force_ratios
 from seismass.assessment.models import with_mass
 from seismass.assessment.tables import statistics_of
 from seismass.cli import main
@@ -278,6 +279,89 @@ def test_what_is_unlikely_is_remarked_on() -> None:
     assert any("the goods present weigh 48 times the building" in remark for remark in remarks)
     assert "the drift limit is 2 of the height: limits are ratios, not per cent" in remarks
     assert len(set(remarks)) == len(remarks)
+
+
+DOUBTS: list[tuple[dict[str, Any], str]] = [
+    # S_DS in m/s2, and S_DS and S_D1 exchanged.
+    ({"site": {"sds_g": 9.81, "sd1_g": 5.9}}, "S_DS of the target spectrum is 9.81 g, above 4 g"),
+    ({"site": {"sds_g": 1.0, "sd1_g": 6.0}}, "S_D1 of the target spectrum is 6 g, above S_DS = 1 g"),
+    # Loads in psf; a mass in place of a weight, and one in lb over an area in m2.
+    ({"goods": {"live_load_kpa": 125.0}}, "design live load of floor 1 is 125 kPa, above 25 kPa: are loads in kPa"),
+    ({"building": {"dead_load_kpa": 125.0}}, "dead load of floor 1 is 125 kPa, above 20 kPa (and 1 more)"),
+    (
+        {"building": {"dead_load_kpa": None, "mass_kg": 2500.0}},
+        "weight over the area of floor 1 is 0.04903 kPa, outside",
+    ),
+    (
+        {"building": {"dead_load_kpa": None, "mass_kg": 2.5e6}},
+        "weight over the area of floor 1 is 49.03 kPa, outside 0.5",
+    ),
+    # Limits in per cent.
+    ({"building": {"drift_limit": 2.0}}, "the drift limit is 2 of the height: limits are ratios"),
+    ({"building": {"collapse_drift_ratio": 10.0}}, "the collapse drift ratio is 10 of the height"),
+    ({"building": {"theta_limit": 25.0}}, "the limit of the stability coefficient is 25: limits are ratios"),
+    # Storeys from the roof down, by their names and by their goods.
+    ({"storeys": [{"name": "Roof", "live_load_kpa": 0.0}, {}]}, "floor 1 of 2 is named Roof: storeys are listed from"),
+    ({"storeys": [{"live_load_kpa": 0.0}, {}, {}]}, "floor 1 is the only one without goods, the uppermost has some"),
+    # Strength of a slider: damping in the modes carries what it cannot.
+    (
+        {
+            "building": {"design": None, "R": None, "period_s": None, "stiffness_kn_per_m": 1e5, "second_slope": 1e-4},
+            "storeys": [
+                {"stiffness_kn_per_m": 1e7, "yield_shear_over_weight": 0.06},
+                {"live_load_kpa": 0.0, "yield_shear_over_weight": 5.0},
+            ],
+        },
+        "spring and damping of storey 1 carry ",
+    ),
+    # Strengths stated as a thousandth of what they are over the weight.
+    (
+        {"building": {"design": None, "R": None, "yield_shear_over_weight": 0.01, "p_delta": False}},
+        "the yield shear of storey 1 is 0.01 of the weight",
+    ),
+]
+
+
+@pytest.mark.parametrize(("changes", "doubt"), DOUBTS, ids=range(len(DOUBTS)))
+def test_a_doubt_about_the_input_stands_in_the_headline(changes: dict[str, Any], doubt: str, tmp_path: Path) -> None:
+    given = tables(**{name: values for name, values in changes.items() if name != "storeys"})
+    given["storeys"] = changes.get("storeys", given["storeys"])
+    result = sm.assess(given, mu_factors=(1, 1), resamples=2)
+    assert any(sentence.startswith(doubt) for sentence in result.answer.doubts), result.answer.doubts
+    assert "ANSWER    DOUBTFUL INPUT: " in result.text
+    assert any(sentence.startswith(doubt) for sentence in result.remarks)
+    assert json.loads(result.to_json())["doubts"] == list(result.answer.doubts)
+    result.write(tmp_path)
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert '<div class="answer bad">' in page
+    assert "DOUBTFUL INPUT: " in page
+
+
+def test_ordinary_buildings_raise_no_doubt(small: sm.Assessment, warehouse: sm.Assessment) -> None:
+    assert small.answer.doubts == warehouse.answer.doubts == ()
+    assert small.text.splitlines()[2].startswith("ANSWER    two analyses")
+    # A wharf carries 48 kPa; its code says that it is one.
+    wharf = tables(code={"id": "asce61-14"}, goods={"live_load_kpa": 48.0}, building={"dead_load_kpa": 15.0})
+    assert not any("live load" in doubt for doubt in sm.assess(wharf, mu_factors=(1, 1), resamples=2).answer.doubts)
+
+
+def test_strong_motions_and_large_drifts_are_doubts() -> None:
+    """Motions scaled by 20: a mean PGA above 3 g, and drifts above 10 % of the height."""
+    motions = [record.scaled(20.0) for record in sm.builtin_suite("seven")]
+    result = sm.assess(tables(building={"p_delta": False}), motions, scale=False, mu_factors=(1, 1), resamples=2)
+    assert any(doubt.startswith("the mean PGA of the motions is ") for doubt in result.answer.doubts)
+    assert any("above 10 %: no building stands this" in doubt for doubt in result.answer.doubts)
+    assert sum("has a PGA of" in doubt for doubt in result.answer.doubts) == 1
+
+
+def test_inertia_over_the_spring_force_is_that_of_the_run() -> None:
+    """Mass times absolute acceleration above the storey, over its peak spring force; there are no goods."""
+    building = sm.Building.uniform(2, 0.4, yield_shear_over_weight=[0.1, 0.1])
+    scene, record = sm.Scene(building), sm.builtin_suite("seven")[0]
+    run = sm.simulate(scene, record, histories=True)
+    inertia = np.abs((building.mass * run.floor_acceleration).sum(axis=1)).max()
+    expected = inertia / np.abs(run.storey_force[:, 0]).max()
+    assert force_ratios(scene, [record])[0] == pytest.approx(expected, rel=1e-9)
 
 
 def test_wrong_arguments_are_refused() -> None:

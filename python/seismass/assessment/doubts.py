@@ -38,6 +38,9 @@ MAX_COLLAPSE_RATIO: Final = 0.2
 """Drift ratio at which a storey counts as collapsed."""
 MAX_THETA_LIMIT: Final = 1.0
 """Limit of the stability coefficient; at 1 gravity has taken the whole stiffness."""
+MIN_STRENGTH: Final = 0.03
+"""Stated yield shear of the first storey over the weight of the building without goods; with weights typed as masses it
+is a tenth of what was meant."""
 MAX_DRIFT: Final = 0.1
 """Mean peak drift ratio that a model can be believed at."""
 ROOFS: Final = ("roof", "dach", "toit", "techo", "tetto")
@@ -70,6 +73,7 @@ def doubts_of(
         *real.remarks,
         *_about_loads(building),
         *_about_order(building),
+        *_about_strength(building),
         *_about_limits(building),
         *(() if target is None else target_remarks(target)),
         *_about_motions(motions),
@@ -131,6 +135,17 @@ def _about_order(building: OwnBuilding) -> list[str]:
     if building.storeys > 2 and building.goods[0] == 0.0 and (building.goods[1:] > 0.0).all():
         return [f"floor 1 is the only one without goods, the uppermost has some: {asked}"]
     return []
+
+
+def _about_strength(building: OwnBuilding) -> list[str]:
+    """A stated strength that no building has: weights typed as masses make the rest ten times as heavy."""
+    if building.yield_shear is None or building.yield_shear[0] >= MIN_STRENGTH * building.weight:
+        return []
+    ratio = float(building.yield_shear[0]) / building.weight
+    return [
+        f"the yield shear of storey 1 is {ratio:.3g} of the weight of the building, below {MIN_STRENGTH:g}: are masses "
+        "in kg and not weights in N, and strengths in their units?"
+    ]
 
 
 def _about_limits(building: OwnBuilding) -> list[str]:

@@ -76,9 +76,7 @@ def add_parser(subparsers: Any, help: str) -> None:
         help="bounds of friction as factors (0.67 1.5); 1 1 leaves them out",
     )
     output = parser.add_argument_group("running and output")
-    output.add_argument(
-        "--out", type=Path, default=Path("assessment"), metavar="DIR", help="folder to write to (assessment)"
-    )
+    output.add_argument("--out", type=Path, metavar="DIR", help="folder to write to (the file's name without suffix)")
     output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
     output.add_argument("--json", action="store_true", help="print the assessment as JSON")
     output.add_argument("--no-figures", action="store_true", help="write tables only, no figures and no page")
@@ -96,7 +94,8 @@ def run(args: argparse.Namespace) -> int:
     from seismass.media.folder import PAGE, check_out
 
     started = time.perf_counter()
-    check_out(args.out, "assessment")
+    out = args.out or Path(args.file.stem)
+    check_out(out, "assessment")
     building = read_building(args.file)
     code, target = _code(args), _target(args)
     suite = read_motions(args)
@@ -114,7 +113,7 @@ def run(args: argparse.Namespace) -> int:
     except SimulationError as error:
         print(f"seismass: run failed: {error}", file=sys.stderr)
         return 1
-    files = result.write(args.out, figures=not args.no_figures)
+    files = result.write(out, figures=not args.no_figures)
     if args.json:
         warn_left_out(suite)
         print(result.to_json())
@@ -122,8 +121,8 @@ def run(args: argparse.Namespace) -> int:
     print(result.text)
     for line in left_out(suite):
         print(f"\n{line}")
-    page = "" if args.no_figures else f", the page is {args.out / PAGE}"
-    print(f"\n{len(files)} files in {args.out}{page}, {time.perf_counter() - started:.1f} s")
+    page = "" if args.no_figures else f", the page is {out / PAGE}"
+    print(f"\n{len(files)} files in {out}{page}, {time.perf_counter() - started:.1f} s")
     return 0
 
 

@@ -11,7 +11,7 @@ from seismass.commands.options import check_files
 
 _EPILOG = """examples:
   seismass report study
-  seismass report assessment
+  seismass report warehouse
   seismass report study --out study.html
 
 exit codes: 0 done, 2 bad input"""

@@ -47,9 +47,11 @@ def suspicions(record: Record, *, unit_given: bool) -> tuple[str, ...]:
     if record.samples > 2 and where == record.samples - 1:
         remarks.append("the largest acceleration is the last sample: the file may be cut off")
     if record.pga_g > LARGEST_PGA_G:
-        remarks.append(f"PGA {record.pga_g:.3g} g is above {LARGEST_PGA_G:g} g: the unit, {record.unit}, is doubtful")
+        remarks.append(
+            f"PGA {record.pga_g:.3g} g is above {LARGEST_PGA_G:g} g: the unit, {record.file_unit}, is doubtful"
+        )
     elif record.pga_g < SMALLEST_PGA_G and unit_given:
-        remarks.append(f"PGA {record.pga_g:.2g} g is very small: the unit, {record.unit}, is doubtful")
+        remarks.append(f"PGA {record.pga_g:.2g} g is very small: the unit, {record.file_unit}, is doubtful")
     if record.samples >= 100:
         mean = abs(float(np.mean(samples / peak)))
         if mean > LARGEST_MEAN:

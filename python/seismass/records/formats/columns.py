@@ -145,7 +145,7 @@ def parse_columns(
         dt=_step(table, steps, len(values)),
         name=printable(source.stem),
         source=source,
-        unit=_unit(table, unit),
+        file_unit=_unit(table, unit),
         remarks=tuple(remarks),
     )
 

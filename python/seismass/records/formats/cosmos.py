@@ -222,7 +222,7 @@ def _channel(raw: _Raw, source: Path, arguments: Arguments, number: int, several
         azimuth=azimuth,
         network=(scnl or place_code or {"network": ""})["network"],
         source=source,
-        unit=unit,
+        file_unit=unit,
         remarks=tuple(remarks),
     )
     return Channel(label, record)
