@@ -63,6 +63,8 @@ lint: build
 		{ echo "make lint and make test need rustfmt and clippy: rustup component add rustfmt clippy" >&2; exit 1; }
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
+	# Alone, and thus without the kernel's feature tall-buildings, as it is compiled for the live page.
+	cargo clippy --locked -p seismass-web -- -D warnings
 	$(PYTHON) -m ruff check .
 	$(PYTHON) -m ruff format --check .
 	$(VENV)/bin/lint-imports --no-cache

@@ -16,7 +16,7 @@ import pytest
 from polars.testing import assert_frame_equal
 
 import seismass as sm
-from seismass.campaign.folder import part_path
+from seismass.campaign.places import part_path
 from seismass.campaign.progress import duration_text
 
 BUILDING = sm.Building.uniform(2, 0.3, heights=3.0, yield_shear_over_weight=[0.2, 0.12])
@@ -229,25 +229,6 @@ def test_a_folder_of_other_scenes_or_motions_is_refused(undisturbed: Path) -> No
             made.run(undisturbed)
 
 
-@pytest.mark.parametrize(
-    ("key", "value", "said"),
-    [
-        ("package_version", "0.0.9", "must be solved by seismass .*; got version 0.0.9"),
-        ("bits", "another", "instruction set of this process"),
-        ("schema_version", 0, "schema_version of campaign must be 1; got 0"),
-        ("kind", "report", "must be of the kind"),
-    ],
-)
-def test_a_folder_of_another_version_or_instruction_set_is_refused(
-    tmp_path: Path, key: str, value: Any, said: str
-) -> None:
-    campaign().run(tmp_path / "a", shard=(1, 8))
-    path = tmp_path / "a" / "manifest.json"
-    path.write_text(json.dumps(json.loads(path.read_text()) | {key: value}))
-    with pytest.raises(sm.errors.InvalidOption, match=said):
-        campaign().run(tmp_path / "a")
-
-
 def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("mine")
     with pytest.raises(
@@ -258,19 +239,6 @@ def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
         campaign().run(tmp_path / "notes.txt")
     with pytest.raises(sm.errors.InvalidOption, match="folder of campaign must be one of a campaign"):
         sm.campaign.CampaignFolder(tmp_path)
-
-
-def test_a_damaged_part_is_found(tmp_path: Path) -> None:
-    folder = campaign().run(tmp_path / "a")
-    part_path(folder.path, 3).write_bytes(part_path(folder.path, 3).read_bytes()[:100])
-    part_path(folder.path, 5).write_bytes(part_path(folder.path, 4).read_bytes())
-    other = campaign(columns=["slips"]).run(tmp_path / "b")
-    part_path(folder.path, 7).write_bytes(part_path(other.path, 7).read_bytes())
-    problems = dict(folder.verify().select("part", "problem").iter_rows())
-    assert problems.pop(3).startswith("cannot be read")
-    assert problems.pop(5) == "of other runs"
-    assert problems.pop(7) == "of other inputs"
-    assert set(problems.values()) == {None}
 
 
 def test_campaigns_go_beyond_32_bits(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from polars.testing import assert_frame_equal
 import seismass as sm
 from seismass import cli
 from seismass.campaign import example_description
-from seismass.campaign.folder import part_path
+from seismass.campaign.places import part_path
 
 BASE: dict[str, Any] = {
     "name": "trial",
@@ -241,9 +241,20 @@ def test_the_command_runs_goes_on_and_looks(tmp_path: Path, capsys: pytest.Captu
     capsys.readouterr()
     part_path(out, 3).write_bytes(b"torn")
     assert run(out, "--verify") == 1
-    assert "part 3: cannot be read" in capsys.readouterr().out
-    assert run(out, "--status") == 2
-    assert "must be whole (--verify names those that are not)" in capsys.readouterr().err
+    assert "part 3: is damaged" in capsys.readouterr().out
+    assert run(out, "--status") == 1
+    said = capsys.readouterr().out
+    assert "parts    4 of 4\n" in said
+    assert "damaged  parts 3; remove them, and the same command solves them again" in said
+    assert run(out) == 2
+    assert "must be whole and of this campaign" in capsys.readouterr().err
+    part_path(out, 3).unlink()
+    part_path(out, 3).mkdir()
+    assert run(out, "--status") == 1
+    assert "parts    3 of 4, 1 missing\n" in capsys.readouterr().out
+    part_path(out, 3).rmdir()
+    assert run(out) == 0
+    assert run(out, "--verify") == 0
 
 
 def test_the_command_starts_workers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 import seismass as sm
-from seismass.campaign.folder import part_path
+from seismass.campaign.places import part_path
 
 PROGRAM = """
     import sys

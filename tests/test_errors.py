@@ -181,9 +181,9 @@ CASES: list[Case] = [
     ),
     (
         "Rayleigh damping in per cent",
-        lambda: sm.Rayleigh(5.0),
+        lambda: building(damping=sm.Rayleigh(5.0)),
         sm.errors.InvalidScene,
-        r"ratio of Rayleigh damping must be a ratio of at most 1 \(0.05 for 5 %\); got 5",
+        r"damping of building must be a ratio of at most 1 \(0.05 for 5 %\); got 5",
     ),
     (
         "damping as text",

@@ -207,7 +207,7 @@ def test_a_file_that_is_not_finished_does_not_appear(tmp_path: Path) -> None:
     with pytest.raises(LookupError, match="enough"):
         sm.write_many(tmp_path / "rows.parquet", aligned(), MOTIONS, chunk=7, progress=fail)
     (kept,) = tmp_path.iterdir()
-    assert {file.name for file in kept.iterdir()} == {"inputs", "0.parquet", "1.parquet"}
+    assert {file.name for file in kept.iterdir()} == {"inputs", "part-0.parquet", "part-1.parquet"}
 
 
 def interrupted(path: Path, chunk: int) -> list[int]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import random
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
+import polars as pl
 import pytest
 from polars.testing import assert_frame_equal
 
@@ -14,30 +15,41 @@ import seismass as sm
 from seismass.base.kept import KeptResults, digest_of, kept_folder
 from seismass.study import StudyParameters, run_study
 
+TABLE = pl.DataFrame({"numbers": [1.0, 2.0], "words": ["a", None]})
 
-def leave(place: Path, sha256: str, content: str) -> None:
-    """Keep a part, and be interrupted."""
-    with pytest.raises(KeyboardInterrupt), kept_folder(place, "rows", sha256) as folder:
-        (folder / "part").write_text(content)
+
+def leave(place: Path, sha256: str) -> Path:
+    """Keep a part, and be interrupted; return its path."""
+    with pytest.raises(KeyboardInterrupt), kept_folder(place, "rows", sha256) as kept:
+        path = kept.file("1", lambda: TABLE)
         raise KeyboardInterrupt
+    return path
+
+
+def is_kept(kept: KeptResults) -> bool:
+    """Whether the part is taken and not made again."""
+    made: list[int] = []
+    kept.file("1", lambda: made.append(1) or TABLE)  # type: ignore[func-returns-value]
+    return not made
 
 
 def test_parts_stay_for_the_same_inputs_until_the_end(tmp_path: Path) -> None:
-    leave(tmp_path, "a", "1")
-    with kept_folder(tmp_path, "rows", "a") as folder:
-        assert (folder / "part").read_text() == "1"
+    leave(tmp_path, "a")
+    with kept_folder(tmp_path, "rows", "a") as kept:
+        assert is_kept(kept)
+        assert_frame_equal(kept.of("1", pl.DataFrame), TABLE, check_exact=True)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_parts_of_other_inputs_are_removed(tmp_path: Path) -> None:
-    leave(tmp_path, "a", "1")
-    with kept_folder(tmp_path, "rows", "b") as folder:
-        assert not (folder / "part").exists()
-    leave(tmp_path, "a", "1")
-    with kept_folder(tmp_path, "other", "a") as folder:
-        assert not (folder / "part").exists()
-    with kept_folder(tmp_path, "rows", "a") as folder:
-        assert (folder / "part").exists()
+    part = leave(tmp_path, "a")
+    with kept_folder(tmp_path, "rows", "b"):
+        assert not part.exists()
+    leave(tmp_path, "a")
+    with kept_folder(tmp_path, "other", "a") as kept:
+        assert not is_kept(kept)
+    with kept_folder(tmp_path, "rows", "a") as kept:
+        assert is_kept(kept)
 
 
 def test_nothing_is_kept_where_there_is_nothing(tmp_path: Path) -> None:
@@ -50,40 +62,66 @@ def test_nothing_is_kept_where_there_is_nothing(tmp_path: Path) -> None:
 
 
 def test_a_process_that_works_on_the_same_has_a_folder_of_its_own(tmp_path: Path) -> None:
-    with kept_folder(tmp_path, "rows", "a") as folder:
-        (folder / "part").write_text("1")
+    with kept_folder(tmp_path, "rows", "a") as kept:
+        part = kept.file("1", lambda: TABLE)
         with kept_folder(tmp_path, "rows", "a") as other:
-            assert other != folder
-            assert list(other.iterdir()) == []
-        assert not other.exists()
-        assert (folder / "part").exists()
+            assert other.folder is not None
+            assert other.folder != kept.folder
+            assert list(other.folder.iterdir()) == []
+        assert not other.folder.exists()
+        assert part.exists()
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="the start of a process is read from /proc")
 def test_parts_of_a_killed_process_are_taken(tmp_path: Path) -> None:
     program = (
         "import os, sys\nfrom pathlib import Path\nfrom seismass.base.kept import kept_folder\n"
-        "with kept_folder(Path(sys.argv[1]), 'rows', 'a') as folder:\n"
-        "    (folder / 'part').write_text('1')\n    os.kill(os.getpid(), 9)\n"
+        "import polars as pl\n"
+        "with kept_folder(Path(sys.argv[1]), 'rows', 'a') as kept:\n"
+        "    kept.file('1', lambda: pl.DataFrame({'a': [1]}))\n    os.kill(os.getpid(), 9)\n"
     )
     subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=False, timeout=60)
-    with kept_folder(tmp_path, "rows", "a") as folder:
-        assert (folder / "part").read_text() == "1"
+    with kept_folder(tmp_path, "rows", "a") as kept:
+        assert is_kept(kept)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_result_is_made_once(tmp_path: Path) -> None:
     made: list[int] = []
 
-    def make() -> dict[str, Any]:
+    def make() -> pl.DataFrame:
         made.append(1)
-        return {"numbers": [1.0, 2.0]}
+        return TABLE
 
-    kept = KeptResults(tmp_path)
-    assert kept.of("one", make) == KeptResults(tmp_path).of("one", make) == {"numbers": [1.0, 2.0]}
+    for kept in (KeptResults(tmp_path, "a"), KeptResults(tmp_path, "a")):
+        assert_frame_equal(kept.of("one", make), TABLE, check_exact=True)
     assert made == [1]
-    assert KeptResults().of("one", make) == {"numbers": [1.0, 2.0]}
+    KeptResults().of("one", make)
     assert made == [1, 1]
+
+
+def test_a_part_with_one_changed_bit_is_made_again(tmp_path: Path) -> None:
+    kept = KeptResults(tmp_path, "a")
+    path = kept.file("1", lambda: TABLE)
+    whole = path.read_bytes()
+    for bit in random.Random(5).sample(range(8 * len(whole)), 100):
+        damaged = bytearray(whole)
+        damaged[bit // 8] ^= 1 << bit % 8
+        path.write_bytes(damaged)
+        assert not is_kept(kept), bit
+        assert path.read_bytes() == whole
+
+
+def test_a_part_of_another_place_or_of_other_inputs_is_made_again(tmp_path: Path) -> None:
+    kept = KeptResults(tmp_path, "a")
+    for other, name in ((kept, "2"), (KeptResults(tmp_path, "b"), "1")):
+        (tmp_path / "part-1.parquet").unlink(missing_ok=True)
+        other.file(name, lambda: TABLE).rename(tmp_path / "part-1.parquet")
+        assert not is_kept(kept)
+    (tmp_path / "elsewhere").write_bytes((tmp_path / "part-1.parquet").read_bytes())
+    (tmp_path / "part-1.parquet").unlink()
+    (tmp_path / "part-1.parquet").symlink_to(tmp_path / "elsewhere")
+    assert not is_kept(kept)
 
 
 def test_a_digest_tells_inputs_apart() -> None:
@@ -105,7 +143,7 @@ def test_a_study_takes_what_an_interrupted_one_has_left(tmp_path: Path, monkeypa
     with pytest.raises(KeyboardInterrupt):
         run_study(suite, target, parameters, effective=True, progress=interrupt, kept=KeptResults(tmp_path))
     left = {path.name for path in tmp_path.iterdir()}
-    assert left == {"runs.pickle", "effective-1.pickle", "effective-2.pickle", "effective-3.pickle"}
+    assert left == {f"part-{name}.parquet" for name in ("runs", "effective-1", "effective-2", "effective-3")}
     monkeypatch.setattr("seismass.study.run.simulate_many", None)
     again = run_study(suite, target, parameters, effective=True, kept=KeptResults(tmp_path))
     assert_frame_equal(again.responses, whole.responses, check_exact=True)

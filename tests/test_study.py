@@ -1,5 +1,6 @@
 """The parametric study: its counts, its tables against the kernel, its files, and its command."""
 
+import hashlib
 import itertools
 import json
 import re
@@ -386,10 +387,16 @@ def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -
 def test_figures_of_an_earlier_study_do_not_stay(
     small: StudyResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    earlier = {"drift_R1.png", "drift_R2.5.svg", "drift_R1e+06.png", "spectrum.svg", "underestimation.png"}
-    others = {"drift_R_mine.png", "drift_R1.pdf", "my_spectrum.png", "notes.txt"}
+    earlier = {"drift_R2.5.svg", "drift_R1e+06.png", "slip_mu0.1.svg"}
+    others = {"drift_R_mine.png", "drift_R3.png", "drift_R1.pdf", "notes.txt", "heat_mu9.png", "../outside_heat.png"}
     for name in earlier | others:
         (tmp_path / name).write_text("earlier")
+    # What is listed is removed where it has the bytes and the name of a figure; what is not listed is the user's.
+    listed = dict.fromkeys([*earlier, "notes.txt", "../outside_heat.png"], hashlib.sha256(b"earlier").hexdigest())
+    listed["heat_mu9.png"] = hashlib.sha256(b"changed since").hexdigest()
+    (tmp_path / "files.json").write_text(json.dumps({"sha256": listed}))
+    earlier.add("files.json")
+    others.remove("../outside_heat.png")
 
     def failing(*_: object) -> None:
         raise OSError("disk full")
@@ -406,7 +413,8 @@ def test_figures_of_an_earlier_study_do_not_stay(
     assert {file.name for file in tmp_path.iterdir()} == {file.name for file in files} | others
     tables = write.write_study(study_tables(small), tmp_path, figures=False)
     assert {file.name for file in tmp_path.iterdir()} == {file.name for file in tables} | others
-    assert (tmp_path / "drift_R_mine.png").read_text() == "earlier"
+    assert (tmp_path / "drift_R3.png").read_text() == "earlier"
+    assert (tmp_path.parent / "outside_heat.png").read_text() == "earlier"
 
 
 @pytest.mark.parametrize(
@@ -621,7 +629,7 @@ def test_interrupt_exits_with_130_and_keeps_only_what_is_solved(
         patched.setattr("seismass.study.run.effective_fractions", interrupted)
         assert command("study", "--out", tmp_path / "out", "--effective", "--no-figures") == 130
         (kept,) = (tmp_path / "out").iterdir()
-        assert {file.name for file in kept.iterdir()} == {"inputs", "runs.pickle"}
+        assert {file.name for file in kept.iterdir()} == {"inputs", "part-runs.parquet"}
         patched.setattr("seismass.study.run.simulate_many", None)
         patched.undo()
     assert command("study", "--out", tmp_path / "out", "--no-figures") == 0

@@ -10,6 +10,7 @@ import pytest
 
 import seismass as sm
 from seismass import cli
+from seismass.base.quantiles import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.show.study.figures import study_figures
 from seismass.show.study.findings import findings_text
@@ -21,7 +22,6 @@ from seismass.study.columns import TABLES
 from seismass.study.findings import findings
 from seismass.study.fractions import SHARES
 from seismass.study.sensitivity import MATCHED_TOLERANCE
-from seismass.study.tables import quantile
 from seismass.validation import validate
 
 TARGET = sm.TargetSpectrum.asce7()

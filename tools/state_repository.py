@@ -35,7 +35,7 @@ def additions(address: str) -> dict[str, tuple[str, str]]:
             "MIT or Apache 2.0, at your choice.",
             f"[Documentation]({files}/docs/index.md), [source and issues]({address}).\n\n",
         ),
-        "crates/seismass/README.md": ("## Layers", f"[Documentation and source of the project]({address}).\n\n"),
+        "crates/seismass/README.md": ("## Licence", f"[Documentation and source of the project]({address}).\n\n"),
     }
 
 

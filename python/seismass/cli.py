@@ -45,7 +45,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except (SeismassError, OSError) as error:
-        print(f"seismass: error: {error}", file=sys.stderr)
+        from seismass.base.values import printable  # numpy, which --help does not need
+
+        print(f"seismass: error: {printable(str(error), lines=True)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         # On a terminal a progress bar, or the ^C itself, has begun the line.

@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use seismass::scene::uniform_stiffness;
 use seismass::{
     Block, Building, Damping, GravityEffect, Motion, PeakOriented, Result, STANDARD_GRAVITY, Scene, SpringLaw, Storey,
-    Wear,
+    UniformBuilding, Wear,
 };
 
 use crate::random_scene::{Draw, blocks, mass_above, samples_of, spring};
@@ -77,7 +76,7 @@ fn wear(draw: &mut Draw, block: &Block) -> Vec<Wear> {
 
 fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Building> {
     let period = draw.scale(0.15, 1.5);
-    let k = uniform_stiffness(n, period, 1000.0)?;
+    let k = UniformBuilding { storeys: n, period, mass: 1000.0, ..Default::default() }.stiffness()?;
     let equal = draw.one_in(3);
     let mass: Vec<f64> = (0..n).map(|_| if equal { 1000.0 } else { draw.between(500.0, 2000.0) }).collect();
     let strength = draw.scale(0.05, 0.6);

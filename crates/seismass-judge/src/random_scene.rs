@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
-use seismass::scene::uniform_stiffness;
-use seismass::{Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey};
+use seismass::{
+    Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey, UniformBuilding,
+};
 
 /// The SplitMix64 generator (Steele, Lea and Flood, 2014): one 64-bit seed, the same numbers everywhere.
 pub(crate) struct Draw(pub(crate) u64);
@@ -82,7 +83,7 @@ pub fn random_scene(seed: u64) -> Result<(Scene, Motion)> {
 
 fn building(draw: &mut Draw, n: usize, pga: f64, blocks: &[Block]) -> Result<Building> {
     let period = draw.scale(0.15, 2.0);
-    let k = uniform_stiffness(n, period, 1000.0)?;
+    let k = UniformBuilding { storeys: n, period, mass: 1000.0, ..Default::default() }.stiffness()?;
     let equal = draw.one_in(3);
     let mass: Vec<f64> = (0..n).map(|_| if equal { 1000.0 } else { draw.between(500.0, 2000.0) }).collect();
     let elastic = draw.one_in(5);

@@ -6,7 +6,10 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, EventKind, GravityEffect, Motion, STANDARD_GRAVITY, Scene, Status, Storey};
+use seismass::{
+    Block, Building, Damping, EventKind, GravityEffect, Motion, STANDARD_GRAVITY, Scene, Status, Storey,
+    UniformBuilding,
+};
 use seismass_judge::{DoubleDouble, Real, Solution, solve};
 
 /// Acceleration of gravity of the tabulated numbers (m/s2).
@@ -91,7 +94,9 @@ fn half_sine_pulse() {
 }
 
 fn storey(mass: f64, period: f64, ratio: f64) -> Building {
-    Building::uniform(1, period, mass, Damping::Modal { ratio }).unwrap()
+    UniformBuilding { storeys: 1, period, mass, damping: Damping::Modal { ratio }, ..Default::default() }
+        .build()
+        .unwrap()
 }
 
 /// Step of ground acceleration A on an undamped storey with a block of alpha times its mass and mu g = eta A:

@@ -7,7 +7,9 @@
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, Motion, Options, Response, STANDARD_GRAVITY, Scene, Storey, simulate};
+use seismass::{
+    Block, Building, Damping, Motion, Options, Response, STANDARD_GRAVITY, Scene, Storey, UniformBuilding, simulate,
+};
 use seismass_judge::{Comparison, DoubleDouble, Real, compare, larger, solve};
 
 /// Both are right to some 1e-14 (printed); a guard or a peak that is missed is far beyond this.
@@ -25,7 +27,14 @@ fn tall(n: usize, damping: Damping) -> Scene {
 
 /// The same with another first period per storey.
 fn tall_with_period(period_per_storey: f64, n: usize, damping: Damping) -> Scene {
-    let uniform = Building::uniform(n, period_per_storey * n as f64, 1.0, RAYLEIGH).unwrap();
+    let uniform = UniformBuilding {
+        storeys: n,
+        period: period_per_storey * n as f64,
+        mass: 1.0,
+        damping: RAYLEIGH,
+        ..Default::default()
+    };
+    let uniform = uniform.build().unwrap();
     let weight = STANDARD_GRAVITY * n as f64;
     let wave = |i: usize, step: f64| 1.0 + 0.3 * (step * i as f64).sin();
     let storeys = uniform.storeys().iter().enumerate().map(|(i, storey)| Storey {

@@ -31,6 +31,11 @@ pub(crate) fn from_kernel(py: Python<'_>, error: &Error) -> PyErr {
     }
 }
 
+/// The error of a building that Python described and the kernel does not know.
+pub(crate) fn refuse(parameter: &str, requirement: &str, value: &str) -> Error {
+    Error::invalid(Domain::Scene, parameter, "building", requirement, value)
+}
+
 /// The exception for a panic of the kernel, which is a defect of seismass and never the user's fault.
 pub(crate) fn from_panic(py: Python<'_>, payload: &(dyn std::any::Any + Send)) -> PyErr {
     from_kernel(py, &Error::of_panic(payload))

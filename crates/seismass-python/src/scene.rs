@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use pyo3::prelude::*;
-use seismass::{Damping, Domain, Error, GravityEffect, Wear};
+use seismass::{Damping, GravityEffect, UniformBuilding, Wear};
 
 use crate::arrays::{Output, Table, Values};
-use crate::errors::from_kernel;
+use crate::errors::{from_kernel, refuse};
 use crate::interrupt::{run_inline, run_watched};
 use crate::springs::{self, SpringPath};
 
@@ -90,10 +90,6 @@ impl Building {
         let matrix = self.0.damping_matrix();
         Output::shaped(&[matrix.nrows(), matrix.ncols()], matrix.transpose().as_slice().to_vec())
     }
-}
-
-pub(crate) fn refuse(parameter: &str, requirement: &str, value: &str) -> Error {
-    Error::invalid(Domain::Scene, parameter, "building", requirement, value)
 }
 
 fn square(matrix: &Table<f64>) -> seismass::Result<DMatrix<f64>> {
@@ -201,5 +197,6 @@ impl Motion {
 /// Storey stiffness (N/m) of a uniform building with the given first period (s) and floor mass (kg).
 #[pyfunction]
 pub(crate) fn uniform_stiffness(py: Python<'_>, storeys: usize, period: f64, mass: f64) -> PyResult<f64> {
-    seismass::scene::uniform_stiffness(storeys, period, mass).map_err(|error| from_kernel(py, &error))
+    let uniform = UniformBuilding { storeys, period, mass, ..Default::default() };
+    uniform.stiffness().map_err(|error| from_kernel(py, &error))
 }

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use seismass::{PeakOriented, SpringEvent, SpringLaw, Storey};
 
 use crate::arrays::{Output, Table, Values};
-use crate::scene::refuse;
+use crate::errors::refuse;
 
 /// What a storey's spring is given by, whatever its law.
 struct Spring {

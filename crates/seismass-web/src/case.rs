@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use seismass::scene::uniform_stiffness;
-use seismass::{Block, Building, Damping, Domain, Error, Result, STANDARD_GRAVITY, Scene, SpringLaw, Storey};
+use seismass::{
+    Block, Building, Damping, Domain, Error, Result, STANDARD_GRAVITY, Scene, SpringLaw, Storey, UniformBuilding,
+};
 
 /// Numbers of a case ahead of its lists.
 const HEAD: usize = 6;
@@ -100,7 +101,8 @@ impl Case {
     }
 
     fn building(&self, mass: Vec<f64>, damping: Damping) -> Result<Building> {
-        let stiffness = uniform_stiffness(self.storeys(), self.period, FLOOR_MASS)?;
+        let (storeys, period) = (self.storeys(), self.period);
+        let stiffness = UniformBuilding { storeys, period, mass: FLOOR_MASS, ..Default::default() }.stiffness()?;
         let weight = self.weight();
         let storey = |&over_weight: &f64| Storey {
             stiffness,

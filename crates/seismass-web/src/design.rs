@@ -1,9 +1,8 @@
 //! Elastic storey shears of a response spectrum analysis, by which the page designs the strengths of a building.
 
 use nalgebra::{DMatrix, SymmetricEigen};
-use seismass::scene::uniform_stiffness;
 use seismass::spectrum::response_spectra;
-use seismass::{Control, Motion, Result, STANDARD_GRAVITY};
+use seismass::{Control, Motion, Result, STANDARD_GRAVITY, UniformBuilding};
 
 use crate::case::{refuse, storeys_of};
 
@@ -24,7 +23,7 @@ pub(crate) fn elastic_shear_over_weight(numbers: &[f64], suite: &[Motion]) -> Re
     if suite.is_empty() {
         return Err(refuse("motions", "at least one, for the spectrum of the design", "none"));
     }
-    let stiffness = uniform_stiffness(storeys, head[1], 1.0)?;
+    let stiffness = UniformBuilding { storeys, period: head[1], mass: 1.0, ..Default::default() }.stiffness()?;
     let mass: Vec<f64> = ratios.iter().map(|ratio| 1.0 + head[2] * ratio).collect();
     let weight = STANDARD_GRAVITY * storeys as f64;
     let shears = storey_shears(&mass, stiffness, |periods| mean_spectrum(suite, periods))?;

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, Motion, Options, Scene, simulate};
+use seismass::{Block, Building, Damping, Motion, Options, Scene, UniformBuilding, simulate};
 
 /// Largest drift (m) of a building of three storeys with a share of its goods attached as mass, and the others sliding.
 fn largest_drift(attached: f64, slide: bool) -> seismass::Result<f64> {
-    let (floor, goods, ratio) = (1e5, 1e5, 0.05);
-    let bare = Building::uniform(3, 0.5, floor, Damping::Modal { ratio })?;
+    let (floor, goods) = (1e5, 1e5);
+    let bare = UniformBuilding { storeys: 3, period: 0.5, mass: floor, ..Default::default() }.build()?;
     let mass = vec![floor + attached * goods, floor + attached * goods, floor];
     let damping = Damping::Matrix(bare.damping_matrix());
     let building = Building::new(mass, bare.storeys().to_vec(), damping)?;

@@ -2,20 +2,14 @@
 
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, Motion, Options, STANDARD_GRAVITY, Scene, Storey, simulate};
+use seismass::{Block, Motion, Options, Scene, UniformBuilding, simulate};
 
 fn main() -> seismass::Result<()> {
-    let (floors, mass) = (3, 1e5);
-    let elastic = Building::uniform(floors, 0.6, mass, Damping::Modal { ratio: 0.05 })?;
-    let weight = 3.0 * mass * STANDARD_GRAVITY;
-    let storeys = [0.24, 0.20, 0.12]
-        .iter()
-        .zip(elastic.storeys())
-        .map(|(share, storey)| Storey { yield_shear: share * weight, ..storey.clone() })
-        .collect();
-    let building = Building::new(vec![mass; floors], storeys, Damping::Modal { ratio: 0.05 })?;
+    let yield_shear_over_weight = vec![0.24, 0.20, 0.12];
+    let building =
+        UniformBuilding { storeys: 3, period: 0.6, mass: 1e5, yield_shear_over_weight, ..Default::default() };
     let goods = vec![Block::new(1, 1e5, 0.3), Block::new(2, 1e5, 0.3)];
-    let scene = Scene::new(Some(Arc::new(building)), goods)?;
+    let scene = Scene::new(Some(Arc::new(building.build()?)), goods)?;
 
     let samples: Vec<f64> =
         (0..1000).map(|i| 5.0 * (0.1 * f64::from(i)).sin() * (-0.002 * f64::from(i)).exp()).collect();

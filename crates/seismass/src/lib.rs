@@ -1,22 +1,6 @@
 //! Exact simulation of yielding shear buildings whose floors carry rigid blocks that stick and slide by friction.
 //!
-//! The question behind it: how much of a building's live load acts as mass in an earthquake? A [`Scene`] (a building
-//! and blocks) under a [`Motion`] (recorded ground acceleration, linear between samples) gives a [`Response`].
-//!
-//! ```
-//! use std::sync::Arc;
-//! use seismass::{Block, Building, Damping, Motion, Options, Scene, simulate};
-//!
-//! # fn main() -> seismass::Result<()> {
-//! let building = Building::uniform(3, 0.60, 1000.0, Damping::Modal { ratio: 0.05 })?;
-//! let blocks = (1..=3).map(|floor| Block::new(floor, 1000.0, 0.3)).collect();
-//! let scene = Scene::new(Some(Arc::new(building)), blocks)?;
-//! let samples: Vec<f64> = (0..1000).map(|i| 4.0 * (0.1 * f64::from(i)).sin()).collect();
-//! let response = simulate(&scene, &Motion::new(samples, 0.01, None)?, &Options::default())?;
-//! assert!(response.peaks.slip[2].value > 0.0);
-//! # Ok(())
-//! # }
-//! ```
+#![doc = include_str!("../README.md")]
 //!
 //! # Model
 //!
@@ -29,9 +13,9 @@
 //! ```
 //!
 //! A sliding block has f_j = mu_k m_j (g + a_v) sign(w_j - v_i); a stuck one moves with its floor while the floor's
-//! absolute acceleration is at most mu_s (g + a_v) (Eq. 2, read with absolute values). Springs are piecewise linear: trilinear
-//! with Masing unloading (Fig. 3), or of another [`SpringLaw`]. SI units throughout; g is [`STANDARD_GRAVITY`]; floors, storeys and blocks count from 1 in
-//! everything a user reads, and from 0 in arrays.
+//! absolute acceleration is at most mu_s (g + a_v) (Eq. 2, read with absolute values). Springs are piecewise linear:
+//! trilinear with Masing unloading (Fig. 3), or of another [`SpringLaw`]. SI units throughout; g is [`STANDARD_GRAVITY`];
+//! floors, storeys and blocks count from 1 in everything a user reads, and from 0 in arrays.
 //!
 //! # Method
 //!
@@ -81,7 +65,11 @@ pub use response::{
 pub use run::{simulate, simulate_until};
 pub use scene::{
     Block, Building, Damping, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion, Options, PeakOriented, Scene,
-    SceneColumns, SpringLaw, Storey, Wear,
+    SceneColumns, SpringLaw, Storey, UniformBuilding, Wear,
 };
 pub use threads::Control;
 pub use units::STANDARD_GRAVITY;
+
+/// The crate of linear algebra whose matrices stand in [`Damping`], [`StoreyDamping`](scene::StoreyDamping) and
+/// [`Building::damping_matrix`], in the version that they are of.
+pub use nalgebra;

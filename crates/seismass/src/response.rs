@@ -1,5 +1,7 @@
 //! What a run gives back: peaks in continuous time, residuals, events, histories, energies, statistics.
 
+use std::fmt::{Display, Formatter};
+
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Status {
@@ -110,6 +112,13 @@ impl EventKind {
             Self::Land => "land",
             Self::Wear => "wear",
         }
+    }
+}
+
+impl Display for EventKind {
+    /// The [`name`](Self::name).
+    fn fmt(&self, out: &mut Formatter) -> std::fmt::Result {
+        out.pad(self.name())
     }
 }
 

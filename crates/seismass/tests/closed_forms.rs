@@ -17,7 +17,8 @@ use std::sync::Arc;
 use maximum::larger;
 use nalgebra::{DMatrix, SymmetricEigen};
 use seismass::{
-    Block, Building, Damping, EventKind, Motion, Options, Response, STANDARD_GRAVITY, Scene, Storey, simulate,
+    Block, Building, Damping, EventKind, Motion, Options, Response, STANDARD_GRAVITY, Scene, Storey, UniformBuilding,
+    simulate,
 };
 
 const G: f64 = 9.81;
@@ -37,9 +38,15 @@ fn on_ground(mu_s: f64, mu_k: f64) -> Scene {
     Scene::new(None, vec![block]).unwrap()
 }
 
+/// Floors of unit mass with 5 % of critical damping in every mode.
+fn uniform(storeys: usize, period: f64) -> Building {
+    UniformBuilding { storeys, period, mass: 1.0, ..Default::default() }.build().unwrap()
+}
+
 /// A single storey of unit mass with a block on it.
 fn oscillator(period: f64, damping: f64, alpha: f64, mu: f64, velocity: Option<f64>) -> Scene {
-    let building = Building::uniform(1, period, 1.0, Damping::Modal { ratio: damping }).unwrap();
+    let damping = Damping::Modal { ratio: damping };
+    let building = UniformBuilding { storeys: 1, period, mass: 1.0, damping, ..Default::default() }.build().unwrap();
     Scene::new(Some(Arc::new(building)), vec![Block { velocity, ..Block::new(1, alpha, mu * FRICTION) }]).unwrap()
 }
 
@@ -277,18 +284,17 @@ fn periods_with_blocks_stuck() {
         (3, 0.47, [0.4833, 0.4965, 0.5095, 0.5223, 0.5715, 0.6176]),
         (4, 0.57, [0.5900, 0.6096, 0.6286, 0.6472, 0.7175, 0.7821]),
     ];
-    let damping = Damping::Modal { ratio: 0.05 };
     for (n, period, row) in table {
-        let bare = Building::uniform(n, period, 1.0, damping.clone()).unwrap();
+        let bare = uniform(n, period);
         close(bare.periods()[0], period, 1e-14, "bare");
         for (alpha, expected) in [0.125, 0.25, 0.375, 0.5, 1.0, 1.5].into_iter().zip(row) {
             let mut mass = vec![1.0 + alpha; n];
             mass[n - 1] = 1.0;
-            let stuck = Building::new(mass, bare.storeys().to_vec(), damping.clone()).unwrap();
+            let stuck = Building::new(mass, bare.storeys().to_vec(), Damping::default()).unwrap();
             close(stuck.periods()[0], expected, 5e-5, &format!("{n} storeys, alpha {alpha}"));
         }
     }
-    let validation = Building::uniform(3, 0.6 * 2f64.sqrt(), 1.0, damping).unwrap().periods();
+    let validation = uniform(3, 0.6 * 2f64.sqrt()).periods();
     for (found, expected) in validation.into_iter().zip([0.84853, 0.30284, 0.20957]) {
         close(found, expected, 5e-6, "validation building, blocks stuck");
     }
@@ -297,7 +303,7 @@ fn periods_with_blocks_stuck() {
 /// Section 6.8: modal damping matrix of the validation building.
 #[test]
 fn damping_matrix_of_the_validation_building() {
-    let c = Building::uniform(3, 0.6, 1.0, Damping::Modal { ratio: 0.05 }).unwrap().damping_matrix();
+    let c = uniform(3, 0.6).damping_matrix();
     let expected = [[3.1873, -0.9345, -0.2030], [-0.9345, 2.9843, -1.1375], [-0.2030, -1.1375, 2.0498]];
     for (i, row) in expected.iter().enumerate() {
         for (j, &value) in row.iter().enumerate() {

@@ -11,14 +11,15 @@ use maximum::larger;
 use seismass::reference::{Error, Events, History, Method, integrate};
 use seismass::{
     Block, Building, Damping, Domain, EventKind, GravityEffect, Motion, Options, Response, Scene, Status, Storey,
-    simulate,
+    UniformBuilding, simulate,
 };
 
 const G: f64 = 9.80665;
 const LOCATED: Events = Events::Located { tolerance: 1e-12 };
 
 fn storey(yield_over_weight: f64, r2: f64) -> Storey {
-    let stiffness = seismass::scene::uniform_stiffness(3, 0.6, 1000.0).unwrap();
+    let stiffness =
+        UniformBuilding { storeys: 3, period: 0.6, mass: 1000.0, ..Default::default() }.stiffness().unwrap();
     Storey { second_slope: r2, ..Storey::yielding(stiffness, yield_over_weight * 3000.0 * G) }
 }
 

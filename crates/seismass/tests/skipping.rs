@@ -6,8 +6,8 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use seismass::{
-    Block, Building, Control, Damping, Error, Motion, Options, Run, Scene, Storey, simulate, simulate_many,
-    simulate_until,
+    Block, Building, Control, Damping, Error, Motion, Options, Run, Scene, Storey, UniformBuilding, simulate,
+    simulate_many, simulate_until,
 };
 
 fn building() -> Arc<Building> {
@@ -121,7 +121,9 @@ fn a_run_of_a_batch_is_the_run_alone_to_the_bit() {
         (12, Damping::Modal { ratio: 0.05 }),
         (20, Damping::Rayleigh { ratio: 0.05, modes: [1, 2] }),
     ] {
-        let building = Building::uniform(storeys, 0.12 * storeys as f64, 1000.0, damping).unwrap();
+        let building =
+            UniformBuilding { storeys, period: 0.12 * storeys as f64, mass: 1000.0, damping, ..Default::default() };
+        let building = building.build().unwrap();
         let yields = |(i, s): (usize, &Storey)| Storey {
             second_slope: 0.1,
             ..Storey::yielding(s.stiffness, 900.0 * (storeys - i) as f64)
@@ -159,8 +161,9 @@ fn a_run_of_a_batch_is_the_run_alone_to_the_bit() {
 fn the_order_of_blocks_changes_no_history() {
     let options = Options { histories: NonZeroUsize::new(1), ..Options::default() };
     for (n, vertical) in [1, 3, 4, 7, 13, 20, 40].into_iter().flat_map(|n| [(n, None), (n, Some(vertical()))]) {
-        let building = Building::uniform(n, 0.15 * n as f64, 1000.0, Damping::Modal { ratio: 0.03 }).unwrap();
-        let building = Arc::new(building);
+        let (period, damping) = (0.15 * n as f64, Damping::Modal { ratio: 0.03 });
+        let building = UniformBuilding { storeys: n, period, mass: 1000.0, damping, ..Default::default() };
+        let building = Arc::new(building.build().unwrap());
         let block = |i: usize| Block::new(i + 1, 400.0 + 10.0 * i as f64, 0.05 + 0.3 * (i % 3) as f64);
         let response = |blocks: Vec<Block>| {
             let motion = Motion::new(motion(0, 0).acceleration(), 0.01, vertical.clone()).unwrap();
@@ -249,8 +252,8 @@ fn what_is_asked_for_changes_no_bit() {
         let rayleigh = Damping::Rayleigh { ratio: 0.03, modes: [1, 2] };
         [(storeys, modal, None), (storeys, rayleigh.clone(), Some(vertical.clone())), (storeys, rayleigh, None)]
     }) {
-        let uniform = Building::uniform(storeys, 0.1 * storeys as f64, 1000.0, damping.clone()).unwrap();
-        let springs = uniform.storeys().iter().map(|s| Storey::yielding(s.stiffness, 12e3)).collect();
+        let uniform = UniformBuilding { storeys, period: 0.1 * storeys as f64, mass: 1000.0, ..Default::default() };
+        let springs = vec![Storey::yielding(uniform.stiffness().unwrap(), 12e3); storeys];
         let building = Building::new(vec![1000.0; storeys], springs, damping).unwrap();
         let blocks = [1, storeys / 2, storeys].map(|floor| Block::new(floor.max(1), 400.0, 0.15));
         let scene = Scene::new(Some(Arc::new(building)), blocks.to_vec()).unwrap();

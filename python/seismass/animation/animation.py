@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from seismass.animation.shown import Shown, shown
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import as_number, brief, refusal
+from seismass.base.values import as_number, brief, content_hash, refusal, same_content
 from seismass.base.views import view
 from seismass.effective_mass.models import attached_scene
 from seismass.model.codes import Use, code_fraction
@@ -41,6 +41,9 @@ class Animation:
     note: str
     scene: Scene
     shown: Shown
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @view
     def fragment(self) -> Markup:

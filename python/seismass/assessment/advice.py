@@ -13,6 +13,7 @@ from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REALS
 from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.design import THETA_THRESHOLD
 from seismass.effective_mass import EffectiveMass
+from seismass.media.text_table import numbers_text
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
 from seismass.scaling import ScalingResult
@@ -224,8 +225,8 @@ def _about_structure(building: OwnBuilding) -> list[str]:
     lines = [
         "Shear building: rigid floors, one degree of freedom per floor, trilinear storeys with Masing unloading, no "
         "loss of strength but by P-Delta.",
-        f"Springs: Omega {_listed(building.overstrength)}, r2 {_listed(building.second_slope)}, "
-        f"r3 {_listed(building.third_slope)}.",
+        f"Springs: Omega {numbers_text(building.overstrength)}, r2 {numbers_text(building.second_slope)}, "
+        f"r3 {numbers_text(building.third_slope)}.",
     ]
     if building.design is None:
         lines.append("Strength: as stated.")
@@ -268,7 +269,8 @@ def _about_goods(building: OwnBuilding) -> list[str]:
     contacts = ", ".join(f"{pair.pair_id} ({pair.source}; {pair.kind})" for pair in pairs) or "as stated"
     lines = [
         "Goods: rigid blocks that slide by Coulomb friction, one per floor; they do not rock, topple or strike.",
-        f"Friction: {contacts}; mu {_listed(building.mu_s[loaded])} static, {_listed(building.mu_k[loaded])} kinetic.",
+        f"Friction: {contacts}; mu {numbers_text(building.mu_s[loaded])} static, "
+        f"{numbers_text(building.mu_k[loaded])} kinetic.",
     ]
     if (low, high) != (1.0, 1.0):
         source = BOUNDS_SOURCE if (low, high) == BOUND_FACTORS else "as stated"
@@ -289,8 +291,3 @@ def _about_code(building: OwnBuilding) -> str:
         parts[0] += f", the upper end of {code.low:g} to {code.high:g}"
     parts += [part for part in (code.clause, code.status, code.note) if part]
     return f"Code: {'; '.join(parts)}."
-
-
-def _listed(values: Any) -> str:
-    numbers = [f"{value:.4g}" for value in values]
-    return numbers[0] if len(set(numbers)) == 1 else " ".join(numbers)

@@ -6,17 +6,17 @@ Every key is known or refused, and every key of a quantity with a unit names it.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final, NoReturn, get_args
+from typing import Any, Final, NoReturn, cast, get_args
 
 import numpy as np
 
 from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, DesignRule, OwnBuilding
 from seismass.base.errors import InvalidBuildingFile, InvalidOption, SeismassError
-from seismass.base.input_table import Table, load_table
+from seismass.base.input_table import NOT_NEGATIVE, POSITIVE, SHARE, Need, Table, load_table
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import as_number, as_path, brief, printable
+from seismass.base.values import as_path, printable
 from seismass.design import Combination, vibration_modes
 from seismass.model.codes import AS_STATED, CodeFraction, code_fraction
 from seismass.model.damping import DEFAULT_DAMPING
@@ -33,6 +33,7 @@ _STIFFNESS: Final = ("stiffness_kn_per_m", "stiffness_n_per_m")
 _STRENGTH: Final = ("yield_shear_kn", "yield_shear_n", "yield_shear_over_weight")
 _LIVE_LOAD: Final = ("live_load_kpa", "live_load_kg")
 _FRICTION: Final = ("friction", "mu", "mu_s")
+_STRONG: Final = Need("positive (inf: the storey stays elastic)", lambda number: number > 0.0)
 _STOREY: Final = (
     "height_m",
     "area_m2",
@@ -125,12 +126,12 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
     fraction = _code(code)
     strength, design = _strength(storeys, building, mass)
     live_load = np.array([_live_load(storey, goods, building) for storey in storeys])
-    occupied = np.array([_between(storey, goods, "occupied", 1.0, 0.0, 1.0) for storey in storeys])
+    occupied = np.array([_stated(storey, goods, "occupied", SHARE, 1.0) for storey in storeys])
     friction = [
         _friction(storey, goods) if load * share > 0.0 else ("", 0.0, 0.0)
         for storey, load, share in zip(storeys, live_load, occupied, strict=True)
     ]
-    p_delta = _flag(building, "p_delta", heights is not None)
+    p_delta = building.flag("p_delta", heights is not None)
     if p_delta and heights is None:
         storeys[0].refuse("height_m", f"given where {building.key('p_delta')} is true", "nothing")
     collapse = _optional(building, "collapse_drift_ratio")
@@ -141,9 +142,9 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         return np.array([_spring(storey, building, name) for storey in storeys])
 
     return OwnBuilding(
-        name=top.text("name") or ("building" if path is None else printable(path.stem)),
-        note=top.text("note"),
-        storey_names=tuple(storey.text("name") for storey in storeys),
+        name=printable(top.text("name")) or ("building" if path is None else printable(path.stem)),
+        note=printable(top.text("note"), lines=True),
+        storey_names=tuple(printable(storey.text("name")) for storey in storeys),
         mass=mass,
         stiffness=_stiffness(storeys, building, mass),
         heights=heights,
@@ -152,9 +153,9 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         overstrength=springs("overstrength"),
         second_slope=springs("second_slope"),
         third_slope=np.array(
-            [_between(storey, building, "third_slope", DEFAULT_THIRD_SLOPE, 0.0, 1.0) for storey in storeys]
+            [_stated(storey, building, "third_slope", SHARE, DEFAULT_THIRD_SLOPE) for storey in storeys]
         ),
-        damping=_between(building, building, "damping", DEFAULT_DAMPING, 0.0, 1.0),
+        damping=building.number("damping", DEFAULT_DAMPING, SHARE),
         gravity_load=_gravity_load(storeys, building, mass) if p_delta else None,
         area=np.array([_positive(storey, building, "area_m2", np.nan) for storey in storeys]),
         dead_load_stated=np.array([_key_of(storey, building, _MASS) == "dead_load_kpa" for storey in storeys]),
@@ -167,8 +168,8 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         target=_target(site, Path() if path is None else path.parent),
         code=fraction,
         code_stated=bool(code.values),
-        drift_limit=_positive(building, building, "drift_limit", DEFAULT_DRIFT_LIMIT),
-        theta_limit=_positive(building, building, "theta_limit", DEFAULT_THETA_LIMIT),
+        drift_limit=building.number("drift_limit", DEFAULT_DRIFT_LIMIT, POSITIVE),
+        theta_limit=building.number("theta_limit", DEFAULT_THETA_LIMIT, POSITIVE),
         collapse_drift_ratio=collapse,
         scaling_period=_optional(building, "scaling_period_s"),
         path=path,
@@ -186,15 +187,12 @@ def _unique(building: Table, goods: Table, storeys: list[Table]) -> None:
     """Refuse two keys of one table that say the same."""
     for table in (building, goods, *storeys):
         for group in (_MASS, _STIFFNESS, _STRENGTH, _LIVE_LOAD, _FRICTION):
-            for number, key in enumerate(group):
-                table.excluded(key, *group[number + 1 :])
+            table.one_of(*group)
         for key in ("mu", "friction"):
             table.excluded("mu_k", key)
     if "period_s" in building.values:
         for table in (building, *storeys):
-            for key in _STIFFNESS:
-                if key in table.values:
-                    table.refuse(key, f"left out where {building.key('period_s')} is given", "both")
+            table.left_out(_STIFFNESS, f"{building.key('period_s')} is given", "both")
 
 
 def _held(storey: Table, default: Table, group: tuple[str, ...]) -> tuple[Table, str] | None:
@@ -212,51 +210,36 @@ def _key_of(storey: Table, default: Table, group: tuple[str, ...]) -> str:
     return "" if held is None else held[1]
 
 
-def _number(table: Table, key: str, requirement: str, fits: Callable[[float], bool]) -> float:
-    number = as_number(table.values[key], table.key(key), table.file, InvalidBuildingFile)
-    if not fits(number):
-        table.refuse(key, requirement, f"{number:g}")
-    return number
+def _number(held: tuple[Table, str], need: Need) -> float:
+    table, key = held
+    return table.number(key, need=need)
 
 
-def _finite_positive(number: float) -> bool:
-    return 0.0 < number < np.inf
+def _stated(storey: Table, default: Table, key: str, need: Need, value: float) -> float:
+    """Return a number of a storey or of the defaults, or the value that stands for a missing one."""
+    held = _held(storey, default, (key,))
+    return value if held is None else _number(held, need)
 
 
 def _positive(storey: Table, default: Table, key: str, value: float | None = None) -> float:
     """Return a positive number of a storey or of the defaults; a missing one is refused where there is no value."""
+    if value is not None:
+        return _stated(storey, default, key, POSITIVE, value)
     held = _held(storey, default, (key,))
     if held is None:
-        if value is None:
-            storey.refuse(key, f"given, or {default.key(key)} for all storeys", "nothing")
-        return value
-    return _number(*held, "a positive number", _finite_positive)
-
-
-def _between(storey: Table, default: Table, key: str, value: float, low: float, high: float) -> float:
-    held = _held(storey, default, (key,))
-    if held is None:
-        return value
-    return _number(*held, f"from {low:g} to {high:g}", lambda number: low <= number <= high)
+        storey.refuse(key, f"given, or {default.key(key)} for all storeys", "nothing")
+    return _number(held, POSITIVE)
 
 
 def _spring(storey: Table, default: Table, name: str) -> float:
     field = SHAPE_FIELDS[name]
-    held = _held(storey, default, (name,))
-    return (
-        field.default if held is None else _number(*held, field.requirement, lambda number: bool(field.accepts(number)))
+    return _stated(
+        storey, default, name, Need(field.requirement, lambda number: bool(field.accepts(number))), field.default
     )
 
 
 def _optional(table: Table, key: str) -> float | None:
-    return _number(table, key, "a positive number", _finite_positive) if key in table.values else None
-
-
-def _flag(table: Table, key: str, default: bool) -> bool:
-    value = table.values.get(key, default)
-    if not isinstance(value, bool):
-        table.refuse(key, "true or false", brief(value))
-    return value
+    return table.number(key, need=POSITIVE) if key in table.values else None
 
 
 def _missing(storey: Table, default: Table, group: tuple[str, ...]) -> NoReturn:
@@ -270,7 +253,7 @@ def _mass(storey: Table, building: Table) -> float:
     if held is None:
         _missing(storey, building, _MASS)
     table, key = held
-    value = _number(table, key, "a positive number", _finite_positive)
+    value = table.number(key, need=POSITIVE)
     return value if key == "mass_kg" else 1e3 * value * _positive(storey, building, "area_m2") / STANDARD_GRAVITY
 
 
@@ -301,12 +284,11 @@ def _stiffness(storeys: list[Table], building: Table, mass: Any) -> Any:
                 where = f"given, or {_STIFFNESS[1]}, or {building.key('period_s')} for the whole building"
                 storey.refuse(_STIFFNESS[0], where, "nothing")
             unit = 1e3 if held[1] == "stiffness_kn_per_m" else 1.0
-            values.append(unit * _number(*held, "a positive number", _finite_positive))
+            values.append(unit * _number(held, POSITIVE))
         for table in (building, *storeys):
-            if "relative_stiffness" in table.values:
-                table.refuse("relative_stiffness", f"left out where {building.key('period_s')} is", "given")
+            table.left_out(("relative_stiffness",), f"{building.key('period_s')} is", "given")
         return np.array(values)
-    period = _positive(building, building, "period_s")
+    period = building.number("period_s", need=POSITIVE)
     relative = np.array([_positive(storey, building, "relative_stiffness", 1.0) for storey in storeys])
     trial = relative * mass.mean()
     return trial * (vibration_modes(mass, trial).periods[0] / period) ** 2
@@ -314,22 +296,16 @@ def _stiffness(storeys: list[Table], building: Table, mass: Any) -> Any:
 
 def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, DesignRule | None]:
     """First yield shears (N), or the rule that designs them."""
-    if _flag(building, "design", False):
+    if building.flag("design", False):
         for table in (building, *storeys):
-            for key in _STRENGTH:
-                if key in table.values:
-                    table.refuse(key, f"left out where {building.key('design')} is true", "both")
+            table.left_out(_STRENGTH, f"{building.key('design')} is true", "both")
         building.needed("R")
-        reduction = _number(building, "R", "finite and at least 1", lambda number: 1.0 <= number < np.inf)
-        combination = building.values.get("combination", "srss")
-        if combination not in get_args(Combination):
-            building.refuse("combination", f"one of {', '.join(get_args(Combination))}", brief(combination))
+        reduction = building.number("R", need=Need("finite and at least 1", lambda number: 1.0 <= number < np.inf))
+        combination = building.choice("combination", get_args(Combination), "srss")
         stated = "design_fraction" in building.values
-        fraction = _between(building, building, "design_fraction", 0.0, 0.0, 1.0) if stated else None
-        return None, DesignRule(reduction, fraction, combination)
-    for key in _DESIGN:
-        if key in building.values:
-            building.refuse(key, f"left out where {building.key('design')} is not true", "given")
+        fraction = building.number("design_fraction", need=SHARE) if stated else None
+        return None, DesignRule(reduction, fraction, cast(Combination, combination))
+    building.left_out(_DESIGN, f"{building.key('design')} is not true", "given")
     weight = STANDARD_GRAVITY * float(mass.sum())
     units = {"yield_shear_kn": 1e3, "yield_shear_n": 1.0, "yield_shear_over_weight": weight}
     values = []
@@ -338,8 +314,7 @@ def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, De
         if held is None:
             others = ", or ".join(("", *_STRENGTH[1:])).removeprefix(", or ")
             storey.refuse(_STRENGTH[0], f"given, or {others}, or {building.key('design')} = true with R", "nothing")
-        requirement = "positive (inf: the storey stays elastic)"
-        values.append(units[held[1]] * _number(*held, requirement, lambda number: number > 0.0))
+        values.append(units[held[1]] * _number(held, _STRONG))
     return np.array(values), None
 
 
@@ -349,7 +324,7 @@ def _live_load(storey: Table, goods: Table, building: Table) -> float:
     if held is None:
         return 0.0
     table, key = held
-    value = _number(table, key, "finite and not negative", lambda number: 0.0 <= number < np.inf)
+    value = table.number(key, need=NOT_NEGATIVE)
     if key == "live_load_kg" or value == 0.0:
         return value
     return 1e3 * value * _positive(storey, building, "area_m2") / STANDARD_GRAVITY
@@ -365,13 +340,13 @@ def _friction(storey: Table, goods: Table) -> tuple[str, float, float]:
         try:
             pair = friction_pair(table.text(key))
         except SeismassError as error:
-            table.refuse(key, str(error).partition(" must be ")[2].rpartition("; got ")[0], brief(table.values[key]))
+            table.refuse_as(key, error)
         return pair.pair_id, pair.mu_s, pair.mu_k
-    static = _number(table, key, "finite and not negative", lambda number: 0.0 <= number < np.inf)
+    static = table.number(key, need=NOT_NEGATIVE)
     if key == "mu" or "mu_k" not in table.values:
         return "", static, static
     requirement = f"from 0 to {table.key('mu_s')} = {static:g}"
-    return "", static, _number(table, "mu_k", requirement, lambda number: 0.0 <= number <= static)
+    return "", static, table.number("mu_k", need=Need(requirement, lambda number: 0.0 <= number <= static))
 
 
 def _mu_factors(goods: Table) -> tuple[float, float]:
@@ -379,14 +354,14 @@ def _mu_factors(goods: Table) -> tuple[float, float]:
     try:
         return bound_factors(given, "goods")
     except InvalidOption as error:
-        goods.refuse("mu_factors", str(error).partition(" must be ")[2].rpartition("; got ")[0], brief(given))
+        goods.refuse_as("mu_factors", error)
 
 
 def _code(table: Table) -> CodeFraction:
     if "fraction" in table.values:
         table.excluded("id", "fraction")
         table.excluded("use", "fraction")
-        value = _number(table, "fraction", "from 0 to 1", lambda number: 0.0 <= number <= 1.0)
+        value = table.number("fraction", need=SHARE)
         return CodeFraction("own", "a fraction of one's own", "storage", value, value, value, "", "", AS_STATED)
     names = {key: table.text(key) for key in ("id", "use")}
     try:
@@ -394,7 +369,7 @@ def _code(table: Table) -> CodeFraction:
         return code_fraction(found.code_id, names["use"] or "storage")  # type: ignore[arg-type]
     except InvalidOption as error:
         key = "use" if str(error).startswith("use") else "id"
-        table.refuse(key, str(error).partition(" must be ")[2].rpartition("; got ")[0], brief(table.values.get(key)))
+        table.refuse_as(key, error)
 
 
 def _target(site: Table, folder: Path) -> TargetSpectrum | None:
@@ -408,8 +383,8 @@ def _target(site: Table, folder: Path) -> TargetSpectrum | None:
     for key in ("sds_g", "sd1_g"):
         if key not in site.values:
             site.refuse(key, f"given, or {site.key('spectrum_csv')} for the whole spectrum", "nothing")
-    short, one = (_positive(site, site, key) for key in ("sds_g", "sd1_g"))
-    tl = _positive(site, site, "tl_s", DEFAULT_TL)
+    short, one = (site.number(key, need=POSITIVE) for key in ("sds_g", "sd1_g"))
+    tl = site.number("tl_s", DEFAULT_TL, POSITIVE)
     if tl < one / short:
         site.refuse("tl_s", f"at least T_S = S_D1/S_DS = {one / short:g} s", f"{tl:g}")
     return TargetSpectrum.asce7(short, one, tl)

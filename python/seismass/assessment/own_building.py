@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content
 from seismass.design import THETA_CAP, Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
 from seismass.model.block import Block
 from seismass.model.building import Building
@@ -133,6 +133,9 @@ class OwnBuilding:
     collapse_drift_ratio: float | None
     scaling_period: float | None
     path: Path | None = None
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def storeys(self) -> int:

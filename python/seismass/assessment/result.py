@@ -13,6 +13,7 @@ import polars as pl
 from seismass.assessment.answer import Answer, floor_masses
 from seismass.assessment.checks import checks_table, input_document
 from seismass.assessment.own_building import OwnBuilding
+from seismass.base.values import content_hash, same_content
 from seismass.base.views import view
 from seismass.effective_mass import EffectiveMass
 from seismass.media.result import Result, finite_values
@@ -104,6 +105,9 @@ class Assessment(Result):
     remarks: tuple[str, ...] = field(repr=False)
     assumptions: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def advised(self) -> float | None:

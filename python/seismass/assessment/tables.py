@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Final, Literal
+from typing import Any, Literal
 
 import numpy as np
 import polars as pl
 
 from seismass.assessment.models import REALS, friction_factors
 from seismass.assessment.own_building import OwnBuilding
+from seismass.base.quantiles import QUANTILES
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.model.scene import Scene
-
-QUANTILES: Final = {"p16": 0.16, "median": 0.50, "p84": 0.84}
-"""Quantiles over the motions; 16 and 84 % are one standard deviation of a normal distribution from the median."""
 
 
 def statistics_of(values: FloatArray) -> dict[str, float | None]:

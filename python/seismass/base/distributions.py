@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Final, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -14,6 +14,9 @@ __all__ = [
     "beta",
     "lognormal",
 ]
+
+_SMALLEST: Final = 1e-150
+"""Smallest standard deviation whose square is not zero."""
 
 
 def __dir__() -> list[str]:
@@ -44,7 +47,7 @@ def lognormal(median: float, sigma: float) -> Distribution:
 def beta(mean: float, deviation: float) -> Distribution:
     """Return a beta distribution on [0, 1] by its mean and standard deviation."""
     centre, spread = (as_number(value, name, "beta", InvalidOption) for name, value in _pair(mean, deviation))
-    if not (0.0 < centre < 1.0 and 0.0 < spread < np.sqrt(centre * (1.0 - centre))):
+    if not (0.0 < centre < 1.0 and _SMALLEST < spread < np.sqrt(centre * (1.0 - centre))):
         requirement = "between 0 and 1, and a standard deviation above 0 and below sqrt(mean (1 - mean))"
         raise refusal(InvalidOption, "mean", "beta", requirement, f"{centre:g} and {spread:g}")
     total = centre * (1.0 - centre) / spread**2 - 1.0

@@ -1,14 +1,19 @@
-"""Writing files whole: under a temporary name beside the target, then renamed, so that no half file is ever seen."""
+"""Reading and writing files: read up to a size and from nothing but files, and written whole, or not at all.
+
+A file is written under a temporary name beside the target, then renamed, so that no half file is ever seen.
+"""
 
 from __future__ import annotations
 
 import errno
 import os
 import re
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BufferedReader
 from pathlib import Path
-from typing import Literal
+from typing import Final, Literal
 
 import polars as pl
 
@@ -16,6 +21,73 @@ from seismass.base.temporary import reported_as, temporary_name, temporary_path
 
 _OS_ERROR = re.compile(r"\(os error (\d+)\)")
 """What Polars' own errors say of one of the system."""
+
+
+MOST_BYTES: Final = 2**26
+"""Largest input file that is read, unless a reader states another size (64 MiB)."""
+
+
+def open_regular(path: str | os.PathLike[str], *, follow: bool = True) -> BufferedReader:
+    """Open a file for reading, and nothing else: a folder, a device or a pipe is an error at once.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    follow : bool, default True
+        Follow a link at its end; else a link is an error.
+
+    Raises
+    ------
+    OSError
+        It cannot be opened, or is no regular file.
+    """
+    # Not blocking, as the opening of a pipe would wait for its writer.
+    flags = os.O_RDONLY
+    for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY"):
+        flags |= getattr(os, name, 0)
+    if not follow:
+        flags |= getattr(os, "O_NOFOLLOW", 0)
+    descriptor = os.open(path, flags)
+    try:
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            raise OSError(errno.EINVAL, "no regular file", os.fspath(path))
+        return os.fdopen(descriptor, "rb")
+    except BaseException:
+        os.close(descriptor)
+        raise
+
+
+def read_file(path: str | os.PathLike[str], most: int = MOST_BYTES, *, follow: bool = True) -> bytes:
+    """Return the content of a regular file of at most `most` bytes.
+
+    Raises
+    ------
+    OSError
+        It cannot be read, is no regular file, or is larger.
+    """
+    with open_regular(path, follow=follow) as file:
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise OSError(errno.EFBIG, f"larger than {_size_text(most)}", os.fspath(path))
+    return content
+
+
+def read_utf8(path: str | os.PathLike[str], most: int = MOST_BYTES) -> str:
+    """Return the text of a regular file of at most `most` bytes, without a byte order mark and with line ends of Unix.
+
+    Raises
+    ------
+    OSError
+        As for `read_file`.
+    UnicodeDecodeError
+        It is not UTF-8.
+    """
+    return read_file(path, most).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _size_text(size: int) -> str:
+    return f"{size // 2**20} MB" if size >= 2**20 else f"{size} bytes"
 
 
 @contextmanager
@@ -99,6 +171,20 @@ def polars_writing(path: Path) -> Iterator[None]:
         raise OSError(code, reason, str(path)) from error
 
 
+def without_formulas(frame: pl.DataFrame) -> pl.DataFrame:
+    """Return a frame for a CSV: a text that spreadsheets would run as a formula has an apostrophe before it.
+
+    That is one that begins with =, +, -, @ or a control character and is no number.
+    """
+
+    def guarded(name: str) -> pl.Expr:
+        text = pl.col(name)
+        formula = text.str.contains(r"^[=+\-@\t\r\n]") & text.cast(pl.Float64, strict=False).is_null()
+        return pl.when(formula).then("'" + text).otherwise(text).alias(name)
+
+    return frame.with_columns(guarded(name) for name, kind in frame.schema.items() if kind == pl.String)
+
+
 def write_table(
     frame: pl.DataFrame, kind: Literal["parquet", "csv"], path: Path, *, metadata: dict[str, str] | None = None
 ) -> None:
@@ -122,6 +208,6 @@ def write_table(
     """
     with path.open("wb") as file:
         if kind == "csv":
-            frame.write_csv(file)
+            without_formulas(frame).write_csv(file)
         else:
             frame.write_parquet(file, metadata=metadata)

@@ -4,13 +4,29 @@ from __future__ import annotations
 
 import difflib
 import json
+import math
+import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, Final, NamedTuple, NoReturn
 
 from seismass.base.errors import InvalidScene, SeismassError
-from seismass.base.values import FloatArray, as_array, as_number, brief, refusal
+from seismass.base.files import MOST_BYTES, read_file
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, printable, refusal
+
+MOST_TOML: Final = 2**22
+"""Largest TOML file that is read (bytes): some seconds. JSON, which is read a hundred times as fast, may have more."""
+_SHOWN: Final = 60
+"""Letters of a key that a message shows."""
+MOST_KEY_PARTS: Final = 50
+"""Most parts of a dotted key of TOML, whose reader takes the square of their number."""
+
+_WORD: Final = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_LONG_KEY: Final = re.compile(
+    rf"(?:^|[{{\[,])[ \t]*+{_WORD}(?:[ \t]*+\.[ \t]*+{_WORD}){{{MOST_KEY_PARTS}}}", re.MULTILINE
+)
+"""A key can begin a line, a table's name or an entry of a table."""
 
 
 def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
@@ -24,23 +40,35 @@ def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
         What it is, as errors name it: "scene file".
     kind : type
         Class of the errors.
+
+    Raises
+    ------
+    SeismassError
+        Of the class `kind`: it cannot be read, is no regular file or larger than `MOST_BYTES` (TOML: `MOST_TOML`), or
+        is not what its suffix says.
     """
     suffix = source.suffix.lower()
     if suffix not in (".toml", ".json"):
         raise refusal(kind, "suffix", f"{what} {source.name}", ".toml or .json", brief(suffix))
     try:
-        text = source.read_bytes().decode("utf-8-sig")
-        loaded = tomllib.loads(text) if suffix == ".toml" else json.loads(text, object_pairs_hook=_without_repeats)
+        text = read_file(source, MOST_TOML if suffix == ".toml" else MOST_BYTES).decode("utf-8-sig")
+        loaded = _toml(text) if suffix == ".toml" else json.loads(text, object_pairs_hook=_without_repeats)
     except OSError as error:
         raise kind(f"{what} must be a file that can be read; got {source} ({error.strerror or error})") from error
     except (ValueError, RecursionError) as error:
         form = suffix[1:].upper()
         raise refusal(kind, "content", source.name, f"valid {form}", str(error)) from error
     except _RepeatedKey as error:
-        raise refusal(kind, str(error), source.name, "given once", "it twice") from None
+        raise refusal(kind, brief(str(error)).strip("'"), source.name, "given once", "it twice") from None
     if not isinstance(loaded, dict):
         raise refusal(kind, "content", source.name, "a table of keys", brief(loaded))
     return Table(loaded, "", source.name, kind)
+
+
+def _toml(text: str) -> dict[str, Any]:
+    if _LONG_KEY.search(text):
+        raise ValueError(f"a key of more than {MOST_KEY_PARTS} parts between dots")
+    return tomllib.loads(text)
 
 
 class _RepeatedKey(Exception):
@@ -50,9 +78,25 @@ class _RepeatedKey(Exception):
 def _without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     table = dict(pairs)
     if len(table) < len(pairs):
-        keys = [key for key, _ in pairs]
-        raise _RepeatedKey(next(key for key in keys if keys.count(key) > 1))
+        seen = set()
+        for key, _ in pairs:
+            if key in seen:
+                raise _RepeatedKey(key)
+            seen.add(key)
     return table
+
+
+class Need(NamedTuple):
+    """What a number must be, in words, and whether one is."""
+
+    requirement: str
+    fits: Callable[[float], bool]
+
+
+FINITE: Final = Need("a finite number", math.isfinite)
+POSITIVE: Final = Need("a positive number", lambda number: 0.0 < number < math.inf)
+NOT_NEGATIVE: Final = Need("finite and not negative", lambda number: 0.0 <= number < math.inf)
+SHARE: Final = Need("from 0 to 1", lambda number: 0.0 <= number <= 1.0)
 
 
 class Table:
@@ -70,7 +114,8 @@ class Table:
 
     def key(self, key: str) -> str:
         """Where a key stands: building.damping.ratio."""
-        return f"{self.place}.{key}" if self.place else key
+        shown = printable(key if len(key) <= _SHOWN else f"{key[:_SHOWN]}...")
+        return f"{self.place}.{shown}" if self.place else shown
 
     def refuse(self, key: str, requirement: str, got: str) -> NoReturn:
         """Raise the error of the one form."""
@@ -83,6 +128,10 @@ class Table:
                 close = difflib.get_close_matches(key, keys, n=1)
                 hint = f" (did you mean {self.key(close[0])}?)" if close else ""
                 self.refuse(key, f"one of the keys {', '.join(keys)}{hint}", "an unknown key")
+
+    def given(self, *keys: str) -> dict[str, Any]:
+        """Return the values of those of the keys that are there."""
+        return {key: self.values[key] for key in keys if key in self.values}
 
     def excluded(self, key: str, *others: str) -> None:
         """Refuse a key beside others that say the same."""
@@ -99,6 +148,20 @@ class Table:
         """Refuse a table in which none of the keys is."""
         if not any(key in self.values for key in keys):
             self.refuse(keys[0], "given" + "".join(f", or {self.key(key)}" for key in keys[1:]), "nothing")
+
+    def one_of(self, *keys: str) -> None:
+        """Refuse two of the keys beside each other."""
+        for number, key in enumerate(keys, start=1):
+            self.excluded(key, *keys[number:])
+
+    def left_out(self, keys: Iterable[str], where: str, got: str | None = None) -> None:
+        """Refuse each of the keys; what was got is its value unless told."""
+        for key, value in self.given(*keys).items():
+            self.refuse(key, f"left out where {where}", got or brief(value))
+
+    def refuse_as(self, key: str, error: SeismassError) -> NoReturn:
+        """Raise what another part of the package refused as the error of a key."""
+        self.refuse(key, str(error).partition(" must be ")[2].rpartition("; got ")[0], brief(self.values.get(key)))
 
     def table(self, key: str, nullable: Iterable[str] = ()) -> Table:
         """Return the table under a key."""
@@ -131,6 +194,28 @@ class Table:
         value = self.values.get(key)
         return None if value is None else as_array(value, self.key(key), self.file, InvalidScene, or_number=True)
 
-    def number(self, key: str, default: float) -> float:
-        """Return a number, or the default where the key is absent."""
-        return as_number(self.values.get(key, default), self.key(key), self.file, self._kind)
+    def number(self, key: str, default: float = math.nan, need: Need | None = None) -> float:
+        """Return a number, or the default where the key is absent; one that is not what is needed is refused."""
+        number = as_number(self.values.get(key, default), self.key(key), self.file, self._kind)
+        if need is not None and not need.fits(number):
+            self.refuse(key, need.requirement, f"{number:g}")
+        return number
+
+    def count(self, key: str, *, least: int = 0) -> int:
+        """Return a whole number."""
+        return as_count(self.values[key], self.key(key), self.file, self._kind, least=least)
+
+    def flag(self, key: str, default: bool) -> bool:
+        """Return true or false, or the default where the key is absent."""
+        value = self.values.get(key, default)
+        if not isinstance(value, bool):
+            self.refuse(key, "true or false", brief(value))
+        return value
+
+    def choice(self, key: str, names: Iterable[str], default: str | None = None, requirement: str = "") -> str:
+        """Return one of some words, or the default where the key is absent."""
+        value, known = self.values.get(key, default), tuple(names)
+        if not isinstance(value, str) or value not in known:
+            got = "nothing" if value is None else brief(value)
+            self.refuse(key, requirement or f"one of {', '.join(known)}", got)
+        return value

@@ -1,6 +1,8 @@
 """Parts of a long result that outlive an interruption, so that the same call goes on where it stopped.
 
 They are kept in a hidden folder beside the file or in the folder that they are for, and removed when that is written.
+Parts are Parquet files, which execute nothing. Only a folder that this user made, that others cannot write to and that
+was made here is read, and in it only parts of the same inputs whose bytes are those that were written.
 """
 
 from __future__ import annotations
@@ -8,23 +10,88 @@ from __future__ import annotations
 import hashlib
 import os
 import pickle
-import shutil
+import re
+import stat
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import Any, Final
 
-from seismass.base.files import written_whole
-from seismass.base.temporary import PREFIX, is_left_behind, reported_as, temporary_folder, temporary_name
+import polars as pl
 
-_T = TypeVar("_T")
+from seismass.base.checked_parquet import damage, metadata_of, read_checked, write_checked
+from seismass.base.errors import InvalidOption
+from seismass.base.files import read_file, written_whole
+from seismass.base.temporary import PREFIX, is_left_behind, is_temporary, reported_as, temporary_folder, temporary_name
+from seismass.base.values import refusal
+
 _INPUTS: Final = "inputs"
 _OWNER: Final = "owner"
+_PART: Final = re.compile(r"part-[a-z0-9-]+\.parquet")
+_MOST_BYTES: Final = 4096
+"""Size of the two small files, at most (bytes)."""
+
+
+@dataclass(frozen=True)
+class KeptResults:
+    """Tables that are made once for the same inputs, however often the work is interrupted.
+
+    Attributes
+    ----------
+    folder : Path or None
+        Where they are kept; None: nowhere.
+    sha256 : str
+        Digest of the inputs, which every part names.
+    place : Path or None
+        What errors of the system name: a folder that the user knows, as `folder` is hidden.
+    """
+
+    folder: Path | None = None
+    sha256: str = ""
+    place: Path | None = None
+
+    def of(self, name: str, make: Callable[[], pl.DataFrame]) -> pl.DataFrame:
+        """Return the table of this name as it was kept, or make and keep it."""
+        if self.folder is None:
+            return make()
+        path = self._path(name)
+        if self._is_kept(name):
+            return read_checked(path)
+        made = make()
+        self._keep(name, made)
+        return made
+
+    def file(self, name: str, make: Callable[[], pl.DataFrame]) -> Path:
+        """Return the path of the kept table of this name, which is made where it is missing or damaged."""
+        if not self._is_kept(name):
+            self._keep(name, make())
+        return self._path(name)
+
+    def _path(self, name: str) -> Path:
+        assert self.folder is not None
+        return self.folder / f"part-{name}.parquet"
+
+    def _is_kept(self, name: str) -> bool:
+        path = self._path(name)
+        about = self._about(name)
+        return damage(path) is None and about.items() <= metadata_of(path).items()
+
+    def _keep(self, name: str, table: pl.DataFrame) -> None:
+        path = self._path(name)
+        with reported_as(self.place or path), written_whole(path, durable=True) as temporary:
+            write_checked(table, temporary, self._about(name))
+
+    def _about(self, name: str) -> dict[str, str]:
+        return {"inputs": self.sha256, "part": name}
+
+
+NOTHING_KEPT: Final = KeptResults()
+"""Results are made anew, and none is kept."""
 
 
 @contextmanager
-def kept_folder(place: Path, name: str, sha256: str) -> Iterator[Path]:
+def kept_folder(place: Path, name: str, sha256: str) -> Iterator[KeptResults]:
     """Give a folder for parts of a result, which stays where the work is interrupted and is removed at its end.
 
     Parameters
@@ -38,41 +105,85 @@ def kept_folder(place: Path, name: str, sha256: str) -> Iterator[Path]:
 
     Notes
     -----
-    While another process works on the same result, or where that cannot be known, the folder is a temporary one.
+    While another process works on the same result, or where that cannot be known, the folder is a temporary one. What
+    this module did not put into the folder is never removed; where there is such a file, the folder stays.
 
     Raises
     ------
+    InvalidOption
+        The folder is there and is a link, belongs to another user, or others may write to it.
     OSError
         The folder cannot be made or written to.
     """
     folder = place / f"{PREFIX}kept-{hashlib.sha256(os.fsencode(name)).hexdigest()[:16]}"
-    with reported_as(place):
-        folder.mkdir(mode=0o700, exist_ok=True)
+    with reported_as(place), suppress(FileExistsError):
+        folder.mkdir(mode=0o700)
+    identity = _checked(folder)
     if not _claimed(folder):
         with temporary_folder(place) as private:
-            yield private
+            yield KeptResults(private, sha256, place)
         return
+    # A copy of a folder, as of an archive, has another number than the one that was made here.
+    inputs = f"{sha256} {identity}"
     try:
-        _clear_unless_of(folder, sha256)
-        yield folder
+        if _read(folder / _INPUTS) != inputs:
+            _remove_ours(folder, identity, but=(_OWNER,))
+            with written_whole(folder / _INPUTS) as temporary:
+                temporary.write_text(inputs, encoding="ascii")
+        yield KeptResults(folder, sha256, place)
     except BaseException:
         if {path.name for path in folder.iterdir()} <= {_INPUTS, _OWNER}:
-            shutil.rmtree(folder, ignore_errors=True)
+            _remove_ours(folder, identity)
         else:
-            (folder / _OWNER).unlink(missing_ok=True)
+            _remove_ours(folder, identity, only=(_OWNER,))
         raise
-    shutil.rmtree(folder, ignore_errors=True)
+    _remove_ours(folder, identity)
+
+
+def digest_of(*inputs: Any) -> str:
+    """Return a digest of objects that can be pickled: equal ones made in the same way have the same."""
+    return hashlib.sha256(pickle.dumps(inputs, protocol=5)).hexdigest()
+
+
+def _checked(folder: Path) -> int:
+    """Return the number of a folder in its file system; refuse one that others have or could have made.
+
+    Raises
+    ------
+    InvalidOption
+        It is a link or a file, belongs to another user, or others may write to it.
+    """
+    found = folder.lstat()
+    is_link = stat.S_ISLNK(found.st_mode)
+    # Windows has no such users and modes.
+    users = hasattr(os, "geteuid")
+    if is_link or not stat.S_ISDIR(found.st_mode):
+        got = "a link" if is_link else "a file"
+    elif users and found.st_uid != os.geteuid():
+        got = f"one of user {found.st_uid}"
+    elif users and found.st_mode & 0o022:
+        got = f"one that others may write to (mode {stat.S_IMODE(found.st_mode):o})"
+    else:
+        return found.st_ino
+    requirement = "a folder that this user made and others cannot write to (remove it, or write elsewhere)"
+    raise refusal(InvalidOption, f"hidden folder {folder}", "kept parts", requirement, got)
+
+
+def _read(path: Path) -> str:
+    """Text of a small file of the folder; empty where there is none that can be read."""
+    try:
+        return read_file(path, _MOST_BYTES, follow=False).decode("ascii", "replace")
+    except OSError:
+        return ""
 
 
 def _claimed(folder: Path) -> bool:
     """Take a folder for this process, unless another one has it."""
     owner = folder / _OWNER
-    try:
-        if not is_left_behind(owner.read_text(encoding="ascii", errors="replace")):
+    if os.path.lexists(owner):
+        if not is_left_behind(_read(owner)):
             return False
         owner.unlink(missing_ok=True)
-    except FileNotFoundError:
-        pass
     try:
         with owner.open("x", encoding="ascii") as file:
             file.write(temporary_name())
@@ -81,49 +192,35 @@ def _claimed(folder: Path) -> bool:
     return True
 
 
-def _clear_unless_of(folder: Path, sha256: str) -> None:
-    """Remove parts of other inputs, and say whose parts are kept from now on."""
-    inputs = folder / _INPUTS
-    if inputs.is_file() and inputs.read_text(encoding="ascii", errors="replace") == sha256:
-        return
-    for path in folder.iterdir():
-        if path.name != _OWNER:
-            path.unlink()
-    with written_whole(inputs) as temporary:
-        temporary.write_text(sha256, encoding="ascii")
+def _remove_ours(
+    folder: Path, identity: int, *, but: tuple[str, ...] = (), only: tuple[str, ...] | None = None
+) -> None:
+    """Remove files of this module from the folder that was checked, and the folder where it is empty then."""
+    if os.unlink not in os.supports_dir_fd or os.scandir not in os.supports_fd:  # Windows
+        for path in folder.iterdir():
+            if _is_ours(path.name, but, only):
+                with suppress(OSError):
+                    path.unlink()
+    else:
+        # By its descriptor: another folder that takes the name meanwhile is not touched.
+        with suppress(OSError):
+            descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
+            try:
+                if os.fstat(descriptor).st_ino == identity:
+                    with os.scandir(descriptor) as entries:
+                        names = [entry.name for entry in entries if _is_ours(entry.name, but, only)]
+                    for name in names:
+                        with suppress(OSError):
+                            os.unlink(name, dir_fd=descriptor)
+            finally:
+                os.close(descriptor)
+    if not but and only is None:
+        with suppress(OSError):
+            folder.rmdir()
 
 
-def digest_of(*inputs: Any) -> str:
-    """Return a digest of objects that can be pickled: equal ones made in the same way have the same."""
-    return hashlib.sha256(pickle.dumps(inputs, protocol=5)).hexdigest()
-
-
-@dataclass(frozen=True)
-class KeptResults:
-    """Results that are made once for the same inputs, however often the work is interrupted.
-
-    Attributes
-    ----------
-    folder : Path or None
-        Where they are kept; None: nowhere.
-    """
-
-    folder: Path | None = None
-
-    def of(self, name: str, make: Callable[[], _T]) -> _T:
-        """Return the result of this name as it was kept, or make and keep it."""
-        if self.folder is None:
-            return make()
-        path = self.folder / f"{name}.pickle"
-        if path.is_file():
-            with path.open("rb") as file:
-                found: _T = pickle.load(file)
-            return found
-        found = make()
-        with written_whole(path, durable=True) as temporary:
-            temporary.write_bytes(pickle.dumps(found))
-        return found
-
-
-NOTHING_KEPT: Final = KeptResults()
-"""Results are made anew, and none is kept."""
+def _is_ours(name: str, but: tuple[str, ...], only: tuple[str, ...] | None) -> bool:
+    if only is not None:
+        return name in only
+    known = name in (_INPUTS, _OWNER) or _PART.fullmatch(name) is not None or is_temporary(name)
+    return known and name not in but

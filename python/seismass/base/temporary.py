@@ -41,6 +41,11 @@ def temporary_name() -> str:
     return f"{PREFIX}{_machine()}-{_boot()}-{process}-{_started(process) or 0}-{uuid4().hex}.part"
 
 
+def is_temporary(name: str) -> bool:
+    """Return whether a name is one of this module."""
+    return _NAME.fullmatch(name) is not None
+
+
 def is_left_behind(name: str) -> bool:
     """Return whether a temporary name belongs to a process of this machine that has ended."""
     named = _NAME.fullmatch(name)
@@ -66,10 +71,13 @@ def temporary_folder(folder: Path) -> Iterator[Path]:
 
 
 def remove_left_behind(folder: Path) -> None:
-    """Remove what processes of this machine that are gone have left in a folder; what cannot be removed stays."""
+    """Remove what processes of this machine that are gone have left in a folder; what cannot be removed stays.
+
+    What another user has made is no such thing, whatever its name, and a link is removed and never followed.
+    """
     with contextlib.suppress(OSError):
         for path in [path for path in folder.iterdir() if path.name.startswith(PREFIX)]:
-            if is_left_behind(path.name):
+            if is_left_behind(path.name) and _is_own(path):
                 if path.is_dir() and not path.is_symlink():
                     shutil.rmtree(path, ignore_errors=True)
                 else:
@@ -87,6 +95,11 @@ def reported_as(path: Path) -> Iterator[None]:
             raise
         missing = error.errno == errno.ENOENT and not path.parent.exists()
         raise OSError(error.errno, os.strerror(error.errno), str(path.parent if missing else path)) from None
+
+
+def _is_own(path: Path) -> bool:
+    """Whether this user has made what is there. Windows does not tell."""
+    return not hasattr(os, "geteuid") or path.lstat().st_uid == os.geteuid()
 
 
 def _is_gone(machine: str, boot: str, process: int, started: int) -> bool:

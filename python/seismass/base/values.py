@@ -7,18 +7,23 @@ from __future__ import annotations
 
 import difflib
 import numbers
-from collections.abc import Hashable, Sequence
+import os
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from dataclasses import fields, is_dataclass
+from itertools import islice
 from pathlib import Path
-from typing import Any, Self, TypeAlias, TypeVar
+from typing import Any, Final, Self, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seismass import _kernel
 from seismass.base.errors import InvalidOption, SeismassError
 
 FloatArray: TypeAlias = NDArray[np.float64]
 """Array of doubles; every array that a value class holds is a read-only copy."""
 
+_S = TypeVar("_S", bound=np.generic)
 _V = TypeVar("_V", bound="Value")
 
 
@@ -76,6 +81,46 @@ def _rebuild(cls: type[_V], arguments: dict[str, Any]) -> _V:
     return cls(**arguments)
 
 
+def same(one: Any, other: Any) -> bool:
+    """Return whether two values have the same type and content: arrays and tables element by element, NaN as NaN."""
+    if one is other:
+        return True
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, np.ndarray):
+        alike = one.dtype == other.dtype and one.shape == other.shape
+        return alike and bool(np.array_equal(one, other, equal_nan=one.dtype.kind in "fc"))
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same(value, other[key]) for key, value in one.items())
+    if isinstance(one, tuple | list):
+        return len(one) == len(other) and all(same(mine, its) for mine, its in zip(one, other, strict=True))
+    if isinstance(one, float):
+        return one == other or (one != one and other != other)
+    if is_dataclass(one):
+        return all(same(getattr(one, each.name), getattr(other, each.name)) for each in fields(one))
+    if hasattr(one, "equals"):  # a table of Polars
+        return bool(one.equals(other))
+    return bool(one == other)
+
+
+def same_content(self: Any, other: object) -> bool:
+    """`__eq__` of results, which hold arrays and tables: the same class and the same content."""
+    if type(other) is not type(self):
+        return NotImplemented  # type: ignore[no-any-return]  # as an operator does
+    return all(same(getattr(self, name), getattr(other, name)) for name in _names(self))
+
+
+def content_hash(self: Any) -> int:
+    """`__hash__` beside `same_content`: of what is short, as arrays and tables are compared but not hashed."""
+    values = [getattr(self, name) for name in _names(self)]
+    short = [value for value in values if isinstance(value, str | bool | int) or value is None]
+    return hash((type(self).__name__, *short))
+
+
+def _names(value: Any) -> Iterator[str]:
+    return (each.name for each in fields(value)) if is_dataclass(value) else iter(type(value).__slots__)
+
+
 def hashable(value: Any) -> Hashable:
     """Content of an argument; -0.0 and 0.0 are the same."""
     if isinstance(value, np.ndarray):
@@ -83,15 +128,47 @@ def hashable(value: Any) -> Hashable:
     return value if isinstance(value, Hashable) else tuple(value)
 
 
+_BRIEF: Final = 60
+_MOST_BITS: Final = 4096
+"""Python writes no number as text that has many more."""
+
+
 def brief(value: Any) -> str:
     """Return a value as an error message shows it."""
+    # Of what is long, only a beginning is made to text: each item gives a character at least.
+    if isinstance(value, str | bytes | list | tuple) and len(value) > _BRIEF:
+        value = value[:_BRIEF]
+    elif isinstance(value, dict) and len(value) > _BRIEF:
+        value = dict(islice(value.items(), _BRIEF))
+    elif isinstance(value, int) and value.bit_length() > _MOST_BITS:
+        return f"a number of {value.bit_length()} bits"
     text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+    return text if len(text) <= _BRIEF else text[: _BRIEF - 3] + "..."
 
 
-def printable(name: str) -> str:
-    """Return a part of a path as text: bytes of it that are no UTF-8 become escapes."""
-    return name.encode("utf-8", "backslashreplace").decode("utf-8")
+_SHOWN_AS_ESCAPES: Final = {
+    code: f"\\x{code:02x}" if code < 256 else f"\\u{code:04x}"
+    for code in (*range(32), *range(127, 160), *range(0x2028, 0x202F), *range(0x2066, 0x206A))
+}
+"""Control characters, ends of lines and overrides of the direction of writing, which change what stands around them."""
+_OF_LINES: Final = {ord("\n"): "\n", ord("\t"): "\t"}
+
+
+def printable(text: str, *, lines: bool = False) -> str:
+    """Return a name, or a part of a path, as text that can be shown and written to any file.
+
+    What is no text (bytes of a path that are no UTF-8, lone surrogates) and what acts on a terminal (control
+    characters, overrides of direction) become escapes; with `lines`, ends of lines and tabs stay.
+    """
+    shown = text.encode("utf-8", "backslashreplace").decode("utf-8")
+    return shown.translate({**_SHOWN_AS_ESCAPES, **_OF_LINES} if lines else _SHOWN_AS_ESCAPES)
+
+
+def as_name(value: Any, parameter: str, owner: str, kind: type[SeismassError], *, lines: bool = False) -> str:
+    """Return a text that people see as `printable` has it."""
+    if not isinstance(value, str):
+        raise refusal(kind, parameter, owner, "text", brief(value))
+    return printable(value, lines=lines)
 
 
 def refusal(kind: type[SeismassError], parameter: str, owner: str, requirement: str, got: str) -> SeismassError:
@@ -103,7 +180,8 @@ def as_path(value: Any, owner: str, kind: type[SeismassError]) -> Path:
     """Return a path of a file or folder."""
     try:
         path = Path(value)
-    except TypeError:
+        os.fsencode(path)
+    except (TypeError, UnicodeError):
         path = None
     if path is None or "\0" in str(path):
         raise refusal(kind, "path", owner, "a path", brief(value))
@@ -120,6 +198,34 @@ def as_number(value: Any, parameter: str, owner: str, kind: type[SeismassError])
         return float(value)
     except OverflowError:
         raise refusal(kind, parameter, owner, "a number that a double can hold", brief(value)) from None
+
+
+def is_one_of(value: Any, words: Iterable[str]) -> bool:
+    """Return whether a value is one of these words; one that is no text, as an array, is not."""
+    return isinstance(value, str) and value in words
+
+
+def as_flag(value: Any, parameter: str, owner: str, kind: type[SeismassError]) -> bool:
+    """Return true or false."""
+    if not isinstance(value, bool | np.bool_):
+        raise refusal(kind, parameter, owner, "True or False", brief(value))
+    return bool(value)
+
+
+def as_progress(value: Any, owner: str) -> Callable[[int, int], object] | None:
+    """Return what is called with (done, in all), or None."""
+    if value is not None and not callable(value):
+        raise refusal(InvalidOption, "progress", owner, "a callable of two numbers", brief(value))
+    checked: Callable[[int, int], object] | None = value
+    return checked
+
+
+def as_threads(value: Any, owner: str) -> int | None:
+    """Return a number of threads; None: all cores."""
+    count = None if value is None else as_count(value, "threads", owner, InvalidOption, least=1)
+    if count is not None and count > _kernel.MAX_THREADS:
+        raise refusal(InvalidOption, "threads", owner, f"between 1 and {_kernel.MAX_THREADS}", str(count))
+    return count
 
 
 def as_positive(
@@ -161,10 +267,17 @@ def as_array(
 
 
 def frozen(values: Any) -> FloatArray:
-    """Return a contiguous read-only copy as doubles."""
-    array = np.array(values, dtype=np.float64, order="C", copy=True)
-    array.setflags(write=False)
-    return array
+    """Return a contiguous copy as doubles that cannot be changed, nor made to be."""
+    return read_only(np.asarray(values, dtype=np.float64))
+
+
+def read_only(array: NDArray[_S]) -> NDArray[_S]:
+    """Return a contiguous copy whose memory cannot be changed: `setflags(write=True)` is an error, as of bytes."""
+    if array.size == 0:
+        empty = array.copy()
+        empty.setflags(write=False)
+        return empty
+    return np.frombuffer(array.tobytes(), dtype=array.dtype).reshape(array.shape)
 
 
 def known_id(value: Any, known: Sequence[str], owner: str, *, hints: int = 1) -> str:

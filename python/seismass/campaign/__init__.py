@@ -3,9 +3,8 @@
 `Campaign` describes the runs, `CampaignFolder` is what they become; `read_campaign` reads a description from a file.
 """
 
-from seismass.campaign.campaign import Campaign
 from seismass.campaign.description import example_description, read_campaign
-from seismass.campaign.folder import CampaignFolder
+from seismass.campaign.folder import Campaign, CampaignFolder
 from seismass.campaign.progress import CampaignProgress
 
 __all__ = ["Campaign", "CampaignFolder", "CampaignProgress", "example_description", "read_campaign"]

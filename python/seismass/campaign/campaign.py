@@ -4,32 +4,25 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 from collections.abc import Iterable
-from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 import polars as pl
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption
-from seismass.base.values import as_count, as_path, brief, printable, refusal
+from seismass.base.values import as_count, as_flag, as_name, brief, content_hash, refusal, same_content
 from seismass.campaign.columns import chosen_columns, stored
 from seismass.campaign.motions import NamedMotion, named_motions
 from seismass.model.motion import MotionLike
-from seismass.runs.batch import checked_motions
+from seismass.runs.batch import Progress, checked_motions, stream_many
 from seismass.runs.grid.content import axes_table, grid_document
 from seismass.runs.grid.grid import Grid
 
-if TYPE_CHECKING:
-    from seismass.campaign.folder import CampaignFolder
-    from seismass.campaign.progress import Report
-    from seismass.runs.batch import Progress
-
-SCHEMA_VERSION: Final = 1
+SCHEMA_VERSION: Final = 2
 """Version of the folder of a campaign; see docs/campaign.md."""
 DEFAULT_PART_RUNS: Final = 65536
 """Runs of a part: some seconds of one core, and some megabytes."""
@@ -37,57 +30,11 @@ MOST_PART_RUNS: Final = 2**24
 """Most runs of a part, whose rows are held in memory."""
 
 
-@dataclass(frozen=True, eq=False)
-class Campaign:
-    """The runs of a grid under motions, which become a folder of Parquet files.
+@dataclass(frozen=True, eq=False, repr=False)
+class CampaignRuns:
+    """The runs of a grid under motions, and what solves a part of them.
 
-    Runs are numbered as in the table of `simulate_many`: every scene under every motion, the motion changing fastest,
-    or one run per scene where the grid has a column of motions. Part p holds runs (p - 1) part_runs + 1 to p part_runs,
-    whatever solves it.
-
-    Parameters
-    ----------
-    grid : Grid
-        The scenes.
-    motions : Motion, Record or iterable of them
-        The motions.
-    name : str
-        What it is called; changes no result.
-    part_runs : int, default 65536
-        Runs of a part, at most 2^24. A worker holds one part in memory, and a lost worker loses one.
-    peaks_only : bool, default False
-        A run may end once no peak can be beaten any more; there are no residuals then.
-    columns : list of str, optional
-        Columns of `simulate_many` that are kept, beside `scene`, `motion` and `status`; default all.
-    single : bool, default False
-        Store numbers in single precision: half the size, seven digits.
-
-    Attributes
-    ----------
-    total : int
-        Number of runs.
-    parts : int
-        Number of parts.
-    sha256 : str
-        Digest of all that the numbers in the parts depend on, and of their cut.
-
-    Raises
-    ------
-    InvalidScene, InvalidMotion, InvalidOption
-        An argument is not what it must be.
-
-    Examples
-    --------
-    >>> from tempfile import mkdtemp
-    >>> import seismass as sm
-    >>> building = sm.Building.uniform(2, 0.3, yield_shear_over_weight=[0.2, 0.12])
-    >>> grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=[0.1, 0.2, 0.3, 0.4, 0.5])
-    >>> campaign = sm.campaign.Campaign(grid, sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1), part_runs=4)
-    >>> campaign.total, campaign.parts
-    (10, 3)
-    >>> folder = campaign.run(mkdtemp())
-    >>> folder.scan().filter(mass_ratio=1.0).select("mu_s", "slips").collect().height
-    5
+    Arguments and attributes are those of `Campaign`, which writes the parts to a folder.
     """
 
     grid: Grid
@@ -97,6 +44,9 @@ class Campaign:
     peaks_only: bool
     columns: tuple[str, ...]
     single: bool
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     def __init__(
         self,
@@ -111,8 +61,6 @@ class Campaign:
     ) -> None:
         if not isinstance(grid, Grid):
             raise refusal(InvalidOption, "grid", "campaign", "a Grid", brief(grid))
-        if not isinstance(name, str):
-            raise refusal(InvalidOption, "name", "campaign", "text", brief(name))
         size = as_count(part_runs, "part_runs", "campaign", InvalidOption, least=1)
         if size > MOST_PART_RUNS:
             raise refusal(InvalidOption, "part_runs", "campaign", f"at most {MOST_PART_RUNS}", str(size))
@@ -120,14 +68,17 @@ class Campaign:
         if not found:
             raise refusal(InvalidOption, "motions", "campaign", "at least one", "none")
         grid._check_motions(len(found))
+        flags = {
+            name: as_flag(value, name, "campaign", InvalidOption)
+            for name, value in (("peaks_only", peaks_only), ("single", single))
+        }
         values = {
             "grid": grid,
             "motions": named_motions(given, found, names),
-            "name": printable(name),
+            "name": as_name(name, "name", "campaign", InvalidOption),
             "part_runs": size,
-            "peaks_only": bool(peaks_only),
-            "columns": chosen_columns(columns, bool(peaks_only)),
-            "single": bool(single),
+            "columns": chosen_columns(columns, flags["peaks_only"]),
+            **flags,
         }
         for key, value in values.items():
             object.__setattr__(self, key, value)
@@ -173,12 +124,14 @@ class Campaign:
         KeyboardInterrupt
             Ctrl-C was pressed.
         """
-        from seismass.runs.batch import stream_many
+        return self.solve_runs(self.runs_of(part), threads=threads, progress=progress)
 
+    def solve_runs(self, runs: range, *, threads: int | None = None, progress: Progress | None = None) -> pl.DataFrame:
+        """Return the rows of runs by their numbers, from 1; arguments and errors are those of `solve`."""
         frames = stream_many(
             self.grid,
             self.motions,
-            runs=self.runs_of(part),
+            runs=runs,
             peaks_only=self.peaks_only,
             threads=threads,
             progress=progress,
@@ -186,7 +139,7 @@ class Campaign:
         # Rows of a chunk are cut to the columns before the next one is solved.
         return pl.concat([stored(frame, self.columns, self.single) for frame in frames])
 
-    @cached_property
+    @property
     def document(self) -> dict[str, Any]:
         """Everything but the samples and the values of axes, for JSON."""
         return {
@@ -214,74 +167,9 @@ class Campaign:
             digest.update(motion.sha256.encode())
         return digest.hexdigest()
 
-    def run(
-        self,
-        folder: str | os.PathLike[str],
-        *,
-        executor: Executor | None = None,
-        workers: int | None = None,
-        scheduler: str | None = None,
-        shard: tuple[int, int] | None = None,
-        threads: int | None = None,
-        progress: Report | None = None,
-    ) -> CampaignFolder:
-        """Solve what is missing in a folder; a new one is made where there is none.
-
-        Parameters
-        ----------
-        folder : path-like
-            Folder of the campaign: a new or empty one, or one that this campaign has begun. On a cluster it must be
-            reached by all workers under this name.
-        executor : concurrent.futures.Executor, optional
-            Where parts are solved, as `dask.distributed.Client.get_executor()` or a ProcessPoolExecutor of started
-            ("spawn") processes; by default the threads of this process.
-        workers : int, optional
-            Instead: start so many worker processes on this machine, by dask.distributed (`pip install
-            "seismass[cluster]"`).
-        scheduler : str, optional
-            Instead: address of a running dask scheduler.
-        shard : tuple of int, optional
-            (i, n): solve part i, i + n, i + 2 n, ... alone, as one of n jobs of an array that share the folder.
-        threads : int, optional
-            Threads of the kernel: by default all cores in this process, and one in each task of an executor.
-        progress : callable, optional
-            Called with a `CampaignProgress`, at most some times a second.
-
-        Returns
-        -------
-        CampaignFolder
-            The folder.
-
-        Raises
-        ------
-        InvalidOption
-            The folder belongs to other inputs, another version or another instruction set, or has other files.
-        MissingPackage
-            dask.distributed is needed and not installed.
-        SimulationError
-            The executor lost its workers.
-        OSError
-            The folder cannot be written, or the disk is full. Parts that are there stay as they are.
-        KeyboardInterrupt
-            Ctrl-C was pressed. The same call goes on where it stopped.
-        """
-        from seismass.campaign.engine import run_campaign
-        from seismass.campaign.prepare import prepared
-
-        place = prepared(self, as_path(folder, "campaign", InvalidOption))
-        run_campaign(
-            self,
-            place.path,
-            executor=executor,
-            workers=workers,
-            scheduler=scheduler,
-            shard=shard,
-            threads=threads,
-            progress=progress,
-        )
-        return place
-
     def __repr__(self) -> str:
         name = f"{self.name}: " if self.name else ""
         motions = f"{len(self.motions)} motion{'s' * (len(self.motions) != 1)}"
-        return f"Campaign({name}{len(self.grid)} scenes, {motions}, {self.total} runs in {self.parts} parts)"
+        return (
+            f"{type(self).__name__}({name}{len(self.grid)} scenes, {motions}, {self.total} runs in {self.parts} parts)"
+        )

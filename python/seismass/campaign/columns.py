@@ -9,7 +9,7 @@ from typing import Any, Final
 import polars as pl
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import brief, refusal
+from seismass.base.values import brief, is_one_of, refusal
 
 KEYS: Final = ("scene", "motion", "status")
 """Columns that every part has: the numbers of scene and motion, from 1, and how the run ended."""
@@ -59,8 +59,8 @@ def chosen_columns(columns: Iterable[str] | None, peaks_only: bool) -> tuple[str
         raise refusal(InvalidOption, "columns", "campaign", "a list of names", brief(columns))
     wanted = list(columns)
     for name in wanted:
-        if name not in known:
-            beside = " (left out where peaks_only is chosen)" if name in RESIDUALS else ""
+        if not is_one_of(name, known):
+            beside = " (left out where peaks_only is chosen)" if is_one_of(name, RESIDUALS) else ""
             raise refusal(InvalidOption, "columns", "campaign", f"some of {', '.join(known)}{beside}", brief(name))
     return tuple(name for name in known if name in wanted or name in KEYS)
 

@@ -9,8 +9,8 @@ from typing import Any, Final
 
 from seismass.base.errors import InvalidCampaignFile
 from seismass.base.input_table import Table, load_table
-from seismass.base.values import as_count, as_path, brief
-from seismass.campaign.campaign import Campaign
+from seismass.base.values import as_path, brief
+from seismass.campaign.folder import Campaign
 from seismass.campaign.values import axis_values
 from seismass.records import Record, Suite, builtin_suite, read_suite
 from seismass.records.builtin import data_directory
@@ -76,25 +76,14 @@ def read_campaign(source: str | os.PathLike[str] | Mapping[str, Any]) -> Campaig
     top.text("note")
     top.needed("grid")
     suite = _suite(top.table("motions") if "motions" in top.values else None, folder, top)
-    options: dict[str, Any] = {name: _flag(top, name) for name in ("peaks_only", "single") if name in top.values}
+    options: dict[str, Any] = {name: top.flag(name, False) for name in ("peaks_only", "single") if name in top.values}
     columns = top.values.get("columns")
     if columns is not None and not (isinstance(columns, list) and all(isinstance(name, str) for name in columns)):
         top.refuse("columns", "a list of names", brief(columns))
     if "part_runs" in top.values:
-        options["part_runs"] = _count(top, "part_runs")
+        options["part_runs"] = top.count("part_runs")
     grid = _grid(top, folder, len(suite))
     return Campaign(grid, suite, name=top.text("name"), columns=columns, **options)
-
-
-def _flag(table: Table, key: str) -> bool:
-    value = table.values[key]
-    if not isinstance(value, bool):
-        table.refuse(key, "true or false", brief(value))
-    return value
-
-
-def _count(table: Table, key: str) -> int:
-    return as_count(table.values[key], table.key(key), table.file, InvalidCampaignFile)
 
 
 def _suite(table: Table | None, folder: Path, top: Table) -> list[Record]:
@@ -108,19 +97,13 @@ def _suite(table: Table | None, folder: Path, top: Table) -> list[Record]:
     table.excluded("records", "builtin")
     suite: Suite
     if "builtin" in table.values:
-        name = table.text("builtin")
-        if name not in ("seven", "eleven"):
-            table.refuse("builtin", "seven or eleven", brief(name))
+        name = table.choice("builtin", ("seven", "eleven"), requirement="seven or eleven")
         suite = builtin_suite("seven" if name == "seven" else "eleven")
     else:
         suite = read_suite(folder / table.text("records"))
-    scaling = table.text("scaling") or SCALINGS[0]
-    if scaling not in SCALINGS:
-        table.refuse("scaling", f"one of {', '.join(SCALINGS)}", brief(scaling))
+    scaling = table.choice("scaling", SCALINGS, SCALINGS[0])
     if scaling == "none":
-        for key in ("target", "period"):
-            if key in table.values:
-                table.refuse(key, f"left out where {table.key('scaling')} is none", brief(table.values[key]))
+        table.left_out(("target", "period"), f"{table.key('scaling')} is none")
         return list(suite)
     target = _target(table, folder) if "target" in table.values else TargetSpectrum.asce7()
     scale = scale_asce7_10 if scaling == "asce7-10" else scale_asce7_16
@@ -149,7 +132,7 @@ def _grid(top: Table, folder: Path, motions: int) -> Grid:
         table.refuse("storeys", "given, or building", "nothing")
     sampled = "sample" in top.values
     given: dict[str, Any] = {key: axis_values(table, key, sampled=sampled) for key in SAMPLED if key in table.values}
-    given |= {key: table.values[key] for key in _SETTINGS if key in table.values}
+    given |= table.given(*_SETTINGS)
     if "design" in table.values:
         given["design"] = _design(table.table("design"), folder)
     if not sampled:
@@ -157,12 +140,12 @@ def _grid(top: Table, folder: Path, motions: int) -> Grid:
     sample = top.table("sample")
     sample.known(KEYS["sample"])
     sample.needed("samples")
-    options: dict[str, Any] = {"samples": _count(sample, "samples")}
+    options: dict[str, Any] = {"samples": sample.count("samples")}
     if "method" in sample.values:
         options["method"] = sample.text("method")
     if "seed" in sample.values:
-        options["seed"] = _count(sample, "seed")
-    if "one_motion" in sample.values and _flag(sample, "one_motion"):
+        options["seed"] = sample.count("seed")
+    if sample.flag("one_motion", False):
         options["motions"] = motions
     return Grid.sample(building, **options, **given)
 
@@ -172,5 +155,4 @@ def _design(table: Table, folder: Path) -> Any:
 
     table.known(KEYS["grid.design"])
     table.needed("target")
-    given: dict[str, Any] = {key: table.values[key] for key in KEYS["grid.design"][1:] if key in table.values}
-    return StrengthDesign(_target(table, folder), **given)
+    return StrengthDesign(_target(table, folder), **table.given(*KEYS["grid.design"][1:]))

@@ -14,10 +14,11 @@ from typing import Any, Final
 from seismass.base.errors import InvalidOption, SeismassError, SimulationError
 from seismass.base.temporary import remove_left_behind
 from seismass.base.values import as_count, brief, refusal
-from seismass.campaign.campaign import Campaign
+from seismass.campaign.campaign import CampaignRuns
 from seismass.campaign.cluster import dask_executor
-from seismass.campaign.folder import PARTS, CampaignFolder
+from seismass.campaign.places import PARTS, parts_present
 from seismass.campaign.progress import CampaignProgress, Report
+from seismass.campaign.verify import check_parts
 from seismass.campaign.work import Done, solve_part, write_part
 
 IN_FLIGHT: Final = 1024
@@ -27,7 +28,7 @@ SECONDS_BETWEEN_REPORTS: Final = 0.2
 
 
 def run_campaign(
-    campaign: Campaign,
+    campaign: CampaignRuns,
     folder: Path,
     *,
     executor: Any = None,
@@ -37,7 +38,7 @@ def run_campaign(
     threads: int | None = None,
     progress: Any = None,
 ) -> None:
-    """Solve what is missing in the folder of a campaign; see `Campaign.run`.
+    """Solve what is missing in the folder of a campaign; see `Campaign.run`. Parts that are there are checked first.
 
     What a killed worker has left is removed at the end, or when the folder is next prepared.
     """
@@ -51,7 +52,9 @@ def run_campaign(
         raise refusal(InvalidOption, "progress", "campaign", "a callable of a CampaignProgress", brief(progress))
     first, step = _shard(shard)
     parts = range(first, campaign.parts + 1, step)
-    present = CampaignFolder(folder).present()
+    there = parts_present(folder, campaign.parts)
+    check_parts(folder, campaign.sha256, sorted(part for part in there.files | there.others if part in parts))
+    present = there.files
     clock = _Clock(campaign, parts, present, progress)
     missing = (part for part in parts if part not in present)
     if clock.done == len(parts):
@@ -84,7 +87,7 @@ def _shard(shard: Any) -> tuple[int, int]:
 class _Clock:
     """Counts parts and runs, and reports them now and then."""
 
-    def __init__(self, campaign: Campaign, parts: range, present: set[int], report: Report | None) -> None:
+    def __init__(self, campaign: CampaignRuns, parts: range, present: set[int], report: Report | None) -> None:
         here = [part for part in parts if part in present]
         self._campaign, self._parts, self._report = campaign, parts, report
         self.done = len(here)
@@ -119,7 +122,9 @@ class _Clock:
         self._report(CampaignProgress(self.done, len(self._parts), runs, self._total, self._before, now))
 
 
-def _by_threads(campaign: Campaign, folder: Path, missing: Iterator[int], threads: int | None, clock: _Clock) -> None:
+def _by_threads(
+    campaign: CampaignRuns, folder: Path, missing: Iterator[int], threads: int | None, clock: _Clock
+) -> None:
     """Solve part after part; a part is written while the next one is solved."""
     writing: tuple[int, Future[None]] | None = None
     with ThreadPoolExecutor(1) as writer:
@@ -146,7 +151,7 @@ def _of_part(clock: _Clock, held: int) -> Any:
 
 
 def _by_executor(
-    campaign: Campaign, folder: Path, missing: Iterator[int], executor: Executor, threads: int, clock: _Clock
+    campaign: CampaignRuns, folder: Path, missing: Iterator[int], executor: Executor, threads: int, clock: _Clock
 ) -> None:
     """Give parts to an executor, a limited number at once; results come back as numbers alone."""
     place = str(folder.absolute())

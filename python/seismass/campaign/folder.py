@@ -3,39 +3,149 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 from concurrent.futures import Executor
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
-import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_path, refusal
-from seismass.campaign.campaign import Campaign
+from seismass.campaign.campaign import CampaignRuns
 from seismass.campaign.columns import KEYS
-from seismass.campaign.manifest import check_same, manifest_of, read_manifest
-from seismass.campaign.motions import motions_of
-from seismass.runs.grid.content import grid_of
+from seismass.campaign.contents import campaign_in, read_table
+from seismass.campaign.engine import run_campaign
+from seismass.campaign.manifest import read_manifest
+from seismass.campaign.places import AXES, MOTIONS, Present, part_path, parts_present
+from seismass.campaign.prepare import prepare
+from seismass.campaign.progress import Report
+from seismass.campaign.verify import rows_and_problem
 
-if TYPE_CHECKING:
-    from seismass.campaign.progress import Report
-
-AXES: Final = "axes.parquet"
-MOTIONS: Final = "motions.parquet"
-PARTS: Final = "parts"
-_PART = re.compile(r"part-(\d{7,})\.parquet")
 _JOINED: Final = ("record", "dt", "pga_g")
 """What `scan` takes from the table of motions."""
 
 
-def part_path(folder: Path, part: int) -> Path:
-    """Return the path of a part, by its number from 1."""
-    return folder / PARTS / f"part-{part:07d}.parquet"
+@dataclass(frozen=True, eq=False, repr=False, init=False)
+class Campaign(CampaignRuns):
+    """The runs of a grid under motions, which become a folder of Parquet files.
+
+    Runs are numbered as in the table of `simulate_many`: every scene under every motion, the motion changing fastest,
+    or one run per scene where the grid has a column of motions. Part p holds runs (p - 1) part_runs + 1 to p part_runs,
+    whatever solves it.
+
+    Parameters
+    ----------
+    grid : Grid
+        The scenes.
+    motions : Motion, Record or iterable of them
+        The motions.
+    name : str
+        What it is called; changes no result.
+    part_runs : int, default 65536
+        Runs of a part, at most 2^24. A worker holds one part in memory, and a lost worker loses one.
+    peaks_only : bool, default False
+        A run may end once no peak can be beaten any more; there are no residuals then.
+    columns : list of str, optional
+        Columns of `simulate_many` that are kept, beside `scene`, `motion` and `status`; default all.
+    single : bool, default False
+        Store numbers in single precision: half the size, seven digits.
+
+    Attributes
+    ----------
+    total : int
+        Number of runs.
+    parts : int
+        Number of parts.
+    sha256 : str
+        Digest of all that the numbers in the parts depend on, and of their cut.
+
+    Raises
+    ------
+    InvalidScene, InvalidMotion, InvalidOption
+        An argument is not what it must be.
+
+    Examples
+    --------
+    >>> from tempfile import mkdtemp
+    >>> import seismass as sm
+    >>> building = sm.Building.uniform(2, 0.3, yield_shear_over_weight=[0.2, 0.12])
+    >>> grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=[0.1, 0.2, 0.3, 0.4, 0.5])
+    >>> campaign = sm.campaign.Campaign(grid, sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1), part_runs=4)
+    >>> campaign.total, campaign.parts
+    (10, 3)
+    >>> folder = campaign.run(mkdtemp())
+    >>> folder.scan().filter(mass_ratio=1.0).select("mu_s", "slips").collect().height
+    5
+    """
+
+    def run(
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        executor: Executor | None = None,
+        workers: int | None = None,
+        scheduler: str | None = None,
+        shard: tuple[int, int] | None = None,
+        threads: int | None = None,
+        progress: Report | None = None,
+    ) -> CampaignFolder:
+        """Solve what is missing in a folder; a new one is made where there is none.
+
+        Parameters
+        ----------
+        folder : path-like
+            Folder of the campaign: a new or empty one, or one that this campaign has begun. On a cluster it must be
+            reached by all workers under this name.
+        executor : concurrent.futures.Executor, optional
+            Where parts are solved, as `dask.distributed.Client.get_executor()` or a ProcessPoolExecutor of started
+            ("spawn") processes; by default the threads of this process.
+        workers : int, optional
+            Instead: start so many worker processes on this machine, by dask.distributed (`pip install
+            "seismass[cluster]"`).
+        scheduler : str, optional
+            Instead: address of a running dask scheduler.
+        shard : tuple of int, optional
+            (i, n): solve part i, i + n, i + 2 n, ... alone, as one of n jobs of an array that share the folder.
+        threads : int, optional
+            Threads of the kernel: by default all cores in this process, and one in each task of an executor.
+        progress : callable, optional
+            Called with a `CampaignProgress`, at most some times a second.
+
+        Returns
+        -------
+        CampaignFolder
+            The folder.
+
+        Raises
+        ------
+        InvalidOption
+            The folder belongs to other inputs, another version or another instruction set, or has other files.
+        MissingPackage
+            dask.distributed is needed and not installed.
+        SimulationError
+            The executor lost its workers.
+        OSError
+            The folder cannot be written, or the disk is full. Parts that are there stay as they are.
+        KeyboardInterrupt
+            Ctrl-C was pressed. The same call goes on where it stopped.
+        """
+        place = as_path(folder, "campaign", InvalidOption)
+        prepare(self, place)
+        run_campaign(
+            self,
+            place,
+            executor=executor,
+            workers=workers,
+            scheduler=scheduler,
+            shard=shard,
+            threads=threads,
+            progress=progress,
+        )
+        return CampaignFolder(place)
 
 
 @dataclass(frozen=True)
@@ -64,27 +174,32 @@ class CampaignFolder:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "path", as_path(self.path, "campaign", InvalidOption))
-        _ = self.manifest
+        _ = self._manifest
+
+    @property
+    def manifest(self) -> dict[str, Any]:
+        """What is in the folder, as a copy that changes nothing."""
+        return deepcopy(self._manifest)
 
     @cached_property
-    def manifest(self) -> dict[str, Any]:
-        """What is in the folder."""
+    def _manifest(self) -> dict[str, Any]:
         return read_manifest(self.path)
 
     @property
     def parts(self) -> int:
         """Number of parts of the campaign."""
-        return int(self.manifest["parts"])
+        return int(self._manifest["parts"])
+
+    def _there(self) -> Present:
+        return parts_present(self.path, self.parts)
 
     def present(self) -> set[int]:
-        """Return the numbers of the parts that are there, from 1."""
-        found = set()
-        with os.scandir(self.path / PARTS) as entries:
-            for entry in entries:
-                named = _PART.fullmatch(entry.name)
-                if named and 1 <= int(named[1]) <= self.parts:
-                    found.add(int(named[1]))
-        return found
+        """Return the numbers of the parts that are there as files, from 1."""
+        return self._there().files
+
+    def strange(self) -> set[int]:
+        """Return the numbers of parts in whose place something else is: a folder, a link, a pipe."""
+        return self._there().others
 
     def missing(self) -> Iterator[int]:
         """Yield the numbers of the parts that are not there."""
@@ -99,7 +214,7 @@ class CampaignFolder:
     @property
     def runs_present(self) -> int:
         """Number of runs of the parts that are there."""
-        size, total = int(self.manifest["part_runs"]), int(self.manifest["runs"])
+        size, total = int(self._manifest["part_runs"]), int(self._manifest["runs"])
         present = self.present()
         last = self.parts in present
         return len(present) * size - (last * (self.parts * size - total))
@@ -107,8 +222,7 @@ class CampaignFolder:
     @property
     def bytes(self) -> int:
         """Size of the parts that are there."""
-        with os.scandir(self.path / PARTS) as entries:
-            return sum(entry.stat().st_size for entry in entries if _PART.fullmatch(entry.name))
+        return self._there().bytes
 
     @cached_property
     def campaign(self) -> Campaign:
@@ -119,28 +233,17 @@ class CampaignFolder:
         InvalidOption
             The files of the folder do not belong together.
         """
-        document, motions = self.manifest, motions_of(pl.read_parquet(self.path / MOTIONS, glob=False))
-        found = Campaign(
-            grid_of(document["grid"], self.axes),
-            motions,
-            name=document["name"],
-            part_runs=document["part_runs"],
-            peaks_only=document["peaks_only"],
-            columns=document["columns"],
-            single=document["single"],
-        )
-        check_same(document, manifest_of(found), self.path)
-        return found
+        return campaign_in(self.path, Campaign)
 
     @cached_property
     def axes(self) -> pl.DataFrame:
         """The values of the axes: `axis`, `number` within it from 1, and a column for each that varies."""
-        return pl.read_parquet(self.path / AXES, glob=False)
+        return read_table(self.path, AXES)
 
     @cached_property
     def motions(self) -> pl.DataFrame:
         """One row per motion: number, name, file, time step, peak (g), digest of the samples."""
-        return pl.read_parquet(self.path / MOTIONS, glob=False).drop("acceleration", "vertical")
+        return read_table(self.path, MOTIONS).drop("acceleration", "vertical")
 
     def scan_parts(self) -> pl.LazyFrame:
         """Return the rows of the parts that are there as they are stored, as a lazy frame.
@@ -170,9 +273,9 @@ class CampaignFolder:
             No part is there.
         """
         rows = self.scan_parts()
-        results = [name for name in self.manifest["columns"] if name not in KEYS[:2]]
+        results = [name for name in self._manifest["columns"] if name not in KEYS[:2]]
         joined: list[str] = []
-        for axis in self.manifest["grid"]["axes"]:
+        for axis in self._manifest["grid"]["axes"]:
             names = [name for name in axis["columns"] if name != "motion"]
             values = self.axes.lazy().filter(pl.col("axis") == axis["name"]).select("number", *names)
             joined += names
@@ -209,43 +312,29 @@ class CampaignFolder:
         )
 
     def verify(self) -> pl.DataFrame:
-        """Read every part that is there and compare it with what it must hold.
+        """Read every part that is there and compare it with its digest and with what it must hold.
 
         Returns
         -------
         polars.DataFrame
             One row per part: `part`, `present`, `rows`, `bytes`, `problem` (null where there is none).
+
+        Raises
+        ------
+        InvalidOption
+            Manifest, axes or motions are not as they were written.
         """
         campaign = self.campaign
         rows: list[tuple[int, bool, int | None, int | None, str | None]] = []
-        present = self.present()
+        there = self._there()
         for part in range(1, self.parts + 1):
-            path = part_path(self.path, part)
-            if part not in present:
+            if part not in there.files and part not in there.others:
                 rows.append((part, False, None, None, None))
                 continue
-            height, problem = _checked(path, campaign, part, self.manifest["inputs_sha256"])
-            rows.append((part, True, height, path.stat().st_size, problem))
+            height, problem = rows_and_problem(self.path, campaign, part)
+            rows.append((part, True, height, part_path(self.path, part).lstat().st_size, problem))
         schema = {"part": pl.UInt64, "present": pl.Boolean, "rows": pl.UInt64, "bytes": pl.UInt64, "problem": pl.String}
         return pl.DataFrame(rows, schema=schema, orient="row")
 
     def __repr__(self) -> str:
         return f"CampaignFolder({self.path}, {len(self.present())} of {self.parts} parts)"
-
-
-def _checked(path: Path, campaign: Campaign, part: int, sha256: str) -> tuple[int | None, str | None]:
-    """Number of rows of a part, and what is wrong with it."""
-    runs = campaign.runs_of(part)
-    try:
-        frame = pl.read_parquet(path, glob=False)
-        digest = pl.read_parquet_metadata(path).get("campaign")
-    except (pl.exceptions.PolarsError, OSError) as error:
-        return None, f"cannot be read: {error}"
-    if digest != sha256:
-        return frame.height, "of other inputs"
-    if frame.height != len(runs) or frame.columns != list(campaign.columns):
-        return frame.height, f"not the {len(runs)} rows of its runs"
-    numbers = np.arange(runs.start - 1, runs.stop - 1)
-    scene, motion = campaign.grid._scene_and_motion(numbers, len(campaign.motions))
-    same = (frame["scene"].to_numpy() == scene + 1).all() and (frame["motion"].to_numpy() == motion + 1).all()
-    return frame.height, None if same else "of other runs"

@@ -47,6 +47,9 @@ def named_motions(given: list[Any], motions: list[Motion], names: list[str]) -> 
     """Return motions with the names and the origin that what was given has."""
     found = []
     for item, motion, name in zip(given, motions, names, strict=True):
+        if isinstance(item, NamedMotion):
+            found.append(item)
+            continue
         source = getattr(item, "source", None)
         file = None if source is None else printable(source.name)
         found.append(NamedMotion(name, motion, file, getattr(item, "synthetic", None)))

@@ -9,8 +9,10 @@ import numpy as np
 from seismass.base.distributions import beta, lognormal
 from seismass.base.errors import InvalidCampaignFile, InvalidOption
 from seismass.base.input_table import Table
-from seismass.base.values import as_count, as_number, brief
+from seismass.base.values import as_number, brief
 
+MOST_VALUES: Final = 2**24
+"""Most values of a range, which are in memory."""
 _RANGE: Final = ("from", "to", "count", "spacing")
 
 
@@ -53,12 +55,12 @@ def _range(table: Table) -> Any:
     for key in _RANGE[:3]:
         table.needed(key)
     first, last = (table.number(key, 0.0) for key in _RANGE[:2])
-    count = as_count(table.values["count"], table.key("count"), table.file, InvalidCampaignFile, least=1)
-    spacing = table.text("spacing") or "linear"
+    count = table.count("count", least=1)
+    if count > MOST_VALUES:
+        table.refuse("count", f"at most {MOST_VALUES}", str(count))
+    spacing = table.choice("spacing", ("linear", "log"), "linear", requirement="linear or log")
     if spacing == "linear":
         return np.linspace(first, last, count)
-    if spacing != "log":
-        table.refuse("spacing", "linear or log", brief(spacing))
     for key, end in (("from", first), ("to", last)):
         if not end > 0.0:
             table.refuse(key, "positive where the spacing is log", f"{end:g}")

@@ -11,15 +11,19 @@ from typing import NamedTuple
 
 import polars as pl
 
+from seismass.base.checked_parquet import write_checked
 from seismass.base.errors import InvalidOption
-from seismass.base.files import polars_writing, written_whole
+from seismass.base.files import written_whole
 from seismass.base.forks import require_polars
+from seismass.base.temporary import reported_as
 from seismass.base.values import refusal
-from seismass.campaign.campaign import Campaign
-from seismass.campaign.folder import CampaignFolder, part_path
+from seismass.campaign.campaign import CampaignRuns
+from seismass.campaign.contents import campaign_in
+from seismass.campaign.places import part_path
+from seismass.campaign.verify import part_metadata
 
 _lock = threading.Lock()
-_last: tuple[str, str, Campaign] | None = None
+_last: tuple[str, str, CampaignRuns] | None = None
 
 
 class Done(NamedTuple):
@@ -67,16 +71,16 @@ def write_part(frame: pl.DataFrame, folder: Path, sha256: str, part: int) -> Non
         The file cannot be written, or the disk is full.
     """
     path = part_path(folder, part)
-    with written_whole(path, durable=True, tidy=False) as temporary, polars_writing(path):
-        frame.write_parquet(temporary, compression="zstd", metadata={"campaign": sha256, "part": str(part)})
+    with reported_as(path), written_whole(path, durable=True, tidy=False) as temporary:
+        write_checked(frame, temporary, part_metadata(sha256, part))
 
 
-def _campaign(folder: str, sha256: str) -> Campaign:
+def _campaign(folder: str, sha256: str) -> CampaignRuns:
     """The campaign of a folder, read by this process once."""
     global _last
     with _lock:
         if _last is None or _last[:2] != (folder, sha256):
-            campaign = CampaignFolder(Path(folder)).campaign
+            campaign = campaign_in(Path(folder), CampaignRuns)
             if campaign.sha256 != sha256:
                 requirement = "that of the one who gives the work, under the same name on each machine"
                 raise refusal(InvalidOption, f"folder {folder}", "worker", requirement, "one of other inputs")

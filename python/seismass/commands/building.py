@@ -128,6 +128,8 @@ def run(args: argparse.Namespace) -> int:
 
 def _listing(args: argparse.Namespace) -> str:
     """Return the example file, or the requested table."""
+    from seismass.media.text_table import text_table
+
     if args.example:
         from seismass.assessment.building_file import example_file
 
@@ -155,8 +157,7 @@ def _listing(args: argparse.Namespace) -> str:
         for row in friction_table().iter_rows(named=True):
             source = f"{row['source']} ({row['kind']})"
             rows.append([row["pair_id"], f"{row['mu_s']:g}", f"{row['mu_k']:.4g}", row["contact"], source])
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows)
+    lines = text_table(rows, left=len(rows[0]), indent=0)
     return "\n".join([*lines, *([f"\n{code_legend()}"] if args.codes else [])]) + "\n"
 
 

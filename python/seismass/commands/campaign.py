@@ -7,13 +7,18 @@ import json
 import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.options import threads_option
 
 if TYPE_CHECKING:
-    from seismass.campaign import CampaignFolder, CampaignProgress
+    from seismass.campaign import Campaign, CampaignFolder, CampaignProgress
     from seismass.campaign.progress import Report
+
+_MANY_RUNS: Final = 1_000_000
+"""Runs from which on their time is estimated before they begin."""
+_LONG: Final = 86400.0
+"""Time (s) beyond which a campaign must be asked for."""
 
 _EPILOG = """examples:
   seismass campaign --example > campaign.toml
@@ -52,9 +57,10 @@ def add_parser(subparsers: Any, help: str) -> None:
     parser.add_argument(
         "--jobs", type=threads_option, metavar="N", help="threads of the process, or of each task (all cores, or one)"
     )
+    parser.add_argument("--long", action="store_true", help="begin also what takes this machine more than a day")
     look = parser.add_argument_group("looking at a folder").add_mutually_exclusive_group()
     look.add_argument("--status", action="store_true", help="print what is there and what is missing, and stop")
-    look.add_argument("--verify", action="store_true", help="read every part and compare it with its runs, and stop")
+    look.add_argument("--verify", action="store_true", help="compare every part with its digest and its runs, and stop")
     parser.add_argument("--json", action="store_true", help="print the state of the folder as JSON")
     parser.set_defaults(run=run)
 
@@ -81,9 +87,8 @@ def run(args: argparse.Namespace) -> int:
             raise refusal(InvalidOption, "--out", "command", "given with a campaign file", "none")
         campaign, place = (None, args.out) if looks else (read_campaign(args.source), args.out)
     if campaign is not None:
+        _announce(campaign, place, args)
         started = time.perf_counter()
-        if not args.json:
-            print(f"{campaign.total} runs in {campaign.parts} parts of {campaign.part_runs}")
         campaign.run(
             place,
             workers=args.workers,
@@ -104,45 +109,75 @@ def run(args: argparse.Namespace) -> int:
             print(f"time     {seconds:.1f} s")
         for part, problem in problems:
             print(f"part {part}: {problem}")
-    return 1 if state["failed"] or problems else 0
+    return 1 if state["failed"] or state["unreadable"] or problems else 0
+
+
+def _announce(campaign: Campaign, place: Path, args: argparse.Namespace) -> None:
+    """Print what is about to be solved, and what it takes where that is much; refuse more than a day without --long."""
+    from seismass.base.errors import InvalidOption
+    from seismass.base.values import refusal
+    from seismass.campaign import CampaignFolder
+    from seismass.campaign.estimate import estimated
+    from seismass.campaign.places import MANIFEST
+    from seismass.campaign.progress import duration_text
+
+    line = f"{campaign.total} runs in {campaign.parts} parts of {campaign.part_runs}"
+    there = CampaignFolder(place).runs_present if (place / MANIFEST).is_file() else 0
+    share = max(1.0 - there / campaign.total, 0.0) / (1 if args.shard is None else args.shard[1])
+    if campaign.total * share >= _MANY_RUNS:
+        found = estimated(campaign, threads=args.jobs)
+        size = f"{found.bytes * share / 1e9:.3g} GB"
+        line += f", about {duration_text(found.seconds * share)} by the threads of this machine, and {size}"
+        if found.seconds * share > _LONG and not args.long:
+            got = f"about {duration_text(found.seconds * share)} and {size} for {campaign.total * share:.3g} runs"
+            raise refusal(InvalidOption, "time", "campaign", "at most a day unless --long is given", got)
+    if not args.json:
+        print(line)
 
 
 def _state(folder: CampaignFolder, problems: list[tuple[int, str]] | None) -> dict[str, Any]:
     """How far a folder is, for JSON."""
-    present, runs = len(folder.present()), folder.runs_present
-    failed = _failed(folder, {part for part, _ in problems or ()})
+    present, strange = folder.present(), folder.strange()
+    failed, unreadable = _failed(folder, sorted(present - {part for part, _ in problems or ()}))
     state = {
         "folder": str(folder.path),
         "name": folder.manifest["name"],
         "inputs_sha256": folder.manifest["inputs_sha256"],
         "runs": folder.manifest["runs"],
-        "runs_present": runs,
+        "runs_present": folder.runs_present,
         "parts": folder.parts,
-        "parts_present": present,
+        "parts_present": len(present),
+        "unreadable": sorted(strange | unreadable),
         "bytes": folder.bytes,
         "failed": failed,
-        "complete": present == folder.parts,
+        "complete": len(present) == folder.parts,
     }
     return state if problems is None else {**state, "problems": dict(problems)}
 
 
-def _failed(folder: CampaignFolder, damaged: set[int]) -> int:
-    """Number of runs that failed, in the parts that can be read."""
+def _failed(folder: CampaignFolder, parts: list[int]) -> tuple[int, set[int]]:
+    """Number of runs that failed in parts, and the parts that cannot be read."""
     import polars as pl
 
-    from seismass.base.errors import InvalidOption
-    from seismass.base.values import refusal
-    from seismass.campaign.folder import part_path
+    from seismass.campaign.places import part_path
 
-    paths = [part_path(folder.path, part) for part in sorted(folder.present() - damaged)]
-    if not paths:
-        return 0
+    def count(chosen: list[int]) -> int:
+        paths = [part_path(folder.path, part) for part in chosen]
+        rows = pl.scan_parquet(paths, glob=False).select((pl.col("status") == "failed").sum())
+        return int(rows.collect().item())
+
+    if not parts:
+        return 0, set()
     try:
-        status = pl.scan_parquet(paths, glob=False).select((pl.col("status") == "failed").sum())
-        return int(status.collect().item())
-    except pl.exceptions.PolarsError as error:
-        requirement = "whole (--verify names those that are not)"
-        raise refusal(InvalidOption, f"parts of {folder.path}", "campaign", requirement, str(error)) from error
+        return count(parts), set()
+    except pl.exceptions.PolarsError:
+        failed, unreadable = 0, set()
+    for part in parts:
+        try:
+            failed += count([part])
+        except pl.exceptions.PolarsError:
+            unreadable.add(part)
+    return failed, unreadable
 
 
 def _text(folder: CampaignFolder, state: dict[str, Any]) -> str:
@@ -151,9 +186,22 @@ def _text(folder: CampaignFolder, state: dict[str, Any]) -> str:
         f"folder   {folder.path}",
         f"runs     {runs} of {state['runs']}, {state['failed']} failed",
         f"parts    {state['parts_present']} of {state['parts']}" + (f", {missing} missing" if missing else ""),
+        *(
+            [f"damaged  parts {_listed(state['unreadable'])}; remove them, and the same call solves them again"]
+            if state["unreadable"]
+            else []
+        ),
         f"size     {state['bytes'] / 1e6:.1f} MB" + (f", {state['bytes'] / runs:.1f} bytes a run" if runs else ""),
     ]
+    if state["unreadable"]:
+        damaged = f"damaged  parts {_listed(state['unreadable'])}; remove them, and the same command solves them again"
+        lines.append(damaged)
     return "\n".join(lines)
+
+
+def _listed(parts: list[int], most: int = 10) -> str:
+    more = f" and {len(parts) - most} more" if len(parts) > most else ""
+    return ", ".join(map(str, parts[:most])) + more
 
 
 def _problems(folder: CampaignFolder) -> list[tuple[int, str]]:

@@ -131,22 +131,29 @@ def _rows(suite: Suite) -> list[dict[str, Any]]:
 
 def _table(suite: Suite) -> list[str]:
     from seismass.base.values import printable
+    from seismass.media.text_table import number_text, text_line
 
     rows = _rows(suite)
     width = max(len("record"), *(len(printable(row["name"])) for row in rows))
-    head = (
-        f"{'':3} {'record':{width}}  {'comp.':8} {'points':>6} {'dt (s)':>7} {'PGA (g)':>8} {'PGV (cm/s)':>10} "
-        f"{'Arias (m/s)':>11} {'D5-95 (s)':>9}  event, station"
-    )
+    widths = (3, -width - 1, -8, 6, 7, 8, 10, 11, 9, 0)
+    heads = ("", "record", "comp.", "points", "dt (s)", "PGA (g)", "PGV (cm/s)", "Arias (m/s)", "D5-95 (s)")
+    head = text_line((*heads, " event, station"), widths, indent=0, gap=1)
     lines = [f"{suite.name}: {len(suite)} {'record' if len(suite) == 1 else 'records'}", *suite.remarks, "", head]
     for row in rows:
         label = ", ".join(text for text in (row["event"], row["station"]) if text)
-        duration = "-" if row["d5_95"] is None else f"{row['d5_95']:.2f}"
-        lines.append(
-            f"{row['motion']:>3} {printable(row['name']):{width}}  {_direction(row['component']):8} "
-            f"{row['samples']:>6} {row['dt']:>7g} {row['pga_g']:>8.4f} {100.0 * row['pgv']:>10.2f} "
-            f"{row['arias']:>11.3f} {duration:>9}  {label}".rstrip()
+        cells = (
+            str(row["motion"]),
+            printable(row["name"]),
+            _direction(row["component"]),
+            str(row["samples"]),
+            f"{row['dt']:g}",
+            f"{row['pga_g']:.4f}",
+            f"{100.0 * row['pgv']:.2f}",
+            f"{row['arias']:.3f}",
+            number_text(row["d5_95"]),
+            f" {label}",
         )
+        lines.append(text_line(cells, widths, indent=0, gap=1))
         lines += [f"{'':5}{remark}" for remark in row["remarks"]]
     if suite.excluded:
         lines += ["", f"not read: {len(suite.excluded)} {'file' if len(suite.excluded) == 1 else 'files'}"]

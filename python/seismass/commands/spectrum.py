@@ -79,6 +79,7 @@ def run(args: argparse.Namespace) -> int:
     import numpy as np
 
     from seismass.base.errors import InvalidOption
+    from seismass.base.files import without_formulas
     from seismass.records.named import records_named
 
     inelastic = args.strength is not None or args.ductility is not None
@@ -93,7 +94,7 @@ def run(args: argparse.Namespace) -> int:
     warn_remarks(suite)
     periods = np.geomspace(0.01, 10.0, 100) if args.periods is None else np.array(args.periods)
     table = _inelastic(suite, periods, args) if inelastic else _elastic(suite, periods, args)
-    sys.stdout.write(table.write_csv())
+    sys.stdout.write(without_formulas(table).write_csv())
     return 0
 
 

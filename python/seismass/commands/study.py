@@ -102,7 +102,7 @@ def add_parser(subparsers: Any, help: str) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
-    from seismass.base.kept import KeptResults, kept_folder
+    from seismass.base.kept import kept_folder
     from seismass.media.folder import PAGE, check_out, folder_for
     from seismass.runs.simulate import instruction_set
     from seismass.show.study.findings import findings_text
@@ -135,8 +135,7 @@ def run(args: argparse.Namespace) -> int:
     # The scenes of section 4 keep one core busy, and what is solved meanwhile the others. The stiffest friction springs
     # are left to `seismass validate`: they take four times as long as all others.
     inputs = f"{inputs_digest(suite, target, parameters)} {VERSION} {instruction_set()}"
-    with folder_for(args.out), kept_folder(args.out, "study", inputs) as folder, ThreadPoolExecutor(1) as pool:
-        kept = KeptResults(folder)
+    with folder_for(args.out), kept_folder(args.out, "study", inputs) as kept, ThreadPoolExecutor(1) as pool:
         scenes = pool.submit(paper_scenes, suite, springs=SPRINGS[:-1])
         result = run_study(
             suite, target, parameters, effective=args.effective, threads=args.jobs, progress=progress_bar(), kept=kept

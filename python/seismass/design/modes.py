@@ -10,7 +10,17 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import FloatArray, as_array, as_number, brief, frozen, refusal
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    as_number,
+    brief,
+    content_hash,
+    frozen,
+    is_one_of,
+    refusal,
+    same_content,
+)
 
 Combination: TypeAlias = Literal["srss", "cqc"]
 """How modal peaks are combined: root of the sum of squares, or complete quadratic combination."""
@@ -36,6 +46,9 @@ class Modes:
     shapes: FloatArray
     participation: FloatArray
     effective_mass: FloatArray
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def mass(self) -> float:
@@ -114,8 +127,12 @@ def vibration_modes(mass: ArrayLike, stiffness: ArrayLike) -> Modes:
     from scipy.linalg import eigh_tridiagonal  # slow to import
 
     # M^(-1/2) K M^(-1/2) is symmetric and tridiagonal.
-    diagonal = (k + np.append(k[1:], 0.0)) / m
-    beside = -k[1:] / np.sqrt(m[1:] * m[:-1])
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        diagonal = (k + np.append(k[1:], 0.0)) / m
+        beside = -k[1:] / (np.sqrt(m[1:]) * np.sqrt(m[:-1]))
+    if not (np.isfinite(diagonal).all() and np.isfinite(beside).all()):
+        requirement = "in a ratio to the stiffnesses that a double can hold"
+        raise refusal(InvalidScene, "mass", "building", requirement, brief(m.tolist()))
     squares, vectors = eigh_tridiagonal(diagonal, beside)
     shapes = vectors / np.sqrt(m)[:, None]
     shapes = shapes * np.where(shapes[-1] < 0.0, -1.0, 1.0)
@@ -204,7 +221,7 @@ def combine(modal: FloatArray, periods: FloatArray, combination: Combination, da
 
 def checked_combination(combination: str, damping: float, owner: str) -> float:
     """Return the damping ratio; an unknown combination and a ratio out of range are refused."""
-    if combination not in get_args(Combination):
+    if not is_one_of(combination, get_args(Combination)):
         raise refusal(InvalidOption, "combination", owner, "srss or cqc", brief(combination))
     ratio = as_number(damping, "damping", owner, InvalidOption)
     if not 0.0 < ratio < 1.0:

@@ -10,7 +10,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, brief, frozen, refusal
+from seismass.base.values import FloatArray, as_array, brief, content_hash, frozen, refusal, same_content
 from seismass.base.views import view
 from seismass.design.lateral_force import exponent_k
 from seismass.design.modes import positive_of_length, vibration_modes
@@ -71,6 +71,9 @@ class Pushover:
     end: str
     weight: float
     heights: FloatArray | None
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def capacity(self) -> float:

@@ -8,7 +8,7 @@ from typing import Final
 import polars as pl
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import known_id, refusal
+from seismass.base.values import is_one_of, known_id, refusal
 from seismass.model.codes import VERIFIED
 
 
@@ -218,6 +218,6 @@ def importance_factor(risk_category: str) -> float:
 def known_category(risk_category: str) -> str:
     """Return a risk category in capitals; an unknown one is refused."""
     wanted = str(risk_category).strip().upper()
-    if wanted not in _IMPORTANCE:
+    if not is_one_of(wanted, _IMPORTANCE):
         raise refusal(InvalidOption, "risk_category", "building", "one of I, II, III, IV", repr(risk_category))
     return wanted

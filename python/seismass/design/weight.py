@@ -12,7 +12,18 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, as_number, brief, frozen, known_id, refusal
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    as_number,
+    brief,
+    content_hash,
+    frozen,
+    is_one_of,
+    known_id,
+    refusal,
+    same_content,
+)
 from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, code_fraction
 
 FloorUse: TypeAlias = Literal["storage", "ordinary", "garage"]
@@ -78,6 +89,9 @@ class SeismicWeight:
     table: pl.DataFrame
     rules: pl.DataFrame
     status: str
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def total(self) -> float:
@@ -221,7 +235,7 @@ class _Rules:
 def _fraction(code: str, use: FloorUse, is_roof: bool, rules: _Rules) -> tuple[float, str]:
     """Fraction of the live load of a floor, and an exception in words."""
     if use == "garage":
-        if code not in _GARAGE:
+        if not is_one_of(code, _GARAGE):
             raise refusal(InvalidOption, "use", f"code {code}", "storage or ordinary", "'garage'")
         rules.add("live load of public garages and open parking structures is exempt", *_GARAGE[code])
         return 0.0, "garage"
@@ -248,7 +262,7 @@ def _uses(
         requirement = f"one use or a list of {len(live)}, one per floor"
         raise refusal(InvalidOption, "use", "seismic weight", requirement, f"{len(given)} of them")
     for one in given:
-        if one not in get_args(FloorUse):
+        if not is_one_of(one, get_args(FloorUse)):
             raise refusal(InvalidOption, "use", "seismic weight", f"one of {', '.join(get_args(FloorUse))}", brief(one))
     return given
 
@@ -261,7 +275,7 @@ def _partitions(
         return np.zeros(floors)
     given = as_array(partitions, "partitions", "seismic weight", InvalidOption)
     stated = _loads(np.nan_to_num(given, nan=0.0), "partitions", floors)
-    if code not in _ASCE:
+    if not is_one_of(code, _ASCE):
         return stated
     if areas is None:
         raise refusal(InvalidOption, "area", "seismic weight", "given where partitions are", "none")
@@ -277,7 +291,7 @@ def _snow(snow: float | None, code: str, areas: FloatArray | None, floors: int, 
     load = as_number(snow, "snow", "seismic weight", InvalidOption)
     if not 0.0 <= load < np.inf:
         raise refusal(InvalidOption, "snow", "seismic weight", "a load of at least 0 (Pa)", f"{load:g}")
-    if code not in _SNOW:
+    if not is_one_of(code, _SNOW):
         raise refusal(
             InvalidOption, "snow", f"code {code}", "left out: its rule for snow is not known here", f"{load:g}"
         )

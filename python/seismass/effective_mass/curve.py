@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, brief, refusal
+from seismass.base.values import FloatArray, as_array, brief, is_one_of, refusal
 
 Statistic: TypeAlias = Literal["mean", "median"]
 """What is taken of the largest drifts over the records."""
@@ -30,7 +30,7 @@ DEFAULT_FRACTIONS: Final = np.linspace(0.0, 1.0, 101)
 
 def check_statistic(statistic: Any, owner: str) -> Statistic:
     """Return the name of a statistic."""
-    if statistic not in get_args(Statistic):
+    if not is_one_of(statistic, get_args(Statistic)):
         raise refusal(InvalidOption, "statistic", owner, "mean or median", brief(statistic))
     checked: Statistic = statistic
     return checked

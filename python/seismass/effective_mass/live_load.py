@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content
 from seismass.base.views import view
 from seismass.effective_mass.curve import check_fractions, interpolated, over_records, resampled
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
@@ -83,6 +83,9 @@ class LiveLoadUncertainty(Result):
     unit: str
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     def exceedance(self, fraction: float) -> float:
         """Return the probability that the share to attach is above a code's fraction of the design live load."""
@@ -262,7 +265,7 @@ def _sampled(distribution: Any, levels: FloatArray, name: str, most: float) -> F
     if isinstance(distribution, Distribution):
         values = np.asarray(distribution.ppf(levels), dtype=np.float64)
     elif isinstance(distribution, Real) and not isinstance(distribution, bool):
-        values = np.full(len(levels), float(distribution))
+        values = np.full(len(levels), as_number(distribution, name, owner, InvalidOption))
     else:
         requirement = "a frozen distribution of scipy.stats, or a number"
         raise refusal(InvalidOption, name, owner, requirement, brief(distribution))

@@ -8,7 +8,7 @@ import numpy as np
 
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_number, brief, refusal
+from seismass.base.values import FloatArray, as_number, brief, is_one_of, refusal
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 
@@ -111,7 +111,7 @@ def check_loaded(scene: Any) -> Scene:
 
 def check_damping(damping: Any, owner: str) -> ModelDamping:
     """Return a convention of damping."""
-    if damping not in get_args(ModelDamping):
+    if not is_one_of(damping, get_args(ModelDamping)):
         raise refusal(InvalidOption, "damping", owner, "same or ratio", brief(damping))
     checked: ModelDamping = damping
     return checked

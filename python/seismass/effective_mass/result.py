@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
+from seismass.base.values import content_hash, same_content
 from seismass.base.views import view
 from seismass.effective_mass.by_hand import ByHand
 from seismass.effective_mass.curve import Kind
@@ -116,6 +117,9 @@ class EffectiveMass(Result):
     collapses: dict[str, int] = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def text(self) -> str:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, SimulationError
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray, as_progress, as_threads, brief, refusal
 from seismass.model.motion import HasMotion, Motion, as_motion
 from seismass.model.scene import Scene
 
@@ -127,6 +127,7 @@ def solve(
     KeyboardInterrupt
         Ctrl-C was pressed.
     """
+    threads, progress = as_threads(threads, "runs"), as_progress(progress, "runs")
     count, storeys = len(motions), scenes[0].storeys
     runs = np.stack(np.divmod(np.arange(len(scenes) * count), count), axis=1)
     batch = _kernel.simulate_many(
@@ -173,7 +174,7 @@ class Stages:
     """Progress of several batches as progress of one whole."""
 
     def __init__(self, progress: Progress | None, total: int) -> None:
-        self._progress = progress
+        self._progress = as_progress(progress, "runs")
         self._total = total
         self._done = 0
 

@@ -10,7 +10,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_positive, brief, refusal
+from seismass.base.values import FloatArray, as_positive, brief, is_one_of, refusal
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping
 from seismass.fragility import estimate
 from seismass.fragility.assemble import Fits, result_of
@@ -119,7 +119,7 @@ def incremental_dynamic_analysis(
     ['real', 'code', 'attached']
     """
     owner = "incremental dynamic analysis"
-    if method not in ("hunt_fill", "stripes"):
+    if not is_one_of(method, ("hunt_fill", "stripes")):
         raise refusal(InvalidOption, "method", owner, "hunt_fill or stripes", brief(method))
     if method == "stripes":
         if intensities is None or hunt is not None:
@@ -346,7 +346,7 @@ def _with(setting: Setting, limit: LimitState) -> list[str]:
 
 
 def _rule(capacity: Any, owner: str) -> CapacityRule:
-    if capacity not in get_args(CapacityRule):
+    if not is_one_of(capacity, get_args(CapacityRule)):
         raise refusal(InvalidOption, "capacity", owner, "first or last", brief(capacity))
     checked: CapacityRule = capacity
     return checked

@@ -11,7 +11,8 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass.base.values import counted
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_array, counted
 from seismass.effective_mass.tables import motion_bytes, scene_bytes
 from seismass.fragility.compare import comparison_table, curve_table, exceedance_table, fragility_table
 from seismass.fragility.fragility import BootstrapOptions, Fragility
@@ -38,7 +39,7 @@ def result_of(
 ) -> FragilityAnalysis:
     """Return the result with its tables, remarks and metadata."""
     names, motions = tuple(setting.models), setting.motions
-    levels = np.unique(np.atleast_1d(np.asarray(at, dtype=np.float64)))
+    levels = np.unique(as_array(at, "at", "intensity analysis", InvalidOption, or_number=True))
     if len(levels):
         check_levels(levels, "intensities of comparison", "at")
     known = capacities if capacities is not None else pl.DataFrame()

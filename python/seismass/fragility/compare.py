@@ -8,11 +8,12 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
+from seismass.base.quantiles import interval_of
 from seismass.base.values import FloatArray
 from seismass.fragility.fragility import Fragility
 from seismass.fragility.limits import LimitState
 from seismass.fragility.models import REAL
-from seismass.fragility.probability import interval_of, medians_and_dispersions, probabilities
+from seismass.fragility.probability import medians_and_dispersions, probabilities
 
 MODEL_LEVELS: Final = (0.10, 0.50)
 """Probabilities of the compared models at whose intensities the reference is looked at: 10 % as the collapse goal of

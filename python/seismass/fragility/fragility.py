@@ -9,9 +9,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, as_count, as_number, as_positive, brief, counted, refusal
+from seismass.base.quantiles import interval_of
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    as_count,
+    as_number,
+    as_positive,
+    brief,
+    content_hash,
+    counted,
+    refusal,
+    same_content,
+)
 from seismass.fragility.likelihood import Fits, capacity_fits, cloud_fits, probit_fits
-from seismass.fragility.probability import NO_COLLAPSE, interval_of, medians_and_dispersions, probabilities, quantiles
+from seismass.fragility.probability import NO_COLLAPSE, medians_and_dispersions, probabilities, quantiles
 
 FragilityKind: TypeAlias = Literal["fitted", "step", "never", "always", "falling", "none"]
 """How a fit ended; see `Fragility`."""
@@ -84,6 +96,9 @@ class Fragility:
     curve: FloatArray = field(repr=False)
     samples: FloatArray = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     def probability(self, intensity: ArrayLike) -> FloatArray:
         """Return the probability that the limit is exceeded, in the shape of `intensity`.

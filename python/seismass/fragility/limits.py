@@ -11,7 +11,7 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.values import FloatArray, as_count, as_number, brief, is_one_of, refusal
 from seismass.model.scene import Scene
 
 Quantity: TypeAlias = Literal[
@@ -95,7 +95,7 @@ class LimitState:
 
     def __post_init__(self) -> None:
         owner = "limit state"
-        if self.quantity not in get_args(Quantity):
+        if not is_one_of(self.quantity, get_args(Quantity)):
             known = ", ".join(get_args(Quantity))
             raise refusal(InvalidOption, "quantity", owner, f"one of {known}", brief(self.quantity))
         value = as_number(self.value, "value", owner, InvalidOption)
@@ -117,7 +117,7 @@ class LimitState:
             as_count(self.block, "block", owner, InvalidOption, least=1)
             if self.quantity not in _OF_BLOCKS:
                 raise refusal(InvalidOption, "block", owner, "left out for what is no slip", f"{self.block}")
-        if self.collapsed not in get_args(CollapsedRun):
+        if not is_one_of(self.collapsed, get_args(CollapsedRun)):
             raise refusal(InvalidOption, "collapsed", owner, "exceeds or peak", brief(self.collapsed))
         if self.collapsed == "peak" and self.quantity not in _WITH_PEAK:
             requirement = f"exceeds for {self.quantity}, which has no value after a collapse"

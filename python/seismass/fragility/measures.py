@@ -13,7 +13,7 @@ import numpy as np
 
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_count, as_number, as_positive, brief, refusal
+from seismass.base.values import FloatArray, as_count, as_number, as_positive, brief, is_one_of, refusal
 from seismass.effective_mass.runs import named_motions
 from seismass.model.motion import MotionLike
 from seismass.model.scene import Scene
@@ -69,7 +69,7 @@ class IntensityMeasure:
 
     def __post_init__(self) -> None:
         owner = "intensity measure"
-        if self.name not in get_args(MeasureName):
+        if not is_one_of(self.name, get_args(MeasureName)):
             raise refusal(InvalidOption, "name", owner, f"one of {', '.join(get_args(MeasureName))}", brief(self.name))
         if self.name in ("sa_t1", "sa_avg"):
             if self.period is None:
@@ -186,7 +186,7 @@ def measure_for(measure: MeasureName | IntensityMeasure, scene: Scene, period: f
             requirement = f"left out, or that of the measure, {measure.period}"
             raise refusal(InvalidOption, "period", "intensity measure", requirement, brief(period))
         return measure
-    if measure not in ("sa_t1", "sa_avg"):
+    if not is_one_of(measure, ("sa_t1", "sa_avg")):
         return IntensityMeasure(measure)
     if period is None and scene.building is not None:
         period = float(scene.building.periods[0])

@@ -82,13 +82,13 @@ def quantiles(curves: FloatArray, share: float) -> FloatArray:
 
 def _parts_reach(curves: FloatArray, share: float) -> FloatArray:
     """Intensity at which the first of the two parts of each curve reaches a probability."""
-    from scipy.special import ndtri  # slow to import
+    from scipy.special import logit, ndtri  # slow to import
 
     median, dispersion, centre, width = curves.T
     inside = np.isfinite(median) & (median > 0.0)
     lognormal = np.where(inside, median * np.exp(np.where(inside, dispersion, 0.0) * ndtri(share)), median)
     with np.errstate(over="ignore"):
-        logistic = centre * np.exp(-width * np.log(1.0 / share - 1.0))
+        logistic = centre * np.exp(width * logit(share))
     return np.asarray(np.minimum(lognormal, logistic))
 
 
@@ -104,27 +104,3 @@ def medians_and_dispersions(curves: FloatArray) -> tuple[FloatArray, FloatArray]
     with np.errstate(divide="ignore", invalid="ignore"):
         dispersion = 0.5 * (np.log(high) - np.log(low))
     return middle, np.where(alone, curves[:, 1], dispersion)
-
-
-def interval_of(values: FloatArray, confidence: float) -> tuple[FloatArray, FloatArray]:
-    """Return the ends of the percentile interval over the first axis.
-
-    NaN are left out. An end between a finite and an infinite value is infinite.
-    """
-    ordered = np.sort(values, axis=0)  # NaN last
-    number = np.count_nonzero(~np.isnan(values), axis=0)
-    last = np.maximum(number - 1, 0)
-    tail = 0.5 * (1.0 - confidence)
-    ends = []
-    for share in (tail, 1.0 - tail):
-        place = share * last
-        low = np.floor(place).astype(np.int64)
-        below, above = (
-            np.take_along_axis(ordered, np.asarray(index)[None], axis=0)[0]
-            for index in (low, np.minimum(low + 1, last))
-        )
-        with np.errstate(invalid="ignore"):
-            between = below + (place - low) * (above - below)
-        equal = (below == above) | (place == low)
-        ends.append(np.where(equal, below, np.where(np.isinf(above), above, between)))
-    return ends[0], ends[1]

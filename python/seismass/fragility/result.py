@@ -11,7 +11,8 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.quantiles import quantile
+from seismass.base.values import FloatArray, brief, content_hash, is_one_of, refusal, same_content
 from seismass.base.views import view
 from seismass.fragility.compare import reference_of
 from seismass.fragility.fragility import Fragility
@@ -93,6 +94,9 @@ class FragilityAnalysis(Result):
     metadata: dict[str, Any] = field(repr=False)
     fits: dict[tuple[str, str], Fragility] = field(repr=False)
 
+    __eq__ = same_content
+    __hash__ = content_hash
+
     @property
     def reference(self) -> str:
         """Name of the model with which others are compared."""
@@ -158,9 +162,7 @@ class FragilityAnalysis(Result):
         -----
         Vamvatsikos and Cornell (2002), section 5. Between intensities that were solved curves are linear.
         """
-        from seismass.study.tables import quantile  # brings the whole study
-
-        if given not in ("intensity", "demand"):
+        if not is_one_of(given, ("intensity", "demand")):
             raise refusal(InvalidOption, "given", "fractiles", "intensity or demand", brief(given))
         if self.capacities.is_empty():
             requirement = "those of motions that are scaled to several intensities"

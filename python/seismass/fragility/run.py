@@ -11,7 +11,7 @@ import polars as pl
 from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidOption, SimulationError
-from seismass.base.values import FloatArray, as_array, refusal
+from seismass.base.values import FloatArray, as_array, as_progress, refusal
 from seismass.effective_mass.runs import NamedMotions, named_motions
 from seismass.fragility.limits import LimitState, as_limits
 from seismass.fragility.measures import IntensityMeasure, MeasureName, measure_for
@@ -247,4 +247,5 @@ def _parts(setting: Setting, motion: IndexArray, scale: FloatArray) -> list[slic
 
 
 def _since(progress: Progress | None, first: int, total: int) -> Progress | None:
-    return None if progress is None else lambda done, _: progress(first + done, total)
+    report = as_progress(progress, "intensity analysis")
+    return None if report is None else lambda done, _: report(first + done, total)

@@ -8,7 +8,7 @@ from pathlib import Path
 from seismass.base.errors import InvalidOption
 from seismass.base.files import written_whole
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import as_path, brief, refusal
+from seismass.base.values import as_path, brief, is_one_of, refusal
 from seismass.records.record import Record
 
 SUFFIXES = (".at2", ".csv")
@@ -33,7 +33,7 @@ def write_record(record: Record, path: str | os.PathLike[str]) -> None:
     """
     target = as_path(path, "matched record", InvalidOption)
     kind = target.suffix.lower()
-    if kind not in SUFFIXES:
+    if not is_one_of(kind, SUFFIXES):
         raise refusal(InvalidOption, "path", "matched record", "a name that ends in .AT2 or .csv", brief(target.name))
     text = _at2(record) if kind == ".at2" else _csv(record)
     with written_whole(Path(target)) as temporary:

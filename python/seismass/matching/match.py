@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.elementary import exp, geomspace, log, rounded
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, refusal
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, is_one_of, refusal
 from seismass.matching.remarks import matching_remarks
 from seismass.matching.result import MatchedRecord, MatchedSuite
 from seismass.matching.solver import Ratios, adjust
@@ -302,6 +302,8 @@ def _ordinates(target: Target, periods: FloatArray) -> FloatArray:
     """The target at periods, checked."""
     if not callable(target):
         raise refusal(InvalidOption, "target", "matching", "a TargetSpectrum or a function of periods", brief(target))
+    if isinstance(target, type):
+        raise refusal(InvalidOption, "target", "matching", "a TargetSpectrum or a function of periods", brief(target))
     ordinates = as_array(target(periods), "target", "matching", InvalidOption)
     if ordinates.shape != periods.shape:
         got = f"{len(ordinates)} for {len(periods)} periods"
@@ -339,7 +341,7 @@ def _guards(
 def _factor(scale: Literal["least_squares", "none"] | float, ratios: FloatArray, tolerance: float) -> float:
     """The factor by which the record is multiplied first: 1 where it is within the tolerance as it is."""
     if isinstance(scale, str):
-        if scale not in ("least_squares", "none"):
+        if not is_one_of(scale, ("least_squares", "none")):
             raise refusal(InvalidOption, "scale", "matching", "least_squares, none or a factor", brief(scale))
         if scale == "none" or np.max(np.abs(ratios - 1.0)) <= tolerance:
             return 1.0

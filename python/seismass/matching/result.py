@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray, counted
+from seismass.base.values import FloatArray, content_hash, counted, same_content
 from seismass.base.views import view
 from seismass.matching.files import write_record
 from seismass.records.intensity import build_up
@@ -90,6 +90,9 @@ class MatchedRecord:
     wide_before: FloatArray
     wide_after: FloatArray
     remarks: tuple[str, ...]
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     def __repr__(self) -> str:
         name, largest = self.record.name or "(unnamed)", 100.0 * self.misfit.largest
@@ -242,6 +245,9 @@ class MatchedSuite:
 
     suite: Suite
     matched: tuple[MatchedRecord, ...]
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     def __len__(self) -> int:
         return len(self.matched)

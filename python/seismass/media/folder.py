@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import os
+import stat
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
@@ -12,7 +15,7 @@ from typing import TYPE_CHECKING, Final, Literal
 import polars as pl
 
 from seismass.base.errors import InvalidOption
-from seismass.base.files import write_table, written_whole
+from seismass.base.files import open_regular, read_file, write_table, written_whole
 from seismass.base.values import refusal
 
 if TYPE_CHECKING:
@@ -21,6 +24,8 @@ if TYPE_CHECKING:
 
 PAGE: Final = "report.html"
 """File of the page of a folder."""
+FILES: Final = "files.json"
+"""File with the names and SHA-256 of what was written, by which a later call knows its own."""
 
 
 def check_out(out: Path, owner: str) -> None:
@@ -64,6 +69,7 @@ def write_folder(
     figures: Mapping[str, Figure] | None = None,
     kinds: Sequence[Literal["png", "svg"]] = ("png", "svg"),
     metadata: Mapping[str, dict[str, str]] | None = None,
+    earlier: Callable[[str], bool] | None = None,
 ) -> list[Path]:
     """Write tables (Parquet and CSV), documents and figures to a folder, which is made if it is missing.
 
@@ -79,6 +85,9 @@ def write_folder(
         Formats of the figures.
     metadata : mapping of str to dict, optional
         Key-value metadata of the Parquet file of each table that has any.
+    earlier : callable, optional
+        Whether a file name is one that is removed where an earlier call has written it and this one does not. Then
+        files.json is written, and only what the earlier one names, unchanged since, is removed.
 
     Returns
     -------
@@ -104,7 +113,41 @@ def write_folder(
             for kind in kinds:
                 writers[f"{name}.{kind}"] = partial(save_figure, figure, kind)
     out.mkdir(parents=True, exist_ok=True)
+    before = {} if earlier is None else _listed(out)
     with ExitStack() as stack:
+        places = {}
         for name, write in writers.items():
-            write(stack.enter_context(written_whole(out / name)))
-    return [out / name for name in writers]
+            places[name] = stack.enter_context(written_whole(out / name))
+            write(places[name])
+        if earlier is not None:
+            listed = {name: _sha256(place) for name, place in places.items()}
+            text = json.dumps({"sha256": listed}, indent=1) + "\n"
+            places[FILES] = stack.enter_context(written_whole(out / FILES))
+            places[FILES].write_text(text, encoding="utf-8")
+    if earlier is not None:
+        for name in before:
+            if name not in places and earlier(name) and _is_file_with(out / name, before[name]):
+                (out / name).unlink()
+    return [out / name for name in places]
+
+
+def _listed(out: Path) -> dict[str, str]:
+    """Digests by name of the files that an earlier call has written; none where that is not known."""
+    try:
+        found = json.loads(read_file(out / FILES, follow=False))["sha256"]
+        return {name: sha256 for name, sha256 in found.items() if isinstance(sha256, str) and Path(name).name == name}
+    except (OSError, ValueError, RecursionError, LookupError, TypeError, AttributeError):
+        return {}
+
+
+def _is_file_with(path: Path, sha256: str) -> bool:
+    """Whether a regular file, and no link, has these bytes."""
+    try:
+        return stat.S_ISREG(path.lstat().st_mode) and _sha256(path) == sha256
+    except OSError:
+        return False
+
+
+def _sha256(path: Path) -> str:
+    with open_regular(path, follow=False) as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Unpack
+from typing import Any, Final, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass.base.errors import InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.base.values import FloatArray, Value, as_array, as_count, as_flag, as_number, brief, frozen, refusal
 from seismass.base.views import view
 from seismass.model.damping import DEFAULT_DAMPING, Damping, Rayleigh, kernel_damping, read_damping
 from seismass.model.spring_laws import (
@@ -192,7 +192,7 @@ class Building(Value):
             backbone=backbones,
             hysteresis=read_hysteresis(hysteresis, storeys),
             damping=read_damping(damping),
-            mass_is_stated=bool(mass_is_stated),
+            mass_is_stated=as_flag(mass_is_stated, "mass_is_stated", "building", InvalidScene),
         )
         stated = {name: values for name, values in self.springs.items() if not is_default(values, name)}
         check_parts(stated, self.backbone, self.hysteresis)
@@ -426,9 +426,12 @@ def as_fraction_of_weight(value: Any, storeys: int) -> FloatArray:
     return fraction
 
 
+_MAY_BE_NONE: Final = ("heights", "gravity_load", "geometric_stiffness")
+
+
 def _array(name: str, value: ArrayLike | None) -> FloatArray | None:
     """An argument as an array, of shape () where it is one number."""
-    if value is None:
+    if value is None and name in _MAY_BE_NONE:
         return None
     if is_default(value, name):
         return value

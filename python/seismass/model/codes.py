@@ -11,7 +11,7 @@ from typing import Final, Literal, TypeAlias, get_args
 import polars as pl
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import brief, known_id, refusal
+from seismass.base.values import brief, is_one_of, known_id, refusal
 
 __all__ = [
     "AS_STATED",
@@ -318,7 +318,7 @@ def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:
     'from memory, unverified'
     """
     wanted = known_id(code_id, CODE_IDS, "code")
-    if use not in get_args(Use):
+    if not is_one_of(use, get_args(Use)):
         raise refusal(InvalidOption, "use", "code", f"one of {', '.join(get_args(Use))}", brief(use))
     found = {row.use: row for row in _ROWS if row.code_id == wanted}
     if use not in found:

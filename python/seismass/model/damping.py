@@ -31,7 +31,8 @@ class Rayleigh:
     Raises
     ------
     InvalidScene
-        The modes are not two whole numbers from 1, or the ratio is not a number of at most 1.
+        The modes are not two whole numbers from 1, or the ratio is not a number. A building refuses a ratio
+        that is not from 0 to 1, and modes that it does not have.
     """
 
     ratio: float
@@ -43,7 +44,7 @@ class Rayleigh:
             raise refusal(InvalidScene, "modes", "Rayleigh damping", "two mode numbers", brief(modes))
         checked = tuple(as_count(mode, "modes", "Rayleigh damping", InvalidScene, least=1) for mode in modes)
         object.__setattr__(self, "modes", checked)
-        object.__setattr__(self, "ratio", _damping_ratio(self.ratio, "ratio", "Rayleigh damping"))
+        object.__setattr__(self, "ratio", as_number(self.ratio, "ratio", "Rayleigh damping", InvalidScene))
 
 
 Damping: TypeAlias = float | Rayleigh | ArrayLike
@@ -51,22 +52,14 @@ Damping: TypeAlias = float | Rayleigh | ArrayLike
 
 
 def read_damping(damping: Any) -> float | Rayleigh | FloatArray:
-    """Return damping as a building holds it."""
+    """Return damping as a building holds it; the kernel refuses a ratio that is none, 5 for 5 % among them."""
     if isinstance(damping, Rayleigh):
         return damping
     if isinstance(damping, Real) or (isinstance(damping, np.ndarray) and damping.ndim == 0):
-        return _damping_ratio(damping, "damping", "building")
+        return as_number(damping, "damping", "building", InvalidScene)
     if damping is None or isinstance(damping, str | bytes):
         raise refusal(InvalidScene, "damping", "building", "a ratio, Rayleigh damping or a matrix", brief(damping))
     return as_array(damping, "damping", "building", InvalidScene, dimensions=2)
-
-
-def _damping_ratio(value: Any, parameter: str, owner: str) -> float:
-    """Return a ratio of critical damping; what is above 1 was meant in per cent, and the kernel refuses the rest."""
-    ratio = as_number(value, parameter, owner, InvalidScene)
-    if ratio > 1.0:
-        raise refusal(InvalidScene, parameter, owner, "a ratio of at most 1 (0.05 for 5 %)", f"{ratio:g}")
-    return ratio
 
 
 def kernel_damping(damping: float | Rayleigh | FloatArray) -> dict[str, Any]:

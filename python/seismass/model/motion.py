@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
-from typing import Any, Protocol, TypeAlias, runtime_checkable
+from typing import Any, Final, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +13,12 @@ from seismass import _kernel
 from seismass.base.errors import InvalidMotion
 from seismass.base.units import STANDARD_GRAVITY, acceleration_factor
 from seismass.base.values import FloatArray, Value, as_array, as_number, brief, frozen, refusal
+
+MOST_SAMPLES: Final = 10_000_000
+"""Most samples of a motion of a file, or to which one is continued: some hundred megabytes in a run."""
+MOST_SECONDS: Final = 10_000.0
+"""Longest motion of a file, and longest time to which one is continued (s): five times that of any recording. It keeps
+the cost of a run to seconds, and a step in milliseconds exceeds it."""
 
 
 class Motion(Value):
@@ -99,9 +106,14 @@ class Motion(Value):
         Raises
         ------
         InvalidMotion
-            The duration is negative or not finite.
+            The duration is negative or not finite, or after the last sample and more than 10^4 s or 10^7 steps.
         """
-        changed = self._kernel.with_duration(as_number(duration, "duration", "motion", InvalidMotion))
+        end = as_number(duration, "duration", "motion", InvalidMotion)
+        most = max(min(MOST_SECONDS, MOST_SAMPLES * self.dt), self.duration)
+        if most < end < math.inf:  # what is not finite is refused by the kernel
+            got = f"{end:g} s at a step of {self.dt:g} s"
+            raise refusal(InvalidMotion, "duration", "motion", f"at most {most:g} s", got)
+        changed = self._kernel.with_duration(end)
         return Motion(changed.acceleration, self.dt, changed.vertical)
 
     def scaled(self, factor: float) -> Motion:
@@ -121,6 +133,21 @@ class Motion(Value):
     def __repr__(self) -> str:
         vertical = "" if self.vertical is None else ", with vertical"
         return f"Motion({self.samples} samples x {self.dt:g} s, PGA = {self.pga_g:.4g} g{vertical})"
+
+
+def check_size(samples: int, dt: float, owner: str) -> None:
+    """Refuse a motion of a file whose runs would ask for minutes or for all memory.
+
+    Raises
+    ------
+    InvalidMotion
+        More than `MOST_SAMPLES` samples, or a motion longer than `MOST_SECONDS`.
+    """
+    if samples > MOST_SAMPLES:
+        raise refusal(InvalidMotion, "samples", owner, f"at most {MOST_SAMPLES}", str(samples))
+    if (samples - 1) * dt > MOST_SECONDS:
+        requirement = f"a step in seconds by which the motion ends before {MOST_SECONDS:g} s"
+        raise refusal(InvalidMotion, "dt", owner, requirement, f"{dt:g} for {samples} samples")
 
 
 @runtime_checkable

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.errors import InvalidScene
-from seismass.base.values import FloatArray, Value, as_array, brief, frozen, refusal
+from seismass.base.values import FloatArray, Value, as_array, as_name, brief, frozen, refusal
 from seismass.base.views import view
 from seismass.model.block import Block, block_mass
 from seismass.model.building import Building
@@ -108,8 +108,8 @@ class Scene(Value):
             initial_drift=per_storey("initial_drift", initial_drift),
             initial_velocity=per_storey("initial_velocity", initial_velocity),
             collapse_drift=per_storey("collapse_drift", collapse_drift),
-            name=str(name),
-            note=str(note),
+            name=as_name(name, "name", "scene", InvalidScene),
+            note=as_name(note, "note", "scene", InvalidScene, lines=True),
         )
         self._set(
             _kernel=_kernel.Scene(

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidScene
-from seismass.base.values import FloatArray, as_array, brief, frozen, refusal
+from seismass.base.values import FloatArray, as_array, brief, frozen, is_one_of, refusal
 from seismass.model.springs import HYSTERESES, SPRING_FIELDS, TRILINEAR, Hysteresis, Part
 
 Backbone: TypeAlias = tuple[tuple[float, float], ...]
@@ -76,7 +76,7 @@ def read_hysteresis(value: Any, storeys: int) -> tuple[Hysteresis, ...]:
         requirement = f"one name or a list of {storeys}, one per storey"
         raise refusal(InvalidScene, "hysteresis", "building", requirement, f"{len(given)} of them")
     for item in given:
-        if item not in HYSTERESES:
+        if not is_one_of(item, HYSTERESES):
             raise refusal(InvalidScene, "hysteresis", "building", " or ".join(HYSTERESES), brief(item))
     checked: tuple[Hysteresis, ...] = tuple(given)
     return checked

@@ -13,12 +13,12 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
+from seismass.base.quantiles import quantile
 from seismass.base.values import FloatArray, as_number, refusal
 from seismass.fragility.fragility import fit_counts
 from seismass.media.axes import grid_lines, single
 from seismass.media.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, plain
 from seismass.plots.columns import checked_table, demand_of, in_unit, label_of, one_value
-from seismass.study.tables import quantile
 
 FRACTILES: Final[tuple[tuple[float, str, dict[str, Any]], ...]] = (
     (0.16, "16 %", {"color": BLUE, "linestyle": (0, (1.2, 1.2)), "linewidth": 1.6}),

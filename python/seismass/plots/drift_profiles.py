@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
+from seismass.base.quantiles import quantile
 from seismass.base.values import FloatArray, refusal
 from seismass.media.axes import grid_lines, single
 from seismass.media.style import GREY, STYLE
 from seismass.plots.batches import FRACTILES
 from seismass.plots.columns import checked_table, in_unit, label_of
-from seismass.study.tables import quantile
 
 
 def drift_profiles(table: pl.DataFrame, demand: str = "peak_drift", *, ax: Axes | None = None) -> Figure:

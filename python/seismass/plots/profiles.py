@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import as_number, brief, refusal
+from seismass.base.values import as_number, brief, is_one_of, refusal
 from seismass.media.axes import columns, grid_lines, single
 from seismass.media.style import BLUE, GREY, INK, PERIOD_TICKS, SERIES, STYLE, VERMILION
 from seismass.model.motion import Motion
@@ -73,7 +73,7 @@ def profile(
     chosen = [quantities] if isinstance(quantities, str) else list(quantities)
     known = _quantities(response)
     for name in chosen:
-        if name not in ("drift", "acceleration", "shear", "slip"):
+        if not is_one_of(name, ("drift", "acceleration", "shear", "slip")):
             raise refusal(InvalidOption, "quantities", owner, "some of drift, acceleration, shear, slip", brief(name))
     shown = [name for name in chosen if name in known]
     bounds = {name: as_number(value, "limit", owner, InvalidOption) for name, value in (limits or {}).items()}

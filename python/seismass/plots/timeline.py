@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray, brief, is_one_of, refusal
 from seismass.media.axes import grid_lines, single
 from seismass.media.style import BLUE, GREEN, INK, PAPER, PURPLE, STYLE, VERMILION
 from seismass.runs.response import EVENT_KINDS, Response
@@ -51,7 +51,7 @@ def chosen_kinds(kinds: bool | Sequence[str], usual: tuple[str, ...], owner: str
         return usual if kinds else ()
     listed = (kinds,) if isinstance(kinds, str) else tuple(kinds)
     for kind in listed:
-        if kind not in EVENT_KINDS:
+        if not is_one_of(kind, EVENT_KINDS):
             raise refusal(
                 InvalidOption, "events", owner, f"True, False or some of {', '.join(EVENT_KINDS)}", brief(kind)
             )
@@ -62,7 +62,7 @@ def event_times(response: Response, kind: str, number: int) -> FloatArray:
     """Return when a kind of event happened to a storey or block counted from 1; of all blocks to any of them."""
     log = response.event_log
     chosen = log["kind"] == kind
-    if kind not in ALL_BLOCKS:
+    if not is_one_of(kind, ALL_BLOCKS):
         chosen &= log["number"] == number
     times: FloatArray = log["time"][chosen]
     return times

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray
+from seismass.base.values import FloatArray, content_hash, same_content
 from seismass.base.views import view
 from seismass.pulses.wavelet import PERIOD_OF_SCALE
 
@@ -76,6 +76,9 @@ class Candidate:
     pulse: FloatArray
     residual: FloatArray
 
+    __eq__ = same_content
+    __hash__ = content_hash
+
     @property
     def is_pulse(self) -> bool:
         """Whether the method calls it a pulse."""
@@ -127,6 +130,9 @@ class PulseResult:
     names: tuple[str, ...]
     candidates: tuple[Candidate, ...]
     remarks: tuple[str, ...]
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def chosen(self) -> Candidate:
@@ -284,6 +290,9 @@ class OrientationScan:
     results: tuple[PulseResult, ...]
     angles: FloatArray
     remarks: tuple[str, ...]
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def pulses(self) -> int:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final, Literal
 
 from seismass.base.errors import InvalidOption, RecordFormatError
-from seismass.base.values import brief, refusal
+from seismass.base.values import brief, is_one_of, refusal
 from seismass.records.read import read_record
 from seismass.records.record import Record
 from seismass.records.suite import Suite, read_suite
@@ -45,7 +45,7 @@ def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
     InvalidOption
         Another name.
     """
-    found = next((listed for key, listed in _SUITES.items() if key == suite), None)
+    found = next((listed for key, listed in _SUITES.items() if is_one_of(suite, (key,))), None)
     if found is None:
         raise refusal(InvalidOption, "suite", "built-in motions", " or ".join(map(repr, _SUITES)), brief(suite))
     name, listed = found
@@ -61,7 +61,7 @@ def builtin_record(name: str) -> Record:
         No built-in motion has that name.
     """
     listed = _listed()
-    row = next((row for key, row in listed.items() if key == name), None)
+    row = next((row for key, row in listed.items() if is_one_of(name, (key,))), None)
     if row is None:
         first, *_, last = listed
         raise refusal(InvalidOption, "name", "built-in motion", f"one from {first} to {last}", brief(name))

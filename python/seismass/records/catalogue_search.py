@@ -11,6 +11,7 @@ from typing import Any, Final, Literal
 import numpy as np
 
 from seismass.base.errors import RecordFormatError
+from seismass.base.files import open_regular
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import as_path, printable
 from seismass.records.catalogue import RECORDINGS, SUBSTITUTES, Component, Recording
@@ -190,7 +191,7 @@ def _by_name(file: Path) -> Recording | None:
 def _title(file: Path) -> tuple[str, str, str] | None:
     """Event, station and component of the title of a damaged .AT2 file, or of one of velocities; else None."""
     try:
-        with file.open("rb") as opened:
+        with open_regular(file) as opened:
             head = opened.read(HEAD_BYTES).decode("latin-1")
         if format_of(head, file).name != "at2":
             return None

@@ -12,7 +12,7 @@ from typing import Any, Final, Literal
 import numpy as np
 
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, Value, as_number, brief, refusal
+from seismass.base.values import FloatArray, Value, as_number, brief, is_one_of, printable, refusal
 from seismass.records.formats.directions import azimuth_of, is_vertical
 from seismass.records.read import read_record
 from seismass.records.record import Record
@@ -75,7 +75,10 @@ class Pair(Value):
         if one is not None and other is not None and abs(abs(between(one, other)) - 90.0) > PERPENDICULAR:
             got = f"{one:g} and {other:g} degrees"
             raise refusal(InvalidMotion, "azimuths", what, f"at right angles within {PERPENDICULAR:g} degrees", got)
-        object.__setattr__(self, "remarks", tuple(self.remarks))
+        remarks: Any = self.remarks
+        if not isinstance(remarks, tuple | list) or not all(isinstance(one, str) for one in remarks):
+            raise refusal(InvalidMotion, "remarks", what, "a tuple of strings", brief(remarks))
+        object.__setattr__(self, "remarks", tuple(printable(one) for one in remarks))
 
     @classmethod
     def from_records(
@@ -104,7 +107,7 @@ class Pair(Value):
         InvalidOption
             Another value of `lengths`.
         """
-        if lengths not in ("shorter", "padded"):
+        if not is_one_of(lengths, ("shorter", "padded")):
             raise refusal(InvalidOption, "lengths", "pair", "shorter or padded", brief(lengths))
         for name, record in (("first", first), ("second", second)):
             if not isinstance(record, Record):

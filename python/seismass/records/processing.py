@@ -13,7 +13,7 @@ from typing import Any, Final, Literal, Protocol, Self, TypeVar
 import numpy as np
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.values import FloatArray, as_count, as_flag, as_number, brief, is_one_of, refusal
 from seismass.records.intensity import integrals
 
 HIGHEST_ORDER: Final = 10
@@ -109,7 +109,7 @@ def baseline_corrected(record: R, order: int = 1, fit: Literal["velocity", "acce
     degree = as_count(order, "order", "baseline correction", InvalidOption)
     if degree > HIGHEST_ORDER:
         raise refusal(InvalidOption, "order", "baseline correction", f"at most {HIGHEST_ORDER}", brief(order))
-    if fit not in ("velocity", "acceleration"):
+    if not is_one_of(fit, ("velocity", "acceleration")):
         raise refusal(InvalidOption, "fit", "baseline correction", "velocity or acceleration", brief(fit))
     if record.samples < degree + 2:
         requirement = f"at least {degree + 2} for a polynomial of degree {degree}"
@@ -187,6 +187,7 @@ def band_passed(
     rise = 0.5 * (1.0 - np.cos(np.pi * np.arange(tapered) / max(tapered, 1)))
     lowest = low if low is not None else high
     assert lowest is not None
+    keep_pads = as_flag(keep_pads, "keep_pads", "filter", InvalidOption)
     pad = math.ceil(1.5 * poles / (lowest * record.dt))
 
     def filtered(acceleration: FloatArray) -> FloatArray:
@@ -236,7 +237,8 @@ def resampled(record: R, dt: float) -> R:
     step = as_number(dt, "dt", "resampled record", InvalidOption)
     if not (math.isfinite(step) and step > 0.0):
         raise refusal(InvalidOption, "dt", "resampled record", "a positive number", brief(dt))
-    ratio = Fraction(record.dt / step).limit_denominator(LARGEST_TERM)
+    # So small a step has no ratio to the record's that a double can hold.
+    ratio = Fraction(min(record.dt / step, 2.0 * LARGEST_TERM)).limit_denominator(LARGEST_TERM)
     if ratio.numerator > LARGEST_TERM or abs(float(ratio) * step - record.dt) > 1e-9 * record.dt:
         requirement = f"in a ratio of whole numbers up to {LARGEST_TERM} to its step, {record.dt:g} s"
         raise refusal(InvalidOption, "dt", "resampled record", requirement, f"{step:g} s")

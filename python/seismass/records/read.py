@@ -5,12 +5,14 @@ from __future__ import annotations
 import hashlib
 import math
 import os
+import re
 from pathlib import Path
 from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
+from seismass.base.files import open_regular
 from seismass.base.units import ACCELERATION_UNITS, unit_by_name
 from seismass.base.values import as_number, as_path, brief
 from seismass.records.checks import suspicions
@@ -27,6 +29,10 @@ MOST_NULS: Final = 4
 
 _ALTERED: Final = "not as recorded"
 """Files of matched records say so in their header."""
+
+LONGEST_LINE: Final = 2**22
+"""Longest line of a record file (bytes): all samples of the longest records fit into one."""
+_LONG_LINE: Final = re.compile(rb"[^\r\n]{%d}" % (LONGEST_LINE + 1))
 
 LARGEST_BYTES: Final = 64 * 1024 * 1024
 """No record is larger: some five million samples as text, seven hours at 200 a second."""
@@ -177,13 +183,17 @@ def read_bytes(source: Path) -> bytes:
         It cannot be read, is binary, or is too large for a record.
     """
     try:
-        with source.open("rb") as file:
+        with open_regular(source) as file:
             head = file.read(HEAD_BYTES)
             refuse_binary(head, source)
             size = os.fstat(file.fileno()).st_size
-            if size > LARGEST_BYTES:
-                raise RecordFormatError(f"size of {source.name} must be at most {LARGEST_BYTES} bytes; got {size}")
-            content = head + file.read()
+            if size <= LARGEST_BYTES:  # else nothing more is read
+                content = head + file.read(LARGEST_BYTES + 1)
+                size = len(content)
+        if size > LARGEST_BYTES:
+            raise RecordFormatError(f"size of {source.name} must be at most {LARGEST_BYTES} bytes; got {size}")
+        if _LONG_LINE.search(content):
+            raise RecordFormatError(f"lines of {source.name} must be at most {LONGEST_LINE} bytes; got more")
     except OSError as error:
         raise RecordFormatError(
             f"record file must be a file that can be read; got {source} ({error.strerror or error})"

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidMotion
 from seismass.base.units import STANDARD_GRAVITY, acceleration_factor
-from seismass.base.values import Value, as_array, as_number, brief, frozen, refusal
+from seismass.base.values import Value, as_array, as_name, as_number, brief, frozen, printable, refusal
 from seismass.base.views import view
 from seismass.records import intensity, processing
 
@@ -91,6 +91,8 @@ class Record(Value):
     file_unit: str = "m/s2"
 
     def __post_init__(self, unit: str) -> None:
+        for label in ("name", "event", "station", "component", "network"):
+            object.__setattr__(self, label, as_name(getattr(self, label), label, "record", InvalidMotion))
         what = f"record {self.name}" if self.name else "record"
         factor = acceleration_factor(unit, what, InvalidMotion)
         object.__setattr__(self, "dt", _number("dt", self.dt, what, positive=True))
@@ -109,7 +111,7 @@ class Record(Value):
             sentences: Any = getattr(self, parameter)
             if not isinstance(sentences, tuple | list) or not all(isinstance(one, str) for one in sentences):
                 raise refusal(InvalidMotion, parameter, what, "a tuple of strings", brief(sentences))
-            object.__setattr__(self, parameter, tuple(sentences))
+            object.__setattr__(self, parameter, tuple(printable(one) for one in sentences))
 
     def _arguments(self) -> dict[str, Any]:
         return {field.name: getattr(self, field.name) for field in fields(self)}
@@ -136,9 +138,7 @@ class Record(Value):
     @cached_property
     def _integrals(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         velocity, displacement = intensity.integrals(self.acceleration, self.dt)
-        velocity.setflags(write=False)
-        displacement.setflags(write=False)
-        return velocity, displacement
+        return frozen(velocity), frozen(displacement)
 
     @property
     def velocity(self) -> NDArray[np.float64]:

@@ -11,7 +11,17 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    as_count,
+    as_number,
+    brief,
+    content_hash,
+    frozen,
+    refusal,
+    same_content,
+)
 from seismass.records.intensity import integrals, peak_displacement, peak_velocity
 from seismass.records.pair import Pair
 
@@ -57,6 +67,9 @@ class RotD:
     peak_angle: dict[str, float]
     damping: float
     kind: str
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     def __getitem__(self, percentile: float) -> FloatArray:
         """Return the spectrum of one of the percentiles, shape (periods,)."""

@@ -14,6 +14,7 @@ from pathlib import Path
 import polars as pl
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
+from seismass.base.files import open_regular
 from seismass.base.units import stated_unit
 from seismass.base.values import as_path, brief, printable, refusal
 from seismass.base.views import view
@@ -81,6 +82,7 @@ class Suite:
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
             raise refusal(InvalidMotion, "name", "suite", "a string", brief(self.name))
+        object.__setattr__(self, "name", printable(self.name))
         what = f"suite {self.name}"
         for parameter, item, kind in (
             ("records", "record", Record),
@@ -233,7 +235,7 @@ def read_file(file: Path) -> tuple[Record, ...] | str:
     if quantity:
         return f"not read: {printable(file.suffix)} files hold {quantity}"
     try:
-        with file.open("rb") as opened:
+        with open_regular(file) as opened:
             head = opened.read(HEAD_BYTES)
             size = os.fstat(opened.fileno()).st_size
         refuse_binary(head, file)

@@ -15,7 +15,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, as_number, brief, refusal
+from seismass.base.values import FloatArray, as_array, as_flag, as_number, brief, content_hash, refusal, same_content
 from seismass.media.result import finite_values
 from seismass.risk.hazard import HazardCurve, check_hazard, check_years
 
@@ -200,6 +200,9 @@ class AnnualRate:
     hazard: HazardCurve = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
 
+    __eq__ = same_content
+    __hash__ = content_hash
+
     def probability(self, years: float = YEARS) -> float:
         """Return the probability of at least one exceedance in so many years, as a Poisson process."""
         return float(-np.expm1(-self.value * check_years(years, OWNER)))
@@ -289,14 +292,15 @@ def annual_rate(fragility: Lognormal | ArrayLike, hazard: HazardCurve, *, extrap
         pieces = [float(capacity_rates(capacities, one).within) for one in _segments(curve)]
     within, below, above, least = (float(x) for x in (parts.within, parts.below, parts.above, parts.above_least))
     rates = np.array(pieces)
-    value = float(parts.total(bool(extrapolate)))
+    beyond = as_flag(extrapolate, "extrapolate", OWNER, InvalidOption)
+    value = float(parts.total(beyond))
     return AnnualRate(
         value=value,
         within=within,
         below=below,
         above=above,
         bounds=(within + least, within + float(curve.annual_rate[-1])),
-        extrapolated=bool(extrapolate),
+        extrapolated=beyond,
         contributions=pl.DataFrame(
             {
                 "sa_g_from": curve.sa_g[:-1],

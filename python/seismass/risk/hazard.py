@@ -13,7 +13,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, Value, as_array, as_positive, brief, frozen, refusal
+from seismass.base.values import FloatArray, Value, as_array, as_flag, as_positive, brief, frozen, refusal
 
 OWNER: Final = "hazard curve"
 DESIGN_RATE: Final = 1.0 / 475.0
@@ -222,7 +222,7 @@ class HazardCurve(Value):
         return {"label": self.label, "period": self.period, **points}
 
     def _check_inside(self, at: float, values: FloatArray, name: str, unit: str, extrapolate: bool) -> None:
-        if not extrapolate and not values[0] <= at <= values[-1]:
+        if not as_flag(extrapolate, "extrapolate", OWNER, InvalidOption) and not values[0] <= at <= values[-1]:
             requirement = f"within the curve, {values[0]:g} to {values[-1]:g} {unit}, or extrapolate=True"
             raise refusal(InvalidOption, name, OWNER, requirement, f"{at:g}")
 

@@ -11,6 +11,7 @@ from typing import Final
 import numpy as np
 
 from seismass.base.errors import RecordFormatError
+from seismass.base.files import read_utf8
 from seismass.base.values import FloatArray, as_path, brief, frozen, printable, refusal
 
 RATE_WORDS: Final = frozenset({"rate", "rates", "lambda", "frequency", "afe", "mafe"})
@@ -30,7 +31,7 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[FloatArray, FloatArray, s
     """
     source = as_path(path, "hazard curve", RecordFormatError)
     try:
-        text = source.read_text(encoding="utf-8-sig")
+        text = read_utf8(source)
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "not text"
         got = f"{source} ({reason})"

@@ -8,7 +8,7 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray, brief, is_one_of, refusal
 from seismass.effective_mass.curve import Kind, crossings, interpolated, is_below, kind_of
 from seismass.fragility.likelihood import capacity_fits
 from seismass.risk.annual_rate import RateParts, capacity_rates, lognormal_rates
@@ -20,7 +20,7 @@ Estimator: TypeAlias = Literal["lognormal", "empirical"]
 
 def check_estimator(estimator: Any, owner: str) -> Estimator:
     """Return the name of an estimator."""
-    if estimator not in get_args(Estimator):
+    if not is_one_of(estimator, get_args(Estimator)):
         raise refusal(InvalidOption, "estimator", owner, "lognormal or empirical", brief(estimator))
     checked: Estimator = estimator
     return checked

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Final, Protocol, TypeAlias, TypedDict
 
 import numpy as np
@@ -16,7 +17,17 @@ from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import polars_writing, written_whole
 from seismass.base.forks import require_polars
 from seismass.base.kept import digest_of, kept_folder
-from seismass.base.values import FloatArray, as_count, as_path, brief, printable, refusal
+from seismass.base.values import (
+    FloatArray,
+    as_count,
+    as_flag,
+    as_path,
+    as_progress,
+    as_threads,
+    brief,
+    printable,
+    refusal,
+)
 from seismass.model.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
 from seismass.model.scene import Scene
 from seismass.runs.grid.columns import IndexArray
@@ -105,7 +116,7 @@ def simulate_many(
     # Objects are there already, so that all runs may look for equal ones; those of a grid exist a chunk at a time.
     stretch = _one_table(_stretch(runs, batch.total))
     chunk = DEFAULT_CHUNK if isinstance(scenes, Grid) else max(len(stretch), 1)
-    return pl.concat(list(_frames(batch, stretch, chunk, options, _checked_progress(progress))))
+    return pl.concat(list(_frames(batch, stretch, chunk, options, as_progress(progress, "batch"))))
 
 
 def stream_many(
@@ -159,7 +170,7 @@ def stream_many(
     """
     size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
     batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
-    return _frames(batch, _stretch(runs, batch.total), size, options, _checked_progress(progress))
+    return _frames(batch, _stretch(runs, batch.total), size, options, as_progress(progress, "batch"))
 
 
 def write_many(
@@ -202,21 +213,18 @@ def write_many(
         requirement = "one with the suffix .parquet, as lists per storey fit no CSV (see long_table)"
         raise refusal(InvalidOption, "path", "batch", requirement, brief(str(target)))
     size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
-    batch, options, report = _batch(scenes, motions, pairs), _options(peaks_only, threads), _checked_progress(progress)
+    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
+    report = as_progress(progress, "batch")
     stretch = _one_table(_stretch(runs, batch.total))
     solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], stretch)
     with (
         written_whole(target) as temporary,
-        kept_folder(target.parent, target.name, digest_of(batch, solved_by)) as folder,
+        kept_folder(target.parent, target.name, digest_of(batch, solved_by)) as kept,
     ):
         parts = []
         for done in range(0, max(len(stretch), 1), size):
-            parts.append(folder / f"{done // size}.parquet")
-            if parts[-1].is_file():
-                continue
-            frame = batch.solve(stretch[done : done + size], options, _since(done, len(stretch), report))
-            with written_whole(parts[-1]) as part, polars_writing(target):
-                frame.write_parquet(part)
+            solve = partial(batch.solve, stretch[done : done + size], options, _since(done, len(stretch), report))
+            parts.append(kept.file(str(done // size), solve))
         # Small row groups, as each is held while it is copied.
         with polars_writing(target):
             pl.scan_parquet(parts, glob=False).sink_parquet(
@@ -232,17 +240,10 @@ class _Options(TypedDict):
 
 
 def _options(peaks_only: Any, threads: Any) -> _Options:
-    count = None if threads is None else as_count(threads, "threads", "batch", InvalidOption, least=1)
-    if count is not None and count > MAX_THREADS:
-        raise refusal(InvalidOption, "threads", "batch", f"between 1 and {MAX_THREADS}", str(count))
-    return {"peaks_only": bool(peaks_only), "threads": count}
-
-
-def _checked_progress(progress: Any) -> Progress | None:
-    if progress is not None and not callable(progress):
-        raise refusal(InvalidOption, "progress", "batch", "a callable of two numbers", brief(progress))
-    checked: Progress | None = progress
-    return checked
+    return {
+        "peaks_only": as_flag(peaks_only, "peaks_only", "batch", InvalidOption),
+        "threads": as_threads(threads, "batch"),
+    }
 
 
 class _Batch(Protocol):

@@ -11,13 +11,13 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidScene, InvalidSceneFile
-from seismass.base.input_table import Table, load_table
+from seismass.base.input_table import FINITE, POSITIVE, Table, load_table
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
 from seismass.model.block import Block
 from seismass.model.building import Building, as_fraction_of_weight
 from seismass.model.damping import Rayleigh
-from seismass.model.motion import Motion
+from seismass.model.motion import Motion, check_size
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.model.spring_laws import is_per_storey
@@ -143,8 +143,7 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     source = as_path(path, "scene file", InvalidSceneFile)
     top = load_table(source, "scene file", InvalidSceneFile)
     top.known(KEYS[""])
-    if "motion" not in top.values:
-        top.refuse("motion", "given", "nothing")
+    top.needed("motion")
     scene = _scene(top)
     motion, records = _motions(top, source.parent)
     duration = top.values.get("duration")
@@ -201,14 +200,14 @@ def building_of_table(table: Table) -> Building:
     table.excluded("geometric_stiffness", "gravity_load")
     if "gravity_load" in table.values:
         table.needed("heights")
-    springs = {key: table.values[key] for key in _SPRING_KEYS if key in table.values}
+    springs = table.given(*_SPRING_KEYS)
     for key, field in SPRING_FIELDS.items():
         if key in springs and np.isinf(field.default):
             springs[key] = _infinite_where_null(springs[key])
     if "damping" in table.values:
         springs["damping"] = _damping(table)
     over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
-    springs |= {key: table.values[key] for key in ("backbone", "hysteresis") if key in table.values}
+    springs |= table.given("backbone", "hysteresis")
     if isinstance(springs.get("backbone"), list):  # TOML has no null
         springs["backbone"] = [None if points == [] else points for points in springs["backbone"]]
     if "period" in table.values:
@@ -217,11 +216,10 @@ def building_of_table(table: Table) -> Building:
         table.needed("storeys")
         if isinstance(table.values.get("mass"), list):
             table.refuse("mass", f"one number where {table.key('period')} is given", brief(table.values["mass"]))
-        uniform = {key: table.values[key] for key in ("mass",) if key in table.values}
         return Building.uniform(
             table.values["storeys"],
             table.values["period"],
-            **uniform,
+            **table.given("mass"),
             yield_shear_over_weight=over_weight,
             **springs,
         )
@@ -262,9 +260,7 @@ def _damping(building: Table) -> float | Rayleigh | FloatArray:
     if not isinstance(building.values["damping"], dict):
         return as_number(building.values["damping"], "damping", "building", InvalidScene)
     table = building.table("damping")
-    kind = table.values.get("kind")
-    if not isinstance(kind, str) or kind not in _DAMPING_KEYS:
-        table.refuse("kind", f"one of {', '.join(_DAMPING_KEYS)}", "nothing" if kind is None else brief(kind))
+    kind = table.choice("kind", _DAMPING_KEYS)
     table.known(("kind", *_DAMPING_KEYS[kind]))
     for key in _DAMPING_KEYS[kind]:
         table.needed(key)
@@ -308,18 +304,11 @@ def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | No
     """Acceleration (m/s2) and time step (s) after scaling, and the record they come from, if any."""
     table.known(KEYS["motion"])
     table.needed("file", "builtin", "acceleration")
-    table.excluded("file", "builtin", "acceleration")
-    table.excluded("builtin", "acceleration")
+    table.one_of("file", "builtin", "acceleration")
     for key in ("dt", "unit"):
         table.excluded(key, "builtin")
-    unit = table.values.get("unit")
-    if unit is not None and (not isinstance(unit, str) or unit not in ACCELERATION_UNITS):
-        table.refuse("unit", f"one of {', '.join(ACCELERATION_UNITS)}", brief(unit))
-    scale, dt_scale = table.number("scale", 1.0), table.number("dt_scale", 1.0)
-    if not np.isfinite(scale):
-        table.refuse("scale", "a finite number", f"{scale:g}")
-    if not (np.isfinite(dt_scale) and dt_scale > 0.0):
-        table.refuse("dt_scale", "a positive number", f"{dt_scale:g}")
+    unit = table.choice("unit", ACCELERATION_UNITS) if "unit" in table.values else None
+    scale, dt_scale = table.number("scale", 1.0, FINITE), table.number("dt_scale", 1.0, POSITIVE)
     record, in_si = None, 1.0
     if "acceleration" not in table.values:
         record = _record(table, folder, unit)
@@ -329,6 +318,7 @@ def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | No
         samples = as_array(table.values["acceleration"], "acceleration", "motion", InvalidMotion)
         in_si = ACCELERATION_UNITS[unit or "m/s2"]
         dt = as_number(table.values["dt"], "dt", "motion", InvalidMotion)
+    check_size(len(samples), dt * dt_scale, f"motion of {table.file}")
     with np.errstate(over="ignore"):  # the motion refuses what is not finite
         return samples * in_si * scale, dt * dt_scale, record
 
@@ -336,7 +326,7 @@ def _samples(table: Table, folder: Path) -> tuple[FloatArray, float, Record | No
 def _record(table: Table, folder: Path, unit: str | None) -> Record:
     """The record that a table names: a file, or a built-in motion."""
     if "file" in table.values:
-        dt = table.number("dt", 0.0) if "dt" in table.values else None
+        dt = table.number("dt") if "dt" in table.values else None
         return read_record(folder / table.text("file"), dt=dt, unit=unit)
     name, names = table.text("builtin"), builtin_names()
     if name not in names:

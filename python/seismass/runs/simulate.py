@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import as_count, brief, refusal
+from seismass.base.values import as_count, as_flag, brief, refusal
 from seismass.model.motion import MotionLike, as_motion
 from seismass.model.scene import Scene
 from seismass.records.record import Record
@@ -72,7 +72,9 @@ def simulate(
         if isinstance(histories, bool)
         else as_count(histories, "histories", "simulate", InvalidOption, least=1)
     )
-    run = _kernel.simulate(scene._kernel, chosen._kernel, every, bool(displacements_only), bool(energy), bool(events))
+    given = (("displacements_only", displacements_only), ("energy", energy), ("events", events))
+    flags = [as_flag(value, name, "simulate", InvalidOption) for name, value in given]
+    run = _kernel.simulate(scene._kernel, chosen._kernel, every, *flags)
     return Response(run, scene, chosen, motion if isinstance(motion, Record) else None)
 
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.forks import require_polars
-from seismass.base.values import FloatArray, as_array, as_count, brief, refusal
+from seismass.base.values import FloatArray, as_array, as_count, brief, content_hash, refusal, same_content
 from seismass.model.building import Building
 from seismass.runs.response import EVENT_KINDS
 
@@ -39,6 +39,9 @@ class SpringPath:
     dissipated: FloatArray
     stored: FloatArray
     events: pl.DataFrame
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
 
 def spring_forces(building: Building, storey: int, drifts: ArrayLike) -> SpringPath:

@@ -8,7 +8,7 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray, brief, is_one_of, refusal
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import suite_spectra
 from seismass.spectra import GroundMotion, TargetSpectrum
@@ -48,7 +48,7 @@ def scale_least_squares(
     suite may be below the target.
     """
     choice: Any = space
-    if choice not in get_args(Space):
+    if not is_one_of(choice, get_args(Space)):
         raise refusal(InvalidOption, "space", "scaling", "one of " + ", ".join(get_args(Space)), brief(space))
     suite = suite_spectra(
         records, target, period, damping=damping, period_range=period_range, count=count, threads=threads

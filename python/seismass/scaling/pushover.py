@@ -11,7 +11,7 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_number, brief, frozen, refusal
+from seismass.base.values import FloatArray, as_number, brief, frozen, is_one_of, refusal
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
@@ -150,7 +150,7 @@ def scale_modal_pushover(
     """
     suite = as_motions(records, "scaling")
     checked_target(target)
-    if deformation not in get_args(Deformation):
+    if not is_one_of(deformation, get_args(Deformation)):
         choices = "one of " + ", ".join(get_args(Deformation))
         raise refusal(InvalidOption, "deformation", "scaling", choices, brief(deformation))
     springs = {"overstrength": overstrength, "second_slope": second_slope, "third_slope": third_slope}
@@ -318,7 +318,11 @@ class _Search:
         """Motion, and ln of the factors around each passage of the target, from the factor at yield up."""
         motions, lows, highs = [], [], []
         for number, (start, peak) in enumerate(zip(self._at_yield, self._elastic, strict=True)):
-            ratio = max(wanted / peak / start, 1.0)
+            ratio = max(wanted / peak / start, 1.0) if peak > 0.0 < start else np.inf
+            if not np.isfinite(ratio):
+                requirement = "such that the factors at yield and at the target are numbers"
+                got = f"{wanted:g} m at a peak of {peak:g} m"
+                raise refusal(InvalidOption, "strength", "scaling", requirement, got)
             steps = int(np.ceil(np.log(_BEYOND * ratio) / SCAN_STEP))
             log_factors = np.log(start) + SCAN_STEP * np.arange(steps + 1)
             peaks = self.deformations(np.full(steps + 1, number), np.exp(log_factors))

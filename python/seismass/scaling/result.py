@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray, frozen
+from seismass.base.values import FloatArray, content_hash, frozen, same_content
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 
@@ -76,6 +76,9 @@ class ScalingResult(Result):
     damping: float = 0.05
     target_label: str = ""
     notes: tuple[str, ...] = ()
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def misfit(self) -> FloatArray:

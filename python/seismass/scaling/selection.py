@@ -11,7 +11,7 @@ import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_count, brief, refusal
+from seismass.base.values import FloatArray, as_count, brief, content_hash, is_one_of, refusal, same_content
 from seismass.records import Record, Suite, read_suite
 from seismass.scaling.suite import SuiteSpectra, checked_range, suite_spectra
 from seismass.spectra import TargetSpectrum
@@ -39,6 +39,9 @@ class Selection:
 
     suite: Suite
     table: pl.DataFrame
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
 
 def select_records(
@@ -94,7 +97,7 @@ def select_records(
     """
     candidates = suite if isinstance(suite, Suite) else read_suite(suite)
     wanted = as_count(count, "count", "selection", InvalidOption, least=1)
-    if method not in get_args(Choice):
+    if not is_one_of(method, get_args(Choice)):
         choices = "one of " + ", ".join(get_args(Choice))
         raise refusal(InvalidOption, "method", "selection", choices, brief(method))
     limits = {

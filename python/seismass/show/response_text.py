@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.media.text_table import numbers_text, text_table
 from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.damping import Rayleigh
@@ -53,9 +53,9 @@ def run_text(
     )
     lines += [f"            {remark}" for remark in remarks or scene.remarks]
     if scene.building is not None:
-        lines += ["", *_aligned(_storey_table(scene.building, response))]
+        lines += ["", *text_table(_storey_table(scene.building, response), left=0)]
     if scene.blocks:
-        lines += ["", *_aligned(_block_table(scene, response))]
+        lines += ["", *text_table(_block_table(scene, response), left=0)]
     counts = ", ".join(f"{count} {kind}" for kind, count in response.counts.items() if count) or "none"
     end = f"{response.status} at {response.end_time:g} s"
     if response.collapsed_storey is not None:
@@ -81,11 +81,11 @@ def _building_lines(building: Building, scene: Scene) -> list[str]:
         f"building  {building.storeys} {noun}, periods {periods}{more} s, {_weight_text(building)}, "
         f"damping {_damping_text(building)}"
     ]
-    parameters = ", ".join(f"{symbol} {_listed(values)}" for symbol, values in building.spring_summary().items())
+    parameters = ", ".join(f"{symbol} {numbers_text(values)}" for symbol, values in building.spring_summary().items())
     elastic = math.isinf(building.yield_shear.min()) and not building.laws
     lines.append(f"springs   {'elastic' if elastic else ', '.join([parameters, *building.laws])}")
     if scene.geometric_stiffness.any():
-        lines.append(f"P-Delta   P/(h k) {_listed(scene.geometric_stiffness / building.stiffness)}")
+        lines.append(f"P-Delta   P/(h k) {numbers_text(scene.geometric_stiffness / building.stiffness)}")
     return lines
 
 
@@ -101,11 +101,6 @@ def _damping_text(building: Building) -> str:
     if isinstance(damping, Rayleigh):
         return f"{100.0 * damping.ratio:g} % in modes {damping.modes[0]} and {damping.modes[1]} (Rayleigh)"
     return f"{100.0 * damping:g} % in every mode" if isinstance(damping, float) else "by a given matrix"
-
-
-def _listed(values: Any) -> str:
-    numbers = [f"{value:.4g}" for value in values]
-    return numbers[0] if len(set(numbers)) == 1 else " ".join(numbers)
 
 
 def _storey_table(building: Building, response: Response) -> list[list[str]]:
@@ -164,8 +159,3 @@ def _mass_text(block: Block, mass: float, stated: bool) -> str:
     if stated:
         return f"{mass:.5g}"
     return f"{mass:.5g} kg" if block.mass_ratio is None else f"{block.mass_ratio:.5g}"
-
-
-def _aligned(rows: list[list[str]]) -> list[str]:
-    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
-    return ["  " + "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]

@@ -81,7 +81,7 @@ def _single(value: Any) -> bool:
 
 
 def _clearance(value: Any) -> Clearance | None:
-    return value if value is None or isinstance(value, Clearance) else Clearance(float(value), float(value))
+    return value if value is None or isinstance(value, Clearance) else Clearance(value, value)
 
 
 def signed_peaks(slip: FloatArray, rate: FloatArray, dt: float, peak: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -189,10 +189,7 @@ def wilson_interval(count: int, total: int, confidence: float) -> tuple[float, f
     >>> [round(end, 3) for end in wilson_interval(1, 10, 0.95)]
     [0.018, 0.404]
     """
-    from scipy.special import ndtri  # slow to import
+    from scipy.stats import binomtest  # slow to import
 
-    z = float(ndtri(0.5 + 0.5 * confidence))
-    share, extra = count / total, z * z / total
-    centre = (share + 0.5 * extra) / (1.0 + extra)
-    half = z * np.sqrt(share * (1.0 - share) / total + 0.25 * extra / total) / (1.0 + extra)
-    return max(float(centre - half), 0.0), min(float(centre + half), 1.0)
+    interval = binomtest(count, total).proportion_ci(confidence, method="wilson")
+    return float(interval.low), float(interval.high)

@@ -11,7 +11,7 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import as_count, as_number, brief, refusal
+from seismass.base.values import as_count, as_flag, as_number, as_progress, brief, refusal
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_damping
 from seismass.effective_mass.runs import NamedMotions, named_motions
 from seismass.effective_mass.tables import inputs_digest
@@ -133,14 +133,15 @@ def slip_demand(
         raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{probability:g}")
     draws = as_count(resamples, "resamples", OWNER, InvalidOption, least=1)
     start = as_count(seed, "seed", OWNER, InvalidOption)
+    report, fragility = as_progress(progress, OWNER), as_flag(fragility, "fragility", OWNER, InvalidOption)
     if fragility and not any(limits):
         raise refusal(InvalidOption, "clearance", OWNER, "given for a fragility", "None")
     models = SlipModels.of(scene, check_damping(damping, OWNER))
     solved = []
     for number, motion in enumerate(named.motions, start=1):
         solved.append(solve_motion(models, motion))
-        if progress is not None:
-            progress(number, len(named))
+        if report is not None:
+            report(number, len(named))
     runs = SlipRuns.of(solved)
     chosen: dict[str, Any] = {
         "damping": damping,

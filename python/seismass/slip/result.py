@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
+from seismass.base.values import content_hash, same_content
 from seismass.base.views import view
 from seismass.fragility.fragility import Fragility
 from seismass.media.result import Result, finite_values
@@ -78,6 +79,9 @@ class SlipDemand(Result):
     confidence: float
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     @view

@@ -13,7 +13,7 @@ import numpy as np
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_positive, brief, refusal
+from seismass.base.values import FloatArray, as_number, as_positive, brief, refusal
 
 OWNER: Final = "block size"
 
@@ -94,7 +94,7 @@ class BlockSize:
 
     def rocks_first(self, mu_s: float) -> bool:
         """Whether the block rocks before it slides: mu_s > b/(2 h_c)."""
-        return mu_s > self.uplift_g
+        return as_number(mu_s, "mu_s", "block size", InvalidOption) > self.uplift_g
 
     @property
     def overturning_velocity(self) -> float | None:

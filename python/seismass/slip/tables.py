@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from seismass.base.quantiles import QUANTILES, interval_of, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.runs import NamedMotions
-from seismass.fragility.probability import interval_of
 from seismass.model.scene import Scene
 from seismass.slip.clearance import Clearance
 from seismass.slip.estimates import log_ratio
 from seismass.slip.runs import SlipRuns, SolvedMotion
 from seismass.slip.squat import BlockSize
-
-QUANTILES: Final = {"p16": 0.16, "median": 0.50, "p84": 0.84}
-"""Shares of the motions that are tabulated."""
 
 
 def block_table(
@@ -296,8 +293,6 @@ def _pooled_ratio(
 
 
 def _quantiles(values: FloatArray) -> dict[str, float]:
-    from seismass.study.tables import quantile  # of the study, which is not needed before
-
     return {name: float(quantile(values[None, :], share)[0]) for name, share in QUANTILES.items()}
 
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, refusal
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, is_one_of, refusal
 from seismass.spectra.motions import GroundMotion, as_motions, held
 
 Kind: TypeAlias = Literal["pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"]
@@ -72,7 +72,7 @@ def response_spectrum(
     >>> sm.response_spectrum(step, [0.5, 1.0], damping=0.0)
     array([[2., 2.]])
     """
-    if kind not in get_args(Kind):
+    if not is_one_of(kind, get_args(Kind)):
         raise refusal(InvalidOption, "kind", "spectrum", "one of " + ", ".join(get_args(Kind)), brief(kind))
     at = as_array(periods, "periods", "spectrum", InvalidOption)
     if len(at) == 0:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, as_count, as_number, frozen, refusal
+from seismass.base.values import FloatArray, as_array, as_count, as_number, content_hash, frozen, refusal, same_content
 from seismass.model.building import Building
 from seismass.model.motion import motion_names
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
@@ -60,6 +60,9 @@ class InelasticSpectrum:
     overstrength: float
     second_slope: float
     third_slope: float
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     def reduction(self) -> FloatArray:

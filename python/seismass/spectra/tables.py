@@ -12,6 +12,7 @@ import numpy as np
 
 from seismass.base.elementary import exp, log
 from seismass.base.errors import RecordFormatError
+from seismass.base.files import read_utf8
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_path, frozen, printable, refusal
 from seismass.spectra.checks import OWNER
@@ -53,7 +54,7 @@ def read_table(path: str | os.PathLike[str], *, zero: bool = False) -> tuple[Flo
     """
     source = as_path(path, OWNER, RecordFormatError)
     try:
-        text = source.read_text(encoding="utf-8-sig")
+        text = read_utf8(source)
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "not text"
         requirement = "a file of text that can be read"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, NamedTuple
 
 import numpy as np
 import polars as pl
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from seismass.base.kept import NOTHING_KEPT, KeptResults
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
-from seismass.effective_mass import EffectiveMass, effective_mass
+from seismass.effective_mass import effective_mass
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate, exponent, height_ratio
 from seismass.effective_mass.models import building_of, goods_mass
 from seismass.model.scene import Scene
@@ -28,11 +28,21 @@ SHARES: Final = np.linspace(0.0, 1.0, 41)
 has dozens of buildings. Refined roots are the same."""
 
 
+class Fraction(NamedTuple):
+    """What a study takes from an `EffectiveMass`; the ends of its interval are None where there is none."""
+
+    value: float
+    kind: str
+    low: float | None
+    high: float | None
+    excess: float
+
+
 def fractions_table(
     buildings: list[StudyBuilding],
     table: pl.DataFrame,
     run_of: NDArray[np.int64],
-    effective: dict[Scene, EffectiveMass] | None,
+    effective: dict[Scene, Fraction] | None,
     corner: float,
 ) -> pl.DataFrame:
     """One row per building: C1, eta, both estimates with what they take, and lambda_eff where it was computed.
@@ -63,8 +73,8 @@ def fractions_table(
     columns |= {
         "effective": [np.nan if one is None else one.value for one in found],
         "kind": [None if one is None else one.kind for one in found],
-        "low": [None if one is None or one.interval is None else one.interval[0] for one in found],
-        "high": [None if one is None or one.interval is None else one.interval[1] for one in found],
+        "low": [None if one is None else one.low for one in found],
+        "high": [None if one is None else one.high for one in found],
         "excess": [None if one is None or one.kind != "one" else one.excess for one in found],
     }
     return typed(columns, list(FRACTION_COLUMNS))
@@ -95,7 +105,7 @@ def effective_fractions(
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     kept: KeptResults = NOTHING_KEPT,
-) -> dict[Scene, EffectiveMass]:
+) -> dict[Scene, Fraction]:
     """Return the effective fraction of each distinct building with its goods.
 
     The attached models have the damping that the study's have: the real building's matrix, or with
@@ -105,10 +115,18 @@ def effective_fractions(
     damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
     found = {}
     for number, scene in enumerate(scenes, start=1):
-        found[scene] = kept.of(
-            f"effective-{number}",
-            partial(effective_mass, scene, records, damping=damping, fractions=SHARES, threads=threads),
-        )
+        solve = partial(_solved, scene, records, damping, threads)
+        found[scene] = Fraction(*kept.of(f"effective-{number}", solve).row(0))
         if progress is not None:
             progress(number, len(scenes))
     return found
+
+
+def _solved(
+    scene: Scene, records: list[Record], damping: Literal["same", "ratio"], threads: int | None
+) -> pl.DataFrame:
+    """A `Fraction` as a table of one row."""
+    one = effective_mass(scene, records, damping=damping, fractions=SHARES, threads=threads)
+    low, high = one.interval or (None, None)
+    types = {"value": pl.Float64, "kind": pl.String, "low": pl.Float64, "high": pl.Float64, "excess": pl.Float64}
+    return pl.DataFrame([Fraction(one.value, one.kind, low, high, one.excess)], schema=types, orient="row")

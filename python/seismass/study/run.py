@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.kept import NOTHING_KEPT, KeptResults
-from seismass.base.values import FloatArray, brief, printable, refusal
+from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content
 from seismass.base.views import view
 from seismass.media.result import Result
 from seismass.model.motion import Motion
@@ -81,6 +81,9 @@ class StudyResult(Result):
     spectrum: pl.DataFrame
     scaling: ScalingResult
     metadata: dict[str, Any] = field(repr=False)
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
     @property
     @view

@@ -36,6 +36,8 @@ MATCHED_RANGE: Final = (0.2, 1.5)
 MATCHED_TOLERANCE: Final = 0.10
 """Largest misfit of their spectra, reached in a few passes. A closer match of single records takes up to thirty, whose
 last digits decide about the next pass; the mean of the suite is closer to the target than its records."""
+_KEYS: Final = ("occupancy", "mu", "R", "alpha", "storey")
+"""Columns of the summary by which its rows are grouped."""
 MOTIONS: Final = "motions"
 """The choice how motions are brought to the target."""
 
@@ -104,36 +106,41 @@ def study_sensitivity(
     if as_is is None:
         as_is = run_study(suite, target, chosen, threads=threads)
     own = drifts_of(as_is.responses, len(suite))
-    rows = _rows(AS_IS, "", as_is, own, np.mean)
+    summary = as_is.summary
+    rows = _rows(AS_IS, "", summary, own, np.mean)
     of_base: dict[str, Drifts] = {chosen.damping_base: own}
     for number, change in enumerate(changes, start=1):
         if progress is not None:
             progress(number, len(changes) + 1)
-        result = kept.of(f"changed-{number}", partial(_study_of, change, threads))
-        drifts = drifts_of(result.responses, len(suite))
-        rows += _rows(change.choice, change.setting, result, drifts, np.mean)
+        table = kept.of(f"changed-{number}", partial(_study_of, change, threads))
+        drifts: Drifts = {model: np.array(table[model].to_list()) for model in MODELS}
+        rows += _rows(change.choice, change.setting, table, drifts, np.mean)
         if change.choice == DAMPING_BASE:
             of_base[change.parameters.damping_base] = drifts
             if len(of_base) == len(get_args(DampingBase)):
                 mixed = {**of_base["loaded"], "code": of_base["own"]["code"]}
-                rows += _rows(DAMPING_BASE, "loaded, of the code model its own", as_is, mixed, np.mean)
-    rows += _rows("statistic", "median", as_is, own, np.median)
-    rows += _rows("statistic", "geometric mean", as_is, own, _geometric_mean)
+                rows += _rows(DAMPING_BASE, "loaded, of the code model its own", summary, mixed, np.mean)
+    rows += _rows("statistic", "median", summary, own, np.median)
+    rows += _rows("statistic", "geometric mean", summary, own, _geometric_mean)
     for left_out in _heaviest(as_is):
         name = as_is.metadata["suite"]["motions"][left_out]["record"]
         others: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in own.items()}
-        rows += _rows("one record left out", name, as_is, others, np.mean)
+        rows += _rows("one record left out", name, summary, others, np.mean)
     if progress is not None:
         progress(len(changes) + 1, len(changes) + 1)
-    table = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
+    found = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
         pl.col("collapses").cast(pl.UInt32)
     )
-    return Sensitivity(table, as_is.metadata)
+    return Sensitivity(found, as_is.metadata)
 
 
-def _study_of(change: _Change, threads: int | None) -> StudyResult:
+def _study_of(change: _Change, threads: int | None) -> pl.DataFrame:
+    """Keys of the summary of a changed study, and the drifts of each model as a column of lists."""
     suite, scaling = change.motions()
-    return run_study(suite, change.target, change.parameters, scaling=scaling, threads=threads)
+    result = run_study(suite, change.target, change.parameters, scaling=scaling, threads=threads)
+    drifts = drifts_of(result.responses, len(suite))
+    lists = {model: pl.Series(values.tolist(), dtype=pl.List(pl.Float64)) for model, values in drifts.items()}
+    return result.summary.select(_KEYS).with_columns(**lists)
 
 
 def _changes(chosen: StudyParameters, target: TargetSpectrum, suite: Suite) -> Iterator[_Change]:
@@ -224,7 +231,7 @@ def _geometric_mean(values: Any, axis: int) -> Any:
 
 
 def _rows(
-    choice: str, setting: str, result: StudyResult, drifts: Drifts, statistic: Callable[..., Any]
+    choice: str, setting: str, keys: pl.DataFrame, drifts: Drifts, statistic: Callable[..., Any]
 ) -> list[tuple[Any, ...]]:
     """Headline numbers of the first storeys by a statistic over the records; null where one is not finite."""
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -235,7 +242,7 @@ def _rows(
             "sliding": 100.0 * (real / attached - 1.0),
         }
     collapses = sum(np.isinf(values).sum(axis=1) for values in drifts.values())
-    frame = result.summary.select("occupancy", "mu", "R", "alpha", "storey").with_columns(
+    frame = keys.select(_KEYS).with_columns(
         **{name: pl.Series(np.where(np.isfinite(values), values, np.nan)) for name, values in compared.items()},
         collapses=pl.Series(collapses),
     )

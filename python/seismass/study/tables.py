@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from typing import Any, Final, TypeAlias
 
@@ -10,6 +9,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from seismass.base.quantiles import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.study.buildings import KEYS, MODELS, Model, StudyBuilding
@@ -200,27 +200,6 @@ def _geometric_mean(values: FloatArray) -> FloatArray:
     with np.errstate(divide="ignore", invalid="ignore"):
         mean = np.exp(np.log(values).mean(axis=1))
     return np.where(np.isfinite(values).all(axis=1), mean, np.nan)
-
-
-def quantile(values: FloatArray, share: float) -> FloatArray:
-    """Return the quantile of each row, linear between order statistics; infinite values are larger than all others.
-
-    Parameters
-    ----------
-    values : ndarray, shape (rows, motions)
-        Values; a row with NaN has the quantile NaN.
-    share : float
-        Share of the values below, from 0 to 1.
-    """
-    ordered = np.sort(values, axis=1)
-    place = share * (values.shape[1] - 1)
-    low, high = int(np.floor(place)), int(np.ceil(place))
-    below, above = ordered[:, low], ordered[:, high]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)
-        between = below + (place - low) * (above - below)
-    found = np.where(np.isfinite(above), between, above)
-    return np.where(np.isnan(values).any(axis=1), np.nan, found if high > low else below)
 
 
 def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -> pl.DataFrame:

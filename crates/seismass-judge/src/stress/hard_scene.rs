@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use seismass::scene::uniform_stiffness;
-use seismass::{Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey};
+use seismass::{
+    Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey, UniformBuilding,
+};
 
 use crate::law_scene::draw_laws;
 use crate::random_scene::{Draw, mass_above, samples_of, spring};
@@ -51,7 +52,8 @@ pub fn hard_scene(seed: u64) -> Result<(Scene, Motion)> {
 
 fn building(draw: &mut Draw, seed: u64, mass: Vec<f64>, blocks: &mut [Block], pga: f64) -> Result<Building> {
     let n = mass.len();
-    let k = uniform_stiffness(n, draw.scale(1e-3, 100.0), 1000.0)?;
+    let k = UniformBuilding { storeys: n, period: draw.scale(1e-3, 100.0), mass: 1000.0, ..Default::default() }
+        .stiffness()?;
     let contrast = draw.one_of(&[1.0, 10.0, 1e3, 1e6f64]).sqrt();
     let strength = draw.scale(1e-3, 10.0) * if draw.one_in(10) { 1e-6 } else { 1.0 };
     let mut storeys = Vec::new();
@@ -64,8 +66,15 @@ fn building(draw: &mut Draw, seed: u64, mass: Vec<f64>, blocks: &mut [Block], pg
     }
     draw_laws(seed, &mut storeys, blocks);
     let ratio = draw.one_of(&[0.0, 1e-4, 0.05, 0.5, 2.0]);
+    let is_rayleigh = n > 1 && draw.one_in(3);
     let damping =
-        if n > 1 && draw.one_in(3) { Damping::Rayleigh { ratio, modes: [1, n] } } else { Damping::Modal { ratio } };
+        |ratio| if is_rayleigh { Damping::Rayleigh { ratio, modes: [1, n] } } else { Damping::Modal { ratio } };
+    // A ratio above 1 has no name but its matrix.
+    let damping = if ratio <= 1.0 {
+        damping(ratio)
+    } else {
+        Damping::Matrix(ratio * Building::new(mass.clone(), storeys.clone(), damping(1.0))?.damping_matrix())
+    };
     let gravity = if draw.one_in(5) {
         let fraction = draw.one_of(&[1e-6, 0.05, 0.5, 0.99]);
         GravityEffect::GeometricStiffness(storeys.iter().map(|s| fraction * s.stiffness).collect())

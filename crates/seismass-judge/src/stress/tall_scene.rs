@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use seismass::scene::uniform_stiffness;
-use seismass::{Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey};
+use seismass::{
+    Block, Building, Damping, GravityEffect, Motion, Result, STANDARD_GRAVITY, Scene, Storey, UniformBuilding,
+};
 
 use crate::law_scene::draw_laws;
 use crate::random_scene::{Draw, mass_above, samples_of, spring};
@@ -57,7 +58,8 @@ fn masses(draw: &mut Draw, storeys: usize) -> Vec<f64> {
 
 fn building(draw: &mut Draw, seed: u64, mass: Vec<f64>, blocks: &mut [Block], pga: f64) -> Result<Building> {
     let n = mass.len();
-    let k = uniform_stiffness(n, draw.scale(0.3, 8.0), 1000.0)?;
+    let k =
+        UniformBuilding { storeys: n, period: draw.scale(0.3, 8.0), mass: 1000.0, ..Default::default() }.stiffness()?;
     let contrast = draw.one_of(&[1.0, 1.0, 2.0, 100.0, 1e4f64]).sqrt();
     let taper = draw.one_of(&[0.0, 0.5, 0.95]);
     let soft = draw.one_in(5).then(|| (draw.bits() % n as u64) as usize);

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use seismass::{Block, Building, Damping, Motion, Options, STANDARD_GRAVITY, Scene, Storey};
+use seismass::{Block, Damping, Motion, Options, STANDARD_GRAVITY, Scene, Storey, UniformBuilding};
 
 /// What can go wrong before anything is measured.
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
@@ -53,7 +53,7 @@ pub fn case(name: &str) -> Result<Case> {
 
 /// A uniform building of 1000 kg per floor with strengths over its weight, and a block of the same mass on each floor.
 fn building(n: usize, period: f64, damping: Damping, strength: &[f64], slope: f64, mu: Option<f64>) -> Result<Scene> {
-    let uniform = Building::uniform(n, period, 1000.0, damping)?;
+    let uniform = UniformBuilding { storeys: n, period, mass: 1000.0, damping, ..Default::default() }.build()?;
     let weight = STANDARD_GRAVITY * uniform.mass().iter().sum::<f64>();
     let storeys = uniform
         .storeys()

@@ -28,6 +28,23 @@ pub use crate::batch::plan::Run;
 /// Results do not depend on the number of threads nor on the order of runs, to the bit. A scaled motion lives while
 /// runs that share it are solved.
 ///
+/// ```
+/// use seismass::{Block, Control, Motion, Options, Run, Scene, simulate_many};
+///
+/// # fn main() -> seismass::Result<()> {
+/// // A block on the ground, by its friction coefficient; a ground that accelerates by 4 m/s2 for a second.
+/// let scenes = [0.3, 0.5].map(|mu| Scene::new(None, vec![Block::new(0, 1000.0, mu)]));
+/// let scenes = scenes.into_iter().collect::<Result<Vec<_>, _>>()?;
+/// let motion = Motion::new(vec![4.0; 101], 0.01, None)?;
+/// let runs = [Run::new(0, 0), Run::new(1, 0), Run { scale: 2.0, ..Run::new(1, 0) }];
+/// let responses = simulate_many(&scenes, &[motion], &runs, &Options::default(), None, &Control::default())?;
+/// for (run, response) in runs.iter().zip(responses) {
+///     println!("{run:?}: the block slips by {:.3} m", response?.peaks.slip[0].value);
+/// }
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 /// [`Error::Interrupted`] when stopped, [`Error::Invalid`] when an index does not exist.
 pub fn simulate_many(

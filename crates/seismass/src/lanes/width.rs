@@ -39,7 +39,7 @@ pub(crate) fn filled_to(length: usize, values: impl IntoIterator<Item = f64>, pa
 }
 
 /// An expression in which `$count` is the number of vectors in a padded width of at most [`MAX_LANES`], as a constant.
-#[cfg(not(feature = "four-storeys"))]
+#[cfg(feature = "tall-buildings")]
 macro_rules! by_width {
     ($width:expr, $count:ident => $call:expr) => {
         match $width {
@@ -68,7 +68,7 @@ macro_rules! by_width {
 }
 
 /// One vector holds all storeys.
-#[cfg(feature = "four-storeys")]
+#[cfg(not(feature = "tall-buildings"))]
 macro_rules! by_width {
     ($width:expr, $count:ident => $call:expr) => {{
         let _ = $width;
@@ -80,7 +80,7 @@ macro_rules! by_width {
 pub(crate) use by_width;
 
 /// [`by_width`] of widths that hold at most [`MAX_DENSE`] storeys.
-#[cfg(not(feature = "four-storeys"))]
+#[cfg(feature = "tall-buildings")]
 macro_rules! by_dense_width {
     ($width:expr, $count:ident => $call:expr) => {
         match $width {
@@ -101,7 +101,7 @@ macro_rules! by_dense_width {
 }
 
 /// One vector holds all storeys.
-#[cfg(feature = "four-storeys")]
+#[cfg(not(feature = "tall-buildings"))]
 macro_rules! by_dense_width {
     ($width:expr, $count:ident => $call:expr) => {{
         let _ = $width;

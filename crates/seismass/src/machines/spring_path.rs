@@ -39,6 +39,18 @@ pub struct SpringPath {
 
 /// Drives the spring of a storey, virgin at first, from one drift (m) to the next, without P-Delta and collapse.
 ///
+/// ```
+/// use seismass::{EventKind, Storey, spring_path};
+///
+/// # fn main() -> seismass::Result<()> {
+/// // 1000 N/m up to 10 N, then a twentieth of it; back by Masing's rule.
+/// let path = spring_path(&Storey::yielding(1000.0, 10.0), &[0.01, 0.03, 0.02])?;
+/// assert_eq!(path.events.iter().map(|event| event.kind).collect::<Vec<_>>(), [EventKind::Yield, EventKind::Unload]);
+/// assert!((path.force[1] - 11.0).abs() < 1e-12 && (path.force[2] - 1.0).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 /// [`Error::Invalid`] when the storey or a drift is invalid.
 pub fn spring_path(storey: &Storey, drifts: &[f64]) -> Result<SpringPath> {

@@ -301,23 +301,23 @@ fn clear_steps_of_scene(
         (2, true, false) => clear_steps::<1, 2, true, false>,
         (3, true, false) => clear_steps::<1, 3, true, false>,
         (4, true, false) => clear_steps::<1, 4, true, false>,
-        #[cfg(not(feature = "four-storeys"))]
+        #[cfg(feature = "tall-buildings")]
         (5..=8, false, false) => clear_steps::<2, 0, false, false>,
-        #[cfg(not(feature = "four-storeys"))]
+        #[cfg(feature = "tall-buildings")]
         (_, false, false) => clear_steps::<4, 0, false, false>,
-        #[cfg(not(feature = "four-storeys"))]
+        #[cfg(feature = "tall-buildings")]
         (5..=8, true, false) => clear_steps::<2, 0, true, false>,
-        #[cfg(not(feature = "four-storeys"))]
+        #[cfg(feature = "tall-buildings")]
         (_, true, false) => clear_steps::<4, 0, true, false>,
         (..=4, _, true) => clear_steps::<1, 0, true, true>,
-        #[cfg(not(feature = "four-storeys"))]
+        #[cfg(feature = "tall-buildings")]
         (5..=8, _, true) => clear_steps::<2, 0, true, true>,
-        #[cfg(not(feature = "four-storeys"))]
+        #[cfg(feature = "tall-buildings")]
         (_, _, true) => clear_steps::<4, 0, true, true>,
         // A scene has no more storeys.
-        #[cfg(feature = "four-storeys")]
+        #[cfg(not(feature = "tall-buildings"))]
         (_, false, _) => clear_steps::<1, 4, false, false>,
-        #[cfg(feature = "four-storeys")]
+        #[cfg(not(feature = "tall-buildings"))]
         (_, true, _) => clear_steps::<1, 4, true, false>,
     };
     steps(state, plain_loop, observer, motion, first, end)

@@ -7,12 +7,12 @@ use crate::scene::check::{Nth, check, check_length};
 use crate::scene::damping::{Damping, StoreyDamping, natural_frequencies};
 use crate::scene::storey::Storey;
 
-/// Most storeys of a building: a full damping matrix takes 8 MB.
-#[cfg(not(feature = "four-storeys"))]
+/// Most storeys of a building: a full damping matrix takes 8 MB. Without the feature `tall-buildings`: 4.
+#[cfg(feature = "tall-buildings")]
 pub const MAX_STOREYS: usize = 1000;
 
-/// Most storeys of a building: the feature `four-storeys` leaves out what more would need.
-#[cfg(feature = "four-storeys")]
+/// Most storeys of a building: one vector holds them. With the feature `tall-buildings`: 1000.
+#[cfg(not(feature = "tall-buildings"))]
 pub const MAX_STOREYS: usize = 4;
 
 /// Where the P-Delta effect comes from.
@@ -60,16 +60,6 @@ impl Building {
         let stiffness: Vec<f64> = storeys.iter().map(|s| s.stiffness).collect();
         let storey_damping = StoreyDamping::new(&mass, &stiffness, &damping)?;
         Ok(Self { mass, storeys, damping, gravity: GravityEffect::None, storey_damping })
-    }
-
-    /// Equal floor masses and storey stiffnesses with the given first period (s):
-    /// w_1 = 2 sqrt(k/m) sin(pi / (2 (2 n + 1))).
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] when a number is out of its range.
-    pub fn uniform(storeys: usize, period: f64, mass: f64, damping: Damping) -> Result<Self> {
-        let stiffness = uniform_stiffness(storeys, period, mass)?;
-        Self::new(vec![mass; storeys], vec![Storey::elastic(stiffness); storeys], damping)
     }
 
     /// The same building with other springs; its damping is made again from their initial stiffness.
@@ -168,20 +158,6 @@ impl Building {
     }
 }
 
-/// Storey stiffness (N/m) of a uniform building with the given first period (s) and floor mass (kg).
-///
-/// # Errors
-/// [`Error::Invalid`] when a number is out of its range.
-pub fn uniform_stiffness(storeys: usize, period: f64, mass: f64) -> Result<f64> {
-    check(storeys >= 1, "storeys", "building", "at least 1", storeys as f64)?;
-    check_storeys(storeys)?;
-    check(period.is_finite() && period > 0.0, "period", "building", "a positive number", period)?;
-    check(mass.is_finite() && mass > 0.0, "mass", "building", "a positive number", mass)?;
-    let angle = std::f64::consts::PI / (2.0 * (2 * storeys + 1) as f64);
-    let root = std::f64::consts::PI / (period * libm::sin(angle));
-    Ok(mass * root * root)
-}
-
-fn check_storeys(count: usize) -> Result<()> {
+pub(crate) fn check_storeys(count: usize) -> Result<()> {
     check(count <= MAX_STOREYS, "storeys", "building", format_args!("at most {MAX_STOREYS}"), count as f64)
 }

@@ -135,12 +135,12 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::scene::Damping;
+    use crate::scene::UniformBuilding;
 
     fn columns() -> SceneColumns {
-        let building = Building::uniform(2, 0.3, 1000.0, Damping::Modal { ratio: 0.05 }).unwrap();
+        let building = UniformBuilding { storeys: 2, period: 0.3, mass: 1000.0, ..Default::default() };
         SceneColumns {
-            buildings: vec![Arc::new(building)],
+            buildings: vec![Arc::new(building.build().unwrap())],
             floors: vec![1, 2],
             building: vec![0; 3],
             mass_ratio: vec![0.5, 0.0, 0.5, 1.5, 0.5, 0.0],

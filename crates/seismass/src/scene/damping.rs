@@ -18,18 +18,25 @@ const MAX_SWEEPS: usize = 60;
 pub enum Damping {
     /// This ratio of critical damping in every vibration mode.
     Modal {
-        /// Damping ratio: 0.05 for 5 %.
+        /// Damping ratio, 0 to 1: 0.05 for 5 %.
         ratio: f64,
     },
     /// C = a M + b K with this ratio in two modes.
     Rayleigh {
-        /// Damping ratio in both modes.
+        /// Damping ratio in both modes, 0 to 1.
         ratio: f64,
         /// The two modes, counted from 1.
         modes: [usize; 2],
     },
     /// A symmetric matrix in floor coordinates (N s/m).
     Matrix(DMatrix<f64>),
+}
+
+impl Default for Damping {
+    /// 5 % in every mode.
+    fn default() -> Self {
+        Self::Modal { ratio: 0.05 }
+    }
 }
 
 /// Damping as it acts between drift rates and storey forces.
@@ -52,15 +59,18 @@ impl StoreyDamping {
     /// The damping operator of a building.
     ///
     /// # Errors
-    /// [`Error::Invalid`] when the ratio is negative, a mode does not exist, or the matrix is not symmetric.
+    /// [`Error::Invalid`] when the ratio is not from 0 to 1, a mode does not exist, or the matrix is not symmetric.
     pub fn new(mass: &[f64], stiffness: &[f64], damping: &Damping) -> Result<Self> {
         let refuse = |parameter: &str, requirement: String, value: String| {
             Err(Error::invalid(Domain::Scene, parameter, "building", requirement, value))
         };
         let n = mass.len();
         match damping {
-            Damping::Modal { ratio } | Damping::Rayleigh { ratio, .. } if !(ratio.is_finite() && *ratio >= 0.0) => {
-                refuse("damping ratio", "zero or positive".into(), ratio.to_string())
+            Damping::Modal { ratio } | Damping::Rayleigh { ratio, .. } if !(0.0..=1.0).contains(ratio) => {
+                // What is above 1 was meant in per cent.
+                let requirement =
+                    if *ratio > 1.0 { "a ratio of at most 1 (0.05 for 5 %)" } else { "a ratio from 0 to 1" };
+                refuse("damping", requirement.into(), ratio.to_string())
             }
             Damping::Modal { ratio } if *ratio == 0.0 => Ok(Self::None),
             Damping::Modal { ratio } => Ok(Self::Dense(modal_storey_matrix(mass, stiffness, *ratio))),
@@ -222,6 +232,19 @@ mod tests {
                 assert!((square[(i, j)] - 0.01 * k[i][j]).abs() < 1e-15);
             }
         }
+    }
+
+    #[test]
+    fn a_ratio_out_of_range_is_refused() {
+        let refused = |damping| StoreyDamping::new(&[1.0; 2], &[1.0; 2], &damping).unwrap_err().to_string();
+        let per_cent = "damping of building must be a ratio of at most 1 (0.05 for 5 %); got 5";
+        assert_eq!(refused(Damping::Modal { ratio: 5.0 }), per_cent);
+        assert_eq!(refused(Damping::Rayleigh { ratio: 5.0, modes: [1, 2] }), per_cent);
+        for ratio in [-0.05, f64::NAN] {
+            let message = format!("damping of building must be a ratio from 0 to 1; got {ratio}");
+            assert_eq!(refused(Damping::Modal { ratio }), message);
+        }
+        assert!(StoreyDamping::new(&[1.0], &[1.0], &Damping::Modal { ratio: 1.0 }).is_ok());
     }
 
     #[test]

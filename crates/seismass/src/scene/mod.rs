@@ -9,12 +9,14 @@ mod damping;
 mod motion;
 mod options;
 mod storey;
+mod uniform_building;
 
 pub use block::{Block, MAX_WEAR_STAGES, Wear};
-pub use building::{Building, GravityEffect, MAX_STOREYS, uniform_stiffness};
+pub use building::{Building, GravityEffect, MAX_STOREYS};
 pub use building_and_blocks::Scene;
 pub use columns::SceneColumns;
 pub use damping::{Damping, StoreyDamping, natural_frequencies};
 pub use motion::{MAX_SAMPLES, Motion};
 pub use options::Options;
 pub use storey::{MAX_BACKBONE_POINTS, PeakOriented, SpringLaw, Storey};
+pub use uniform_building::UniformBuilding;

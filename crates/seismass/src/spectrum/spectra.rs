@@ -20,6 +20,22 @@ pub(super) const BLOCKS_PER_SEARCH: usize = 256;
 ///
 /// `periods` in s, `damping` as ratios of critical. Any number of `threads` gives the same bits (default: all cores).
 ///
+/// ```
+/// use seismass::spectrum::response_spectra;
+/// use seismass::{Control, Motion};
+///
+/// # fn main() -> seismass::Result<()> {
+/// let step = Motion::new(vec![1.0; 400], 0.01, None)?;
+/// let peaks = response_spectra(&[step], &[0.5, 1.0], &[0.0], None, &Control::default())?;
+/// // An undamped oscillator under a step a goes to 2 a / w^2.
+/// for (peak, period) in peaks.iter().zip([0.5, 1.0]) {
+///     let frequency: f64 = std::f64::consts::TAU / period;
+///     assert!((peak * frequency.powi(2) - 2.0).abs() < 1e-12);
+/// }
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 /// [`Error::Invalid`] when a period, a ratio or the number of threads is out of its range, [`Error::NotFinite`] when a
 /// displacement is, [`Error::Interrupted`] when stopped.

@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray
+from seismass.base.values import FloatArray, content_hash, same_content
 from seismass.model.building import Building
 from seismass.model.springs import SHAPE_FIELDS
 from seismass.runs.grid.columns import AXES, Column, IndexArray
@@ -59,6 +59,9 @@ class GridAxis:
     each: int
     length: int
     columns: dict[str, np.ndarray[Any, Any]]
+
+    __eq__ = same_content
+    __hash__ = content_hash
 
 
 def described(

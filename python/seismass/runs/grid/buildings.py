@@ -120,12 +120,6 @@ class BuildingColumns:
         attached = shares.get("attached", np.zeros(len(scenes)))
         return attached, shares.get("sliding", 1.0 - attached)
 
-    def periods_of(self, scenes: IndexArray, index: IndexArray) -> FloatArray:
-        """Return the first period of each building without live load (s)."""
-        if "period" in self.columns:
-            return self.columns["period"].of(scenes)
-        return self.periods[index]
-
     def present_of(self, scenes: IndexArray, design_load: FloatArray) -> FloatArray:
         """Return the live load that is present over floor mass, shape (scenes, blocks)."""
         if "occupancy" not in self.columns:

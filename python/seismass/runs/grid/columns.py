@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidMotion, InvalidScene, SeismassError
-from seismass.base.values import FloatArray, as_array, brief, frozen, refusal
+from seismass.base.values import FloatArray, as_array, brief, frozen, read_only, refusal
 from seismass.model.springs import SHAPE_FIELDS
 
 IndexArray = NDArray[np.int64]
@@ -84,9 +84,7 @@ def index_values(value: Any, name: str, kind: type[SeismassError], *, of: str = 
     wrong = np.flatnonzero((numbers < 1) | (numbers > 2**32))
     if len(wrong):
         raise refusal(kind, name, "grid", requirement, f"{numbers[wrong[0]]} as value {wrong[0] + 1}")
-    indices = numbers.astype(np.int64) - 1
-    indices.setflags(write=False)
-    return indices
+    return read_only(numbers.astype(np.int64) - 1)
 
 
 def block_table(value: Any, name: str, blocks: int) -> FloatArray:

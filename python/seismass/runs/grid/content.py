@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray
+from seismass.base.values import FloatArray, read_only
 from seismass.model.building import Building
 from seismass.model.damping import Rayleigh
 from seismass.model.springs import SPRING_FIELDS, is_default
@@ -98,8 +98,7 @@ def _values(series: pl.Series) -> np.ndarray[Any, Any]:
         values: np.ndarray[Any, Any] = np.ascontiguousarray(series.list.to_array(series.list.len()[0]).to_numpy())
     else:
         values = series.to_numpy().astype(np.int64 if series.dtype.is_integer() else np.float64)
-    values.setflags(write=False)
-    return values
+    return read_only(values)
 
 
 def building_document(building: Building) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.forks import require_polars
-from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, is_one_of, refusal, same_content
 from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.scene import Scene
@@ -165,6 +165,16 @@ class Grid:
     _everywhere: bool
     _roof_is_bare: bool
     __slots__ = tuple(__annotations__)
+
+    __eq__ = same_content
+    __hash__ = content_hash
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in self.__slots__}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for name, value in state.items():
+            setattr(self, name, value)
 
     @takes_springs(SHAPE_FIELDS, default=None)
     def __init__(
@@ -490,7 +500,7 @@ class Grid:
     ) -> None:
         self.buildings = buildings
         self._everywhere = floors is None
-        if roof not in get_args(Roof):
+        if not is_one_of(roof, get_args(Roof)):
             raise refusal(InvalidScene, "roof", "grid", "loaded or bare", brief(roof))
         self._roof_is_bare = roof == "bare"
         if self._roof_is_bare and floors is not None:
@@ -510,9 +520,9 @@ class Grid:
 
     def _set_formed(self, periods: FloatArray, damping: Any, attached_of: Any, design: Any) -> None:
         """Keep what forms the buildings of scenes, of columns that are known by now."""
-        if damping not in ATTACHED_DAMPING:
+        if not is_one_of(damping, ATTACHED_DAMPING):
             raise refusal(InvalidScene, "damping", "grid", "same or ratio, of attached live load", brief(damping))
-        if attached_of not in ATTACHED_OF:
+        if not is_one_of(attached_of, ATTACHED_OF):
             raise refusal(InvalidScene, "attached_of", "grid", "present or design", brief(attached_of))
         if design is not None and not isinstance(design, StrengthDesign):
             raise refusal(InvalidScene, "design", "grid", "a StrengthDesign", brief(design))

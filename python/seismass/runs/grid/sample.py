@@ -10,7 +10,7 @@ import numpy as np
 
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import FloatArray, as_count, brief, refusal
+from seismass.base.values import FloatArray, as_count, brief, is_one_of, refusal
 from seismass.model.springs import SHAPE_FIELDS
 
 SampleMethod: TypeAlias = Literal["sobol", "latin_hypercube", "random"]
@@ -18,8 +18,8 @@ SampleMethod: TypeAlias = Literal["sobol", "latin_hypercube", "random"]
 METHODS: Final = get_args(SampleMethod)
 PER_BLOCK: Final = ("mass_ratio", "mu", "mu_s", "mu_k")
 """Axes that may have a distribution of its own for each block."""
-MOST_SAMPLES: Final = 2**30
-"""Most samples: Sobol's points have 30 bits."""
+MOST_SAMPLES: Final = 2**26
+"""Most samples, each with a value per axis in memory: half a gigabyte an axis."""
 
 SAMPLED: Final = (
     "storeys",
@@ -52,7 +52,7 @@ def points(samples: int, dimensions: int, method: Any, seed: Any) -> FloatArray:
     InvalidOption
         The method is none of these, or the seed not a whole number.
     """
-    if method not in METHODS:
+    if not is_one_of(method, METHODS):
         raise refusal(InvalidOption, "method", "sample", f"one of {', '.join(METHODS)}", brief(method))
     rng = np.random.default_rng(as_count(seed, "seed", "sample", InvalidOption))
     if dimensions == 0:
@@ -203,6 +203,9 @@ def sampled_arguments(
 def _times(ratio: Any, static: Any) -> FloatArray:
     """The product of two columns, of which one may have a value per block."""
     left, right = np.asarray(ratio, dtype=np.float64), np.asarray(static, dtype=np.float64)
+    if left.ndim > 1:
+        requirement = "a number, a distribution or a list of values"
+        raise refusal(InvalidScene, "mu_k_over_mu_s", "sample", requirement, f"an array of shape {left.shape}")
     if left.ndim == 1 and right.ndim == 2:
         left = left[:, None]
     product: FloatArray = left * right

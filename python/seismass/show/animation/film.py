@@ -72,7 +72,10 @@ def _write_mp4(picture: Picture, path: Path, rate: float, speed: float, ffmpeg: 
     width, height = picture.size
     command = [ffmpeg, "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
     command += ["-r", f"{rate:g}", "-i", "-", "-an", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
-    with subprocess.Popen([*command, str(path)], stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    # A protocol and a whole path: a name that begins with "-" is an option, and one with ":" another protocol.
+    with subprocess.Popen(
+        [*command, f"file:{path.absolute()}"], stdin=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
         assert process.stdin is not None
         assert process.stderr is not None
         try:

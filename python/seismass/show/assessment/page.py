@@ -16,6 +16,7 @@ from seismass.effective_mass.result import KIND_TEXTS
 from seismass.effective_mass.rules import BY_HAND
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
 from seismass.media.svg import short_svg
+from seismass.media.text_table import number_text
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.box import answer_lines, box_class
 from seismass.show.assessment.tables import AssessmentTables, Fraction
@@ -67,7 +68,7 @@ def building_page(result: AssessmentTables, drawings: Mapping[str, str]) -> str:
 
 
 def _number(value: float | None, digits: int = 2) -> str:
-    return "\N{EN DASH}" if value is None or not math.isfinite(value) else f"{value:.{digits}f}"
+    return number_text(value, f".{digits}f", missing="\N{EN DASH}", infinite="\N{EN DASH}")
 
 
 def _interval(fraction: Fraction) -> str:

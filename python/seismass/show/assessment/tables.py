@@ -12,6 +12,7 @@ import polars as pl
 
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.base.errors import InvalidOption
+from seismass.base.files import open_regular, read_file
 from seismass.base.values import refusal
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.curve import Kind
@@ -120,8 +121,8 @@ def read_assessment_tables(folder: Path) -> AssessmentTables:
         The folder holds no assessment, one of another version, or not all of its tables.
     """
     try:
-        document = json.loads((folder / DOCUMENT).read_text(encoding="utf-8"))
-    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        document = json.loads(read_file(folder / DOCUMENT))
+    except (ValueError, RecursionError) as error:
         raise refusal(InvalidOption, "content", DOCUMENT, "JSON as `seismass building` writes it", f"{error}") from None
     version = document.get("schema_version") if isinstance(document, dict) else None
     if version != SCHEMA_VERSION:
@@ -133,7 +134,8 @@ def read_assessment_tables(folder: Path) -> AssessmentTables:
         if not path.exists():
             raise refusal(InvalidOption, path.name, f"folder {folder}", f"there beside {DOCUMENT}", "none")
         try:
-            tables[name] = pl.read_parquet(path)
+            with open_regular(path) as file:
+                tables[name] = pl.read_parquet(file)
         except pl.exceptions.PolarsError as error:
             raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
     return _made(document, tables)

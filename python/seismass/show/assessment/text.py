@@ -12,6 +12,7 @@ from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REAL_HI
 from seismass.assessment.result import Assessment
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
+from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import NOT_CHECKED
 
 WIDTH: Final = 108
@@ -141,11 +142,11 @@ def _drifts(result: Assessment) -> list[str]:
     if building.heights is not None:
         above = [f"{_above(result, model)} of {motions}" for model in models]
         rows.append(["motions above limit", *above, *([""] if governed else [])])
-    lines += _aligned(rows)
+    lines += text_table(rows)
     marks = "".join("".join(row[1:]) for row in rows[1:])
     notes = [f"  * mean above the limit{limit.removeprefix('; limit')}"] * ("*" in marks)
     notes += ["  no value: runs collapse"] * ("no value" in marks)
-    return [*lines, *notes, f"From 16 to 84 % of the motions, {unit}", *_aligned(scatter)]
+    return [*lines, *notes, f"From 16 to 84 % of the motions, {unit}", *text_table(scatter)]
 
 
 def _marked(mean: float | None, over_limit: float | None, scale: float) -> str:
@@ -177,7 +178,7 @@ def _masses(result: Assessment) -> list[str]:
                 f"{1e-3 * row['weight_2']:.0f}",
             ]
         )
-    return lines + _aligned(rows)
+    return lines + text_table(rows)
 
 
 def _above(result: Assessment, model: str) -> int:
@@ -195,7 +196,7 @@ def _stability(result: Assessment) -> list[str]:
         of = [_of(result, storey, model) for model in models]
         values = [*(row["theta"] for row in of), of[0]["theta_elastic"]]
         rows.append([_storey_label(of[0]), *("no value" if value is None else f"{value:.3f}" for value in values)])
-    return lines + _aligned(rows)
+    return lines + text_table(rows)
 
 
 def _slips(result: Assessment) -> list[str]:
@@ -210,10 +211,10 @@ def _slips(result: Assessment) -> list[str]:
                     f"{row['floor']} {row['name']}".rstrip()[:18],
                     f"{row['mu_s']:.3g}" + (f"/{row['mu_k']:.3g}" if row["mu_k"] != row["mu_s"] else ""),
                     f"{row['motions_that_slide']} of {motions}",
-                    *(_number(row[name], 1e3, 1) for name in names),
+                    *(number_text(row[name], ".1f", scale=1e3) for name in names),
                 ]
             )
-    return lines + _aligned(rows)
+    return lines + text_table(rows)
 
 
 def _motions(result: Assessment) -> list[str]:
@@ -229,25 +230,8 @@ def _motions(result: Assessment) -> list[str]:
     return [*lines, *(f"{'motions' if number == 0 else '':10}{line}" for number, line in enumerate(wrapped))]
 
 
-def _number(value: float | None, scale: float, digits: int = 2) -> str:
-    return "-" if value is None else f"{scale * value:.{digits}f}"
-
-
 def _bullets(sentences: tuple[str, ...]) -> list[str]:
     lines: list[str] = []
     for sentence in sentences:
         lines += textwrap.wrap(sentence, WIDTH, initial_indent="  - ", subsequent_indent="    ")
     return lines
-
-
-def _aligned(rows: list[list[str]]) -> list[str]:
-    """Return rows of cells as lines, the first column to the left, the others to the right."""
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return [
-        "  "
-        + "  ".join(
-            cell.ljust(width) if not column else cell.rjust(width)
-            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in rows
-    ]

@@ -46,13 +46,16 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
         drawn, drawings = _drawn(tables := assessment_tables(result))
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
         documents[PAGE] = _page(tables, drawings)
-    files = write_folder(out, tables=result.tables, documents=documents, figures=drawn, kinds=("png",))
-    ours = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
+    ours = {PAGE} | {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
     ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
-    ours.add(PAGE)
-    for name in ours - {path.name for path in files}:
-        (out / name).unlink(missing_ok=True)
-    return files
+    return write_folder(
+        out,
+        tables=result.tables,
+        documents=documents,
+        figures=drawn,
+        kinds=("png",),
+        earlier=ours.__contains__,
+    )
 
 
 def write_assessment_page(folder: Path, target: Path) -> None:

@@ -128,16 +128,16 @@ def rules_figure(result: EffectiveMassMap) -> Figure:
     return figure
 
 
-def intensity_figure(result: EffectiveMassMap, building: int | None = None, alpha: float | None = None) -> Figure:
+def intensity_figure(result: EffectiveMassMap) -> Figure:
     """Effective fraction against intensity for one building and load: a panel for each R, a line for each friction.
 
     Bands are bootstrap intervals over the records.
-    By default the building in the middle of the list, and the load nearest to alpha = 1.
+    The building is that in the middle of the list, and the load the one nearest to alpha = 1.
     """
     numbers = result.table["building"].unique().sort().to_list()
-    number = numbers[len(numbers) // 2] if building is None else building
+    number = numbers[len(numbers) // 2]
     alphas = result.table["alpha"].unique().sort().to_list()
-    load = min(alphas, key=lambda value: abs(value - 1.0)) if alpha is None else alpha
+    load = min(alphas, key=lambda value: abs(value - 1.0))
     here = result.table.filter((pl.col("building") == number) & (pl.col("alpha") == load)).sort("intensity")
     factors = here["R"].unique().sort().to_list()
     mus = here["mu"].unique().sort().to_list()

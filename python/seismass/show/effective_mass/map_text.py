@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 import polars as pl
 
 from seismass.effective_mass.design_map import EffectiveMassMap
 from seismass.effective_mass.estimate import RULE_IN_WORDS
 from seismass.effective_mass.rules import CLOSED_FORMS
+from seismass.media.text_table import text_line
+
+_RULES: Final = (-30, 7, 13, 16, 7, 9)
+_BINS: Final = (-14, 7, 8, 9, 8)
 
 
 def map_text(result: EffectiveMassMap) -> str:
@@ -32,14 +38,12 @@ def rules_text(rules: pl.DataFrame) -> list[str]:
     where, exponents = RULE_IN_WORDS.split("; ")
     lines = [
         "Largest drift of the model with the share of a rule, over that of the real building",
-        f"{'rule':30}{'mean':>7}{'log scatter':>13}{'5 to 95 %':>16}{'worst':>7}{'unsafe':>9}",
+        text_line(("rule", "mean", "log scatter", "5 to 95 %", "worst", "unsafe"), _RULES, indent=0),
     ]
     for row in rules.iter_rows(named=True):
         interval = f"{row['low']:.2f} to {row['high']:.2f}"
-        lines.append(
-            f"{row['rule']:30}{row['bias']:>7.3f}{row['log_scatter']:>13.3f}{interval:>16}{row['worst']:>7.2f}"
-            f"{100 * row['unsafe']:>7.0f} %"
-        )
+        numbers = (f"{row['bias']:.3f}", f"{row['log_scatter']:.3f}", interval, f"{row['worst']:.2f}")
+        lines.append(text_line((row["rule"], *numbers, f"{100 * row['unsafe']:.0f} %"), _RULES, indent=0))
     return [
         *lines,
         "mean: geometric; unsafe: share of cases in which the real building drifts more than 1.05 x the model",
@@ -51,27 +55,28 @@ def rules_text(rules: pl.DataFrame) -> list[str]:
 def by_period_text(rules: pl.DataFrame) -> list[str]:
     """Return how the rules that depend on friction do in each class of period, as lines: mean, worst, unsafe."""
     classes = rules.select("period_from", "period_to").unique(maintain_order=True).rows()
+    widths = (-30, *(18 for _ in classes))
     names = ["from 0" if not low else f"from {low:g}" for low, _ in classes]
     lines = [
         "By period of the bare building (s): mean, worst of model over real drift, unsafe cases",
-        f"{'rule':30}" + "".join(f"{name:>18}" for name in names),
-        f"{'cases':30}" + "".join(f"{rules.filter(period_from=low)['cases'][0]:>18}" for low, _ in classes),
+        text_line(("rule", *names), widths, indent=0),
+        text_line(("cases", *(str(rules.filter(period_from=low)["cases"][0]) for low, _ in classes)), widths, indent=0),
     ]
     for rule in CLOSED_FORMS:
         cells = []
         for low, _ in classes:
             row = rules.filter(rule=rule, period_from=low).row(0, named=True)
             cells.append(f"{row['bias']:.3f} {row['worst']:.2f} {100 * row['unsafe']:3.0f} %")
-        lines.append(f"{rule:30}" + "".join(f"{cell:>18}" for cell in cells))
+        lines.append(text_line((rule, *cells), widths, indent=0))
     return lines
 
 
 def bins_text(bins: pl.DataFrame) -> list[str]:
     """Return the scatter of the fraction in bins of eta as lines."""
-    lines = ["Effective fraction by eta = mu_k/C1", f"{'eta':14}{'cases':>7}{'16 %':>8}{'median':>9}{'84 %':>8}"]
+    head = text_line(("eta", "cases", "16 %", "median", "84 %"), _BINS, indent=0)
+    lines = ["Effective fraction by eta = mu_k/C1", head]
     for row in bins.iter_rows(named=True):
         end = "and more" if row["eta_to"] is None else f"to {row['eta_to']:g}"
-        lines.append(
-            f"{row['eta_from']:<4g} {end:9}{row['cases']:>7}{row['p16']:>8.2f}{row['median']:>9.2f}{row['p84']:>8.2f}"
-        )
+        numbers = (f"{row[name]:.2f}" for name in ("p16", "median", "p84"))
+        lines.append(text_line((f"{row['eta_from']:<4g} {end}", str(row["cases"]), *numbers), _BINS, indent=0))
     return lines

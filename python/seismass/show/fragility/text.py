@@ -7,6 +7,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.base.values import counted
+from seismass.media.text_table import ends_text, number_text
 
 if TYPE_CHECKING:
     from seismass.fragility.result import FragilityAnalysis
@@ -46,19 +47,6 @@ def analysis_text(result: FragilityAnalysis) -> str:
     return "\n".join(lines)
 
 
-def _number(value: float | None, digits: str = ".3g") -> str:
-    if value is None:
-        return "unknown"
-    return "none" if math.isinf(value) else f"{value:{digits}}"
-
-
-def _between(low: float | None, high: float | None, digits: str = ".3g", scale: float = 1.0) -> str:
-    if low is None or high is None:
-        return ""
-    ends = (f"{scale * end:{digits}}" if math.isfinite(end) else "none" for end in (low, high))
-    return f" [{', '.join(ends)}]"
-
-
 def _fitted(row: dict[str, Any]) -> str:
     if row["kind"] in ("never", "always", "falling", "none"):
         said = {
@@ -68,33 +56,39 @@ def _fitted(row: dict[str, Any]) -> str:
             "none": "too few runs for a curve",
         }
         return said[row["kind"]]
-    median = _number(row["median"]) + _between(row["median_low"], row["median_high"])
+    median = _known(row, "median", ".3g")
     if row["kind"] == "step":
         return f"{median:23} unknown, a step"
-    spread = _number(row["dispersion"], ".2f") + _between(row["dispersion_low"], row["dispersion_high"], ".2f")
-    return f"{median:23} {spread}"
+    return f"{median:23} {_known(row, 'dispersion', '.2f')}"
+
+
+def _known(row: dict[str, Any], name: str, form: str) -> str:
+    """A number with its interval; "none" where it is infinite."""
+    ends = ends_text(row[f"{name}_low"], row[f"{name}_high"], form, infinite="none")
+    return number_text(row[name], form, missing="unknown", infinite="none") + ends
 
 
 def _ratio(row: dict[str, Any], reference: str) -> str:
     if row["median_ratio"] is None or not math.isfinite(row["median_ratio"]):
         return f"  capacity of {row['model']} over {reference}: not known"
-    interval = _between(row["median_ratio_low"], row["median_ratio_high"], ".2f")
+    interval = ends_text(row["median_ratio_low"], row["median_ratio_high"], infinite="none")
     return f"  capacity of {row['model']} over {reference}: {row['median_ratio']:.2f}{interval}"
 
 
 def _exceedance(row: dict[str, Any], reference: str) -> str:
     def percent(name: str) -> str:
-        value = row[name]
-        if value is None:
+        if row[name] is None:
             return "unknown"
-        return f"{100.0 * value:.1f} %" + _between(row[f"{name}_low"], row[f"{name}_high"], ".1f", 100.0)
+        ends = ends_text(row[f"{name}_low"], row[f"{name}_high"], ".1f", scale=100.0, infinite="none")
+        return f"{100.0 * row[name]:.1f} %{ends}"
 
     if row["model"] == reference:
         return f"  at {row['intensity']:.3g}: {reference} {percent('reference')}"
     difference = ""
     if row["difference"] is not None:
         points = f"{100.0 * row['difference']:+.1f} points"
-        difference = f"; {points}{_between(row['difference_low'], row['difference_high'], '+.1f', 100.0)}"
+        ends = ends_text(row["difference_low"], row["difference_high"], "+.1f", scale=100.0, infinite="none")
+        difference = f"; {points}{ends}"
     said = "unknown" if row["probability"] is None else f"{100.0 * row['probability']:.1f} %"
     where = f"where {row['model']} says {said} (at {row['intensity']:.3g})"
     return f"  {where}, {reference} has {percent('reference')}{difference}"

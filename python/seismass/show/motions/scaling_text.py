@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from seismass.media.text_table import text_line
 from seismass.scaling.result import ScalingResult
 
 
@@ -37,14 +38,14 @@ def scaling_lines(scaling: ScalingResult, remarks: Sequence[str]) -> list[str]:
 
 def factor_lines(scaling: ScalingResult, remarks: Sequence[Sequence[str]] = ()) -> list[str]:
     """Return the factor and misfit of each motion, with what its record says of itself below it."""
-    lines = ["     SF1       SF        misfit  largest record"]
+    widths = (-5, -10, -10, -8, -8, 0)
+    lines = [text_line(("", "SF1", "SF", "misfit", "largest", "record"), widths, indent=0)]
     for number, (row, largest) in enumerate(
         zip(scaling.diagnostics().iter_rows(named=True), scaling.largest_misfit, strict=True)
     ):
-        lines.append(
-            f"{row['motion']:>3}  {row['individual_factor']:<8.5f}  {row['factor']:<8.5f}  {row['misfit']:<6.3f}  "
-            f"{largest:<6.3f}  {row['record']}"
-        )
+        factors = (f"{row[name]:.5f}" for name in ("individual_factor", "factor"))
+        misfits = (f"{misfit:.3f}" for misfit in (row["misfit"], largest))
+        lines.append(text_line((f"{row['motion']:>3}", *factors, *misfits, row["record"]), widths, indent=0))
         lines += [f"{'':42}{remark}" for remark in (remarks[number] if remarks else ())]
     return [
         *lines,

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from seismass.base.values import counted
 from seismass.effective_mass.curve import Kind
+from seismass.media.text_table import interval_text, number_text, text_line
 from seismass.show.slip.text import remark_lines
 
 if TYPE_CHECKING:
@@ -20,6 +21,8 @@ KIND_TEXTS: Final[dict[Kind, str]] = {
 }
 """What each kind means."""
 _LABEL: Final = 21
+_RATES: Final = (-22, 34, 13, 26)
+_CHANGES: Final = (-30, 22, 10, 12, 16)
 _NAMES: Final = {"real": "goods slide", "code": "code", "attached": "all attached", "none": "none attached"}
 
 
@@ -46,32 +49,26 @@ def risk_text(result: RiskTargetedShare) -> str:
     lines += [
         "",
         f"Annual rate of exceeding the limit, with its {percent} interval over the motions",
-        f"  {'model':22}{'rate (1/year)':>34}{'in 50 years':>13}{'real over model':>26}",
+        text_line(("model", "rate (1/year)", "in 50 years", "real over model"), _RATES),
     ]
     for row in result.rates.iter_rows(named=True):
         name = _NAMES[row["model"]] + (f", {row['share']:g}" if row["model"] == "code" else "")
-        rate = _with_ends(row["rate"], row["rate_low"], row["rate_high"], ".3g")
-        ratio = _with_ends(row["real_over_model"], row["real_over_model_low"], row["real_over_model_high"], ".2f")
+        rate = interval_text(row["rate"], row["rate_low"], row["rate_high"], ".3g")
+        ratio = interval_text(row["real_over_model"], row["real_over_model_low"], row["real_over_model_high"], ".2f")
         ratio = "" if row["model"] == "real" else ratio
-        lines.append(f"  {name:22}{rate:>34}{100.0 * row['probability_50_years']:>11.2g} %{ratio:>26}".rstrip())
+        lines.append(text_line((name, rate, f"{100.0 * row['probability_50_years']:.2g} %", ratio), _RATES))
     lines += [
         "",
         "What the share depends on",
-        f"  {'changed':30}{'share':>22}{'kind':>10}{'real rate':>12}{'real over code':>16}",
+        text_line(("changed", "share", "kind", "real rate", "real over code"), _CHANGES),
     ]
     for row in result.sensitivity.iter_rows(named=True):
         name = f"{row['parameter']} {row['setting']}".strip()
-        share = _with_ends(row["value"], row["low"], row["high"], ".2f")
-        ratio = "-" if row["real_over_code"] is None else f"{row['real_over_code']:.2f}"
-        lines.append(f"  {name:30}{share:>22}{row['kind']:>10}{row['real_rate']:>12.2g}{ratio:>16}")
+        share = interval_text(row["value"], row["low"], row["high"], ".2f")
+        cells = (name, share, row["kind"], f"{row['real_rate']:.2g}", number_text(row["real_over_code"]))
+        lines.append(text_line(cells, _CHANGES))
     return "\n".join([*lines, "", *remark_lines(result.remarks, _LABEL)])
 
 
 def _interval(ends: tuple[float, float] | None, percent: str) -> str:
     return "" if ends is None else f" ({percent} interval {ends[0]:.2f} to {ends[1]:.2f})"
-
-
-def _with_ends(value: Any, low: Any, high: Any, form: str) -> str:
-    if value is None:
-        return "-"
-    return f"{value:{form}}" + ("" if low is None else f" [{low:{form}}, {high:{form}}]")

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from seismass.base.values import counted
+from seismass.media.text_table import interval_text, number_text, text_line
 from seismass.slip.estimates import TITLES
 
 if TYPE_CHECKING:
     from seismass.slip.result import SlipDemand
 
 _LABEL: Final = 12
+_SLIPS: Final = (-16, 30, 9, 8, 30, 8)
+_RATIOS: Final = (-16, 24, 26, 24, 12)
+_ESTIMATES: Final = (-8, -14, -34, 8, 9, 8)
 
 
 def slip_demand_text(result: SlipDemand) -> str:
@@ -37,25 +41,22 @@ def _blocks(result: SlipDemand) -> list[str]:
     motions = counted(result.metadata["motions"], "motion")
     lines = [
         f"Peak slip (mm): mean of {motions} [16 %, 84 % of them], largest; share of motions that slide",
-        f"  {'block':16}{'in the building':>30}{'largest':>9}{'slides':>8}{'on the ground':>30}{'slides':>8}",
+        text_line(("block", "in the building", "largest", "slides", "on the ground", "slides"), _SLIPS),
     ]
     for row in result.blocks.iter_rows(named=True):
         name = f"{row['block']}, {_floor(row['floor'])}"
         here = f"{_mm(row['mean'])} [{_mm(row['p16'])}, {_mm(row['p84'])}]"
         ground = f"{_mm(row['ground_mean'])} [{_mm(row['ground_p16'])}, {_mm(row['ground_p84'])}]"
-        lines.append(
-            f"  {name:16}{here:>30}{_mm(row['largest']):>9}{_percent(row['slides']):>8}{ground:>30}"
-            f"{_percent(row['ground_slides']):>8}"
-        )
+        slides, ground_slides = _percent(row["slides"]), _percent(row["ground_slides"])
+        lines.append(text_line((name, here, _mm(row["largest"]), slides, ground, ground_slides), _SLIPS))
     lines += ["", "Slip that remains (mm), slip over that on the ground, friction over floor acceleration"]
-    lines.append(f"  {'block':16}{'remains':>24}{'building/ground':>26}{'motion by motion':>24}{'mu_s g/PFA':>12}")
+    lines.append(text_line(("block", "remains", "building/ground", "motion by motion", "mu_s g/PFA"), _RATIOS))
     for row in result.blocks.iter_rows(named=True):
         name = f"{row['block']}, {_floor(row['floor'])}"
         remains = f"{_mm(row['residual_mean'])} [{_mm(row['residual_p16'])}, {_mm(row['residual_p84'])}]"
-        pooled = _between(row["amplification"], row["amplification_low"], row["amplification_high"])
-        each = _between(row["amplification_median"], row["amplification_p16"], row["amplification_p84"])
-        ratio = "-" if row["mu_over_attached"] is None else f"{row['mu_over_attached']:.2f}"
-        lines.append(f"  {name:16}{remains:>24}{pooled:>26}{each:>24}{ratio:>12}")
+        pooled = interval_text(row["amplification"], row["amplification_low"], row["amplification_high"])
+        each = interval_text(row["amplification_median"], row["amplification_p16"], row["amplification_p84"])
+        lines.append(text_line((name, remains, pooled, each, number_text(row["mu_over_attached"])), _RATIOS))
         if row["slides_on_floor_only"]:
             lines.append(
                 f"  {'':16}slides in the building alone under {counted(row['slides_on_floor_only'], 'motion')}"
@@ -110,15 +111,15 @@ def _estimates(result: SlipDemand) -> list[str]:
         return []
     lines = [
         "Estimates over the exact slip: geometric mean, log scatter, share of sliding cases that they fall short of",
-        f"  {'block':8}{'motion of':14}{'estimate':34}{'mean':>8}{'scatter':>9}{'short':>8}",
+        text_line(("block", "motion of", "estimate", "mean", "scatter", "short"), _ESTIMATES),
     ]
     for row in result.estimates.iter_rows(named=True):
         if row["base"] == "ground" and row["estimate"] == "rigid_block":
             continue  # the exact slip itself
         base = "the ground" if row["base"] == "ground" else f"{_floor(row['floor'])} alone"
-        cells = ["-" if row[name] is None else f"{row[name]:.2f}" for name in ("ratio", "log_scatter")]
+        numbers = (number_text(row[name]) for name in ("ratio", "log_scatter"))
         short = "-" if row["below"] is None else _percent(row["below"])
-        lines.append(f"  {row['block']:<8}{base:14}{TITLES[row['estimate']]:34}{cells[0]:>8}{cells[1]:>9}{short:>8}")
+        lines.append(text_line((str(row["block"]), base, TITLES[row["estimate"]], *numbers, short), _ESTIMATES))
     return [
         *lines,
         "  on the ground beside the slip there; on a floor of the building alone beside that in the building",
@@ -130,12 +131,8 @@ def _floor(floor: int) -> str:
 
 
 def _mm(value: float | None) -> str:
-    return "-" if value is None else f"{1e3 * value:.0f}"
+    return number_text(value, ".0f", scale=1e3)
 
 
 def _percent(value: float) -> str:
     return f"{100.0 * value:.0f} %"
-
-
-def _between(value: Any, low: Any, high: Any) -> str:
-    return "-" if value is None else f"{value:.2f} [{low:.2f}, {high:.2f}]"

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
+
+from seismass.media.text_table import change_text, number_text, text_line
 
 
 def findings_text(entries: list[dict[str, Any]]) -> str:
@@ -42,30 +45,23 @@ def findings_text(entries: list[dict[str, Any]]) -> str:
 
 def _place(row: dict[str, Any]) -> str:
     return (
-        f"{_percent(row['underestimation_percent'])} (storey {row['storey']} of {row['storeys']}, R = {row['R']:g}, "
+        f"{change_text(row['underestimation_percent'])} (storey {row['storey']} of {row['storeys']}, R = {row['R']:g}, "
         f"alpha = {row['alpha']:g})"
     )
-
-
-def _percent(value: float | None) -> str:
-    return "-" if value is None else f"{round(value):+d} %".replace("+0 %", "0 %")
-
-
-def _share(value: float | None) -> str:
-    return "-" if value is None else f"{value:.2f}"
 
 
 def _scatter(row: dict[str, Any]) -> list[str]:
     """What the largest is made of, and how it scatters."""
     median, low, high = (row[f"{name}_underestimation_percent"] for name in ("median", "p16", "p84"))
     lines = [
-        f"    by mass, by sliding     {_percent(row['mass_percent'])} (attached over code), "
-        f"{_percent(row['sliding_percent'])} (real over attached)",
-        f"    motion by motion        median {_percent(median)}, 16 to 84 %: {_percent(low)} to {_percent(high)}",
+        f"    by mass, by sliding     {change_text(row['mass_percent'])} (attached over code), "
+        f"{change_text(row['sliding_percent'])} (real over attached)",
+        f"    motion by motion        median {change_text(median)}, 16 to 84 %: {change_text(low)} to "
+        f"{change_text(high)}",
     ]
     if row["leave_one_out_record"] is not None:
         lines.append(
-            f"    without one motion      {_percent(row['leave_one_out_percent'])} ({row['leave_one_out_record']})"
+            f"    without one motion      {change_text(row['leave_one_out_percent'])} ({row['leave_one_out_record']})"
         )
     return lines
 
@@ -80,22 +76,21 @@ def _first_storey_tables(rows: list[dict[str, Any]]) -> list[str]:
     alphas = sorted({row["alpha"] for row in rows})
     at = {(row["R"], row["alpha"]): row for row in rows}
     effective = any(row["effective"] is not None for row in rows)
-    shown = [
-        ("real over code", "underestimation_percent", _percent),
-        ("real over attached", "sliding_percent", _percent),
-        ("lambda, estimate", "estimate", _share),
-        *([("lambda_eff", "effective", _share)] if effective else []),
+    shown: list[tuple[str, str, Callable[[float | None], str]]] = [
+        ("real over code", "underestimation_percent", change_text),
+        ("real over attached", "sliding_percent", change_text),
+        ("lambda, estimate", "estimate", number_text),
+        *([("lambda_eff", "effective", number_text)] if effective else []),
     ]
-    width = max(7 * len(alphas), 19) + 2
+    widths = (-20, *(max(7 * len(alphas), 19) + 2 for _ in shown))
     lines = [
-        "  first storeys, mean " + "".join(f"{title:>{width}}" for title, *_ in shown),
-        "    alpha             " + "".join(f"{''.join(f'{a:>7g}' for a in alphas):>{width}}" for _ in shown),
+        text_line(["first storeys, mean", *(title for title, *_ in shown)], widths),
+        text_line(["  alpha", *("".join(f"{alpha:>7g}" for alpha in alphas) for _ in shown)], widths),
     ]
     for factor in sorted({row["R"] for row in rows}):
         cells = []
         for _, name, form in shown:
             values = [at.get((factor, alpha), {}).get(name) for alpha in alphas]
-            texts = [f"{form(value):>7}" for value in values]
-            cells.append(f"{''.join(texts):>{width}}")
-        lines.append(f"    {f'R = {factor:g}':18}" + "".join(cells))
+            cells.append("".join(f"{form(value):>7}" for value in values))
+        lines.append(text_line([f"  R = {factor:g}", *cells], widths))
     return lines

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import polars as pl
 
+from seismass.media.text_table import change_text, text_table
+
 _HEADS = ("choice", "setting", "largest", "R least", "R most", "mass", "sliding")
 _VALUES = ("largest_percent", "least_R_percent", "most_R_percent", "mass_percent", "sliding_percent")
 
@@ -18,13 +20,7 @@ def sensitivity_text(table: pl.DataFrame) -> str:
     """
     blocks = []
     for title, rows in _groups(table):
-        cells = [list(_HEADS), *rows]
-        widths = [max(len(row[column]) for row in cells) for column in range(len(_HEADS))]
-        lines = [f"{title}: first storeys, underestimation (real - code) / code"]
-        for row in cells:
-            left = (f"{text:<{width}}" for text, width in zip(row[:2], widths[:2], strict=True))
-            right = (f"{text:>{width}}" for text, width in zip(row[2:], widths[2:], strict=True))
-            lines.append("  " + "  ".join([*left, *right]).rstrip())
+        lines = [f"{title}: first storeys, underestimation (real - code) / code", *text_table([_HEADS, *rows], left=2)]
         blocks.append("\n".join(lines))
     notes = (
         "largest: of all first storeys. R least, R most: mean of those with the largest alpha, at the smallest and\n"
@@ -57,10 +53,6 @@ def _groups(table: pl.DataFrame) -> list[tuple[str, list[list[str]]]]:
             name = "" if row["choice"] == before else row["choice"]
             before = row["choice"]
             collapsed = f" ({row['collapses']} runs collapse)" if row["collapses"] else ""
-            texts.append([name, row["setting"] + collapsed, *(_percent(row[column]) for column in _VALUES)])
+            texts.append([name, row["setting"] + collapsed, *(change_text(row[column]) for column in _VALUES)])
         groups.append((title, texts))
     return groups
-
-
-def _percent(value: float | None) -> str:
-    return "-" if value is None else f"{round(value):+d} %".replace("+0 %", "0 %")

@@ -11,6 +11,7 @@ import polars as pl
 
 from seismass.animation import animate
 from seismass.base.errors import InvalidOption
+from seismass.base.files import open_regular, read_file
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import refusal
 from seismass.show.animation.html import element_content
@@ -157,8 +158,8 @@ def _validated(read: StudyTables, tables: dict[str, pl.DataFrame]) -> StudyTable
 
 def _document(path: Path) -> dict[str, Any]:
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        content = json.loads(read_file(path))
+    except (ValueError, RecursionError) as error:
         raise refusal(InvalidOption, "content", path.name, "JSON as `seismass study` writes it", f"{error}") from None
     if not isinstance(content, dict):
         raise refusal(InvalidOption, "content", path.name, "a JSON object", type(content).__name__)
@@ -170,7 +171,8 @@ def _table(folder: Path, name: str) -> pl.DataFrame:
     if not path.exists():
         raise refusal(InvalidOption, f"{name}.parquet", f"folder {folder}", "there beside study.json", "none")
     try:
-        return pl.read_parquet(path)
+        with open_regular(path) as file:
+            return pl.read_parquet(file)
     except pl.exceptions.PolarsError as error:
         raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
 

@@ -22,14 +22,14 @@ FIGURE_FILE: Final = re.compile(
     rf"(?:spectrum|effective|sensitivity|(?:underestimation|heat|slip)(?:_mu{_NUMBER})?|drift_R{_NUMBER}(?:_mu{_NUMBER})?"
     r"|section4_[\w.-]+|platform_[\w.-]+)\.(?:png|svg)"
 )
-"""Names of the files of a study's figures; another file of a folder is not touched."""
+"""Names of the files of a study's figures."""
 
 
 def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bool = False) -> list[Path]:
     """Write tables (Parquet and CSV), documents (JSON), figures (SVG) and the page of a study to a folder.
 
     Every Parquet file carries what the numbers depend on, and the unit of each column; tables.json says the same of the
-    CSV files. Figures and tables of an earlier study that are not written again are removed.
+    CSV files. Figures and tables of an earlier study that are not written again are removed, by its files.json.
 
     Parameters
     ----------
@@ -63,21 +63,16 @@ def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bo
         drawn, drawings = _drawn(result)
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
         documents[PAGE] = study_page(result, drawings)
-    files = write_folder(
+    ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in OPTIONAL_TABLES for kind in ("parquet", "csv")}
+    return write_folder(
         out,
         tables=tables,
         documents=documents,
         figures=drawn if png else None,
         kinds=("png",),
         metadata={name: table_metadata(result.metadata, name, table) for name, table in tables.items()},
+        earlier=lambda name: name in ours or FIGURE_FILE.fullmatch(name) is not None,
     )
-    written = {path.name for path in files}
-    ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in OPTIONAL_TABLES for kind in ("parquet", "csv")}
-    for path in list(out.iterdir()):
-        earlier = FIGURE_FILE.fullmatch(path.name) or path.name in ours
-        if earlier and path.name not in written and path.is_file():
-            path.unlink()
-    return files
 
 
 def write_study_page(folder: Path, target: Path) -> None:

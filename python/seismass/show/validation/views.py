@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from seismass.media.result import named_figure
+from seismass.media.text_table import text_line
 from seismass.validation import Claim, Section4, Validation
 from seismass.validation.three_storeys import COMPARED_SLOPES
 
@@ -37,17 +38,16 @@ def validation_text(result: Validation) -> str:
 
 def differences_text(section4: Section4) -> list[str]:
     """Return a line per run and program, with the differences of drift and slip."""
-    lines = [f"  {'component':<12}{'r2':>6}  {'program':<18}{'setting':<16}{'drift':>22}{'slip':>22}"]
+    widths = (-12, 6, -20, -16, 22, 22)
+    lines = [text_line(("component", "r2", "  program", "setting", "drift", "slip"), widths)]
     for row in section4.differences.rows(named=True):
         cells = []
         for name in ("drift", "slip"):
             size, share = row[f"{name}_mm"], row[f"{name}_percent"]
             text = "-" if size is None else f"{size:.2g} mm"
             cells.append(text if share is None else f"{text}, {share:.2g} %")
-        lines.append(
-            f"  {row['component']:<12}{row['second_slope']:>6g}  {row['program']:<18}{row['setting']:<16}"
-            f"{cells[0]:>22}{cells[1]:>22}"
-        )
+        run = (row["component"], f"{row['second_slope']:g}", f"  {row['program']}", row["setting"])
+        lines.append(text_line((*run, *cells), widths))
     return lines
 
 

@@ -1,6 +1,8 @@
 //! Records that are no earthquake, and motions far too small and far too large.
 
-use seismass::{Block, Building, Damping, EventKind, Motion, Options, STANDARD_GRAVITY, Scene, Storey, simulate};
+use seismass::{
+    Block, Building, EventKind, Motion, Options, STANDARD_GRAVITY, Scene, Storey, UniformBuilding, simulate,
+};
 
 use super::{
     Case, Outcome, checked, close, expect_count, expect_no_event, judged, motion, on_ground, oscillator, record,
@@ -68,7 +70,7 @@ pub(super) const CASES: &[Case] = &[
 ];
 
 fn building(yield_shear: f64) -> Result<Building, String> {
-    let uniform = text(Building::uniform(3, 0.2, 1.0, Damping::Modal { ratio: 0.05 }))?;
+    let uniform = text(UniformBuilding { storeys: 3, period: 0.2, mass: 1.0, ..Default::default() }.build())?;
     let stiffness = uniform.storeys()[0].stiffness;
     text(uniform.with_storeys(vec![Storey::yielding(stiffness, yield_shear); 3]))
 }

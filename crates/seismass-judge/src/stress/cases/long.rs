@@ -1,6 +1,6 @@
 //! Long runs: residual drift far beyond the elastic drift, decades of records, an hour of shaking.
 
-use seismass::{Block, Building, Damping, Options, STANDARD_GRAVITY, Scene, Storey, simulate};
+use seismass::{Block, Options, STANDARD_GRAVITY, Scene, Storey, UniformBuilding, simulate};
 
 use super::{
     Case, Outcome, building, checked, judged, largest, motion, on_ground, oscillator, record, require, residual,
@@ -60,7 +60,7 @@ fn ratchet() -> Outcome {
 }
 
 fn frame() -> Result<Scene, String> {
-    let uniform = text(Building::uniform(3, 0.6, 1.0, Damping::Modal { ratio: 0.05 }))?;
+    let uniform = text(UniformBuilding { storeys: 3, period: 0.6, mass: 1.0, ..Default::default() }.build())?;
     let springs = uniform.storeys().iter().zip([0.24, 0.20, 0.12]);
     let springs = springs.map(|(s, v)| Storey::yielding(s.stiffness, 3.0 * v * STANDARD_GRAVITY)).collect();
     standing(text(uniform.with_storeys(springs))?, (1..=3).map(|i| Block::new(i, 1.0, 0.3)).collect())

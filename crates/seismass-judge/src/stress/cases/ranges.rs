@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use seismass::{
     Block, Building, Damping, EventKind, GravityEffect, Motion, Response, STANDARD_GRAVITY, Scene, Status, Storey,
+    UniformBuilding,
 };
 
 use super::{
@@ -287,7 +288,9 @@ fn tower(storeys: usize) -> Result<Scene, String> {
     // Rayleigh beyond 50 storeys: modal damping is a full matrix.
     let damping =
         if storeys > 50 { Damping::Rayleigh { ratio: 0.05, modes: [1, 3] } } else { Damping::Modal { ratio: 0.05 } };
-    let uniform = text(Building::uniform(storeys, 0.1 * storeys as f64, 1.0, damping))?;
+    let uniform = text(
+        UniformBuilding { storeys, period: 0.1 * storeys as f64, mass: 1.0, damping, ..Default::default() }.build(),
+    )?;
     let springs = uniform.storeys().iter().enumerate().map(|(i, s)| Storey {
         second_slope: 0.3,
         ..Storey::yielding(

@@ -1,6 +1,6 @@
 //! Events at one instant: symmetric scenes, equal blocks, both elements of a storey, contact lost by all.
 
-use seismass::{Block, Building, Damping, Event, EventKind, Motion, Response, STANDARD_GRAVITY, Scene, Storey};
+use seismass::{Block, Damping, Event, EventKind, Motion, Response, STANDARD_GRAVITY, Scene, Storey, UniformBuilding};
 
 use super::{
     Case, Outcome, building, checked, difference, expect_count, judged, motion, record, require, standing, text,
@@ -64,7 +64,8 @@ fn in_mode(mu: f64, yield_drift: f64) -> Result<(Scene, Scene), String> {
         third_slope: 0.1,
         ..Storey::yielding(stiffness, stiffness * drift)
     };
-    let uniform = text(Building::uniform(FLOORS, PERIOD, 1.0, damping.clone()))?;
+    let uniform = UniformBuilding { storeys: FLOORS, period: PERIOD, mass: 1.0, damping, ..Default::default() };
+    let uniform = text(uniform.build())?;
     let storeys = uniform.storeys().iter().enumerate();
     let storeys = storeys.map(|(i, s)| spring(s.stiffness, yield_drift * (shape(i + 1) - shape(i)))).collect();
     let blocks = (1..=FLOORS).map(|i| Block::new(i, alpha, mu * shape(i))).collect();
@@ -149,7 +150,7 @@ fn fifty_blocks() -> Outcome {
 }
 
 fn lift_and_land() -> Outcome {
-    let building = text(Building::uniform(4, 0.5, 1.0, Damping::Modal { ratio: 0.05 }))?;
+    let building = text(UniformBuilding { storeys: 4, period: 0.5, mass: 1.0, ..Default::default() }.build())?;
     let blocks: Vec<Block> = (0..=4).map(|i| Block::new(i, 0.5, 0.3)).collect();
     let number = blocks.len();
     let scene = standing(building, blocks)?;
