@@ -364,6 +364,33 @@ def test_inertia_over_the_spring_force_is_that_of_the_run() -> None:
     assert force_ratios(scene, [record])[0] == pytest.approx(expected, rel=1e-9)
 
 
+def test_mixed_use_counts_floor_by_floor() -> None:
+    """The code's model has the mass of each floor; floors that a code exempts and full offices are remarked on."""
+    given = tables(goods={"occupied": None})
+    given["storeys"] = [{"use": "ordinary"}, {}, {"live_load_kpa": 0.3}]
+    result = sm.assess(given, mu_factors=(1, 1), resamples=2)
+    assert result.building.code_share == pytest.approx((0.25 * 6.0 + 0.25 * 0.3) / 12.3, rel=1e-12)
+    assert any(remark.startswith("storage adds at most 5 % to the weight of floor 3") for remark in result.remarks)
+    assert any("ordinary live load of floor 1 is taken as rigid goods" in remark for remark in result.remarks)
+    assert any("by floor 0 0.25 0.25, together 0.128" in line for line in result.assumptions)
+    assert json.loads(result.to_json())["code"]["share_of_design_live_load"] == result.building.code_share
+
+
+def test_a_slider_is_damped_above_alone_and_raises_no_doubt() -> None:
+    """A weak, stiff first storey: with damping in all modes a doubt, with that of the building above it none."""
+    given = tables(building={"design": None, "R": None, "period_s": None, "stiffness_kn_per_m": 1e5})
+    given["storeys"] = [
+        {"stiffness_kn_per_m": 1e7, "yield_shear_over_weight": 0.06, "live_load_kpa": 0.0, "second_slope": 1e-4},
+        {"yield_shear_over_weight": 5.0},
+    ]
+    doubted = sm.assess(given, mu_factors=(1, 1), resamples=2).answer.doubts
+    assert any(doubt.startswith("spring and damping of storey 1") for doubt in doubted)
+    given["building"]["damping_from_storey"] = 2
+    result = sm.assess(given, mu_factors=(1, 1), resamples=2)
+    assert not any("spring and damping" in doubt for doubt in result.answer.doubts)
+    assert any("above floor 1; the storeys below are not damped" in line for line in result.assumptions)
+
+
 def test_wrong_arguments_are_refused() -> None:
     no_site = tables()
     del no_site["site"]

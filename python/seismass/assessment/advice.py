@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Final
 
+import numpy as np
 import polars as pl
 
 from seismass.assessment.answer import Answer
 from seismass.assessment.governing import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REALS
-from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding, fractions_of
 from seismass.design import THETA_THRESHOLD
+from seismass.design.weight import SMALL_SHARE
 from seismass.effective_mass import EffectiveMass
 from seismass.media.text_table import numbers_text
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
@@ -19,6 +21,8 @@ from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
 from seismass.scaling import ScalingResult
 from seismass.spectra import TargetSpectrum
 
+ASCE_CODES: Final = ("asce7-10", "asce7-16", "asce7-22")
+"""Codes that exempt storage of little weight."""
 SHORT: Final = 1.05
 """A storey whose goods-slide drift is more than so many times the model's is not covered by it."""
 
@@ -147,7 +151,7 @@ def _against_code(building: OwnBuilding, storeys: pl.DataFrame, reals: Sequence[
         return []
     return [
         f"With sliding goods ({friction_words(building)[worst[2]]}) storey {worst[1]} drifts {worst[0]:.2f} times the "
-        f"model with the code's {building.code.fraction:g} of the design live load, more than any other storey does."
+        f"model with the code's {building.code_share:.3g} of the design live load, more than any other storey does."
     ]
 
 
@@ -182,9 +186,32 @@ def remarks_of(
         # What storeys the share does not cover is advice, of the share that is advised.
         once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
         found += [label + remark for remark in once if name == REAL or " motions are few" not in remark]
+    found += _about_code_mass(building)
     if building.code.status not in (VERIFIED, AS_STATED):
         found.append(f"the fraction of {building.code.code} was {NOT_CHECKED} ({building.code.status})")
     return tuple(dict.fromkeys(found))
+
+
+def _about_code_mass(building: OwnBuilding) -> list[str]:
+    """Floors that a code exempts and the file does not, and ordinary live load that is all taken as there."""
+    found = []
+    share = np.divide(building.code_mass, building.mass)
+    small = np.flatnonzero((share > 0.0) & (share <= SMALL_SHARE))
+    if building.code.code_id in ASCE_CODES and len(small):
+        listed = ", ".join(str(floor + 1) for floor in small)
+        found.append(
+            f"storage adds at most {100.0 * SMALL_SHARE:g} % to the weight of floor {listed}, which ASCE 7 exempts: "
+            "exempt = true in its table leaves it out of the code's mass"
+        )
+    ordinary = [(use or building.code.use) == "ordinary" for use in building.uses]
+    full = np.flatnonzero(np.array(ordinary) & (building.occupied == 1.0) & (building.live_load > 0.0))
+    if len(full):
+        listed = ", ".join(str(floor + 1) for floor in full)
+        found.append(
+            f"all of the ordinary live load of floor {listed} is taken as rigid goods that are there: state "
+            "what is there (occupied)"
+        )
+    return found
 
 
 def assumptions_of(
@@ -236,10 +263,18 @@ def _about_structure(building: OwnBuilding) -> list[str]:
             f"Strength: V_y = V_e/R with R = {rule.R:g}, response spectrum analysis ({rule.combination.upper()}) under "
             f"the site spectrum, with {building.design_fraction:g} of the design live load as mass."
         )
+    first = building.damping_from_storey
+    of = "" if first == 1 else f" above floor {first - 1}; the storeys below are not damped"
     lines.append(
-        f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods; every model has that "
-        "matrix."
+        f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods{of}; every model has "
+        "that matrix."
     )
+    if building.stated_period is not None and building.period_mass != "bare":
+        acting = "the code's share of the live load" if building.period_mass == "code share" else "all goods present"
+        lines.append(
+            f"Period: {building.stated_period:.3g} s as stated, with {acting} as mass; {building.period():.3g} s "
+            "without goods."
+        )
     if building.gravity_load is not None:
         return [*lines, "P-Delta: weight of floors and of all goods present, whatever share of their mass is attached."]
     why = "heights are not known" if building.heights is None else "switched off"
@@ -287,6 +322,11 @@ def _about_code(building: OwnBuilding) -> str:
     code = building.code
     parts = [f"{code.code}, {code.use}" + " (none was stated)" * (not building.code_stated)]
     parts[0] += f", {code.fraction:g} of the design live load"
+    if any(building.uses) or not np.isnan(building.own_fractions).all():
+        by_floor = fractions_of(code, building.own_fractions, building.uses)
+        parts[0] += (
+            f" where a floor states no other; by floor {numbers_text(by_floor)}, together {building.code_share:.3g}"
+        )
     if code.low < code.high:
         parts[0] += f", the upper end of {code.low:g} to {code.high:g}"
     parts += [part for part in (code.clause, code.status, code.note) if part]

@@ -83,7 +83,7 @@ def compared_models(building: OwnBuilding, target: TargetSpectrum | None, advise
     return {
         **reals,
         **attached,
-        CODE: with_mass(real, building.code.fraction * building.live_load),
+        CODE: with_mass(real, building.code_mass),
         ATTACHED: with_mass(real, building.goods),
         BARE: bare,
     }

@@ -18,7 +18,7 @@ from seismass.base.values import FloatArray, brief, content_hash, refusal, same_
 from seismass.design import THETA_CAP, Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
 from seismass.model.block import Block
 from seismass.model.building import Building
-from seismass.model.codes import CodeFraction
+from seismass.model.codes import CodeFraction, code_fraction
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.scene import Scene
 from seismass.spectra import TargetSpectrum
@@ -48,6 +48,22 @@ class DesignRule:
     combination: Combination = "srss"
 
 
+def fractions_of(code: CodeFraction, own: FloatArray, uses: tuple[str, ...]) -> FloatArray:
+    """Return the fraction of the design live load that counts on each floor.
+
+    Parameters
+    ----------
+    code : CodeFraction
+        Code, with the use of floors that state none.
+    own : ndarray, shape (storeys,)
+        Fraction that a floor states; NaN: none.
+    uses : tuple of str
+        Use that a floor states; empty: none.
+    """
+    of_code = [code_fraction(code.code_id, use).fraction if use else code.fraction for use in uses]  # type: ignore[arg-type]
+    return np.where(np.isnan(own), of_code, own)
+
+
 @dataclass(frozen=True, eq=False)
 class OwnBuilding:
     """A building with its goods, as a building file describes it; see `read_building`.
@@ -62,6 +78,10 @@ class OwnBuilding:
         Floor masses without goods (kg).
     stiffness : ndarray, shape (storeys,)
         Initial storey stiffnesses (N/m).
+    stated_period : float or None
+        First period (s) from which they were found; None where they were stated.
+    period_mass : {"bare", "code share", "all"}
+        Which goods acted as mass in that period: none, the code's share, or all present.
     heights : ndarray, shape (storeys,), or None
         Storey heights (m); None where they are not known: then drifts are in metres and there is no limit.
     yield_shear : ndarray, shape (storeys,), or None
@@ -72,6 +92,8 @@ class OwnBuilding:
         Omega, r2 and r3 of the storeys.
     damping : float
         Ratio of critical damping in every mode of the building without goods.
+    damping_from_storey : int
+        Lowest storey that is damped; above 1 the modes are those of the building above the floor below it.
     gravity_load : ndarray, shape (storeys,), or None
         Gravity load of each floor without goods (N), to which the weight of the goods is added; None: no P-Delta.
     area : ndarray, shape (storeys,)
@@ -91,7 +113,11 @@ class OwnBuilding:
     target : TargetSpectrum or None
         Site spectrum; None where the file has none.
     code : CodeFraction
-        The code, and the fraction of the design live load that it counts as mass.
+        The code, and the fraction of the design live load that it counts as mass where a floor states none of its own.
+    own_fractions : ndarray, shape (storeys,)
+        Fraction that a floor states, 0 where it is exempt; NaN: that of the code.
+    uses : tuple of str
+        Use of each floor; empty: that of the file.
     code_stated : bool
         Whether the file names the code.
     drift_limit, theta_limit : float
@@ -109,6 +135,8 @@ class OwnBuilding:
     storey_names: tuple[str, ...]
     mass: FloatArray
     stiffness: FloatArray
+    stated_period: float | None
+    period_mass: str
     heights: FloatArray | None
     yield_shear: FloatArray | None
     design: DesignRule | None
@@ -116,6 +144,7 @@ class OwnBuilding:
     second_slope: FloatArray
     third_slope: FloatArray
     damping: float
+    damping_from_storey: int
     gravity_load: FloatArray | None
     area: FloatArray
     dead_load_stated: NDArray[np.bool_]
@@ -127,6 +156,8 @@ class OwnBuilding:
     mu_factors: tuple[float, float]
     target: TargetSpectrum | None
     code: CodeFraction
+    own_fractions: FloatArray
+    uses: tuple[str, ...]
     code_stated: bool
     drift_limit: float
     theta_limit: float
@@ -160,10 +191,29 @@ class OwnBuilding:
         return float(self.goods.sum()) / total if total > 0.0 else 0.0
 
     @property
-    def design_fraction(self) -> float:
-        """Fraction of the design live load in the mass of the design: as stated, else that of the code."""
+    def code_mass(self) -> FloatArray:
+        """What the code counts of the live load on each floor (kg), shape (storeys,)."""
+        counted: FloatArray = fractions_of(self.code, self.own_fractions, self.uses) * self.live_load
+        return counted
+
+    @property
+    def code_share(self) -> float:
+        """What the code counts over the design live load of the whole building; that of the code without live load."""
+        total = float(self.live_load.sum())
+        uniform = not any(self.uses) and np.isnan(self.own_fractions).all()
+        return self.code.fraction if uniform or total == 0.0 else float(self.code_mass.sum()) / total
+
+    @property
+    def design_mass(self) -> FloatArray:
+        """Mass of the live load in the design (kg): the fraction that is stated, else what the code counts."""
         stated = None if self.design is None else self.design.fraction
-        return self.code.fraction if stated is None else stated
+        return self.code_mass if stated is None else stated * self.live_load
+
+    @property
+    def design_fraction(self) -> float:
+        """Mass of the live load in the design over the design live load of the whole building."""
+        stated = None if self.design is None else self.design.fraction
+        return self.code_share if stated is None else stated
 
     def period(self, attached: FloatArray | float = 0.0) -> float:
         """Return the first period (s) with a mass attached to each floor (kg)."""
@@ -185,7 +235,7 @@ class OwnBuilding:
             There is no site spectrum, or it does not cover the modal periods.
         """
         return response_spectrum_analysis(
-            self.mass + (self.design_fraction * self.live_load if attached is None else attached),
+            self.mass + (self.design_mass if attached is None else attached),
             self.stiffness,
             self.site_spectrum(target),
             combination="srss" if self.design is None else self.design.combination,
@@ -225,10 +275,23 @@ class OwnBuilding:
             overstrength=self.overstrength,
             second_slope=self.second_slope,
             third_slope=self.third_slope,
-            damping=self.damping,
+            damping=self.damping if self.damping_from_storey == 1 else self._damping_above(),
             heights=self.heights,
             gravity_load=self.gravity_load,
         )
+
+    def _damping_above(self) -> FloatArray:
+        """Damping matrix in the modes of the building above the floor on which the lowest damped storey stands."""
+        below = self.damping_from_storey - 1
+        above = Building(
+            self.mass[below:], self.stiffness[below:], yield_shear=np.inf, damping=self.damping
+        ).damping_matrix
+        # Displacements of the floors above relative to that floor.
+        relative = np.zeros((self.storeys - below, self.storeys))
+        relative[:, below:] = np.eye(self.storeys - below)
+        relative[:, below - 1] = -1.0
+        matrix: FloatArray = relative.T @ above @ relative
+        return matrix
 
     def scene(self, target: TargetSpectrum | None = None, *, mu_factor: float = 1.0) -> Scene:
         """Return the building with its goods, one block per loaded floor.

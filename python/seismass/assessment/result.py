@@ -185,7 +185,7 @@ class Assessment(Result):
             "reason": self.answer.reason,
             "on_motions": self.answer.motions,
             "answer": self._answer_document(),
-            "code": asdict(code) | {"id": code.code_id},
+            "code": asdict(code) | {"id": code.code_id, "share_of_design_live_load": building.code_share},
             "effective": {model: result.to_dict() for model, result in self.effective.items()},
             "storeys": self.storeys.to_dicts(),
             "governing": self.governing.to_dicts(),

@@ -280,7 +280,13 @@ def _digest(
     bootstrap: dict[str, Any],
 ) -> str:
     """SHA-256 of everything that the numbers depend on."""
-    limits = [building.drift_limit, building.theta_limit, building.code.fraction, building.design_fraction]
+    limits = [
+        building.drift_limit,
+        building.theta_limit,
+        building.code.fraction,
+        building.code_share,
+        building.design_fraction,
+    ]
     described = [SCHEMA_VERSION, None if target is None else target.parameters, bootstrap, limits]
     digest = hashlib.sha256(json.dumps(described, sort_keys=True).encode())
     for name, scene in scenes.items():

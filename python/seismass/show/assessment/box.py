@@ -40,8 +40,8 @@ def _code_sentence(result: AssessmentTables) -> str:
     code = result.code
     unchecked = "" if code["status"] in (VERIFIED, AS_STATED) else f"; {NOT_CHECKED}"
     return (
-        f"{code['code']}: {code['fraction'] / result.present_share:.2f} of the goods present "
-        f"({code['fraction']:g} of the design live load{unchecked})."
+        f"{code['code']}: {code['share_of_design_live_load'] / result.present_share:.2f} of the goods present "
+        f"({code['share_of_design_live_load']:.3g} of the design live load{unchecked})."
     )
 
 

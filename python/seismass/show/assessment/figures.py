@@ -111,9 +111,13 @@ def _mark_shares(axes: Axes, result: AssessmentTables) -> None:
     if result.advised is not None:
         label = f"advised: {result.advised:.2f} of the goods present"
         axes.axvline(result.advised, color=INK, linestyle=DASH, linewidth=1.2, label=label)
-    if code["fraction"] <= present:
-        label = f"{_plain(code['code'])}: {code['fraction']:g} of the design live load{_unchecked(code)}"
-        axes.axvline(code["fraction"] / present, color=PURPLE, linestyle=DASH_DOT, linewidth=1.4, label=label)
+    if code["share_of_design_live_load"] <= present:
+        label = (
+            f"{_plain(code['code'])}: {code['share_of_design_live_load']:.3g} of the design live load{_unchecked(code)}"
+        )
+        axes.axvline(
+            code["share_of_design_live_load"] / present, color=PURPLE, linestyle=DASH_DOT, linewidth=1.4, label=label
+        )
     if code["use"] != "storage":
         return
     marks = {name: share / present for name, share in STORAGE_CODES.items() if share <= present}
@@ -249,7 +253,7 @@ def _model_label(result: AssessmentTables, model: str) -> str:
         return rf"advised, $\lambda$ = {result.advised:.2f} of the goods"
     if model == CODE:
         code = result.code
-        return f"{_plain(code['code'])}, {code['fraction']:g} of the live load{_unchecked(code)}"
+        return f"{_plain(code['code'])}, {code['share_of_design_live_load']:.3g} of the live load{_unchecked(code)}"
     return {REAL: "goods slide, friction as stated", ATTACHED: "all goods attached", BARE: "no goods attached"}.get(
         model, NAMES[model]
     )

@@ -93,7 +93,7 @@ def _input(result: AssessmentTables) -> list[Markup]:
         "live load",
         "P-Delta": "with the weight of building and goods" if given["p_delta"] else "none",
         "Bounds of friction": "{:g} and {:g} times mu".format(*given["mu_factors"]),
-        "Code": f"{code['code']}, {code['use']}: {code['fraction']:g} of the design live load"
+        "Code": f"{code['code']}, {code['use']}: {code['share_of_design_live_load']:.3g} of the design live load"
         + "".join(f"; {code[name]}" for name in ("clause", "status", "note") if code[name])
         + ("" if code["status"] in (VERIFIED, AS_STATED) else f"; {NOT_CHECKED}"),
         "Site spectrum": "none" if document["target"] is None else document["target"]["label"],

@@ -76,10 +76,11 @@ def _answer(result: Assessment) -> list[str]:
 def _code(result: Assessment) -> str:
     """The code's fraction on the base of the shares, with its own in brackets."""
     code, share = result.building.code, result.building.present_share
+    of_load = result.building.code_share
     spread = f", range {code.low:g} to {code.high:g}" if code.low < code.high else ""
     source = "".join(f"; {part}" for part in (code.clause, code.status, "" if code.checked else NOT_CHECKED) if part)
     return (
-        f"{code.code}{code.mark}, {code.use}: {code.fraction / share:.2f} of the goods present ({code.fraction:g} of "
+        f"{code.code}{code.mark}, {code.use}: {of_load / share:.2f} of the goods present ({of_load:.3g} of "
         f"the design live load{spread}){source}"
     )
 
@@ -100,7 +101,7 @@ def _label(result: Assessment, model: str) -> str:
     return {
         ADVISED: "analysis 1",
         BARE: "analysis 2" if result.answer.analyses else "no goods",
-        CODE: f"code {result.building.code.fraction:g}{result.building.code.mark}",
+        CODE: f"code {result.building.code_share:.3g}{result.building.code.mark}",
         REAL: "slide, mu",
         REAL_HIGH: f"mu x {high:g}",
         REAL_LOW: f"mu x {low:g}",
