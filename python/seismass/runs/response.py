@@ -14,6 +14,7 @@ from seismass.base.forks import require_polars
 from seismass.base.values import FloatArray, frozen, refusal
 from seismass.base.views import view
 from seismass.model.motion import Motion
+from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.runs.response_views import ResponseAnimation, ResponsePlots
 
@@ -112,6 +113,11 @@ class Response:
         if value is None:
             raise refusal(InvalidOption, option, "simulate", f"asked for, if {name} is wanted", "False")
         return value
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What is unlikely about scene and motion, in sentences: wrong units above all."""
+        return (*self.scene.remarks, *motion_remarks(self.motion))
 
     @property
     def status(self) -> str:
