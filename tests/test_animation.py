@@ -274,6 +274,6 @@ def test_command_takes_a_scene_file_and_refuses_contradictions(
     assert main(["animate", "one.json", "--code", "nbc", "--out", "one.gif", "--fps", "5"]) == 0
     assert "60 % of the goods attached" in capsys.readouterr().out
     assert Path("one.gif").read_bytes().startswith(b"GIF89a")
-    assert main(["animate", "one.json", "--code", "nbc", "--fraction", "0.5"]) == 2
+    assert main(["animate", "one.json", "--code", "nbc", "--code-share", "0.5"]) == 2
     assert main(["animate", "one.json", "--out", "none/one.html"]) == 2
     assert sorted(file.name for file in tmp_path.iterdir()) == ["one.gif", "one.json"]

@@ -32,7 +32,7 @@ def test_names_that_are_not_utf_8_are_shown_with_escapes(tmp_path: Path, capsys:
     with_name(tmp_path, b"suite\xe9/d\xe9-UP.AT2")
     names = sm.read_suite(path.parent).table()["name"].to_list()
     assert names == [r"a\udce9", r"b\udce9", r"c\udce9", r"d\udce9-UP"]
-    assert cli.main(["spectrum", str(path), "--periods", "1"]) == 0
+    assert cli.main(["spectrum", str(path), "--period", "1"]) == 0
     assert r"c\udce9" in capsys.readouterr().out
     assert cli.main(["scale", "--records", str(path.parent)]) == 0
     assert r"suite\udce9: 3 motions" in capsys.readouterr().out
@@ -47,7 +47,7 @@ def test_folders_that_are_not_utf_8_are_written_to(tmp_path: Path) -> None:
     folder = with_name(tmp_path, b"\xe9/a.AT2").parent
     (folder / "scene.toml").write_text("[[blocks]]\nfloor = 0\nmass = 1\nmu = 0.1\n[motion]\nfile = 'a.AT2'\n")
     for name in ("h.csv", "h.parquet"):
-        assert cli.main(["run", str(folder / "scene.toml"), "--histories", str(folder / name)]) == 0
+        assert cli.main(["run", str(folder / "scene.toml"), "--out", str(folder / name)]) == 0
         assert (folder / name).stat().st_size > 0
     assert cli.main(["study", "--out", str(folder / "study"), "--no-figures"]) == 0
     assert (folder / "study" / "summary.parquet").is_file()
@@ -59,7 +59,7 @@ def test_folders_that_are_not_utf_8_are_written_to(tmp_path: Path) -> None:
 def test_letters_that_the_terminal_lacks_are_escaped(tmp_path: Path) -> None:
     path = with_name(tmp_path, "Düzce.AT2".encode())
     done = subprocess.run(
-        [*COMMAND, "spectrum", path, "--periods", "1"],
+        [*COMMAND, "spectrum", path, "--period", "1"],
         env=os.environ | {"PYTHONIOENCODING": "ascii"},
         capture_output=True,
         check=False,
@@ -72,6 +72,6 @@ def test_letters_that_the_terminal_lacks_are_escaped(tmp_path: Path) -> None:
 @pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-"])
 def test_closed_streams_do_not_stop_a_command(tmp_path: Path, closed: str) -> None:
     path = with_name(tmp_path, b"a.AT2")
-    line = ["sh", "-c", f'"$@" {closed}', "sh", *COMMAND, "spectrum", path, "--periods", "1"]
+    line = ["sh", "-c", f'"$@" {closed}', "sh", *COMMAND, "spectrum", path, "--period", "1"]
     done = subprocess.run(line, capture_output=True, check=False)
     assert (done.returncode, done.stderr) == (0, b"")

@@ -82,9 +82,9 @@ def test_figures_are_written(pair: list[str], tmp_path: Path, capsys: pytest.Cap
     assert "<svg" in (tmp_path / "scan.svg").read_text()
     capsys.readouterr()
     assert main(["pulse", *pair, "--plot", str(tmp_path / "pulse.pdf")]) == 2
-    assert "--plot of seismass pulse must be a .png or .svg file" in capsys.readouterr().err
+    assert "--plot of pulse must be a file with the suffix .png or .svg" in capsys.readouterr().err
     assert main(["pulse", *pair, "--method", "baker2007", "--plot", str(tmp_path / "two.png")]) == 2
-    assert "--plot of seismass pulse must be of one result; got 2" in capsys.readouterr().err
+    assert "--plot of pulse must be of one result; got 2" in capsys.readouterr().err
 
 
 def test_pairs_of_a_folder(pair: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -110,10 +110,10 @@ def test_both_components_in_one_file(shared: Path, capsys: pytest.CaptureFixture
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["{0}", "--orientations", "6"], "--orientations of seismass pulse must be given two components; got one"),
+        (["{0}", "--orientations", "6"], "--orientations of pulse must be given two components; got one"),
         (["{0}", "--method", "shahi_baker2014"], "must be given two components; got one"),
         (["{0}", "{1}", "--orientations", "6", "--method", "shahi_baker2014"], "must be baker2007 with --orientations"),
-        (["{folder}", "{0}"], "RECORD2 of seismass pulse must be left out for a folder"),
+        (["{folder}", "{0}"], "RECORD2 of pulse must be left out for a folder"),
         (["{0}", "{folder}/no.AT2"], "record file must be a file that can be read"),
     ],
 )

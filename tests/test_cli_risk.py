@@ -25,7 +25,7 @@ mu = 0.15
 acceleration = [0.0, 1.0, 0.0]
 dt = 0.01
 """
-COARSE = ("--shares", "0,0.5,1", "--suite", "seven")
+COARSE = ("--share", "0,0.5,1", "--suite", "seven")
 
 
 @pytest.fixture
@@ -44,7 +44,7 @@ def test_prints_what_the_function_finds(
     files: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     scene, hazard = files
-    options = ("--limit", "drift_ratio=0.01", "--other-limits", "0.02", "--code-share", "0.5", "--hazard-period", "0.5")
+    options = ("--limit", "drift_ratio=0.01", "--other-limit", "0.02", "--code-share", "0.5", "--hazard-period", "0.5")
     arguments = (scene, "--hazard", hazard, *options, *COARSE)
     assert command(*arguments, "--out", tmp_path / "out") == 0
     printed = capsys.readouterr()
@@ -68,7 +68,7 @@ def test_prints_what_the_function_finds(
 
 
 def test_building_file_gives_limit_and_share(files: tuple[Path, Path], capsys: pytest.CaptureFixture[str]) -> None:
-    arguments = (example_file(), "--hazard", files[1], "--other-limits", "0.01", *COARSE, "--json")
+    arguments = (example_file(), "--hazard", files[1], "--other-limit", "0.01", *COARSE, "--json")
     assert command(*arguments) == 0
     document = json.loads(capsys.readouterr().out)
     building = sm.read_building(example_file())
@@ -84,8 +84,11 @@ def test_building_file_gives_limit_and_share(files: tuple[Path, Path], capsys: p
             ("--limit", "slip=0.1"),
             "limit of risk-targeted share must be a number, or a LimitState of drift or drift_ratio",
         ),
-        (("--hazard-period", "0.5", "--period", "0.4"), "must be the period of the hazard curve, 0.5 s; got 0.4 s"),
-        (("--shares", "0.2,1"), "fractions of risk-targeted share must be a list in increasing order"),
+        (
+            ("--hazard-period", "0.5", "--measure-period", "0.4"),
+            "must be the period of the hazard curve, 0.5 s; got 0.4 s",
+        ),
+        (("--share", "0.2,1"), "fractions of risk-targeted share must be a list in increasing order"),
     ],
 )
 def test_bad_input(

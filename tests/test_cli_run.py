@@ -80,7 +80,7 @@ def test_json_has_the_names_of_the_reference_results(scene: Path, capsys: pytest
 def test_histories(scene: Path, tmp_path: Path, suffix: str, read: Callable[[Path], pl.DataFrame]) -> None:
     target = tmp_path / f"histories{suffix}"
     target.write_text("what was there before")
-    assert command(scene, "--histories", target) == 0
+    assert command(scene, "--out", target) == 0
     frame = read(target)
     assert frame.columns == ["time", "drift_1", "drift_2", "slip_1"]
     file = sm.read_scene(scene)
@@ -96,7 +96,7 @@ def test_a_collapse_is_a_result(tmp_path: Path, capsys: pytest.CaptureFixture[st
     path.write_text(json.dumps(SCENE | {"collapse_drift": 0.01}))
     assert command(path) == 0
     assert "collapsed" in capsys.readouterr().out
-    assert command(path, "--json", "--histories", tmp_path / "h.csv") == 0
+    assert command(path, "--json", "--out", tmp_path / "h.csv") == 0
     assert json.loads(capsys.readouterr().out)["collapsed_storey"] in (1, 2)
 
 
@@ -114,9 +114,12 @@ def test_bad_input_ends_with_2_and_writes_nothing(
 ) -> None:
     target = tmp_path / "histories.csv"
     for arguments, message in (
-        ((tmp_path / "nowhere.toml", "--histories", target), "must be a file that can be read"),
-        ((scene, "--histories", tmp_path / "histories.xlsx"), "suffix of --histories must be .parquet or .csv"),
-        ((scene, "--histories", tmp_path / "nowhere" / "h.csv"), "folder of --histories must exist"),
+        ((tmp_path / "nowhere.toml", "--out", target), "must be a file that can be read"),
+        (
+            (scene, "--out", tmp_path / "histories.xlsx"),
+            "--out of run must be a file with the suffix .parquet or .csv; got",
+        ),
+        ((scene, "--out", tmp_path / "nowhere" / "h.csv"), "No such folder"),
     ):
         assert command(*arguments) == 2
         printed = capsys.readouterr()

@@ -108,7 +108,7 @@ def test_selection_names_what_was_not_chosen(folder: Path, capsys: pytest.Captur
 
 def test_table_and_figure_are_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table, figure = tmp_path / "factors.csv", tmp_path / "scaling.png"
-    options = ["--method", "mps", "--reduction", "2", "--csv", str(table), "--plot", str(figure)]
+    options = ["--method", "mps", "--reduction", "2", "--out", str(table), "--plot", str(figure)]
     assert main(["scale", *options]) == 0
     assert "misfit: root mean square" in capsys.readouterr().out
     expected = sm.scaling.scale_modal_pushover(SUITE, TARGET, reduction=2.0)
@@ -138,12 +138,12 @@ def test_a_building_gives_period_and_pushover(tmp_path: Path, capsys: pytest.Cap
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--reduction", "4"], "--reduction of scale must be left out with asce7-10; got 4.0"),
+        (["--reduction", "4"], "--reduction of scale must be left out with asce7-10; got 4"),
         (["--lowest-period", "0.1"], "--lowest-period of scale must be left out with asce7-10; got 0.1"),
         (["--method", "sa-t1", "--building", "b.toml"], "--building of scale must be left out with sa-t1; got b.toml"),
         (
             ["--method", "mps", "--building", "b.toml", "--reduction", "4"],
-            "--reduction of scale must be left out with --building; got 4.0",
+            "--reduction of scale must be left out with --building; got 4",
         ),
         (["--pairs"], "--pairs of scale must be given with --method asce7-16 and --records; got asce7-10"),
         (
@@ -157,7 +157,7 @@ def test_a_building_gives_period_and_pushover(tmp_path: Path, capsys: pytest.Cap
         (["--max-per-event", "3"], "--max-per-event of scale must be left out without --select; got 3"),
         (["--plot", "figure.pdf"], "--plot of scale must be a file with the suffix .png or .svg; got figure.pdf"),
         (["--method", "mps"], "--building of scale must be given with mps, one of them; got none"),
-        (["--csv", "no_folder/factors.csv"], "No such folder: 'no_folder'"),
+        (["--out", "no_folder/factors.csv"], "No such folder: 'no_folder'"),
         (["--target", "ec8:1:C:0.3", "--sds", "1"], "sds of target spectrum must be left out where --target is given"),
         (["--select", "8"], "records of selection must be at least 8 to choose; got 7 of 7 within the limits"),
     ],

@@ -28,7 +28,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def spectrum(*arguments: object) -> int:
-    return main(["spectrum", *map(str, arguments), "--periods", *map(str, PERIODS)])
+    return main(["spectrum", *map(str, arguments), "--period", *map(str, PERIODS)])
 
 
 @pytest.mark.parametrize(

@@ -200,7 +200,7 @@ def test_intensity_is_strength_and_friction() -> None:
 
 
 def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    arguments = ["map", "--mu", "0.1,0.3", "--R", "2,4", "--alpha", "1", "--intensity", "0.5,1"]
+    arguments = ["map", "--mu", "0.1,0.3", "--R", "2,4", "--alpha", "1", "--factor", "0.5,1"]
     assert main([*arguments, "--out", str(tmp_path)]) == 0
     printed = capsys.readouterr().out
     assert "min(1, eta_h^p)" in printed

@@ -22,9 +22,9 @@ RUN = [
     "building --example > warehouse.toml",
     "building warehouse.toml",
     "explore",
-    "map --mu 0.2,0.4,0.6 --R 2,4,6 --alpha 1 --intensity 0.5,1,1.5,2",
-    "ida warehouse.toml",
-    "ida scene.toml --method cloud --measure pga --limit drift=0.05 --json",
+    "map --mu 0.2,0.4,0.6 --R 2,4,6 --alpha 1 --factor 0.5,1,1.5,2",
+    "fragility warehouse.toml",
+    "fragility scene.toml --method cloud --measure pga --limit drift=0.05 --json",
     "slip scene.toml --clearance 0.3 --size 1.0x1.2",
     "risk scene.toml --hazard hazard.csv --hazard-period 0.5 --limit drift_ratio=0.02 --records recordings/",
     "study --records suite.csv --second-slope 0.1 --no-figures --json > study.json",
@@ -72,7 +72,7 @@ def test_every_command_is_among_them_and_every_line_in_the_help() -> None:
     assert {line.split()[0] for line in RUN} == set(COMMANDS)
     for line in RUN:
         module, _ = COMMANDS[line.split()[0]]
-        text = importlib.import_module(f"seismass.commands.{module}")._EPILOG
+        text = importlib.import_module(f"seismass.commands.{module}").COMMAND.epilog
         assert f"\n  seismass {line}\n" in text, line
 
 

@@ -386,7 +386,7 @@ def test_command_writes_what_the_function_gives(
     assert suite[0].name == "record"
     assert "matched to ASCE 7 shape" in suite[0].remarks[-1]
     assert main(["match", str(source), "--plot", "figure.pdf"]) == 2
-    assert "must be a name that ends in .png or .svg; got figure.pdf" in capsys.readouterr().err
+    assert "must be a file with the suffix .png or .svg; got figure.pdf" in capsys.readouterr().err
 
 
 def test_outputs_are_judged_before_records_are_matched(

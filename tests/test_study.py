@@ -644,7 +644,7 @@ def test_version_spectrum_and_scale_commands(capsys: pytest.CaptureFixture[str],
 
     record = tmp_path / "step.txt"
     record.write_text("time (s), acceleration (m/s2)\n" + "".join(f"{0.01 * i:.2f}, 2.0\n" for i in range(300)))
-    assert command("spectrum", record, "--periods", 0.5, 1.0, "--damping", 0.0, "--kind", "sd") == 0
+    assert command("spectrum", record, "--period", 0.5, 1.0, "--damping", 0.0, "--kind", "sd") == 0
     table = pl.read_csv(capsys.readouterr().out.encode())
     assert table.columns == ["motion", "record", "damping", "period", "sd"]
     w = 2.0 * np.pi / np.array([0.5, 1.0])

@@ -7,13 +7,10 @@ import io
 import os
 import sys
 from collections.abc import Sequence
-from typing import Final
 
-from seismass.base.errors import SeismassError
-from seismass.commands.parser import build_parser
-
-INTERRUPTED: Final = 130
-"""Exit code after Ctrl-C, as shells give it (128 + SIGINT)."""
+from seismass.base.errors import SeismassError, SimulationError
+from seismass.commands.exit_codes import BAD_INPUT, DONE, FAILED, INTERRUPTED
+from seismass.commands.parser import parse
 
 
 def _make_output_safe() -> None:
@@ -29,6 +26,8 @@ def _make_output_safe() -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit code: 0 done, 1 a run failed, 2 bad input, 130 interrupted.
 
+    Nothing else catches what goes wrong: a command returns a code of its own where it has one, or raises.
+
     Parameters
     ----------
     arguments : sequence of str, optional
@@ -36,19 +35,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     _make_output_safe()
     words = sys.argv[1:] if arguments is None else list(arguments)
-    args = build_parser(next((word for word in words if not word.startswith("-")), "")).parse_args(words)
     try:
+        args = parse(words)
         code: int = args.run(args)
         sys.stdout.flush()
     except BrokenPipeError:
         # The reader has gone, as with `| head`; nothing more can be printed, not even by the interpreter at its end.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+        return DONE
     except (SeismassError, OSError) as error:
         from seismass.base.values import printable  # numpy, which --help does not need
 
-        print(f"seismass: error: {printable(str(error), lines=True)}", file=sys.stderr)
-        return 2
+        failed = isinstance(error, SimulationError)
+        kind = "run failed" if failed else "error"
+        print(f"seismass: {kind}: {printable(str(error), lines=True)}", file=sys.stderr)
+        return FAILED if failed else BAD_INPUT
     except KeyboardInterrupt:
         # On a terminal a progress bar, or the ^C itself, has begun the line.
         # One Ctrl-C may be heard twice, by a library and by Python.

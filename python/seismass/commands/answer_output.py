@@ -1,46 +1,38 @@
-"""The output of the commands whose answer is a result with a text, tables and figures: `ida`, `risk` and `slip`."""
+"""How a command gives its answer: what it writes, and what it prints."""
 
 from __future__ import annotations
 
 import argparse
-import json
 import os
-import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
-from seismass.commands.options import left_out, threads_option, warn_left_out
+from seismass.commands.command import seconds
+from seismass.commands.options import left_out, warn_left_out
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from seismass.records import Suite
 
 
 class Answer(Protocol):
-    """A result that these commands print and write."""
+    """A result as commands print and write it; every `Result` is one."""
 
     @property
     def text(self) -> str:
-        """What the command prints."""
+        """What is printed."""
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the result as plain values."""
+    def to_json(self) -> str:
+        """Return what is printed for another program."""
 
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
         """Write tables, and figures if asked for, and return the files."""
 
 
-def add_answer_options(parser: argparse.ArgumentParser) -> None:
-    """Add --seed, --out, --jobs, --json and --no-figures."""
-    output = parser.add_argument_group("running and output")
-    output.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the bootstrap (0)")
-    output.add_argument("--out", type=Path, metavar="DIR", help="folder to write tables and figures to")
-    output.add_argument("--jobs", type=threads_option, metavar="N", help="threads (all cores); changes no digit")
-    output.add_argument("--json", action="store_true", help="print the answer as JSON")
-    output.add_argument("--no-figures", action="store_true", help="write tables only")
-
-
 def give_answer(
-    args: argparse.Namespace, result: Answer, suite: Suite, *, head: str, indent: int, started: float
+    args: argparse.Namespace, result: Answer, suite: Suite, *, head: str = "", indent: int = 0, answer: str = ""
 ) -> None:
     """Write the files of an answer and print it.
 
@@ -56,21 +48,40 @@ def give_answer(
         What is printed before the text, with its ends of lines.
     indent : int
         Spaces before what the motions leave out.
-    started : float
-        When the command began, by `time.perf_counter`.
+    answer : str
+        As for `show`.
 
     Raises
     ------
     OSError
         A file cannot be written.
     """
+    from seismass.media.folder import PAGE
+
     files = [] if args.out is None else result.write(args.out, figures=not args.no_figures)
     if args.json:
         warn_left_out(suite)
-        print(json.dumps(result.to_dict(), indent=2, allow_nan=False))
+        print(result.to_json())
         return
-    print(f"{head}{result.text}")
+    show(f"{head}{result.text}", answer)
     for line in left_out(suite):
-        print(" " * indent + line)
-    written = f"{len(files)} files in {args.out}, " if files else ""
-    print(f"\n{written}{time.perf_counter() - started:.1f} s")
+        show(" " * indent + line)
+    page = f", the page is {args.out / PAGE}" if any(file.name == PAGE for file in files) else ""
+    written = f"{len(files)} files in {args.out}{page}, " if files else ""
+    print(f"\n{written}{seconds(args)}")
+
+
+def write_figure(figure: Figure, path: Path) -> None:
+    """Write one figure, PNG or SVG by the suffix of its file.
+
+    Raises
+    ------
+    OSError
+        The file cannot be written.
+    """
+    from seismass.base.files import written_whole
+    from seismass.media.figure_file import save_figure
+
+    kind: Literal["png", "svg"] = "svg" if path.suffix.lower() == ".svg" else "png"
+    with written_whole(path) as temporary:
+        save_figure(figure, kind, temporary)

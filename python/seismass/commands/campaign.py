@@ -4,65 +4,38 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.options import threads_option
+from seismass.commands.command import Command, seconds
+from seismass.commands.options import add_jobs_option, add_json_option, add_out_option, threads_option
+from seismass.commands.progress import progress
 
 if TYPE_CHECKING:
-    from seismass.campaign import Campaign, CampaignFolder, CampaignProgress
-    from seismass.campaign.progress import Report
+    from seismass.campaign import Campaign, CampaignFolder
 
 _MANY_RUNS: Final = 1_000_000
 """Runs from which on their time is estimated before they begin."""
 _LONG: Final = 86400.0
 """Time (s) beyond which a campaign must be asked for."""
 
-_EPILOG = """examples:
-  seismass campaign --example > campaign.toml
-  seismass campaign campaign.toml --out results
-  seismass campaign results
-  seismass campaign results --status
-  seismass campaign campaign.toml --out results --workers 4
-  seismass campaign campaign.toml --out /shared/results --scheduler tcp://head:8786
-  seismass campaign campaign.toml --out /shared/results --shard 3/20
 
-The third line goes on after an interruption. Results are read by
-seismass.campaign.CampaignFolder("results").scan() or by any reader of Parquet.
-docs/campaign.md explains every key of a campaign file.
-
-exit codes: 0 done, 1 a run failed (its rows say why) or a part is damaged, 2 bad input, 130 interrupted"""
-
-
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "campaign",
-        help=help,
-        description="Solve the runs that a campaign file (TOML or JSON) describes, into a folder of Parquet files. The "
-        "same command goes on where it was stopped, and ends in the same bytes.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("source", type=Path, nargs="?", metavar="FILE", help="campaign file, or folder of a campaign")
     what.add_argument("--example", action="store_true", help="print a campaign file to start from, and stop")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="folder to write to, where FILE is a campaign file")
+    add_out_option(parser, "DIR", "folder to write to, where FILE is a campaign file")
     engine = parser.add_argument_group("where runs are solved").add_mutually_exclusive_group()
     engine.add_argument("--workers", type=threads_option, metavar="N", help="N worker processes here, by dask")
     engine.add_argument("--scheduler", metavar="ADDRESS", help="running dask scheduler, as tcp://host:8786")
     engine.add_argument("--shard", type=shard_option, metavar="I/N", help="parts I, I + N, ... alone: job I of N")
-    parser.add_argument(
-        "--jobs", type=threads_option, metavar="N", help="threads of the process, or of each task (all cores, or one)"
-    )
+    add_jobs_option(parser, "threads of the process, or of each task (all cores, or one)")
     parser.add_argument("--long", action="store_true", help="begin also what takes this machine more than a day")
     look = parser.add_argument_group("looking at a folder").add_mutually_exclusive_group()
     look.add_argument("--status", action="store_true", help="print what is there and what is missing, and stop")
     look.add_argument("--verify", action="store_true", help="compare every part with its digest and its runs, and stop")
-    parser.add_argument("--json", action="store_true", help="print the state of the folder as JSON")
-    parser.set_defaults(run=run)
+    add_json_option(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -88,16 +61,15 @@ def run(args: argparse.Namespace) -> int:
         campaign, place = (None, args.out) if looks else (read_campaign(args.source), args.out)
     if campaign is not None:
         _announce(campaign, place, args)
-        started = time.perf_counter()
-        campaign.run(
-            place,
-            workers=args.workers,
-            scheduler=args.scheduler,
-            shard=args.shard,
-            threads=args.jobs,
-            progress=progress_line(),
-        )
-        seconds = time.perf_counter() - started
+        with progress() as tell:
+            campaign.run(
+                place,
+                workers=args.workers,
+                scheduler=args.scheduler,
+                shard=args.shard,
+                threads=args.jobs,
+                progress=None if tell is None else lambda state: tell(state.runs_done, state.runs),
+            )
     folder = CampaignFolder(place)
     problems = _problems(folder) if args.verify else []
     state = _state(folder, problems if args.verify else None)
@@ -106,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
     else:
         print(_text(folder, state))
         if campaign is not None:
-            print(f"time     {seconds:.1f} s")
+            print(f"time     {seconds(args)}")
         for part, problem in problems:
             print(f"part {part}: {problem}")
     return 1 if state["failed"] or state["unreadable"] or problems else 0
@@ -132,7 +104,7 @@ def _announce(campaign: Campaign, place: Path, args: argparse.Namespace) -> None
             got = f"about {duration_text(found.seconds * share)} and {size} for {campaign.total * share:.3g} runs"
             raise refusal(InvalidOption, "time", "campaign", "at most a day unless --long is given", got)
     if not args.json:
-        print(line)
+        print(line, flush=True)
 
 
 def _state(folder: CampaignFolder, problems: list[tuple[int, str]] | None) -> dict[str, Any]:
@@ -186,11 +158,6 @@ def _text(folder: CampaignFolder, state: dict[str, Any]) -> str:
         f"folder   {folder.path}",
         f"runs     {runs} of {state['runs']}, {state['failed']} failed",
         f"parts    {state['parts_present']} of {state['parts']}" + (f", {missing} missing" if missing else ""),
-        *(
-            [f"damaged  parts {_listed(state['unreadable'])}; remove them, and the same call solves them again"]
-            if state["unreadable"]
-            else []
-        ),
         f"size     {state['bytes'] / 1e6:.1f} MB" + (f", {state['bytes'] / runs:.1f} bytes a run" if runs else ""),
     ]
     if state["unreadable"]:
@@ -219,14 +186,26 @@ def shard_option(text: str) -> tuple[int, int]:
     return int(first), int(jobs)
 
 
-def progress_line() -> Report | None:
-    """Return a callable that draws one line on standard error, or None where that is no terminal."""
-    if not sys.stderr.isatty():
-        return None
-
-    def draw(progress: CampaignProgress) -> None:
-        end = "\n" if progress.parts_done == progress.parts else ""
-        sys.stderr.write(f"\r\033[K{progress.text}{end}")
-        sys.stderr.flush()
-
-    return draw
+COMMAND = Command(
+    description=(
+        "Solve the runs that a campaign file (TOML or JSON) describes, into a folder of Parquet files. The "
+        "same command goes on where it was stopped, and ends in the same bytes."
+    ),
+    examples="""
+campaign --example > campaign.toml
+campaign campaign.toml --out results
+campaign results
+campaign results --status
+campaign campaign.toml --out results --workers 4
+campaign campaign.toml --out /shared/results --scheduler tcp://head:8786
+campaign campaign.toml --out /shared/results --shard 3/20
+""",
+    options=options,
+    run=run,
+    note="""
+The third line goes on after an interruption. Results are read by
+seismass.campaign.CampaignFolder("results").scan() or by any reader of Parquet.
+docs/campaign.md explains every key of a campaign file.
+""",
+    codes={1: "a run failed (its rows say why) or a part is damaged"},
+)

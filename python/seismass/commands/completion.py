@@ -3,28 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
-_EPILOG = """examples:
-  seismass completion bash > ~/.local/share/bash-completion/completions/seismass
-  seismass completion zsh > ~/.zfunc/_seismass
-
-A folder of zsh has to be in fpath. A new shell completes then.
-
-exit codes: 0 done, 2 bad input"""
+from seismass.commands.command import Command
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "completion",
-        help=help,
-        description="Print the script by which a shell completes commands, options and choices of `seismass`.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     parser.add_argument("shell", choices=("bash", "zsh"), help="the shell")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -35,3 +20,17 @@ def run(args: argparse.Namespace) -> int:
 
     print(shtab.complete(build_parser(), shell=args.shell))
     return 0
+
+
+COMMAND = Command(
+    description="Print the script by which a shell completes commands, options and choices of `seismass`.",
+    examples="""
+completion bash > ~/.local/share/bash-completion/completions/seismass
+completion zsh > ~/.zfunc/_seismass
+""",
+    options=options,
+    run=run,
+    note="""
+A folder of zsh has to be in fpath. A new shell completes then.
+""",
+)

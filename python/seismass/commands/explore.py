@@ -4,37 +4,16 @@ from __future__ import annotations
 
 import argparse
 import webbrowser
-from pathlib import Path
-from typing import Any
 
 from seismass.base.files import written_whole
-from seismass.commands.options import check_files
-
-_EPILOG = """examples:
-  seismass explore
-  seismass explore --out warehouse.html --open
-
-The page needs nothing but itself: no network and no Python. docs/explorer.md explains it. It carries the kernel
-compiled to WebAssembly, which wheels of releases have; in a clone of the project, make explorer compiles it and writes
-the page.
-exit codes: 0 done, 2 bad input, or no compiled kernel"""
+from seismass.commands.command import Command
+from seismass.commands.options import add_out_option, check_files
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "explore",
-        help=help,
-        description="Write the live page: a building of up to four storeys with sliding goods, solved exactly in the "
-        "browser while its sliders move, with its effective fraction of live load.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument(
-        "--out", type=Path, metavar="FILE", default=Path("explorer.html"), help="file to write (explorer.html)"
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
+    add_out_option(parser, "FILE", "file to write (explorer.html)", "explorer.html")
     parser.add_argument("--open", action="store_true", help="open it in the browser")
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -49,3 +28,23 @@ def run(args: argparse.Namespace) -> int:
     if args.open:
         webbrowser.open(args.out.absolute().as_uri())
     return 0
+
+
+COMMAND = Command(
+    description=(
+        "Write the live page: a building of up to four storeys with sliding goods, solved exactly in the "
+        "browser while its sliders move, with its effective fraction of live load."
+    ),
+    examples="""
+explore
+explore --out warehouse.html --open
+""",
+    options=options,
+    run=run,
+    note="""
+The page needs nothing but itself: no network and no Python. docs/explorer.md explains it. It carries the kernel
+compiled to WebAssembly, which wheels of releases have; in a clone of the project, make explorer compiles it and writes
+the page.
+""",
+    codes={2: "bad input, or no compiled kernel"},
+)

@@ -8,44 +8,36 @@ import math
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
+from seismass.commands.answer_output import write_figure
+from seismass.commands.command import Command
 from seismass.commands.options import (
+    add_json_option,
+    add_out_option,
+    add_plot_option,
     add_reading_options,
     add_target_options,
     check_files,
+    check_plot,
+    numbers_option,
     positive_option,
     read_target,
     warn_left_out,
     warn_remarks,
 )
-from seismass.commands.study import progress_bar
+from seismass.commands.progress import progress
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.matching import MatchedSuite
     from seismass.records import Record, Suite
 
 _LIST: Final = "suite.csv"
-_EPILOG = """examples:
-  seismass match record.AT2 --out matched.AT2 --plot matched.png
-  seismass match record.AT2 --target uniform_hazard.csv --range 0.1 3.0
-  seismass match suite.csv --target ec8:1:C:0.3 --out matched/ --json
-
---out names a file of .AT2 or .csv for one record, else a folder: a file per record and a list suite.csv, which
---records of other commands takes. A record that is not matched within the tolerance is written too, and said.
-exit codes: 0 done, 1 a record is not matched within the tolerance, 2 bad input"""
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "match",
-        help=help,
-        description="Records adjusted by wavelets in the time domain until their spectra are the target, without drift "
-        "of velocity or displacement.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     parser.add_argument(
         "records",
         type=Path,
@@ -56,11 +48,10 @@ def add_parser(subparsers: Any, help: str) -> None:
     add_target_options(parser)
     parser.add_argument(
         "--range",
-        type=positive_option,
-        nargs=2,
-        default=[0.2, 1.5],
-        metavar=("T1", "T2"),
-        help="periods that are matched, s (0.2 1.5)",
+        type=numbers_option(2, above=0.0),
+        default=(0.2, 1.5),
+        metavar="T1,T2",
+        help="periods that are matched, s (0.2,1.5)",
     )
     parser.add_argument("--damping", type=positive_option, default=0.05, metavar="Z", help="ratio of damping (0.05)")
     parser.add_argument(
@@ -76,16 +67,14 @@ def add_parser(subparsers: Any, help: str) -> None:
     )
     parser.add_argument(
         "--pad",
-        type=_time_option,
-        nargs=2,
-        default=[0.0, 0.0],
-        metavar=("HEAD", "TAIL"),
-        help="zeros added before and behind each record, s (0 0)",
+        type=numbers_option(2, least=0.0),
+        default=(0.0, 0.0),
+        metavar="HEAD,TAIL",
+        help="zeros added before and behind each record, s (0,0)",
     )
-    parser.add_argument("--out", type=Path, metavar="PATH", help="file or folder for the matched records")
-    parser.add_argument("--plot", type=Path, metavar="FILE", help="figure, .png or .svg; numbered for several records")
-    parser.add_argument("--json", action="store_true", help="print the result as JSON")
-    parser.set_defaults(run=run)
+    add_out_option(parser, "PATH", "file or folder for the matched records")
+    add_plot_option(parser, "; numbered for several records")
+    add_json_option(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -93,21 +82,22 @@ def run(args: argparse.Namespace) -> int:
     from seismass.matching import match_suite
     from seismass.records.named import records_named
 
-    _check_outputs(args)
+    check_plot(args, "match")
     target = read_target(args)
     suite = records_named(args.records, dt=args.dt, unit=args.unit)
     _check_out(args.out, args.records, suite)
-    matched = match_suite(
-        suite,
-        target,
-        periods=args.range,
-        damping=args.damping,
-        tolerance=args.tolerance,
-        max_iterations=args.iterations,
-        scale=args.scale,
-        padding=tuple(args.pad),
-        progress=progress_bar(unit="records"),
-    )
+    with progress("records") as tell:
+        matched = match_suite(
+            suite,
+            target,
+            periods=args.range,
+            damping=args.damping,
+            tolerance=args.tolerance,
+            max_iterations=args.iterations,
+            scale=args.scale,
+            padding=args.pad,
+            progress=tell,
+        )
     warn_left_out(suite)
     warn_remarks(suite)
     if args.out is not None:
@@ -131,19 +121,10 @@ def run(args: argparse.Namespace) -> int:
         }
         print(json.dumps(document, indent=2))
     else:
-        print("\n".join(one.text for one in matched), end="")
+        show("\n".join(one.text for one in matched).removesuffix("\n"))
         if len(matched) > 1:
-            print(f"\nremark  {matched.suite.remarks[-1]}")
+            show(f"\nremark  {matched.suite.remarks[-1]}")
     return 0 if matched.converged else 1
-
-
-def _check_outputs(args: argparse.Namespace) -> None:
-    """Refuse names of files that cannot be meant, before anything is computed."""
-    from seismass.base.errors import InvalidOption
-
-    if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
-        raise InvalidOption(f"--plot of match must be a name that ends in .png or .svg; got {args.plot.name}")
-    check_files(args.plot)
 
 
 def _check_out(out: Path | None, given: Path, suite: Suite) -> None:
@@ -208,13 +189,9 @@ def _write(matched: MatchedSuite, out: Path) -> None:
 
 def _plot(matched: MatchedSuite, path: Path) -> None:
     """Draw each record, to files with a number where there are several."""
-    from seismass.base.files import written_whole
-    from seismass.media.figure_file import save_figure
-
     for number, one in enumerate(matched, start=1):
         file = path if len(matched) == 1 else path.with_name(f"{path.stem}_{number:03d}{path.suffix}")
-        with written_whole(file) as temporary:
-            save_figure(one.plot(), "png" if path.suffix.lower() == ".png" else "svg", temporary)
+        write_figure(one.plot(), file)
 
 
 def _scale_option(text: str) -> str | float:
@@ -229,11 +206,21 @@ def _scale_option(text: str) -> str | float:
     return number
 
 
-def _time_option(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = -1.0
-    if not 0.0 <= number < math.inf:
-        raise argparse.ArgumentTypeError(f"must be a time of at least 0 s; got {text!r}")
-    return number
+COMMAND = Command(
+    description=(
+        "Records adjusted by wavelets in the time domain until their spectra are the target, without drift "
+        "of velocity or displacement."
+    ),
+    examples="""
+match record.AT2 --out matched.AT2 --plot matched.png
+match record.AT2 --target uniform_hazard.csv --range 0.1 3.0
+match suite.csv --target ec8:1:C:0.3 --out matched/ --json
+""",
+    options=options,
+    run=run,
+    note="""
+--out names a file of .AT2 or .csv for one record, else a folder: a file per record and a list suite.csv, which
+--records of other commands takes. A record that is not matched within the tolerance is written too, and said.
+""",
+    codes={1: "a record is not matched within the tolerance"},
+)

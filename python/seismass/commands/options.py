@@ -1,4 +1,4 @@
-"""Options that several subcommands share: the motions and the target spectrum that they are scaled to."""
+"""Options that several subcommands share, each with its reader: motions, target, springs, readings, code, answer."""
 
 from __future__ import annotations
 
@@ -7,15 +7,16 @@ import errno
 import math
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Literal, get_args
 
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.model.springs import SHAPE_FIELDS
 from seismass.scaling.target_text import TARGET_HELP, target_of
 
 if TYPE_CHECKING:
+    from seismass.model.codes import CodeFraction
     from seismass.records import Suite
     from seismass.records.builtin import BuiltinName
     from seismass.spectra import TargetSpectrum
@@ -26,6 +27,8 @@ SPRING_OPTIONS: Final = {
     "third_slope": "slope after the second yield, an inference",
 }
 """What shapes the springs of a command's buildings, with its help."""
+CODE_HELP: Final = "code whose share is compared, as `seismass building --codes` lists them"
+FIGURE_SUFFIXES: Final = (".png", ".svg")
 _LISTED_SINGLY: Final = 8
 
 
@@ -34,21 +37,22 @@ def add_motion_options(parser: argparse.ArgumentParser) -> None:
     motions = parser.add_argument_group("motions")
     add_records_options(motions)
     add_target_options(motions)
-    motions.add_argument(
-        "--period", type=positive_option, default=1.0, metavar="T", help="motions are scaled from 0.2 T to 1.5 T (1 s)"
-    )
+    add_period_option(motions, 1.0, "motions are scaled from 0.2 T to 1.5 T (1 s)")
 
 
-def add_target_options(group: argparse._ActionsContainer) -> None:
-    """Add --target, --sds, --sd1 and --tl, which `read_target` reads."""
+def add_period_option(group: argparse._ActionsContainer, default: float | None, help: str) -> None:
+    """Add --period, for which motions are scaled."""
+    group.add_argument("--period", type=positive_option, default=default, metavar="T", help=help)
+
+
+def add_target_options(group: argparse._ActionsContainer, *, stand_in: bool = True) -> None:
+    """Add --target, --sds, --sd1 and --tl, which `read_target` reads; `stand_in`: with a spectrum by default."""
+    sds, sd1, tl = (" (1.07)", " (0.61)", "; the three defaults stand in for the Port of Long Beach and are not its")
     group.add_argument("--target", metavar="TARGET", help=TARGET_HELP)
-    group.add_argument("--sds", type=positive_option, metavar="G", help="S_DS of the ASCE 7 shape, g (1.07)")
-    group.add_argument("--sd1", type=positive_option, metavar="G", help="S_D1, g (0.61)")
+    group.add_argument("--sds", type=positive_option, metavar="G", help=f"S_DS of the ASCE 7 shape, g{sds * stand_in}")
+    group.add_argument("--sd1", type=positive_option, metavar="G", help=f"S_D1, g{sd1 * stand_in}")
     group.add_argument(
-        "--tl",
-        type=positive_option,
-        metavar="S",
-        help="T_L, s (8); the three defaults stand in for the Port of Long Beach and are not its published spectrum",
+        "--tl", type=positive_option, metavar="S", help=f"T_L, s (8){f'{tl} published spectrum' * stand_in}"
     )
 
 
@@ -183,6 +187,162 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
     defaults = {"sds": DEFAULT_SDS_G, "sd1": DEFAULT_SD1_G, "tl": DEFAULT_TL}
     sds, sd1, tl = (defaults[name] if value is None else value for name, value in given.items())
     return TargetSpectrum.asce7(sds, sd1, tl)
+
+
+def add_code_options(group: argparse._ActionsContainer) -> None:
+    """Add --code and --use, which `read_code` reads."""
+    from seismass.model.codes import Use
+
+    group.add_argument("--code", metavar="ID", help=CODE_HELP)
+    group.add_argument("--use", choices=get_args(Use), help="use of the floors for --code (storage)")
+
+
+def add_code_share_option(group: argparse._ActionsContainer, help: str) -> None:
+    """Add --code-share, the share of the goods that the code's model has attached."""
+    group.add_argument("--code-share", type=float, metavar="L", help=help)
+
+
+def read_code(args: argparse.Namespace, command: str) -> CodeFraction | None:
+    """Return the code that the options name, or None where they name none.
+
+    Raises
+    ------
+    InvalidOption
+        The code is not known, or a use is given without one.
+    """
+    from seismass.model.codes import code_fraction
+
+    if args.code is None:
+        refuse_given(args, ("use",), command, "where --code is not given")
+        return None
+    return code_fraction(args.code, args.use or "storage")
+
+
+def add_answer_options(
+    parser: argparse.ArgumentParser, folder: str | None = None, *, seed: bool = False
+) -> argparse._ArgumentGroup:
+    """Add --out, --jobs, --json and --no-figures, which `give_answer` reads, and --seed where something is drawn.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+        The parser.
+    folder : str, optional
+        Where files go by default; without it none are written unless --out says where.
+    seed : bool
+        Add --seed.
+
+    Returns
+    -------
+    group
+        The group of these options, for others of the kind.
+    """
+    output = parser.add_argument_group("running and output")
+    add_out_option(output, "DIR", f"folder to write tables and figures to ({folder or 'none'})", folder)
+    if seed:
+        output.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the bootstrap (0)")
+    add_jobs_option(output)
+    add_json_option(output)
+    output.add_argument("--no-figures", action="store_true", help="write tables alone, no figures and no page")
+    return output
+
+
+def add_out_option(
+    group: argparse._ActionsContainer, metavar: Literal["DIR", "FILE", "PATH"], help: str, default: str | None = None
+) -> None:
+    """Add --out, the place of what is written."""
+    path = None if default is None else Path(default)
+    group.add_argument("--out", type=Path, default=path, metavar=metavar, help=help)
+
+
+def add_measure_options(
+    group: argparse._ActionsContainer, measure: str, period: str, *, scale: bool = True, default: str | None = "sa_t1"
+) -> None:
+    """Add --measure and --measure-period, with what is said of both; `scale`: the factor may be the measure."""
+    choices = ("scale",) * scale + ("pga", "sa_t1", "sa_avg")
+    group.add_argument("--measure", choices=choices, default=default, help=measure)
+    group.add_argument("--measure-period", type=positive_option, metavar="T", help=period)
+
+
+def add_jobs_option(group: argparse._ActionsContainer, help: str = "threads (all cores); changes no digit") -> None:
+    """Add --jobs, the number of threads."""
+    group.add_argument("--jobs", type=threads_option, metavar="N", help=help)
+
+
+def add_json_option(group: argparse._ActionsContainer) -> None:
+    """Add --json, for another program that reads the answer."""
+    group.add_argument("--json", action="store_true", help="print the answer as JSON")
+
+
+def add_plot_option(group: argparse._ActionsContainer, of_several: str = "") -> None:
+    """Add --plot, the file of one figure; `of_several` says how figures of several things are named."""
+    group.add_argument("--plot", type=Path, metavar="FILE", help=f"write a figure, .png or .svg{of_several}")
+
+
+def check_plot(args: argparse.Namespace, command: str) -> None:
+    """Refuse a figure of another suffix or in no folder, before anything is computed.
+
+    Raises
+    ------
+    InvalidOption
+        The suffix is another.
+    OSError
+        As for `check_files`.
+    """
+    from seismass.base.errors import InvalidOption
+
+    if args.plot is not None and args.plot.suffix.lower() not in FIGURE_SUFFIXES:
+        suffixes = " or ".join(FIGURE_SUFFIXES)
+        raise InvalidOption(f"--plot of {command} must be a file with the suffix {suffixes}; got {args.plot}")
+    check_files(args.plot)
+
+
+def refuse_given(args: argparse.Namespace, names: Iterable[str], command: str, when: str) -> None:
+    """Refuse options that are not used, by the names of their values.
+
+    Raises
+    ------
+    InvalidOption
+        One of them is given.
+    """
+    from seismass.base.errors import InvalidOption
+
+    for name in names:
+        value = getattr(args, name)
+        if value is not None:
+            numbers = value if isinstance(value, tuple) else (value,)
+            got = ", ".join(f"{one:g}" if isinstance(one, float) else str(one) for one in numbers)
+            raise InvalidOption(f"--{name.replace('_', '-')} of {command} must be left out {when}; got {got}")
+
+
+def numbers_option(
+    count: int | None = None, *, above: float = -math.inf, least: float = -math.inf
+) -> Callable[[str], tuple[float, ...]]:
+    """Return what reads a list of numbers, which are typed with commas or with spaces between them.
+
+    Parameters
+    ----------
+    count : int, optional
+        How many there must be; by default any number.
+    above, least : float
+        Bounds of each: larger than one, and not less than the other.
+    """
+    kind = "positive " if above == 0.0 else ""
+    bound = f" of at least {least:g}" if least > -math.inf else ""
+    what = f"must be {'' if count is None else f'{count} '}{kind}numbers{bound}, with commas or spaces between"
+
+    def read(text: str) -> tuple[float, ...]:
+        try:
+            numbers = tuple(float(piece) for piece in text.replace(",", " ").split())
+        except ValueError:
+            numbers = ()
+        bounded = above > -math.inf or least > -math.inf
+        inside = all(above < number < math.inf and number >= least for number in numbers) if bounded else True
+        if not numbers or len(numbers) != (count or len(numbers)) or not inside:
+            raise argparse.ArgumentTypeError(f"{what}; got {text!r}")
+        return numbers
+
+    return read
 
 
 def positive_option(text: str) -> float:

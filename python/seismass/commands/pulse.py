@@ -8,33 +8,26 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.options import add_reading_options, check_files, positive_count, warn_left_out
+from seismass.commands.answer_output import write_figure
+from seismass.commands.command import Command
+from seismass.commands.options import (
+    add_json_option,
+    add_plot_option,
+    add_reading_options,
+    check_plot,
+    positive_count,
+    refuse_given,
+    warn_left_out,
+)
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.pulses import OrientationScan, PulseResult
     from seismass.records import Pair, Record
 
-_EPILOG = """examples:
-  seismass pulse RSN767_LOMAP_G03000.AT2 RSN767_LOMAP_G03090.AT2 --plot pulse.png
-  seismass pulse RSN767_LOMAP_G03000.AT2 RSN767_LOMAP_G03090.AT2 --orientations 36
-  seismass pulse RSN1106_KOBE_KJM000.AT2 --json
-  seismass pulse records/
 
-Two components are judged by Shahi and Baker (2014), one by Baker (2007); --orientations judges every direction of two
-by Baker (2007). Needs PyWavelets: pip install PyWavelets.
-exit codes: 0 done, 2 bad input"""
-
-
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "pulse",
-        help=help,
-        description="Whether a record is pulse-like, with the indicator, the test of early arrival and the pulse "
-        "period.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     parser.add_argument(
         "first",
         type=Path,
@@ -53,10 +46,9 @@ def add_parser(subparsers: Any, help: str) -> None:
         metavar="N",
         help="judge N directions of two components by Baker (2007), evenly from 0 to 180 degrees",
     )
-    parser.add_argument("--plot", type=Path, metavar="FILE", help="write a figure, .png or .svg")
+    add_plot_option(parser)
     add_reading_options(parser)
-    parser.add_argument("--json", action="store_true", help="print the results as JSON")
-    parser.set_defaults(run=run)
+    add_json_option(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -69,26 +61,20 @@ def run(args: argparse.Namespace) -> int:
     """
     from seismass.base.errors import InvalidOption
 
-    if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
-        raise InvalidOption(f"--plot of seismass pulse must be a .png or .svg file; got {args.plot}")
-    check_files(args.plot)
+    check_plot(args, "pulse")
     if args.orientations is not None and args.method == "shahi_baker2014":
-        raise InvalidOption("--method of seismass pulse must be baker2007 with --orientations; got shahi_baker2014")
+        raise InvalidOption("--method of pulse must be baker2007 with --orientations; got shahi_baker2014")
     groups = _groups(args)
     _warn_remarks(groups)
     results: list[PulseResult | OrientationScan] = [one for group in groups for one in _judged(group, args)]
     if args.plot is not None:
         if len(results) != 1:
-            raise InvalidOption(f"--plot of seismass pulse must be of one result; got {len(results)}")
-        from seismass.base.files import written_whole
-        from seismass.media.figure_file import save_figure
-
-        with written_whole(args.plot) as temporary:
-            save_figure(results[0].plot(), "svg" if args.plot.suffix.lower() == ".svg" else "png", temporary)
+            raise InvalidOption(f"--plot of pulse must be of one result; got {len(results)}")
+        write_figure(results[0].plot(), args.plot)
     if args.json:
         print(json.dumps([_document(one) for one in results], indent=2))
     else:
-        print("\n".join(one.text for one in results))
+        show("\n".join(one.text for one in results))
     return 0
 
 
@@ -106,9 +92,9 @@ def _groups(args: argparse.Namespace) -> list[Record | Pair]:
     from seismass.records import Pair, Suite, find_pairs, read_record
 
     if args.first.is_dir():
-        for name, value in (("RECORD2", args.second), ("--dt", args.dt), ("--unit", args.unit)):
-            if value is not None:
-                raise InvalidOption(f"{name} of seismass pulse must be left out for a folder; got {value}")
+        if args.second is not None:
+            raise InvalidOption(f"RECORD2 of pulse must be left out for a folder; got {args.second}")
+        refuse_given(args, ("dt", "unit"), "pulse", "for a folder")
         pairs = find_pairs(args.first)
         if not len(pairs):
             raise InvalidMotion(f"pairs of {args.first} must be at least one; got none in {len(pairs.excluded)} files")
@@ -160,7 +146,7 @@ def _judged(given: Record | Pair, args: argparse.Namespace) -> list[PulseResult 
             ("--method shahi_baker2014", args.method == "shahi_baker2014"),
         ):
             if asked:
-                raise InvalidOption(f"{name} of seismass pulse must be given two components; got one")
+                raise InvalidOption(f"{name} of pulse must be given two components; got one")
         return [baker2007(given)]
     if args.orientations is not None:
         return [baker2007_orientations(given, orientations=args.orientations)]
@@ -192,3 +178,20 @@ def _document(result: PulseResult | OrientationScan) -> dict[str, Any]:
         "orientations": result.table().to_dicts(),
         "remarks": list(result.remarks),
     }
+
+
+COMMAND = Command(
+    description=("Whether a record is pulse-like, with the indicator, the test of early arrival and the pulse period."),
+    examples="""
+pulse RSN767_LOMAP_G03000.AT2 RSN767_LOMAP_G03090.AT2 --plot pulse.png
+pulse RSN767_LOMAP_G03000.AT2 RSN767_LOMAP_G03090.AT2 --orientations 36
+pulse RSN1106_KOBE_KJM000.AT2 --json
+pulse records/
+""",
+    options=options,
+    run=run,
+    note="""
+Two components are judged by Shahi and Baker (2014), one by Baker (2007); --orientations judges every direction of two
+by Baker (2007). Needs PyWavelets: pip install PyWavelets.
+""",
+)

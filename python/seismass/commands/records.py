@@ -8,41 +8,24 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.options import add_reading_options
+from seismass.commands.command import Command
+from seismass.commands.options import add_json_option, add_reading_options, refuse_given
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.records import Record, Suite
 
 _UNREADABLE_LISTED: Final = 20
-_EPILOG = """examples:
-  seismass records RSN767_LOMAP_G03000.AT2
-  seismass records records/ --json
-  seismass records column.txt --dt 0.01 --unit cm/s2
-  seismass records --find Downloads/
-  seismass records
-
-Without a path: the seven records of the paper's Table 1, and how to get them.
-exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "records",
-        help=help,
-        description="A table of the records in a file, a folder or a list: labels, points, step, peaks, Arias "
-        "intensity, duration and what is odd about them. With --find: which of the paper's seven records a folder "
-        "holds, judged by header and content.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     parser.add_argument(
         "path", type=Path, nargs="?", metavar="PATH", help="a record, a folder, or a CSV with a column `file`"
     )
     parser.add_argument("--find", type=Path, metavar="DIR", help="look there for the paper's seven records")
     add_reading_options(parser)
-    parser.add_argument("--json", action="store_true", help="print everything as JSON")
-    parser.set_defaults(run=run)
+    add_json_option(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -56,11 +39,9 @@ def run(args: argparse.Namespace) -> int:
     from seismass.base.errors import InvalidOption
 
     if args.path is not None and args.find is not None:
-        raise InvalidOption(f"PATH of seismass records must be left out where --find is given; got {args.path}")
+        raise InvalidOption(f"PATH of records must be left out where --find is given; got {args.path}")
     if args.path is None:
-        for name, value in (("--dt", args.dt), ("--unit", args.unit)):
-            if value is not None:
-                raise InvalidOption(f"{name} of seismass records must be left out without PATH; got {value}")
+        refuse_given(args, ("dt", "unit"), "records", "without PATH")
         return _find(args.find, args.json) if args.find is not None else _catalogue(args.json)
     suite = _read(args.path, args.dt, args.unit)
     if args.json:
@@ -68,7 +49,7 @@ def run(args: argparse.Namespace) -> int:
         document = {"name": suite.name, "records": _rows(suite), "not_read": unreadable, "remarks": list(suite.remarks)}
         print(json.dumps(document, indent=2, allow_nan=False))
         return 0
-    print("\n".join(_table(suite)))
+    show("\n".join(_table(suite)))
     return 0
 
 
@@ -184,7 +165,7 @@ def _find(folder: Path, as_json: bool) -> int:
         }
         print(json.dumps(document, indent=2))
     else:
-        print(found.text)
+        show(found.text)
     return 0
 
 
@@ -212,3 +193,24 @@ def _catalogue(as_json: bool) -> int:
         print(f"   {row['how_to_get']}")
     print(f"\n{TERMS}")
     return 0
+
+
+COMMAND = Command(
+    description=(
+        "A table of the records in a file, a folder or a list: labels, points, step, peaks, Arias "
+        "intensity, duration and what is odd about them. With --find: which of the paper's seven records a folder "
+        "holds, judged by header and content."
+    ),
+    examples="""
+records RSN767_LOMAP_G03000.AT2
+records records/ --json
+records column.txt --dt 0.01 --unit cm/s2
+records --find Downloads/
+records
+""",
+    options=options,
+    run=run,
+    note="""
+Without a path: the seven records of the paper's Table 1, and how to get them.
+""",
+)

@@ -3,33 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import time
 from pathlib import Path
-from typing import Any
 
-from seismass.commands.options import check_files
-
-_EPILOG = """examples:
-  seismass report study
-  seismass report warehouse
-  seismass report study --out study.html
-
-exit codes: 0 done, 2 bad input"""
+from seismass.commands.command import Command, seconds
+from seismass.commands.options import add_out_option, check_files
+from seismass.commands.progress import progress
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "report",
-        help=help,
-        description="Write the page of a study or of a building from the tables of its folder, without solving "
-        "anything. The page needs nothing but itself.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     parser.add_argument("folder", type=Path, metavar="DIR", help="folder of seismass study or seismass building")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="file to write (report.html in the folder)")
-    parser.set_defaults(run=run)
+    add_out_option(parser, "FILE", "file to write (report.html in the folder)")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -39,10 +23,25 @@ def run(args: argparse.Namespace) -> int:
     from seismass.show.assessment.write import write_assessment_page
     from seismass.show.study.write import write_study_page
 
-    started = time.perf_counter()
     target = args.out or args.folder / PAGE
     check_files(target)
     write = write_assessment_page if (args.folder / DOCUMENT).exists() else write_study_page
-    write(args.folder, target)
-    print(f"{target}: {target.stat().st_size / 1e6:.2f} MB, {time.perf_counter() - started:.1f} s")
+    with progress("figures") as tell:
+        write(args.folder, target, progress=tell)
+    print(f"{target}: {target.stat().st_size / 1e6:.2f} MB, {seconds(args)}")
     return 0
+
+
+COMMAND = Command(
+    description=(
+        "Write the page of a study or of a building from the tables of its folder, without solving "
+        "anything. The page needs nothing but itself."
+    ),
+    examples="""
+report study
+report warehouse
+report study --out study.html
+""",
+    options=options,
+    run=run,
+)

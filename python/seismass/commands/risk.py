@@ -3,39 +3,27 @@
 from __future__ import annotations
 
 import argparse
-import sys
-import time
 from pathlib import Path
 from typing import Any
 
-from seismass.commands.answer_output import add_answer_options, give_answer
-from seismass.commands.effective_map import numbers_option
-from seismass.commands.options import add_records_options, positive_option, read_motions
+from seismass.commands.answer_output import give_answer
+from seismass.commands.command import Command
+from seismass.commands.exit_codes import RUNS
+from seismass.commands.options import (
+    add_answer_options,
+    add_code_share_option,
+    add_measure_options,
+    add_records_options,
+    numbers_option,
+    positive_option,
+    read_motions,
+)
+from seismass.commands.progress import progress
 from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, read_scene_or_building
-from seismass.commands.study import progress_bar
-
-_EPILOG = """examples:
-  seismass risk scene.toml --hazard hazard.csv
-  seismass risk scene.toml --hazard hazard.csv --hazard-period 0.5 --limit drift_ratio=0.02 --records recordings/
-  seismass risk scene.toml --hazard hazard.csv --code-share 0.8 --other-limits 0.005,0.01,0.03 --out risk
-  seismass risk warehouse.toml --hazard hazard.csv --estimator empirical --extrapolate --json
-
-hazard.csv: intensity (g) and annual rate of exceedance, with or without a header such as Sa,rate
-
-exit codes: 0 done, 1 a run failed, 2 bad input"""
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "risk",
-        help=help,
-        description="With a hazard curve: annual rates of exceeding a drift limit for the building with sliding goods, "
-        "for the model of a code and for all goods attached, and the share attached whose model has the rate of the "
-        "real building.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     add_file_argument(parser)
     asked = parser.add_argument_group("what is asked")
     asked.add_argument("--hazard", type=Path, required=True, metavar="CSV", help="intensity (g), annual rate")
@@ -47,45 +35,37 @@ def add_parser(subparsers: Any, help: str) -> None:
         "drift limit)",
     )
     asked.add_argument(
-        "--other-limits", type=numbers_option, metavar="LIST", help="limits beside (1/4, 1/2, 3/2 of it)"
+        "--other-limit", type=numbers_option(), metavar="LIST", help="limits beside (1/4, 1/2, 3/2 of it)"
     )
-    asked.add_argument(
-        "--measure", choices=("pga", "sa_t1", "sa_avg"), default="sa_t1", help="what the hazard is of (sa_t1)"
+    add_measure_options(
+        asked,
+        "what the hazard is of (sa_t1)",
+        "T1 of the measure, s (that of the hazard, or of the building without goods)",
+        scale=False,
     )
-    asked.add_argument(
-        "--period",
-        type=positive_option,
-        metavar="T",
-        help="T1 of the measure, s (that of the hazard, or of the building without goods)",
-    )
-    asked.add_argument(
-        "--code-share",
-        type=float,
-        metavar="L",
-        help="share of the goods in the code's model (0.25; of a building file the fraction of its code over the share "
+    add_code_share_option(
+        asked,
+        "share of the goods in the code's model (0.25; of a building file the fraction of its code over the share "
         "present)",
     )
     method = parser.add_argument_group("method")
-    method.add_argument("--shares", type=numbers_option, metavar="LIST", help="shares of models (0,0.05,...,1)")
+    method.add_argument("--share", type=numbers_option(), metavar="LIST", help="shares of models (0,0.05,...,1)")
     method.add_argument("--estimator", choices=("lognormal", "empirical"), default="lognormal", help="(lognormal)")
     method.add_argument("--extrapolate", action="store_true", help="continue the hazard curve beyond its ends")
     method.add_argument(
         "--design-rate", type=positive_option, metavar="R", help="annual rate of the design intensity (1/475)"
     )
     add_records_options(parser.add_argument_group("motions, as they are"))
-    add_answer_options(parser)
-    parser.set_defaults(run=run)
+    add_answer_options(parser, seed=True)
 
 
 def run(args: argparse.Namespace) -> int:
     """Find the share, print the answer and write its files; return the exit code."""
-    from seismass.base.errors import SimulationError
     from seismass.fragility import parse_limit
     from seismass.media.folder import check_out
     from seismass.risk.hazard import HazardCurve
     from seismass.risk.targeted_share import risk_targeted_share
 
-    started = time.perf_counter()
     if args.out is not None:
         check_out(args.out, "risk")
     hazard = HazardCurve.from_csv(args.hazard, period=args.hazard_period)
@@ -98,25 +78,44 @@ def run(args: argparse.Namespace) -> int:
     suite = read_motions(args, "eleven")
     given = {"code_share": code_share, "design_rate": args.design_rate}
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    try:
+    with progress() as tell:
         result = risk_targeted_share(
             scene,
             suite,
             hazard,
             parse_limit(args.limit or drift_limit),
             measure=args.measure,
-            period=args.period,
-            shares=args.shares,
+            period=args.measure_period,
+            shares=args.share,
             estimator=args.estimator,
             extrapolate=args.extrapolate,
-            other_limits=args.other_limits,
+            other_limits=args.other_limit,
             seed=args.seed,
             threads=args.jobs,
-            progress=progress_bar(),
+            progress=tell,
             **chosen,
         )
-    except SimulationError as error:
-        print(f"seismass: run failed: {error}", file=sys.stderr)
-        return 1
-    give_answer(args, result, suite, head=f"suite                {suite.name}\n", indent=21, started=started)
+    head = f"suite                {suite.name}\n"
+    give_answer(args, result, suite, head=head, indent=21, answer="risk-targeted share")
     return 0
+
+
+COMMAND = Command(
+    description=(
+        "With a hazard curve: annual rates of exceeding a drift limit for the building with sliding goods, "
+        "for the model of a code and for all goods attached, and the share attached whose model has the rate of the "
+        "real building."
+    ),
+    examples="""
+risk scene.toml --hazard hazard.csv
+risk scene.toml --hazard hazard.csv --hazard-period 0.5 --limit drift_ratio=0.02 --records recordings/
+risk scene.toml --hazard hazard.csv --code-share 0.8 --other-limit 0.005,0.01,0.03 --out risk
+risk warehouse.toml --hazard hazard.csv --estimator empirical --extrapolate --json
+""",
+    options=options,
+    run=run,
+    note="""
+hazard.csv: intensity (g) and annual rate of exceedance, with or without a header such as Sa,rate
+""",
+    codes=RUNS,
+)

@@ -4,85 +4,54 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
-import sys
-import textwrap
 from pathlib import Path
 from typing import Any
 
 import polars as pl
 
-from seismass.base.errors import InvalidOption, SimulationError
+from seismass.base.errors import InvalidOption
 from seismass.base.files import write_table, written_whole
+from seismass.commands.command import Command
+from seismass.commands.options import add_json_option, add_out_option, check_files
+from seismass.commands.terminal import show
+from seismass.media.result import finite_values
 from seismass.runs.response import Response
 from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
 from seismass.runs.simulate import simulate
 from seismass.show.response_text import run_text
 
 _HISTORY_SUFFIXES = (".parquet", ".csv")
-_KEYS = "\n".join(
-    textwrap.fill(f"{table or 'file'}: {', '.join(keys)}", 100, initial_indent="  ", subsequent_indent="    ")
-    for table, keys in KEYS.items()
-)
-_EPILOG = f"""examples:
-  seismass run --example > scene.toml
-  seismass run scene.toml
-  seismass run scene.json --json > response.json
-  seismass run scene.toml --histories response.parquet
-
-keys of a scene file, table by table (docs/scene_file.md explains them, with an example):
-{_KEYS}
-
-exit codes: 0 solved (a collapse is a result), 1 the run failed, 2 bad input"""
+_KEYS = "\n".join(f"  {table or 'file'}:  {', '.join(keys)}" for table, keys in KEYS.items())
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "run",
-        help=help,
-        description="Solve a scene file (TOML or JSON: building, blocks, motion) and print its peaks.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("scene", type=Path, nargs="?", metavar="SCENE", help="scene file, .toml or .json")
     what.add_argument("--example", action="store_true", help="print a scene file to start from, and stop")
-    parser.add_argument("--json", action="store_true", help="print peaks, residuals, counts, events and energy as JSON")
-    parser.add_argument(
-        "--histories",
-        type=Path,
-        metavar="FILE",
-        help="write time, drift of every storey and slip of every block at every sample (.parquet or .csv)",
-    )
-    parser.set_defaults(run=run)
+    histories = "write time, drift of every storey and slip of every block at every sample (.parquet or .csv)"
+    add_out_option(parser, "FILE", histories)
+    add_json_option(parser)
 
 
 def run(args: argparse.Namespace) -> int:
-    """Solve the scene and print it; return the exit code: 1 if the run failed. Bad input is raised."""
-    if args.histories is not None and args.histories.suffix.lower() not in _HISTORY_SUFFIXES:
+    """Solve the scene and print it; return the exit code."""
+    if args.out is not None and args.out.suffix.lower() not in _HISTORY_SUFFIXES:
         suffixes = " or ".join(_HISTORY_SUFFIXES)
-        raise InvalidOption(f"suffix of --histories must be {suffixes}; got {args.histories.suffix!r}")
-    if args.histories is not None and not args.histories.absolute().parent.is_dir():
-        raise InvalidOption(f"folder of --histories must exist; got {args.histories.absolute().parent}")
+        raise InvalidOption(f"--out of run must be a file with the suffix {suffixes}; got {args.out}")
+    check_files(args.out)
     if args.example:
         print(example_scene().read_text(encoding="utf-8"), end="")
         return 0
     file = read_scene(args.scene)
-    try:
-        response = simulate(
-            file.scene, file.motion, histories=args.histories is not None, displacements_only=True, energy=True
-        )
-    except SimulationError as error:
-        print(f"seismass: run failed: {error}", file=sys.stderr)
-        return 1
-    if args.histories is not None:
-        _write_histories(response, args.histories)
+    response = simulate(file.scene, file.motion, histories=args.out is not None, displacements_only=True, energy=True)
+    if args.out is not None:
+        _write_histories(response, args.out)
     if args.json:
         print(json.dumps(as_json(file, response), indent=2, allow_nan=False))
         return 0
     title, source = file.name or file.path.stem, "".join(record.name for record in file.records[:1])
-    print(run_text(response, title=title, note=file.note, source=source, remarks=file.remarks))
+    show(run_text(response, title=title, note=file.note, source=source, remarks=file.remarks))
     return 0
 
 
@@ -136,13 +105,23 @@ def as_json(file: SceneFile, response: Response) -> dict[str, Any]:
     if file.scene.building is not None:
         result["damping_matrix"] = file.scene.building.damping_matrix.tolist()
     result["statistics"] = response.statistics
-    finite: dict[str, Any] = _finite(result)
+    finite: dict[str, Any] = finite_values(result)
     return finite
 
 
-def _finite(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+COMMAND = Command(
+    description="Solve a scene file (TOML or JSON: building, blocks, motion) and print its peaks.",
+    examples="""
+run --example > scene.toml
+run scene.toml
+run scene.json --json > response.json
+run scene.toml --out response.parquet
+""",
+    options=options,
+    run=run,
+    note=f"""
+keys of a scene file, table by table (docs/scene_file.md explains them, with an example):
+{_KEYS}
+""",
+    codes={0: "solved (a collapse is a result)", 1: "the run failed"},
+)

@@ -5,20 +5,29 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Final
 
 from seismass.base.values import counted
+from seismass.commands.answer_output import write_figure
+from seismass.commands.command import Command
 from seismass.commands.options import (
     SPRING_OPTIONS,
+    add_json_option,
     add_motion_options,
+    add_out_option,
+    add_plot_option,
     add_spring_options,
     check_files,
+    check_plot,
     left_out,
+    positive_count,
     positive_option,
     read_motions,
     read_target,
+    refuse_given,
     warn_left_out,
 )
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.model.building import Building
@@ -28,37 +37,14 @@ if TYPE_CHECKING:
 
 METHODS: Final = ("asce7-10", "asce7-16", "least-squares", "least-squares-linear", "sa-t1", "mps")
 _PUSHOVER: Final = ("reduction", "yield_coefficient", *SPRING_OPTIONS, "deformation")
-_EPILOG = """examples:
-  seismass scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6
-  seismass scale --records records/ --target uniform_hazard.csv --json
-  seismass scale --records records/ --target ec8:1:C:0.3 --select 7 --plot scaling.png
-  seismass scale --records records/ --method asce7-16 --select 11 --csv factors.csv
-  seismass scale --records records/ --method asce7-16 --pairs
-  seismass scale --method mps --reduction 4 --period 1.0
-  seismass scale --method mps --building warehouse.toml
-
-methods:
-  asce7-10              mean not below the target from 0.2 T to 1.5 T
-  asce7-16              mean not below 0.9 of it from 0.2 T (or the period of 90 % of the mass) to 2 T; 11 motions
-  least-squares         each motion closest to the target in the logarithm; -linear: in the ordinates
-  sa-t1                 each motion at the target at T
-  mps                   modal pushover: the inelastic first-mode oscillator reaches the target deformation
-
-exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "scale",
-        help=help,
-        description="Factors by which a suite is scaled to a target spectrum, with the misfit of each motion.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     add_motion_options(parser)
     method = parser.add_argument_group("method")
-    method.add_argument("--method", choices=METHODS, default="asce7-10", help="how to scale (asce7-10); see below")
+    how = f"how to scale: {', '.join(METHODS)} (asce7-10); see below"
+    method.add_argument("--method", choices=METHODS, metavar="NAME", default="asce7-10", help=how)
     method.add_argument(
         "--building",
         type=Path,
@@ -81,15 +67,17 @@ def add_parser(subparsers: Any, help: str) -> None:
     )
     selection = parser.add_argument_group("selection")
     selection.add_argument(
-        "--select", type=_count_option, metavar="N", help="take the N records whose mean shape is closest to the target"
+        "--select",
+        type=positive_count,
+        metavar="N",
+        help="records to take, whose mean shape is closest to the target",
     )
-    selection.add_argument("--max-per-event", type=_count_option, metavar="K", help="most of one event (2)")
-    selection.add_argument("--max-per-station", type=_count_option, metavar="K", help="most of one recording (1)")
+    selection.add_argument("--max-per-event", type=positive_count, metavar="K", help="most of one event (2)")
+    selection.add_argument("--max-per-station", type=positive_count, metavar="K", help="most of one recording (1)")
     output = parser.add_argument_group("output")
-    output.add_argument("--json", action="store_true", help="print factors and spectra as JSON")
-    output.add_argument("--csv", type=Path, metavar="FILE", help="write the table of factors and misfits")
-    output.add_argument("--plot", type=Path, metavar="FILE", help="draw the spectra, .png or .svg")
-    parser.set_defaults(run=run)
+    add_out_option(output, "FILE", "write the table of factors and misfits, .csv")
+    add_plot_option(output)
+    add_json_option(output)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -111,16 +99,10 @@ def run(args: argparse.Namespace) -> int:
         suite = scaled = chosen.suite
     scaling = _scaled(args, scaled, target, building)
     remarks = (*motion_remarks(suite), *target_remarks(target), *scaling.remarks)
-    if args.csv is not None:
-        _write_table(args.csv, scaling)
+    if args.out is not None:
+        _write_table(args.out, scaling)
     if args.plot is not None:
-        from seismass.base.files import written_whole
-        from seismass.media.figure_file import save_figure
-
-        kind: Literal["png", "svg"] = "svg" if args.plot.suffix.lower() == ".svg" else "png"
-        with written_whole(args.plot) as temporary:
-            figure = scaling.plot() if args.pairs else scaling.plot(records=suite, target=target)
-            save_figure(figure, kind, temporary)
+        write_figure(scaling.plot() if args.pairs else scaling.plot(records=suite, target=target), args.plot)
     if args.json:
         warn_left_out(suite)
         print(json.dumps(_document(suite, target, scaling, chosen, remarks), indent=2))
@@ -149,15 +131,10 @@ def _check_options(args: argparse.Namespace) -> None:
     from seismass.base.errors import InvalidOption
 
     used = {"asce7-16": {"building", "lowest_period"}, "mps": {"building", *_PUSHOVER}}.get(args.method, set())
-    for name in ("building", "lowest_period", *_PUSHOVER):
-        if getattr(args, name) is not None and name not in used:
-            option = name.replace("_", "-")
-            raise InvalidOption(f"--{option} of scale must be left out with {args.method}; got {getattr(args, name)}")
+    unused = [name for name in ("building", "lowest_period", *_PUSHOVER) if name not in used]
+    refuse_given(args, unused, "scale", f"with {args.method}")
     if args.building is not None:
-        for name in ("lowest_period", *_PUSHOVER[:-1]):
-            if getattr(args, name) is not None:
-                option = name.replace("_", "-")
-                raise InvalidOption(f"--{option} of scale must be left out with --building; got {getattr(args, name)}")
+        refuse_given(args, ("lowest_period", *_PUSHOVER[:-1]), "scale", "with --building")
     if args.method == "mps" and args.building is None:
         given = [name for name in ("reduction", "yield_coefficient") if getattr(args, name) is not None]
         if len(given) != 1:
@@ -165,19 +142,15 @@ def _check_options(args: argparse.Namespace) -> None:
                 "--reduction, --yield-coefficient or --building of scale must be given with mps, one of them; "
                 f"got {'two' if given else 'none'}"
             )
-    for name in ("max_per_event", "max_per_station"):
-        if getattr(args, name) is not None and args.select is None:
-            option = name.replace("_", "-")
-            raise InvalidOption(f"--{option} of scale must be left out without --select; got {getattr(args, name)}")
+    if args.select is None:
+        refuse_given(args, ("max_per_event", "max_per_station"), "scale", "without --select")
     if args.pairs:
         if args.method != "asce7-16" or args.records is None:
             got = args.method if args.records is not None else f"{args.method} without --records"
             raise InvalidOption(f"--pairs of scale must be given with --method asce7-16 and --records; got {got}")
-        if args.select is not None:
-            raise InvalidOption(f"--select of scale must be left out with --pairs; got {args.select}")
-    if args.plot is not None and args.plot.suffix.lower() not in (".png", ".svg"):
-        raise InvalidOption(f"--plot of scale must be a file with the suffix .png or .svg; got {args.plot}")
-    check_files(args.csv, args.plot)
+        refuse_given(args, ("select",), "scale", "with --pairs")
+    check_plot(args, "scale")
+    check_files(args.out)
 
 
 def _building(args: argparse.Namespace, target: TargetSpectrum) -> Building | None:
@@ -254,18 +227,35 @@ def _print(
 ) -> None:
     from seismass.show.motions.scaling_text import factor_lines, scaling_lines
 
-    print(f"suite   {suite.name}: {counted(len(suite), 'motion')}")
+    show(f"suite   {suite.name}: {counted(len(suite), 'motion')}")
     for line in left_out(suite):
-        print(f"        {line}")
-    print("\n".join([*scaling_lines(scaling, remarks), "", *factor_lines(scaling, [one.remarks for one in suite])]))
+        show(f"        {line}")
+    show("\n".join([*scaling_lines(scaling, remarks), "", *factor_lines(scaling, [one.remarks for one in suite])]))
     if chosen is not None:
-        print("\nnot chosen")
+        show("\nnot chosen")
         for row in chosen.table.filter(chosen.table["step"].is_null()).iter_rows(named=True):
-            print(f"{row['number']:>3}  misfit {row['misfit']:<6.3f} {row['record']}: {row['reason']}")
+            show(f"{row['number']:>3}  misfit {row['misfit']:<6.3f} {row['record']}: {row['reason']}")
 
 
-def _count_option(text: str) -> int:
-    """Return a whole number of at least 1."""
-    if not (text.isdecimal() and int(text) >= 1):
-        raise argparse.ArgumentTypeError(f"must be a whole number of at least 1; got {text!r}")
-    return int(text)
+COMMAND = Command(
+    description="Factors by which a suite is scaled to a target spectrum, with the misfit of each motion.",
+    examples="""
+scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6
+scale --records records/ --target uniform_hazard.csv --json
+scale --records records/ --target ec8:1:C:0.3 --select 7 --plot scaling.png
+scale --records records/ --method asce7-16 --select 11 --out factors.csv
+scale --records records/ --method asce7-16 --pairs
+scale --method mps --reduction 4 --period 1.0
+scale --method mps --building warehouse.toml
+""",
+    options=options,
+    run=run,
+    note="""
+methods:
+  asce7-10              mean not below the target from 0.2 T to 1.5 T
+  asce7-16              mean not below 0.9 of it from 0.2 T (or the period of 90 % of the mass) to 2 T; 11 motions
+  least-squares         each motion closest to the target in the logarithm; -linear: in the ordinates
+  sa-t1                 each motion at the target at T
+  mps                   modal pushover: the inelastic first-mode oscillator reaches the target deformation
+""",
+)

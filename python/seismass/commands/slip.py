@@ -3,47 +3,30 @@
 from __future__ import annotations
 
 import argparse
-import sys
-import time
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.answer_output import add_answer_options, give_answer
+from seismass.commands.answer_output import give_answer
+from seismass.commands.command import Command
 from seismass.commands.options import (
+    add_answer_options,
+    add_period_option,
     add_records_options,
     add_target_options,
     positive_option,
     read_motions,
     read_target,
+    refuse_given,
 )
+from seismass.commands.progress import progress
 from seismass.commands.scene_or_building import add_file_argument, read_scene_or_building
-from seismass.commands.study import progress_bar
 
 if TYPE_CHECKING:
     from seismass.records import Suite
     from seismass.slip import Clearance
 
-_EPILOG = """examples:
-  seismass slip scene.toml --records recordings/
-  seismass slip scene.toml --clearance 0.3 --size 1.0x1.2
-  seismass slip warehouse.toml --sds 1.0 --sd1 0.6 --period 0.6 --clearance 1=0.2 --clearance 2=0.5,0.1
-  seismass slip scene.toml --clearance 0.3 --fragility --measure pga --out slip
 
---clearance: DISTANCE for both sides, PLUS,MINUS for each (one may be left empty), in m; --size: WIDTHxHEIGHT or
-WIDTHxHEIGHT@CENTRE, in m. BLOCK= before either makes it that of one block, counted from 1.
-
-exit codes: 0 done (a collapse is a result), 1 a run failed, 2 bad input"""
-
-
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "slip",
-        help=help,
-        description="Slip of the goods of a scene file or a building file over a suite of motions, beside the same "
-        "goods on the ground and published estimates.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     add_file_argument(parser)
     asked = parser.add_argument_group("what is asked")
     asked.add_argument(
@@ -59,21 +42,16 @@ def add_parser(subparsers: Any, help: str) -> None:
     motions = parser.add_argument_group("motions, as they are unless a target or a factor is given")
     add_records_options(motions)
     add_target_options(motions)
-    motions.add_argument(
-        "--period", type=positive_option, metavar="T", help="with a target: scaled from 0.2 T to 1.5 T (1 s)"
-    )
+    add_period_option(motions, None, "with a target: scaled from 0.2 T to 1.5 T (1 s)")
     motions.add_argument("--factor", type=positive_option, metavar="F", help="factor of all motions (1)")
-    add_answer_options(parser)
-    parser.set_defaults(run=run)
+    add_answer_options(parser, seed=True)
 
 
 def run(args: argparse.Namespace) -> int:
     """Solve the runs, print the slip demand and write its files; return the exit code."""
-    from seismass.base.errors import SimulationError
     from seismass.media.folder import check_out
     from seismass.slip import parse_size, slip_demand
 
-    started = time.perf_counter()
     if args.out is not None:
         check_out(args.out, "slip demand")
     scene, _ = read_scene_or_building(args.file)
@@ -81,7 +59,7 @@ def run(args: argparse.Namespace) -> int:
     sizes = _per_block("size", args.size, blocks, parse_size)
     clearances = _per_block("clearance", args.clearance, blocks, parse_clearance)
     suite, scaling, motions = _motions(args)
-    try:
+    with progress() as tell:
         result = slip_demand(
             scene,
             motions,
@@ -91,13 +69,9 @@ def run(args: argparse.Namespace) -> int:
             measure=args.measure or ("pga" if scene.building is None else "sa_t1"),
             seed=args.seed,
             threads=args.jobs,
-            progress=progress_bar(),
+            progress=tell,
         )
-    except SimulationError as error:
-        print(f"seismass: run failed: {error}", file=sys.stderr)
-        return 1
-    head = f"suite       {suite.name}\nscaling     {scaling}\n\n"
-    give_answer(args, result, suite, head=head, indent=12, started=started)
+    give_answer(args, result, suite, head=f"suite       {suite.name}\nscaling     {scaling}\n\n", indent=12)
     return 0
 
 
@@ -157,20 +131,38 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, str, list[Any]]:
     InvalidOption
         A factor stands beside a target, or a period without one.
     """
-    from seismass.base.errors import InvalidOption
     from seismass.scaling import scale_asce7_10
 
     suite = read_motions(args)
     targeted = not args.target is args.sds is args.sd1 is args.tl is None
     if not targeted:
-        if args.period is not None:
-            raise InvalidOption(f"--period of slip must be left out where no target is given; got {args.period:g}")
+        refuse_given(args, ("period",), "slip", "where no target is given")
         factor = args.factor or 1.0
         said = "motions as they are" if args.factor is None else f"motions x {factor:g}"
         return suite, said, list(suite) if args.factor is None else [record.scaled(factor) for record in suite]
-    if args.factor is not None:
-        raise InvalidOption(f"--factor of slip must be left out where a target is given; got {args.factor:g}")
+    refuse_given(args, ("factor",), "slip", "where a target is given")
     target = read_target(args)
     factors = scale_asce7_10(suite, target, period=args.period or 1.0).factors
     scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
     return suite, f"ASCE 7-10 to {target.label}, for T = {args.period or 1.0:g} s", scaled
+
+
+COMMAND = Command(
+    description=(
+        "Slip of the goods of a scene file or a building file over a suite of motions, beside the same "
+        "goods on the ground and published estimates."
+    ),
+    examples="""
+slip scene.toml --records recordings/
+slip scene.toml --clearance 0.3 --size 1.0x1.2
+slip warehouse.toml --sds 1.0 --sd1 0.6 --period 0.6 --clearance 1=0.2 --clearance 2=0.5,0.1
+slip scene.toml --clearance 0.3 --fragility --measure pga --out slip
+""",
+    options=options,
+    run=run,
+    note="""
+--clearance: DISTANCE for both sides, PLUS,MINUS for each (one may be left empty), in m; --size: WIDTHxHEIGHT or
+WIDTHxHEIGHT@CENTRE, in m. BLOCK= before either makes it that of one block, counted from 1.
+""",
+    codes={0: "done (a collapse is a result)", 1: "a run failed"},
+)

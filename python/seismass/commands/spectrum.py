@@ -7,11 +7,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from seismass.commands.command import Command
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_reading_options,
     add_spring_options,
-    positive_option,
+    numbers_option,
+    refuse_given,
     warn_left_out,
     warn_remarks,
 )
@@ -29,29 +31,10 @@ _KINDS: Final[dict[str, Kind]] = {
     "sa": "acceleration",
 }
 _IN_G: Final = ("psa", "sa")
-_EPILOG = """examples:
-  seismass spectrum record.AT2 --damping 0.02 0.05
-  seismass spectrum column.txt --dt 0.01 --unit cm/s2
-  seismass spectrum suite.csv --periods 0.2 1.0 --kind sd
-  seismass spectrum records/ > spectra.csv
-  seismass spectrum record.AT2 --strength 0.1 0.2
-  seismass spectrum record.AT2 --ductility 2 4 --overstrength 1 --second-slope 0
-
-Columns: motion (number from 1), record, damping, period (s) and the ordinate: psa_g, sa_g (g), psv (m/s) or sd (m).
-Inelastic: strength (V_y/W), ductility, displacement (m), elastic_strength and reduction (R) instead.
-exit codes: 0 done, 2 bad input"""
 
 
-def add_parser(subparsers: Any, help: str) -> None:
-    """Add the subcommand to those of the `seismass` command, with the line that lists it."""
-    parser = subparsers.add_parser(
-        "spectrum",
-        help=help,
-        description="Response spectra, exact for acceleration that is linear between samples, printed as CSV: elastic, "
-        "or inelastic for given strengths or ductilities.",
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
     parser.add_argument(
         "records",
         type=Path,
@@ -60,39 +43,33 @@ def add_parser(subparsers: Any, help: str) -> None:
     )
     add_reading_options(parser)
     parser.add_argument(
-        "--periods", type=float, nargs="+", metavar="T", help="periods, s (default: 100 from 0.01 to 10, geometric)"
+        "--period", type=numbers_option(), metavar="LIST", help="periods, s (default: 100 from 0.01 to 10, geometric)"
     )
-    parser.add_argument("--damping", type=float, nargs="+", default=[0.05], metavar="Z", help="ratios (0.05)")
+    parser.add_argument("--damping", type=numbers_option(), default=(0.05,), metavar="LIST", help="ratios (0.05)")
     parser.add_argument(
         "--kind", choices=tuple(_KINDS), help="ordinate (psa); sa is the true, absolute acceleration of the mass"
     )
     inelastic = parser.add_argument_group("inelastic spectra")
     level = inelastic.add_mutually_exclusive_group()
-    level.add_argument("--strength", type=positive_option, nargs="+", metavar="C", help="strengths V_y/W")
-    level.add_argument("--ductility", type=positive_option, nargs="+", metavar="MU", help="ductility demands")
+    level.add_argument("--strength", type=numbers_option(above=0.0), metavar="LIST", help="strengths V_y/W")
+    level.add_argument("--ductility", type=numbers_option(above=0.0), metavar="LIST", help="ductility demands")
     add_spring_options(inelastic)
-    parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Print the table; return the exit code."""
     import numpy as np
 
-    from seismass.base.errors import InvalidOption
     from seismass.base.files import without_formulas
     from seismass.records.named import records_named
 
     inelastic = args.strength is not None or args.ductility is not None
     unused = ("kind",) if inelastic else tuple(SPRING_OPTIONS)
-    for name in unused:
-        if getattr(args, name) is not None:
-            when = "with --strength or --ductility" if inelastic else "without --strength or --ductility"
-            option = name.replace("_", "-")
-            raise InvalidOption(f"--{option} of spectrum must be left out {when}; got {getattr(args, name)}")
+    refuse_given(args, unused, "spectrum", f"{'with' if inelastic else 'without'} --strength or --ductility")
     suite = records_named(args.records, dt=args.dt, unit=args.unit)
     warn_left_out(suite)
     warn_remarks(suite)
-    periods = np.geomspace(0.01, 10.0, 100) if args.periods is None else np.array(args.periods)
+    periods = np.geomspace(0.01, 10.0, 100) if args.period is None else np.array(args.period)
     table = _inelastic(suite, periods, args) if inelastic else _elastic(suite, periods, args)
     sys.stdout.write(without_formulas(table).write_csv())
     return 0
@@ -132,3 +109,25 @@ def _inelastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataF
         found = inelastic_spectrum(suite, periods, **levels, damping=ratio, **springs)
         tables.append(found.table().insert_column(2, pl.Series("damping", [ratio] * found.strength.size)))
     return pl.concat(tables)
+
+
+COMMAND = Command(
+    description=(
+        "Response spectra, exact for acceleration that is linear between samples, printed as CSV: elastic, "
+        "or inelastic for given strengths or ductilities."
+    ),
+    examples="""
+spectrum record.AT2 --damping 0.02 0.05
+spectrum column.txt --dt 0.01 --unit cm/s2
+spectrum suite.csv --period 0.2 1.0 --kind sd
+spectrum records/ > spectra.csv
+spectrum record.AT2 --strength 0.1 0.2
+spectrum record.AT2 --ductility 2 4 --overstrength 1 --second-slope 0
+""",
+    options=options,
+    run=run,
+    note="""
+Columns: motion (number from 1), record, damping, period (s) and the ordinate: psa_g, sa_g (g), psv (m/s) or sd (m).
+Inelastic: strength (V_y/W), ductility, displacement (m), elastic_strength and reduction (R) instead.
+""",
+)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Final
 from xml.etree import ElementTree as ET
 
@@ -76,6 +76,26 @@ def figure_svg(figure: Figure) -> str:
         lay_out(figure)
         figure.savefig(written, format="svg", metadata={"Date": None, "Creator": None}, facecolor="white")
     return written.getvalue()
+
+
+def figure_svgs(figures: Mapping[str, Figure], progress: Callable[[int, int], object] | None = None) -> dict[str, str]:
+    """Return the text of `figure_svg` of each figure, by its name.
+
+    Parameters
+    ----------
+    figures : mapping of str to Figure
+        The figures.
+    progress : callable, optional
+        Called with (figures drawn, figures in all), before the first and after each.
+    """
+    drawn: dict[str, str] = {}
+    for number, (name, figure) in enumerate(figures.items()):
+        if progress is not None:
+            progress(number, len(figures))
+        drawn[name] = figure_svg(figure)
+    if progress is not None:
+        progress(len(figures), len(figures))
+    return drawn
 
 
 def inline_svg(figure: Figure | str, title: str, description: str = "", *, name: str | None = None) -> str:

@@ -141,7 +141,10 @@ def _motion_text(station: Station, synthetic: bool) -> str:
 
 
 def paper_scenes(
-    suite: Suite | None = None, *, springs: Sequence[tuple[float, int]] = SPRINGS
+    suite: Suite | None = None,
+    *,
+    springs: Sequence[tuple[float, int]] = SPRINGS,
+    progress: Callable[[int, int], object] | None = None,
 ) -> tuple[Section4, Platform]:
     """Solve the scenes of the paper's section 4: the three-storey building and the platform.
 
@@ -151,13 +154,16 @@ def paper_scenes(
         As for `validate`.
     springs : sequence of (float, int)
         As for `section4`.
+    progress : callable, optional
+        As for `section4`.
 
     Raises
     ------
     RecordFormatError
         As for `validate`.
     """
-    return section4(components("Brawley Airport", suite), springs=springs), platform(components("Erzincan", suite))
+    building = section4(components("Brawley Airport", suite), springs=springs, progress=progress)
+    return building, platform(components("Erzincan", suite))
 
 
 def validate(
@@ -189,7 +195,7 @@ def validate(
     threads : int, optional
         Number of threads; default all cores.
     progress : callable, optional
-        Called with (analyses done, distinct analyses) of the study.
+        Called with (analyses done, distinct analyses) of the study, then as for `section4`.
 
     Returns
     -------
@@ -215,5 +221,5 @@ def validate(
     if study is None:
         chosen = builtin_suite("seven") if suite is None else suite
         study = run_study(chosen, target or TargetSpectrum.asce7(), threads=threads, progress=progress)
-    building, table = paper_scenes(suite) if scenes is None else scenes
+    building, table = paper_scenes(suite, progress=progress) if scenes is None else scenes
     return Validation(study, building, table, claims(study, building, table, sensitivity=sensitivity))

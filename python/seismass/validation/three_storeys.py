@@ -7,7 +7,7 @@ kept as data, and beside a program of our own that puts stiff elastic-plastic sp
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import product
@@ -130,7 +130,12 @@ def samples_digest(record: Record) -> str:
     return hashlib.sha256(record.acceleration.tobytes() + np.float64(record.dt).tobytes()).hexdigest()
 
 
-def section4(components: Sequence[Record], *, springs: Sequence[tuple[float, int]] = SPRINGS) -> Section4:
+def section4(
+    components: Sequence[Record],
+    *,
+    springs: Sequence[tuple[float, int]] = SPRINGS,
+    progress: Callable[[int, int], object] | None = None,
+) -> Section4:
     """Solve the building of section 4 for all components, peaks and second slopes, and compare the programs.
 
     Parameters
@@ -140,19 +145,36 @@ def section4(components: Sequence[Record], *, springs: Sequence[tuple[float, int
     springs : sequence of (float, int)
         Stiffness of friction springs over that of storey 1, and steps per sample interval; the stiffest takes most of
         the time.
+    progress : callable, optional
+        Called with (histories solved, histories in all), before the first and after each.
 
     Returns
     -------
     Section4
         Runs, differences and histories. OpenSees has its part where its kept results are of these samples.
     """
+    compared = list(product(components, COMPARED_SLOPES))
+    done, total = 0, len(compared) * (1 + len(springs))
+
+    def tell(solved: int) -> None:
+        nonlocal done
+        done += solved
+        if progress is not None:
+            progress(done, total)
+
+    tell(0)
     grid = product(components, SECOND_SLOPES, PEAKS_G)
     runs = [_run(label(record), record, slope, peak) for record, slope, peak in grid]
     histories: list[Histories] = []
     differences: list[dict[str, Any]] = []
-    for record, slope in product(components, COMPARED_SLOPES):
+    for record, slope in compared:
         exact = _exact(record, slope)
-        others = [*_springs(record, slope, springs), *_opensees(record, slope)]
+        tell(1)
+        others: list[Histories] = []
+        for setting in springs:
+            others.append(_springs(record, slope, *setting))
+            tell(1)
+        others += _opensees(record, slope)
         histories += [exact, *(item for item in others if item.time.size)]
         differences += [_difference(item, exact) for item in others]
     return Section4(
@@ -209,21 +231,21 @@ def _exact(record: Record, second_slope: float) -> Histories:
     return Histories(EXACT, "", label(record), second_slope, 1, _times(motion), response.drift, response.slip)
 
 
-def _springs(record: Record, second_slope: float, springs: Sequence[tuple[float, int]]) -> Iterator[Histories]:
+def _springs(record: Record, second_slope: float, ratio: float, substeps: int) -> Histories:
     """Histories with friction springs, without an instant where Newton's method did not converge."""
     motion = _scaled(record)
     scene = section4_scene(second_slope)
-    for ratio, substeps in springs:
-        time, drift, slip = _times(motion), _NOTHING, _NOTHING
-        try:
-            found = _kernel.integrate_reference(
-                scene._kernel, motion._kernel, "friction_springs", substeps, stiffness_ratio=ratio
-            )
-            drift, slip = found.drift, found.slip
-        except SimulationError:
-            time = time[:0]
-        setting = setting_label(ratio, substeps)
-        yield Histories(FRICTION_SPRINGS, setting, label(record), second_slope, 1, time, drift, slip)
+    time, drift, slip = _times(motion), _NOTHING, _NOTHING
+    try:
+        found = _kernel.integrate_reference(
+            scene._kernel, motion._kernel, "friction_springs", substeps, stiffness_ratio=ratio
+        )
+        drift, slip = found.drift, found.slip
+    except SimulationError:
+        time = time[:0]
+    return Histories(
+        FRICTION_SPRINGS, setting_label(ratio, substeps), label(record), second_slope, 1, time, drift, slip
+    )
 
 
 def _opensees(record: Record, second_slope: float) -> Iterator[Histories]:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from seismass.assessment.result import Assessment
+    from seismass.runs.batch import Progress
 
 FIGURES: Final = ("effective_fraction", "drift", "slip")
 """Names of all figures; those of an earlier assessment that are not written again are removed."""
@@ -58,8 +59,17 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
     )
 
 
-def write_assessment_page(folder: Path, target: Path) -> None:
+def write_assessment_page(folder: Path, target: Path, *, progress: Progress | None = None) -> None:
     """Write the page of an assessment from the tables of its folder alone.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder of the assessment.
+    target : Path
+        File of the page.
+    progress : callable, optional
+        Called with (figures drawn, figures in all).
 
     Raises
     ------
@@ -69,18 +79,18 @@ def write_assessment_page(folder: Path, target: Path) -> None:
         The file cannot be written.
     """
     tables = read_assessment_tables(folder)
-    _, drawings = _drawn(tables)
+    _, drawings = _drawn(tables, progress)
     with written_whole(target) as temporary:
         temporary.write_text(_page(tables, drawings), encoding="utf-8")
 
 
-def _drawn(tables: AssessmentTables) -> tuple[dict[str, Figure], dict[str, str]]:
+def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[dict[str, Figure], dict[str, str]]:
     """Figures and their SVG texts, each drawn once for its file and for the page."""
-    from seismass.media.svg import figure_svg
+    from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import assessment_figures
 
     figures = assessment_figures(tables)
-    return figures, {name: figure_svg(figure) for name, figure in figures.items()}
+    return figures, figure_svgs(figures, progress)
 
 
 def _page(tables: AssessmentTables, drawings: dict[str, str]) -> str:

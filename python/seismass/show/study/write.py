@@ -17,6 +17,8 @@ from seismass.study.columns import TABLES, units_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from seismass.runs.batch import Progress
+
 _NUMBER: Final = r"[\d.]+(?:e[+-]\d+)?"
 FIGURE_FILE: Final = re.compile(
     rf"(?:spectrum|effective|sensitivity|(?:underestimation|heat|slip)(?:_mu{_NUMBER})?|drift_R{_NUMBER}(?:_mu{_NUMBER})?"
@@ -25,7 +27,14 @@ FIGURE_FILE: Final = re.compile(
 """Names of the files of a study's figures."""
 
 
-def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bool = False) -> list[Path]:
+def write_study(
+    result: StudyTables,
+    out: Path,
+    *,
+    figures: bool = True,
+    png: bool = False,
+    progress: Progress | None = None,
+) -> list[Path]:
     """Write tables (Parquet and CSV), documents (JSON), figures (SVG) and the page of a study to a folder.
 
     Every Parquet file carries what the numbers depend on, and the unit of each column; tables.json says the same of the
@@ -41,6 +50,8 @@ def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bo
         Write figures and page, too.
     png : bool
         Write figures as PNG, too.
+    progress : callable, optional
+        Called with (figures drawn, figures in all).
 
     Returns
     -------
@@ -60,7 +71,7 @@ def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bo
     if figures:
         from seismass.show.study.page import study_page
 
-        drawn, drawings = _drawn(result)
+        drawn, drawings = _drawn(result, progress)
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
         documents[PAGE] = study_page(result, drawings)
     ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in OPTIONAL_TABLES for kind in ("parquet", "csv")}
@@ -75,8 +86,17 @@ def write_study(result: StudyTables, out: Path, *, figures: bool = True, png: bo
     )
 
 
-def write_study_page(folder: Path, target: Path) -> None:
+def write_study_page(folder: Path, target: Path, *, progress: Progress | None = None) -> None:
     """Write the page of a study from the tables of its folder alone.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder of the study.
+    target : Path
+        File of the page.
+    progress : callable, optional
+        As for `write_study`.
 
     Raises
     ------
@@ -88,20 +108,20 @@ def write_study_page(folder: Path, target: Path) -> None:
     from seismass.show.study.page import study_page
 
     result = read_study_tables(folder)
-    _, drawings = _drawn(result)
+    _, drawings = _drawn(result, progress)
     with written_whole(target) as temporary:
         temporary.write_text(study_page(result, drawings), encoding="utf-8")
 
 
-def _drawn(result: StudyTables) -> tuple[dict[str, Figure], dict[str, str]]:
+def _drawn(result: StudyTables, progress: Progress | None) -> tuple[dict[str, Figure], dict[str, str]]:
     """Figures and their SVG texts, each drawn once for its file and for the page."""
     from seismass.media.style import fewer_collections
-    from seismass.media.svg import figure_svg
+    from seismass.media.svg import figure_svgs
     from seismass.show.study.figures import page_figures
 
     with fewer_collections():
         figures = page_figures(result)
-        return figures, {name: figure_svg(figure) for name, figure in figures.items()}
+        return figures, figure_svgs(figures, progress)
 
 
 def _json(document: dict[str, Any], indent: int | None = 2) -> str:

@@ -1,4 +1,4 @@
-"""`seismass ida`: scene files and building files, all methods, what it writes, and how it ends."""
+"""`seismass fragility`: scene files and building files, all methods, what it writes, and how it ends."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def scene(tmp_path: Path) -> Path:
 
 
 def command(*arguments: object) -> int:
-    return main(["ida", *map(str, arguments)])
+    return main(["fragility", *map(str, arguments)])
 
 
 def test_answer_of_a_scene_file(scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -82,7 +82,7 @@ def test_building_file_has_its_code_and_its_limit(capsys: pytest.CaptureFixture[
 
 
 def test_stripes_and_clouds(scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    stripes = ("--method", "stripes", "--intensities", "0.4,0.8,1.2,1.6", "--measure", "sa_avg", "--suite", "seven")
+    stripes = ("--method", "stripes", "--intensity", "0.4,0.8,1.2,1.6", "--measure", "sa_avg", "--suite", "seven")
     assert command(scene, *stripes, "--out", tmp_path / "out", "--no-figures") == 0
     assert "stripes: 7 motions, 84 runs; intensity Sa,avg(" in capsys.readouterr().out
     assert not list((tmp_path / "out").glob("*.png"))
@@ -95,11 +95,11 @@ def test_bad_input(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
         ((scene, "--limit", "drift"), "limit of limit state must be QUANTITY=VALUE"),
         ((scene, "--limit", "drift_ratio@3=0.02"), "storey of limit state must be from 1 to 2; got 3"),
         ((scene, "--method", "stripes"), "intensities of incremental dynamic analysis must be given"),
-        ((scene, "--method", "cloud", "--intensities", "1"), "--intensities of ida must be left out"),
-        ((scene, "--method", "stripes", "--highest", "1"), "--highest and --tolerance of ida must be left out"),
+        ((scene, "--method", "cloud", "--intensity", "1"), "--intensity of fragility must be left out"),
+        ((scene, "--method", "stripes", "--highest", "1"), "--highest of fragility must be left out"),
         ((scene, "--code-share", "1.5"), "code_share of compared models must be between 0 and 1; got 1.5"),
         ((scene.parent / "none.toml",), "scene or building file must be a file that can be read"),
-        ((scene, "--out", scene), "out of ida must be a folder that can be written to"),
+        ((scene, "--out", scene), "out of fragility must be a folder that can be written to"),
     ):
         assert command(*arguments) == 2
         assert message in capsys.readouterr().err

@@ -1,0 +1,66 @@
+"""One subcommand: what it is for, what is typed, its options, what it does, and how it ends."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from seismass.commands.exit_codes import ANY_COMMAND
+from seismass.commands.help_text import HelpText
+
+
+@dataclass(frozen=True, kw_only=True)
+class Command:
+    """One subcommand.
+
+    Attributes
+    ----------
+    description : str
+        What it answers.
+    examples : str
+        What is typed, a line each, without the name of the program.
+    options : callable
+        Adds its options to a parser.
+    run : callable
+        Does it, of the options, and returns an exit code. Errors of the package and of the system leave it.
+    note : str
+        What is to be known besides, below the examples.
+    codes : mapping of int to str
+        Exit codes of its own, or with a meaning of its own, beside `ANY_COMMAND`.
+    """
+
+    description: str
+    examples: str
+    options: Callable[[argparse.ArgumentParser], None]
+    run: Callable[[argparse.Namespace], int]
+    note: str = ""
+    codes: Mapping[int, str] = field(default_factory=dict)
+
+    @property
+    def epilog(self) -> str:
+        """Examples, note and exit codes."""
+        examples = "\n".join(f"  seismass {line}" for line in self.examples.strip().splitlines())
+        codes = ", ".join(f"{code} {meaning}" for code, meaning in sorted({**ANY_COMMAND, **self.codes}.items()))
+        parts = (f"examples:\n{examples}", self.note.strip("\n"), f"exit codes: {codes}")
+        return "\n\n".join(part for part in parts if part)
+
+    def add(self, subparsers: Any, name: str, help: str) -> None:
+        """Add the parser to those of the `seismass` command, with the line that lists it."""
+        parser = subparsers.add_parser(
+            name, help=help, description=self.description, epilog=self.epilog, formatter_class=HelpText
+        )
+        self.options(parser)
+        parser.set_defaults(run=self.timed)
+
+    def timed(self, args: argparse.Namespace) -> int:
+        """Run with the clock started, which `seconds` reads."""
+        args.started = time.perf_counter()
+        return self.run(args)
+
+
+def seconds(args: argparse.Namespace) -> str:
+    """Return how long the command has taken, as it is printed."""
+    return f"{time.perf_counter() - args.started:.1f} s"

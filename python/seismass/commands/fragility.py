@@ -1,0 +1,133 @@
+"""`seismass fragility FILE`: what a code's model makes of the probability of exceeding a limit."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seismass.commands.answer_output import give_answer
+from seismass.commands.command import Command
+from seismass.commands.exit_codes import RUNS
+from seismass.commands.options import (
+    add_answer_options,
+    add_code_share_option,
+    add_measure_options,
+    add_records_options,
+    numbers_option,
+    positive_option,
+    read_motions,
+    refuse_given,
+)
+from seismass.commands.progress import progress
+from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, read_scene_or_building
+
+if TYPE_CHECKING:
+    from seismass.model.scene import Scene
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """Add the options."""
+    add_file_argument(parser)
+    asked = parser.add_argument_group("what is asked")
+    asked.add_argument(
+        "--limit",
+        action="append",
+        metavar="LIMIT",
+        help=f"limit state, several times if wanted ({DEFAULT_LIMIT}; of a building file its drift limit)",
+    )
+    add_measure_options(
+        asked,
+        "intensity measure (sa_t1: pseudo-acceleration at T1, in g)",
+        "T1 of the measure, s (that of the building without goods)",
+    )
+    add_code_share_option(asked, "share of the goods in the code's model (0.25, or the file's code)")
+    asked.add_argument("--at", type=numbers_option(), metavar="LIST", help="intensities at which models are compared")
+    method = parser.add_argument_group("method")
+    method.add_argument("--method", choices=("hunt_fill", "stripes", "cloud"), default="hunt_fill", help="(hunt_fill)")
+    method.add_argument("--intensity", type=numbers_option(), metavar="LIST", help="intensities of stripes")
+    method.add_argument("--highest", type=positive_option, metavar="X", help="largest intensity of a hunt")
+    method.add_argument("--tolerance", type=positive_option, metavar="R", help="relative width of capacities (0.001)")
+    add_records_options(parser.add_argument_group("motions, as they are"))
+    add_answer_options(parser, seed=True)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the analysis, print its answer and write its files; return the exit code."""
+    from seismass.fragility import HuntAndFill, cloud_analysis, incremental_dynamic_analysis, parse_limit
+    from seismass.media.folder import check_out
+
+    if args.out is not None:
+        check_out(args.out, "fragility")
+    if args.method != "hunt_fill":
+        refuse_given(args, ("highest", "tolerance"), "fragility", f"where --method is {args.method}")
+    if args.method == "cloud":
+        refuse_given(args, ("intensity",), "fragility", "where --method is cloud")
+    models, rule, drift_limit = models_of(args.file, args.code_share)
+    limits = [parse_limit(text) for text in args.limit or [drift_limit]]
+    suite = read_motions(args, "eleven")
+    common: dict[str, Any] = {"measure": args.measure, "period": args.measure_period, "at": args.at or ()}
+    common |= {"seed": args.seed, "threads": args.jobs}
+    with progress() as tell:
+        if args.method == "cloud":
+            result = cloud_analysis(models, suite, limits, **common, progress=tell)
+        else:
+            given = {"highest": args.highest, "tolerance": args.tolerance}
+            hunt = {name: value for name, value in given.items() if value is not None}
+            result = incremental_dynamic_analysis(
+                models,
+                suite,
+                limits,
+                method=args.method,
+                intensities=args.intensity,
+                hunt=HuntAndFill(**hunt) if args.method == "hunt_fill" else None,
+                **common,
+                progress=tell,
+            )
+    head = f"suite     {suite.name}\ncode      {rule}\n"
+    give_answer(args, result, suite, head=head, indent=10, answer="  where code says")
+    return 0
+
+
+def models_of(path: Path, code_share: float | None) -> tuple[dict[str, Scene], str, str]:
+    """Return the models of a scene file or a building file, what the code's has attached, and the limit by default.
+
+    The code's model of a building file has its code's fraction of the design live load, whatever is present.
+    """
+    from seismass.assessment.models import with_mass
+    from seismass.fragility import compared_models
+    from seismass.fragility.models import CODE, DEFAULT_CODE_SHARE, REAL
+
+    scene, building = read_scene_or_building(path)
+    share = DEFAULT_CODE_SHARE if code_share is None else code_share
+    rule = f"{100.0 * share:g} % of the goods attached as mass"
+    models = compared_models(scene, share)
+    if building is None:
+        return models, rule, DEFAULT_LIMIT
+    if code_share is None:
+        models[CODE] = with_mass(models[REAL], building.code.fraction * building.live_load)
+        code = building.code
+        rule = f"{code.code}, {code.use}: {100.0 * code.fraction:g} % of the design live load attached as mass"
+    return models, rule, f"drift_ratio={building.drift_limit:g}"
+
+
+COMMAND = Command(
+    description=(
+        "Scale motions until limits are exceeded, for the building with sliding goods, for the model of a "
+        "code, and with all goods attached; fit fragilities and compare the probabilities of exceedance."
+    ),
+    examples="""
+fragility warehouse.toml
+fragility scene.toml --records my_records/ --limit drift_ratio=0.02 --limit slip=0.1 --limit collapse
+fragility scene.toml --measure sa_avg --code-share 0.8 --at 0.5,1,1.5 --out fragility
+fragility scene.toml --method stripes --intensity 0.2,0.4,0.6,0.8,1,1.2 --limit drift@1=0.05
+fragility scene.toml --method cloud --measure pga --limit drift=0.05 --json
+""",
+    options=options,
+    run=run,
+    note="""
+limits: drift_ratio, drift, residual_drift_ratio, residual_drift, slip, residual_slip, floor_acceleration_g (ratio, m
+or g), of a storey, floor or block with @NUMBER; or collapse
+""",
+    codes=RUNS,
+)

@@ -1,0 +1,105 @@
+"""How far a long command is, and how long the rest will take: a bar on standard error, where that is a terminal."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from rich.progress import Task
+
+Progress: TypeAlias = Callable[[int, int], None]
+"""Called with how much is done and how much there is."""
+
+
+@contextmanager
+def progress(unit: str = "runs") -> Iterator[Progress | None]:
+    """Give what a long function calls with its progress, or None where standard error is no terminal.
+
+    The bar goes again at the end, and where an error or Ctrl-C ends the work.
+
+    Parameters
+    ----------
+    unit : str
+        What is counted.
+    """
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich import progress as rich_progress
+    from rich.console import Console
+
+    columns: list[Any] = [
+        rich_progress.BarColumn(),
+        f"{{task.completed:.0f}} of {{task.total:.0f}} {unit}",
+        _time_left_column(),
+    ]
+    # Standard output stays what it is, since it may be a file.
+    bar = rich_progress.Progress(
+        *columns, console=Console(stderr=True), transient=True, redirect_stdout=False, redirect_stderr=False
+    )
+    with bar:
+        stage = _Stage(bar)
+        yield stage.tell
+
+
+class _Stage:
+    """The bar of what is counted now: one function may count several things, one after another."""
+
+    def __init__(self, bar: Any) -> None:
+        self._bar = bar
+        self._task: Any = None
+        self._done = self._total = 0
+
+    def tell(self, done: int, total: int) -> None:
+        """Draw so much of so much."""
+        if self._task is None or total != self._total or done < self._done:
+            if self._task is not None:
+                self._bar.remove_task(self._task)
+            self._task = self._bar.add_task("", total=total, completed=done, first=done, told=0.0)
+        self._done, self._total = done, total
+        (task,) = self._bar.tasks
+        self._bar.update(self._task, completed=done, told=task.elapsed or 0.0)
+
+
+def _time_left_column() -> Any:
+    from rich.progress import ProgressColumn
+    from rich.text import Text
+
+    from seismass.campaign.progress import duration_text
+
+    class TimeLeft(ProgressColumn):
+        """The time left, at the rate so far."""
+
+        def render(self, task: Task) -> Text:
+            left = seconds_left(
+                int(task.completed),
+                int(task.total or 0),
+                task.fields["first"],
+                task.fields["told"],
+                task.elapsed or 0.0,
+            )
+            return Text("" if left is None else f"{duration_text(left)} left")
+
+    return TimeLeft()
+
+
+def seconds_left(done: int, total: int, first: int, told: float, now: float) -> float | None:
+    """Return the time left (s), at the rate so far; None before there is one.
+
+    Parameters
+    ----------
+    done, total : int
+        How much is done, and how much there is.
+    first : int
+        How much was done when the work began.
+    told : float
+        When the last of it was done, in seconds from then.
+    now : float
+        The present time, likewise.
+    """
+    if done <= first or told <= 0.0:
+        return None
+    return max(told * (total - first) / (done - first) - now, 0.0)
