@@ -330,7 +330,9 @@ def test_a_doubt_about_the_input_stands_in_the_headline(changes: dict[str, Any],
     assert any(sentence.startswith(doubt) for sentence in result.answer.doubts), result.answer.doubts
     assert "ANSWER    DOUBTFUL INPUT: " in result.text
     assert any(sentence.startswith(doubt) for sentence in result.remarks)
-    assert json.loads(result.to_json())["doubts"] == list(result.answer.doubts)
+    document = json.loads(result.to_json())
+    assert document["doubts"] == list(result.answer.doubts)
+    assert document["headline"].startswith(f"DOUBTFUL INPUT: {result.answer.doubts[0]}; ")
     result.write(tmp_path)
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert '<div class="answer bad">' in page

@@ -60,12 +60,12 @@ class Answer:
 
     Attributes
     ----------
-    headline : str
+    statement : str
         The answer in one line; "no answer: ..." where there is none.
     reason : str or None
         Why there is no answer.
     doubts : tuple of str
-        What makes the input doubtful; it stands before the headline.
+        What makes the input doubtful; it stands before the statement.
     analyses : tuple of Analysis
         The pair; empty where there is no answer.
     governs : tuple of str
@@ -80,7 +80,7 @@ class Answer:
         Whether the share changes the drift of any storey by more than 1 %; None where there is no answer.
     """
 
-    headline: str
+    statement: str
     reason: str | None
     doubts: tuple[str, ...]
     analyses: tuple[Analysis, ...] = ()
@@ -91,8 +91,13 @@ class Answer:
     matters: bool | None = None
 
     @property
+    def headline(self) -> str:
+        """The statement, behind the first doubt where the input is doubtful."""
+        return "; ".join([*self.doubt_lines[:1], self.statement])
+
+    @property
     def doubt_lines(self) -> tuple[str, ...]:
-        """What stands before the headline where the input is doubtful."""
+        """What stands before the statement where the input is doubtful."""
         shown = [f"DOUBTFUL INPUT: {doubt}" for doubt in self.doubts[:MOST_DOUBTS]]
         further = len(self.doubts) - len(shown)
         return (*shown, *([f"and {further} more doubts, among the remarks"] if further else []))
@@ -130,15 +135,15 @@ def answer_of(
     words = friction_words(building)
     change = largest_change(storeys, (*(name for name in REALS if name in effective), ATTACHED, BARE))
     matters = change is None or change > NO_MATTER
-    headline = "two analyses; the larger drift of each storey counts"
+    statement = "two analyses; the larger drift of each storey counts"
     if not matters:
         assert change is not None
-        headline = (
+        statement = (
             f"the share does not matter: no storey's drift changes by more than {100.0 * max(change, 1e-4):.2g} %, "
             "whether none or all of the goods act as mass"
         )
     return Answer(
-        headline,
+        statement,
         None,
         doubts,
         analyses=(_analysis(building, 1, ADVISED, advised), _analysis(building, 2, BARE, 0.0)),

@@ -180,6 +180,7 @@ class Assessment(Result):
             "note": building.note,
             "input": input_document(building, self.target),
             "headline": self.answer.headline,
+            "statement": self.answer.statement,
             "doubts": list(self.answer.doubts),
             "doubt_lines": list(self.answer.doubt_lines),
             "reason": self.answer.reason,

@@ -18,7 +18,7 @@ def answer_lines(result: AssessmentTables) -> list[Markup]:
     """Return the lines of the box."""
     document, answer = result.document, result.answer
     lines = [Markup('<strong class="warn">{}</strong>').format(doubt) for doubt in document["doubt_lines"]]
-    lines.append(Markup("<strong>{}</strong>").format(_sentence(document["headline"])))
+    lines.append(Markup("<strong>{}</strong>").format(_sentence(document["statement"])))
     if answer is not None:
         pair = zip(answer["analyses"], answer["pair"], strict=True)
         lines += [Markup("<strong>Analysis {}: {}.</strong>").format(one["number"], words) for one, words in pair]

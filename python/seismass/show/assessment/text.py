@@ -49,7 +49,7 @@ def _answer(result: Assessment) -> list[str]:
     answer = result.answer
     doubts = enumerate(answer.doubt_lines)
     lines = [line for number, doubt in doubts for line in _told("ANSWER" if number == 0 else "", doubt)]
-    lines += _told("" if lines else "ANSWER", answer.headline)
+    lines += _told("" if lines else "ANSWER", answer.statement)
     for one, words in zip(answer.analyses, answer.pair, strict=True):
         lines.append(f"          {one.number}  {words}")
     for number, sentence in enumerate(answer.governs):
