@@ -16,7 +16,7 @@ export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
 .PHONY: study explorer test bench bench-kernel count-instructions stress docs clean build lint test-rust test-python test-wheel wheels \
-	test-aarch64 web-kernel
+	test-aarch64 web-kernel fuzz
 
 study: build
 	$(VENV)/bin/seismass study --effective --sensitivity --out out/study
@@ -52,6 +52,14 @@ bench-kernel:
 # LABEL="what changed" records them there instead; BENCH_OPTIONS goes to benchmarks/instructions.py (--all, --tolerance).
 count-instructions: build
 	$(PYTHON) benchmarks/instructions.py $(if $(LABEL),--label "$(LABEL)") $(BENCH_OPTIONS)
+
+# Mutated input files of every kind; FUZZ_COUNT files of each program, FUZZ_SEED chooses others. Files behind defects are
+# kept in target/fuzz.
+FUZZ_COUNT := 20000
+FUZZ_SEED := 1
+fuzz: build
+	$(PYTHON) tools/fuzz_records.py --count $(FUZZ_COUNT) --seed $(FUZZ_SEED) --keep target/fuzz/records
+	$(PYTHON) tools/fuzz_inputs.py --count $(FUZZ_COUNT) --seed $(FUZZ_SEED) --keep target/fuzz/inputs
 
 # A run that was stopped goes on from target/stress/tally.tsv, where failing seeds are kept; a changed kernel or judge does
 # not, until the tally is removed.

@@ -64,7 +64,7 @@ def test_drifts_and_slips_are_those_of_single_runs(small: sm.Assessment) -> None
     building = sm.read_building(tables())
     scene = building.scene()
     assert scene.building is not None
-    motions = [r.scaled(f).motion for r, f in zip(sm.builtin_suite("seven"), small.scaling.factors, strict=True)]
+    motions = [r.scaled(f).motion for r, f in zip(sm.builtin_suite("forty"), small.scaling.factors, strict=True)]
     real = [sm.simulate(scene, motion) for motion in motions]
     ratios = np.array([response.peak_drift / 4.0 for response in real])
     np.testing.assert_allclose(mean_of(small, "real"), ratios.mean(axis=0), rtol=1e-12)
@@ -88,7 +88,7 @@ def test_drifts_and_slips_are_those_of_single_runs(small: sm.Assessment) -> None
 
 def test_the_effective_fraction_is_that_of_the_scene(small: sm.Assessment) -> None:
     assert small.scaling is not None
-    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite("seven"), small.scaling.factors, strict=True)]
+    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite("forty"), small.scaling.factors, strict=True)]
     for model, factor in (("real", 1.0), ("real_mu_low", 0.67), ("real_mu_high", 1.5)):
         alone = sm.effective_mass(sm.read_building(tables()).scene(mu_factor=factor), motions, resamples=200)
         assert small.effective[model].value == alone.value
@@ -102,14 +102,14 @@ def test_attached_models_are_those_of_the_effective_fraction() -> None:
     scene = sm.read_building(tables()).scene()
     goods = np.array([0.8 * 3.0e6 / G, 0.0])
     ours, theirs = with_mass(scene, 0.4 * goods), sm.attached_scene(scene, 0.4)
-    motion = sm.builtin_suite("seven")[0].motion
+    motion = sm.builtin_suite("forty")[0].motion
     np.testing.assert_allclose(sm.simulate(ours, motion).peak_drift, sm.simulate(theirs, motion).peak_drift, rtol=1e-12)
 
 
 def test_motions_are_scaled_for_the_period_with_goods(small: sm.Assessment) -> None:
     building = sm.read_building(tables())
     scaling = sm.scaling.scale_asce7_10(
-        sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods)
+        sm.builtin_suite("forty"), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods)
     )
     assert small.scaling is not None
     np.testing.assert_array_equal(small.scaling.factors, scaling.factors)
@@ -200,12 +200,12 @@ def test_a_collapse_leaves_no_mean_and_no_answer(collapsing: sm.Assessment) -> N
     assert mean_of(collapsing, "real", "collapsed")[0] == collapsed
     assert mean_of(collapsing, "real")[0] is None
     assert mean_of(collapsing, "real", "theta")[0] is None
-    assert f"The building collapses under {collapsed} of 7 motions (goods slide)." in collapsing.advice
+    assert f"The building collapses under {collapsed} of 40 motions (goods slide)." in collapsing.advice
     assert f"goods slide {collapsed}" in collapsing.text
     assert collapsing.advised is None
     # The friction with most collapses is named; of several the stated one.
     reals = {name: count for name, count in collapsing.collapses.items() if name.startswith("real")}
-    assert collapsing.answer.headline.startswith(f"no answer: the building collapses under {max(reals.values())} of 7")
+    assert collapsing.answer.headline.startswith(f"no answer: the building collapses under {max(reals.values())} of 40")
     document = json.loads(collapsing.to_json())
     assert document["answer"] is None
     assert document["reason"] == collapsing.answer.reason
@@ -228,7 +228,7 @@ def test_without_an_answer_nothing_stands_as_if_there_were_one(collapsing: sm.As
 def test_a_building_that_always_collapses_has_no_empty_figures(tmp_path: Path) -> None:
     """Every drift is above a collapse ratio of 0.001: no model has a mean, no fraction a value."""
     result = sm.assess(tables(building={"collapse_drift_ratio": 0.001}), resamples=20)
-    assert result.answer.reason == "the building collapses under 7 of 7 motions (mu as stated)"
+    assert result.answer.reason == "the building collapses under 40 of 40 motions (mu as stated)"
     assert result.figure_names == ("slip",)
     result.write(tmp_path)
     assert not (tmp_path / "drift.svg").exists()
@@ -267,8 +267,8 @@ def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
     one = sm.assess(tables(), resamples=20, threads=1, progress=lambda done, total: calls.append((done, total)))
     two = sm.assess(tables(), resamples=20, threads=2)
     assert one.to_dict() == two.to_dict()
-    # Seven models, 102 for each of three frictions, and two at each of 21 shares of a design, under seven motions.
-    assert calls[-1] == ((7 + 3 * 102 + 42) * 7, (7 + 3 * 102 + 42) * 7)
+    # Seven models, 102 for each of three frictions, and two at each of 21 shares of a design, under forty motions.
+    assert calls[-1] == ((7 + 3 * 102 + 42) * 40, (7 + 3 * 102 + 42) * 40)
     assert [done for done, _ in calls] == sorted(done for done, _ in calls)
 
 
@@ -455,7 +455,7 @@ def test_the_page_says_the_answer_first(warehouse: sm.Assessment) -> None:
     value = max(effective.value for effective in warehouse.effective.values())
     assert f"why {share:.2f} since mu x 1.5 gives {value:.2f} [" in box
     assert "rounded up to a multiple of 0.05" in box
-    assert "motions on 7 synthetic motions, none recorded, scaled by " in box
+    assert "motions on 40 synthetic motions, none recorded, scaled by " in box
     assert all(len(line) <= 120 for line in lines)
     for heading in ("Peak storey drift", "Stability coefficient", "Slip of the goods", "In an analysis", "Assumptions"):
         assert any(line.startswith(heading) for line in lines)
@@ -493,7 +493,7 @@ def test_the_share_for_strengths_is_that_of_the_design(small: sm.Assessment) -> 
     """`effective_mass_of_design` at the friction that decides; stated strengths have none."""
     assert small.scaling is not None
     building = sm.read_building(tables())
-    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite("seven"), small.scaling.factors, strict=True)]
+    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite("forty"), small.scaling.factors, strict=True)]
     alone = sm.effective_mass_of_design(
         lambda share: building.structure(None, share * building.goods), building.scene(mu_factor=1.5).blocks, motions
     )

@@ -54,7 +54,7 @@ def test_answer_of_a_scene_file(scene: Path, tmp_path: Path, capsys: pytest.Capt
     # What it prints is what the function finds.
     found = sm.fragility.incremental_dynamic_analysis(
         sm.read_scene(scene).scene,
-        sm.builtin_suite("eleven"),
+        sm.builtin_suite("forty"),
         [sm.fragility.LimitState("drift_ratio", 0.015, storey=1), sm.fragility.LimitState("slip", 0.05, block=1)],
         code_share=0.5,
     )
@@ -73,7 +73,7 @@ def test_building_file_has_its_code_and_its_limit(capsys: pytest.CaptureFixture[
     # Of goods that are present by the same share on every floor, the code's fraction is so much.
     share = building.code.fraction / building.present_share
     expected = sm.fragility.incremental_dynamic_analysis(
-        scene, sm.builtin_suite("eleven"), sm.fragility.LimitState("drift_ratio", 0.02), code_share=share, resamples=0
+        scene, sm.builtin_suite("forty"), sm.fragility.LimitState("drift_ratio", 0.02), code_share=share, resamples=0
     )
     code = next(row for row in document["fragilities"] if row["model"] == "code")
     assert code["median"] == pytest.approx(expected.fragility(model="code").median, rel=1e-9)

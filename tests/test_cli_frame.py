@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+import rich.progress
 
 import seismass as sm
 from seismass import cli, commands
@@ -207,17 +208,30 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_progress_is_drawn_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("no_color", [False, True])
+def test_progress_is_drawn_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch, no_color: bool) -> None:
     drawn = Terminal()
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    if no_color:
+        monkeypatch.setenv("NO_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setattr(sys, "stderr", drawn)
+    bars: list[rich.progress.Progress] = []
+    start = rich.progress.Progress.start
+    monkeypatch.setattr(rich.progress.Progress, "start", lambda bar: (bars.append(bar), start(bar)))
     with progress("records") as tell:
         assert tell is not None
         tell(0, 7)
         tell(3, 7)
-        tell(7, 7)
+        assert [(task.completed, task.total) for task in bars[0].tasks] == [(3, 7)]
+        tell(4, 9)
+        assert [(task.completed, task.total, task.fields["first"]) for task in bars[0].tasks] == [(4, 9, 0)]
+        tell(9, 9)
+        tell(0, 5)
+        assert [(task.completed, task.total) for task in bars[0].tasks] == [(0, 5)]
     assert "of 7 records" in drawn.getvalue()
+    assert bool(re.search(r"\x1b\[[0-9;]*[39][0-7]m", drawn.getvalue())) is not no_color
     # The line is erased at the end, and the cursor is there again.
     assert drawn.getvalue().rstrip().endswith(("\x1b[2K", "\x1b[?25h"))
     with pytest.raises(KeyboardInterrupt), progress() as tell:
@@ -225,6 +239,9 @@ def test_progress_is_drawn_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(sys, "stderr", io.StringIO())
     with progress() as tell:
         assert tell is None
+    program = "import sys; from seismass.cli import main; main(['scale']); print('rich' in sys.modules)"
+    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert said.endswith("False\n")
 
 
 @pytest.mark.parametrize(

@@ -50,7 +50,7 @@ def test_prints_what_the_function_finds(scene: Path, tmp_path: Path, capsys: pyt
     assert all(len(line) <= 120 for line in printed.out.splitlines())
     found = sm.slip.slip_demand(
         sm.read_scene(scene).scene,
-        [record.scaled(2.0) for record in sm.builtin_suite("seven")],
+        [record.scaled(2.0) for record in sm.builtin_suite("forty")],
         clearance=[0.05, sm.slip.Clearance(plus=0.2)],
         sizes=sm.slip.BlockSize(0.3, 1.2),
     )
@@ -66,7 +66,7 @@ def test_building_file_and_target(capsys: pytest.CaptureFixture[str]) -> None:
     options = ("--sds", "1.0", "--sd1", "0.6", "--period", "0.6", "--json")
     assert command(example_file(), *options) == 0
     document = json.loads(capsys.readouterr().out)
-    suite = sm.builtin_suite("seven")
+    suite = sm.builtin_suite("forty")
     factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7(1.0, 0.6), period=0.6).factors
     motions = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
     expected = sm.slip.slip_demand(sm.read_building(example_file()).scene(), motions)

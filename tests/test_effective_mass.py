@@ -549,3 +549,14 @@ def test_motions_of_zeros_are_refused() -> None:
     still = sm.Motion(np.zeros(100), 0.01)
     with pytest.raises(sm.errors.InvalidMotion, match=r"^motions of effective mass must be other than zero somewhere"):
         sm.effective_mass(scene(), still)
+
+
+def test_interval_over_suites_is_wider_at_each_end() -> None:
+    found = sm.effective_mass(case(3, 0.47, 1.0, 4.0, 0.2), MOTIONS, resamples=200)
+    assert found.interval is not None
+    # 0.05 at each end, SUITE_SCATTER, measured between suites.
+    expected = (found.interval[0] - 0.05, found.interval[1] + 0.05)
+    assert found.suite_interval == pytest.approx((max(0.0, expected[0]), min(1.0, expected[1])))
+    assert f"over suites too {found.suite_interval[0]:.2f}" in found.text
+    stuck = sm.effective_mass(case(3, 0.47, 1.0, 4.0, 50.0), MOTIONS, resamples=2)
+    assert stuck.suite_interval == stuck.interval == (1.0, 1.0)

@@ -31,7 +31,7 @@ def test_one_version() -> None:
 def test_package_is_typed_and_finds_its_data() -> None:
     assert (Path(seismass.__file__).parent / "py.typed").is_file()
     stored = sorted(file.name for file in (data_directory() / "synthetic").iterdir())
-    assert stored == sorted(["seven.csv", "suite.csv", *(f"synthetic-{i}.AT2" for i in range(1, 12))])
+    assert stored == sorted(["forty.parquet", "seven.csv", "suite.csv", *(f"synthetic-{i}.AT2" for i in range(1, 12))])
 
 
 def test_every_error_is_a_seismass_error_and_the_builtin_one() -> None:
@@ -72,8 +72,8 @@ def test_code_of_pages_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pag
     exec(compile("\n".join(blocks), page, "exec"), {"__name__": "page"})
 
 
-def code_blocks(language: str) -> list[str]:
-    return re.findall(rf"^```{language}\n(.*?)^```", README, re.MULTILINE | re.DOTALL)
+def code_blocks(language: str, page: str = README) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
 
 
 def test_readme_names_make_targets_that_exist() -> None:
@@ -87,12 +87,17 @@ EPILOGS = {
     f"{name} --help": importlib.import_module(f"seismass.commands.{module}").COMMAND.epilog
     for name, (module, _) in COMMANDS.items()
 }
+PAGES = {
+    page.name: blocks
+    for page in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+    if (blocks := re.findall(r"^ *seismass .*$", "\n".join(code_blocks("sh", page.read_text(encoding="utf-8"))), re.M))
+}
 
 
-@pytest.mark.parametrize("place", ["README", *EPILOGS])
+@pytest.mark.parametrize("place", [*PAGES, *EPILOGS])
 def test_commands_are_ones_that_the_parser_takes(place: str) -> None:
-    """Every line of the README's shell blocks, and of the examples that --help prints."""
-    text = EPILOGS.get(place) or "\n".join(code_blocks("sh"))
+    """Every line of the shell blocks of the README and of pages, and of the examples that --help prints."""
+    text = EPILOGS[place] if place in EPILOGS else "\n".join(PAGES[place])
     lines = re.findall(r"^ *seismass (.*)$", text, re.MULTILINE)
     assert lines
     for line in lines:

@@ -37,6 +37,8 @@ FUZZ = runpy.run_path(str(ROOT / "tools" / "fuzz_records.py"))
 POINTS: int = MADE["POINTS"]
 DT: float = MADE["DT"]
 
+NORTH_EAST_UP = (("NS", 0.0), ("EW", 90.0), ("UD", None))
+
 # file, unit in it, resolution of its samples (m/s2), and component, azimuth, network, station of each channel
 READ: list[tuple[str, str, float, list[tuple[str, float | None, str, str]]]] = [
     ("made.AT2", "g", 1e-7, [("90", 90.0, "", "Nowhere")]),
@@ -53,6 +55,26 @@ READ: list[tuple[str, str, float, list[tuple[str, float | None, str, str]]]] = [
     ("made_pairs.smc", "cm/s2", 1e-4, [("45", 45.0, "XXXX", "NOW0A, Nowhere")]),
     ("made.txt", "cm/s2", 1e-7, [("", None, "", "")]),
     ("made.csv", "g", 1e-5, [("", None, "", "")]),
+    ("made_components.csv", "cm/s2", 1e-7, [("NS", 0.0, "", ""), ("EW", 90.0, "", ""), ("UD", None, "", "")]),
+    ("made_block.g3", "g", 1e-7, [("", None, "", "")]),
+    ("made.cor.acc", "m/s2", 1e-7, [("NS", 0.0, "XX", "0001 / Nowhere")]),
+    ("made_csmnc.dat", "cm/s2", 1e-6, [("EW", 90.0, "CSMNC", "NOW00")]),
+    ("made_jma.csv", "cm/s2", 1e-5, [(name, at, "JMA", "00000NOW") for name, at in NORTH_EAST_UP]),
+    ("made_nied.csv", "cm/s2", 1e-5, [(name, at, "NIED", "NOW001") for name, at in NORTH_EAST_UP]),
+    (
+        "made_cwa.txt",
+        "cm/s2",
+        1e-5,
+        [("U", None, "CWA", "NOW001"), ("N", 0.0, "CWA", "NOW001"), ("E", 90.0, "CWA", "NOW001")],
+    ),
+    (
+        "made_afad.txt",
+        "cm/s2",
+        1e-8,
+        [("N-S", 0.0, "AFAD", "0001"), ("E-W", 90.0, "AFAD", "0001"), ("U-D", None, "AFAD", "0001")],
+    ),
+    ("made.V2A", "mm/s2", 6e-5, [("S14E", 166.0, "GeoNet", "NOWS, Nowhere"), ("Up", None, "GeoNet", "NOWS, Nowhere")]),
+    ("made.V1A", "mm/s2", 6e-5, [("S14E", 166.0, "GeoNet", "NOWS, Nowhere"), ("Up", None, "GeoNet", "NOWS, Nowhere")]),
 ]
 
 
@@ -305,7 +327,7 @@ def test_remarks_say_what_a_reader_did(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", sorted(FILES))
 def test_no_prefix_of_a_file_is_accepted_in_silence(tmp_path: Path, name: str) -> None:
-    """A cut file is refused, gives the whole record, or has a remark; only the time column of made.csv has no count."""
+    """A cut file is refused, gives the whole record, or has a remark; rows of times or components have no count."""
     content = FILES[name]
     whole = read_records(put(tmp_path, name))
     ends = sorted({*range(1, len(content), 97), *(at + 1 for at, byte in enumerate(content) if byte == 10)})
@@ -320,7 +342,7 @@ def test_no_prefix_of_a_file_is_accepted_in_silence(tmp_path: Path, name: str) -
         )
         accepted += not same
         assert same or any(r.remarks for r in records), end
-    if name == "made.csv":
+    if name in ("made.csv", "made_components.csv", "made_jma.csv", "made_nied.csv"):
         assert accepted > 100
     else:  # whole channels of the files with two; K-NET says whole seconds, so that a line less has a remark
         assert accepted <= 3 * (len(whole) - 1) + 20 * (name in ("made.EW", "made.UD2"))
@@ -369,11 +391,7 @@ NAMED: list[tuple[str, bytes, str]] = [
     ),
     ("a.xml", b'<?xml version="1.0"?>\n<a/>', r"got XML"),
     ("a.json", b'{\n "a": 1}', r"got JSON"),
-    ("a.V2A", b"Corrected accelerogram 20180212_211554_WPWS_20 GNS Science\nSite WPWS\n", r"got GeoNet V1A or V2A"),
-    ("a.V1A", b"Uncorrected accelerogram 20161113_110256_HSES_20 GNS Science\n", r"got GeoNet V1A or V2A"),
-    ("a.txt", b"STRONG GROUND MOTION RECORDS OF TURKIYE\r\nPLACE : X\r\n", r"got NSMN \(AFAD\) text: read its ESM"),
     ("a.V1", b"* VOL1DS FILE:  5520/01\nInst Type = SSA-2\n", r"got BHRC"),
-    ("a.dat", b"#Earthquake Information\n#Origin Time(GMT+08): 2018\n", r"got CWB"),
     ("a.012", b"*" * 80 + b"\n            INSTITUTO DE INGENIERIA, UNAM\n", r"got UNAM"),
     ("a.s0a", b"CORRECTED ACCELEROGRAM  IIBB127  94.610.0 COMP N08W   FILE   0  CORRESPONDING T\n", r"got USC volume"),
     ("a.y0a", b"FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\n", r"got USC volume"),
@@ -431,8 +449,14 @@ def test_units_are_understood_in_their_spellings(tmp_path: Path) -> None:
         ("m/s²", "m/s2"),
         ("m/sec2", "m/s2"),
         ("G", "g"),
-        ("mg", None),
-        ("ft/s2", None),
+        ("mg", "mg"),
+        ("ft/s2", "ft/s2"),
+        ("inch/sec^2", "in/s2"),
+        ("mm/s/s", "mm/s2"),
+        ("% g", "%g"),
+        ("cm s-2", "cm/s2"),
+        ("cm/seg/seg", "cm/s2"),
+        ("kN", None),
         ("cm/s", None),
         ("g m/s2", None),
         ("", None),
@@ -524,13 +548,17 @@ def test_a_folder_takes_every_format_and_says_what_it_leaves_out(tmp_path: Path)
     put(tmp_path, "page.AT2.html", "<html></html>")
     put(tmp_path, "a.vel", NAMED[-1][1])
     put(tmp_path, "list.csv", "file,dt\nmade.AT2,0.02\n")
-    put(tmp_path, "unknown.txt", FILES["made.txt"].replace(b"gal", b"ft/s2"))
+    put(tmp_path, "unknown.txt", FILES["made.txt"].replace(b"gal", b"counts/s2"))
     suite = read_suite(tmp_path)
     taken = {record.name for record in suite}
     assert taken == {
         "copy", "made", "made channel 1", "made.EW", "made_fixed", "made_pairs", "made_v1", "made_v2 channel 1",
+        "made_components channel 2", "made_components channel 3", "made_block", "made.cor", "made_csmnc",
+        "made_jma channel 1", "made_jma channel 2", "made_nied channel 1", "made_nied channel 2",
+        "made_cwa channel 2", "made_cwa channel 3", "made_afad channel 1", "made_afad channel 2",
     }  # fmt: skip
     left = {item.file.name: item.reason for item in suite.excluded}
+    assert left["made_cwa.txt"] == "made_cwa channel 1: vertical component by its header: U"
     assert left["made.V2"] == "made channel 2: vertical component by its header: UP"
     assert left["made.UD2"] == "vertical component by its header: UD2"
     assert "got HTML page" in left["page.AT2.html"]

@@ -13,7 +13,7 @@ import pytest
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.records import read_record, read_records, read_suite
-from seismass.records.formats.columns import NO_COUNT
+from seismass.records.formats.headers import NO_COUNT
 
 ROOT = Path(__file__).parents[1]
 PAGE = runpy.run_path(str(ROOT / "tools" / "records_page.py"))

@@ -15,7 +15,7 @@ from seismass.base.units import STANDARD_GRAVITY, stated_unit, unknown_unit
 from seismass.commands.options import left_out
 from seismass.model.motion import Motion
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
-from seismass.records.formats.columns import NO_COUNT
+from seismass.records.formats.headers import NO_COUNT
 from seismass.records.formats.numbers import is_cut_off, split_touching
 
 VALUES_G = [0.001, -0.25, 0.125, 1.5e-4, -3.0e-3, 0.0, 0.0625]
@@ -141,6 +141,13 @@ def test_a_number_with_its_exponent_is_whole() -> None:
         ("Velocity in m/s\n2000 points", None),
         ("m/s 2000 points", None),
         ("units: g/10", None),
+        ("UNITS OF MG", "mg"),
+        ("ACCELERATION (MG)", "mg"),
+        ("accel in %g", "%g"),
+        ("acceleration (% of g)", "%g"),
+        ("FT/S/S", "ft/s2"),
+        ("IN/SEC/SEC", "in/s2"),
+        ("(mm/s2)", "mm/s2"),
     ],
 )
 def test_unit_stated_in_a_header(text: str, unit: str | None) -> None:
@@ -150,15 +157,9 @@ def test_unit_stated_in_a_header(text: str, unit: str | None) -> None:
 @pytest.mark.parametrize(
     ("text", "unit"),
     [
-        ("UNITS OF MG", "MG"),
         ("UNITS OF 0.1 G", "0.1 G"),
         ("UNITS OF .01 M/S2", ".01 M/S2 and m/s2"),
         ("units: g/10", "g/10"),
-        ("ACCELERATION (MG)", "mg"),
-        ("accel in %g", "%g"),
-        ("FT/S/S", "ft/s2"),
-        ("IN/SEC/SEC", "in/s2"),
-        ("(mm/s2)", "mm/s2"),
         ("(g) or (m/s2)", "g and m/s2"),
         ("UNITS OF G", None),
         ("UNITS:\nVS30_M/S: 2", None),
@@ -244,10 +245,12 @@ def test_step_of_an_at2_header_has_its_unit(tmp_path: Path) -> None:
         assert read_record(file).dt == dt
 
 
-def test_an_unknown_unit_of_an_at2_header_is_the_callers(tmp_path: Path) -> None:
+def test_of_two_units_of_an_at2_header_the_caller_says_which(tmp_path: Path) -> None:
     file = tmp_path / "a.AT2"
-    file.write_text(at2().replace("UNITS OF G", "FT/S/S, G"))
+    file.write_text(at2().replace("UNITS OF G", "(G) OR (FT/S/S)"))
     assert read_record(file, unit="g").pga_g == pytest.approx(0.25, rel=1e-15)
+    with pytest.raises(RecordFormatError, match=r"unit of a\.AT2 must be that of its header, ft/s2 and g; got m/s2"):
+        read_record(file, unit="m/s2")
 
 
 def test_a_header_may_speak_of_velocity_beside_acceleration(tmp_path: Path) -> None:

@@ -592,7 +592,7 @@ def test_bad_input_is_one_line_and_exit_code_2(
         (["scale", "--period", "inf"], "argument --period: must be a positive number; got 'inf'"),
         (["scale", "--sds", "0"], "argument --sds: must be a positive number; got '0'"),
         (["scale", "--tl", "long"], "argument --tl: must be a positive number; got 'long'"),
-        (["study", "--mu", "0.1,x"], "argument --mu: must be numbers separated by commas; got '0.1,x'"),
+        (["study", "--mu", "0.1,x"], "argument --mu: must be numbers, with commas or spaces between; got '0.1,x'"),
         (["study", "--occupancy", "a"], "argument --occupancy: must be NAME:LAMBDA or NAME:LAMBDA:LAMBDA; got 'a'"),
         (["nothing"], "invalid choice: 'nothing'"),
         ([], "the following arguments are required: COMMAND"),

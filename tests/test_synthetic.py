@@ -62,7 +62,9 @@ def test_names_that_no_motion_has(name: object) -> None:
 
 @pytest.mark.parametrize("name", ["six", 7, ["seven"], None])
 def test_suites_that_there_are_not(name: object) -> None:
-    with pytest.raises(sm.errors.InvalidOption, match="suite of built-in motions must be 'eleven' or 'seven'; got"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match="suite of built-in motions must be 'forty' or 'eleven' or 'seven'; got"
+    ):
         builtin_suite(name)  # type: ignore[arg-type]
 
 

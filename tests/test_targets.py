@@ -3,11 +3,13 @@
 import json
 import pickle
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import seismass as sm
+from seismass.base.errors import RecordFormatError
 from seismass.scaling.target_text import target_of
 from seismass.spectra import MULTI_PERIODS
 from seismass.spectra.remarks import target_remarks
@@ -263,3 +265,15 @@ def test_an_option_names_a_file(tmp_path) -> None:
 def test_an_option_that_is_incomplete_is_refused(text: str, message: str) -> None:
     with pytest.raises(sm.errors.InvalidOption, match=re.escape(message)):
         target_of(text)
+
+
+def test_a_table_with_semicolons_and_the_unit_of_its_periods(tmp_path: Path) -> None:
+    """0.5 g at 1 s, twice; a period in ms is refused, as one in s would be wrong by a thousand."""
+    file = tmp_path / "target.csv"
+    file.write_text("T (s);Sa (g)\n0,5;1,0\n1,0;0,5\n", encoding="utf-8")
+    assert sm.TargetSpectrum.from_csv(file)(1.0) == pytest.approx(0.5 * 9.80665, rel=1e-12)
+    file.write_text("T (s);Sa (g)\n0.5;1.0\n1.0;0.5\n", encoding="utf-8")
+    assert sm.TargetSpectrum.from_csv(file)(1.0) == pytest.approx(0.5 * 9.80665, rel=1e-12)
+    file.write_text("Period (ms),Sa (g)\n500,1.0\n1000,0.5\n", encoding="utf-8")
+    with pytest.raises(RecordFormatError, match=r"unit of period of target\.csv must be s; got ms"):
+        sm.TargetSpectrum.from_csv(file)

@@ -21,6 +21,7 @@ from seismass.validation import (
     claims,
     claims_table,
     components,
+    paper_scenes,
     platform,
     platform_scene,
     section4,
@@ -33,6 +34,7 @@ from seismass.validation.three_storeys import (
     FRICTION_SPRINGS,
     OPENSEES,
     PEAK_G,
+    SPRINGS,
     kept,
     samples_digest,
 )
@@ -143,6 +145,22 @@ def test_a_program_that_does_not_converge_has_no_numbers() -> None:
     assert found.differences["program"].to_list() == [FRICTION_SPRINGS] * 2
     assert found.differences["drift_mm"].null_count() == 2
     assert all(line.split()[-2:] == ["-", "-"] for line in differences_text(found)[1:])
+
+
+def test_progress_counts_histories_and_may_stop_the_work() -> None:
+    record = components("Brawley Airport")[0]
+    cut = replace(record, acceleration=record.acceleration[:200])
+    told: list[tuple[int, int]] = []
+    section4([cut], springs=SPRINGS[:1], progress=lambda done, total: told.append((done, total)))
+    # Two second slopes, each with the exact kernel and one setting of friction springs.
+    assert told == [(number, 4) for number in range(5)]
+
+    def stop(done: int, total: int) -> None:
+        if done == 1:
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        paper_scenes(springs=SPRINGS[:1], progress=stop)
 
 
 def test_the_platform_is_that_of_fig_4(built_in: Validation) -> None:

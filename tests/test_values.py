@@ -96,6 +96,9 @@ def test_results_of_other_numbers_differ() -> None:
         SUITE[0].velocity,
         HAZARD.sa_g,
         GRID.axes()[-1].columns["scale"],
+        sm.simulate(SCENE, MOTION).peak_drift,
+        sm.simulate(SCENE, MOTION).event_log["time"],
+        pickle.loads(pickle.dumps(sm.simulate(SCENE, MOTION))).peak_drift,
     ],
 )
 def test_arrays_of_values_cannot_be_made_writeable(array: np.ndarray[Any, Any]) -> None:

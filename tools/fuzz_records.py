@@ -25,7 +25,10 @@ import numpy as np
 
 from seismass.base.errors import RecordFormatError
 from seismass.records import Record, read_records
-from seismass.records.formats.columns import NO_COUNT
+from seismass.records.formats import Format, recognise
+from seismass.records.formats.headers import NO_COUNT
+
+NETWORKS = ("resorce", "csmnc", "jma", "nied_csv", "cwa", "afad", "geonet")
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "records.md"
@@ -383,6 +386,9 @@ def _format_of(original: Original) -> str:
         "SMC": ".smc",
     }
     suffix = Path(original.name).suffix.lower()
+    known_by = recognise(original.content[:8192].decode("latin-1"))
+    if isinstance(known_by, Format) and known_by.name in NETWORKS:
+        return "networks"
     return next((name for name, known in suffixes.items() if suffix in known.split()), "columns")
 
 

@@ -6,7 +6,11 @@ Their motion is a sum of decaying sines, so that nothing recorded is in them.
 from __future__ import annotations
 
 import math
+import runpy
 from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+NETWORKS = runpy.run_path(str(Path(__file__).with_name("network_files.py")))
 
 POINTS = 203
 DT = 0.02
@@ -296,6 +300,20 @@ def two_columns() -> str:
     return "time (s),acceleration (g)\n" + "".join(f"{index * DT:.2f},{value:.6f}\n" for index, value in enumerate(g))
 
 
+def components() -> str:
+    """Return times in ms and three components, with semicolons and decimal commas."""
+    rows = enumerate(zip(motion(0), motion(1), motion(2), strict=True))
+    text = "t (ms);NS (gal);EW (gal);UD (gal)\n"
+    lines = (f"{1000.0 * index * DT:.1f};{n:.5f};{e:.5f};{u:.5f}\n" for index, (n, e, u) in rows)
+    return text + "".join(lines).replace(".", ",")
+
+
+def block() -> str:
+    """Return samples line after line behind their count and step, as 5E15.7 in g."""
+    fields = [f"{value / 980.665:15.7E}" for value in motion()]
+    return f"Acceleration (g)\n{POINTS} {DT}\n" + rows(fields, 5)
+
+
 def files() -> Iterator[tuple[str, bytes]]:
     """Yield name and content of one file of each kind."""
     kinds = {
@@ -313,6 +331,9 @@ def files() -> Iterator[tuple[str, bytes]]:
         "made_pairs.smc": smc(pairs=True, kind="1 UNCORRECTED ACCELEROGRAM"),
         "made.txt": column(),
         "made.csv": two_columns(),
+        "made_components.csv": components(),
+        "made_block.g3": block(),
+        **NETWORKS["files"](motion, DT),
     }
     for name, text in kinds.items():
         yield name, text.encode()

@@ -145,8 +145,9 @@ def test_fraction_is_that_of_the_package(html: str, open_page: Any, tmp_path: Pa
         f"{expected.kind}: "
     )
     assert (
-        f"eta = {expected.eta:.3f} (C1 = {expected.base_shear_coefficient:.4f}): min(1, eta²) = "
-        f"{expected.estimate:.3f} at best, min(1, eta) = {expected.conservative:.3f} to be safe" in words
+        f"eta = {expected.eta:.3f} (C1 = {expected.base_shear_coefficient:.4f}): min(1, eta_h^p) = "
+        f"{expected.estimate:.3f} at best, min(1, eta_h) = {expected.conservative:.3f} to be safe; "
+        f"p = {expected.by_hand.exponent:.2f} (yields), h_g/h_m = {expected.by_hand.height_ratio:.2f}" in words
     )
     # Drifts of the package are over the height.
     height = float(scene.building.heights[0])

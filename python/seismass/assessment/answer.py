@@ -253,16 +253,16 @@ def _why(advised: float, effective: dict[str, EffectiveMass], words: dict[str, s
     for name in sorted(effective, key=lambda name: name != decides):
         parts.append(f"{words[name]} gives {_value(effective[name])}")
     confidence = 100.0 * effective[decides].confidence
-    interval = f" ({confidence:g} % interval)" if effective[decides].interval is not None else ""
+    interval = f" ({confidence:g} % interval)" if effective[decides].suite_interval is not None else ""
     rounded = f", rounded up to a multiple of {ROUNDING_STEP:g}" if advised - effective[decides].value > 1e-9 else ""
     others = f"; {', '.join(parts[1:])}" if len(parts) > 1 else ""
     return f"{advised:.2f} since {parts[0]}{interval}{rounded}{others}"
 
 
 def _value(result: EffectiveMass) -> str:
-    if result.interval is None:
+    if result.suite_interval is None:
         return f"{result.value:.2f}"
-    return f"{result.value:.2f} [{result.interval[0]:.2f}, {result.interval[1]:.2f}]"
+    return f"{result.value:.2f} [{result.suite_interval[0]:.2f}, {result.suite_interval[1]:.2f}]"
 
 
 def _design(building: OwnBuilding, advised: float, design: EffectiveMass | None) -> str:

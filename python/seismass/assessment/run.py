@@ -65,7 +65,7 @@ def assess(
     building : OwnBuilding, path-like or mapping
         The building, or its file or tables as `read_building` takes them.
     motions : Suite or iterable of Record or Motion, optional
-        Motions, unscaled; at least three. Default the first seven built-in motions, of which none was recorded.
+        Motions, unscaled; at least three. Default the forty built-in motions, of which none was recorded.
     target : TargetSpectrum, optional
         Site spectrum; default that of the building.
     code : CodeFraction, optional
@@ -112,7 +112,7 @@ def assess(
     ['real', 'real_mu_low', 'real_mu_high', 'advised', 'code', 'attached', 'bare']
     """
     chosen = _building(building, code, mu_factors)
-    suite = _suite(builtin_suite("seven") if motions is None else motions)
+    suite = _suite(builtin_suite("forty") if motions is None else motions)
     spectrum = chosen.site_spectrum(target) if scale or chosen.design is not None else None
     scaling = _scaling(chosen, suite, spectrum, scaling_period, threads) if scale else None
     factors = np.ones(len(suite)) if scaling is None else scaling.factors

@@ -14,7 +14,7 @@ from typing import BinaryIO, Final
 
 import polars as pl
 
-from seismass.base.files import open_regular, polars_writing
+from seismass.base.files import open_regular, polars_writing, read_table
 
 _KEY: Final = "seismass.sha256"
 _MARK: Final = b"sha256-of-this-file-with-zeros-here:"
@@ -79,8 +79,7 @@ def read_checked(path: Path) -> pl.DataFrame:
     OSError
         It cannot be read.
     """
-    with open_regular(path, follow=False) as file:
-        return pl.read_parquet(file)
+    return read_table(path, follow=False)
 
 
 def metadata_of(path: Path) -> dict[str, str]:

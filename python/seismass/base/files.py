@@ -86,6 +86,23 @@ def read_utf8(path: str | os.PathLike[str], most: int = MOST_BYTES) -> str:
     return read_file(path, most).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
 
 
+def read_table(path: str | os.PathLike[str], *, follow: bool = True) -> pl.DataFrame:
+    """Return the table of a Parquet file of any name; Polars itself opens none that is not UTF-8.
+
+    Raises
+    ------
+    OSError
+        It cannot be read, or is no regular file.
+    polars.exceptions.PolarsError
+        It is no Parquet file, or damaged.
+    """
+    try:
+        with open_regular(path, follow=follow) as file:
+            return pl.read_parquet(file)
+    except pl.exceptions.PanicException as error:  # which is no Exception
+        raise pl.exceptions.ComputeError(f"a damaged Parquet file: {error}") from None
+
+
 def _size_text(size: int) -> str:
     return f"{size // 2**20} MB" if size >= 2**20 else f"{size} bytes"
 

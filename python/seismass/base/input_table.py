@@ -13,12 +13,10 @@ from typing import Any, Final, NamedTuple, NoReturn
 
 from seismass.base.errors import InvalidScene, SeismassError
 from seismass.base.files import MOST_BYTES, read_file
-from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, printable, refusal
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, refusal, short
 
 MOST_TOML: Final = 2**22
 """Largest TOML file that is read (bytes): some seconds. JSON, which is read a hundred times as fast, may have more."""
-_SHOWN: Final = 60
-"""Letters of a key that a message shows."""
 MOST_KEY_PARTS: Final = 50
 """Most parts of a dotted key of TOML, whose reader takes the square of their number."""
 
@@ -59,7 +57,7 @@ def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
         form = suffix[1:].upper()
         raise refusal(kind, "content", source.name, f"valid {form}", str(error)) from error
     except _RepeatedKey as error:
-        raise refusal(kind, brief(str(error)).strip("'"), source.name, "given once", "it twice") from None
+        raise refusal(kind, short(str(error)), source.name, "given once", "it twice") from None
     if not isinstance(loaded, dict):
         raise refusal(kind, "content", source.name, "a table of keys", brief(loaded))
     return Table(loaded, "", source.name, kind)
@@ -114,7 +112,7 @@ class Table:
 
     def key(self, key: str) -> str:
         """Where a key stands: building.damping.ratio."""
-        shown = printable(key if len(key) <= _SHOWN else f"{key[:_SHOWN]}...")
+        shown = short(key)
         return f"{self.place}.{shown}" if self.place else shown
 
     def refuse(self, key: str, requirement: str, got: str) -> NoReturn:

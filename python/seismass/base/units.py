@@ -12,23 +12,45 @@ from seismass.base.values import brief, refusal
 STANDARD_GRAVITY: Final = _kernel.STANDARD_GRAVITY
 """Standard gravity (m/s2), 3rd CGPM 1901: the g of every number in this package."""
 
-ACCELERATION_UNITS: Final = {"g": STANDARD_GRAVITY, "m/s2": 1.0, "cm/s2": 0.01, "gal": 0.01}
-"""Accelerations of files in m/s2, by the name of the unit; records call gal cm/s2."""
+ACCELERATION_UNITS: Final = {
+    "g": STANDARD_GRAVITY,
+    "m/s2": 1.0,
+    "cm/s2": 0.01,
+    "gal": 0.01,
+    "mm/s2": 0.001,
+    "mg": STANDARD_GRAVITY / 1000.0,
+    "%g": STANDARD_GRAVITY / 100.0,
+    "ft/s2": 0.3048,
+    "in/s2": 0.0254,
+}
+"""Accelerations of files in m/s2, by the name of the unit; records call gal cm/s2. Foot and inch are those of 1959."""
 
+_LENGTHS: Final = {
+    **dict.fromkeys(("m", "meter", "meters", "metre", "metres"), "m"),
+    **dict.fromkeys(("ft", "foot", "feet"), "ft"),
+    **dict.fromkeys(("in", "inch", "inches"), "in"),
+}
 _SPELLINGS: Final = {
     **dict.fromkeys(("g", "g's", "(g)"), "g"),
     **dict.fromkeys(("gal", "gals", "(gal)"), "cm/s2"),
+    **dict.fromkeys(("mg", "milli-g", "milli g", "(mg)"), "mg"),
+    **dict.fromkeys(("%g", "% g", "(%g)", "percent g", "percent of g", "% of g"), "%g"),
 }
+_SECOND: Final = r"s(?:e[cg])?"
 _PER_SECOND_SQUARED = re.compile(
-    r"(?<![a-z])([a-z]+)[ \t]*/[ \t]*s(?:ec)?"
-    r"(?:[ \t]*/[ \t]*s(?:ec)?(?![a-z])|[ \t]*(?:\*\*|\^)?[ \t]*(?:2(?![\d.])|²))",
+    rf"(?<![a-z])([a-z]+)[ \t]*/[ \t]*(?:"
+    rf"{_SECOND}(?:[ \t]*/[ \t]*{_SECOND}(?![a-z])|[ \t]*(?:\*\*|\^)?[ \t]*(?:2(?![\d.])|²))"
+    rf"|\({_SECOND}[ \t]*(?:/|\*|\.)[ \t]*{_SECOND}\))"
+    r"|(?<![a-z])(mm|cm|m|in|ft)[ \t]*[.*]?[ \t]*s(?:ec)?[ \t]*(?:\*\*|\^)?[ \t]*(?:-2(?![\d.])|⁻²)",
     re.IGNORECASE,
 )
 _GAL = re.compile(r"\bgals?\b", re.IGNORECASE)
-_BRACKETED_G = re.compile(r"[(\[][ \t]*([%m]?g)(?:'s)?[ \t]*[)\]]", re.IGNORECASE)
-_IN_G = re.compile(r"\bacc[a-z.]*[ \t]+in[ \t]+([%m]?g)(?:'s)?(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
+_PART_OF_G: Final = r"(?:%|percent)[ \t]*(?:of[ \t]+)?g|mg|milli-?[ \t]?g|g"
+_BRACKETED_G = re.compile(rf"[(\[][ \t]*({_PART_OF_G})(?:'s)?[ \t]*[)\]]", re.IGNORECASE)
+_IN_G = re.compile(rf"\bacc[a-z.]*[ \t]+in[ \t]+({_PART_OF_G})(?:'s)?(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
 _UNITS_OF = re.compile(r"\bunits?[ \t]*(?:of\b|[:=])[ \t]*([^\s].*)", re.IGNORECASE)
-_G = re.compile(r"[(\[]?[ \t]*g(?:'s|ravity)?(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
+_UNIT_LIKE = re.compile(r"[/%\d]|count|volt|digit", re.IGNORECASE)
+_G = re.compile(rf"[(\[]?[ \t]*(?:g(?:'s|ravity)?|({_PART_OF_G}))(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
 
 
 def acceleration_factor(unit: Any, owner: str, kind: type[SeismassError]) -> float:
@@ -50,35 +72,59 @@ def acceleration_factor(unit: Any, owner: str, kind: type[SeismassError]) -> flo
 
 
 def unit_by_name(name: str) -> str | None:
-    """Return "g", "m/s2" or "cm/s2" for any spelling of it, gal included, or None for another unit.
+    """Return a key of `ACCELERATION_UNITS` for any spelling of it, cm/s2 for gal, or None for another unit.
 
-    >>> [unit_by_name(name) for name in ("Gal", "cm/sec^2", "m/s/s", "G", "ft/s2")]
-    ['cm/s2', 'cm/s2', 'm/s2', 'g', None]
+    >>> [unit_by_name(name) for name in ("Gal", "cm/sec^2", "m/s/s", "G", "FT/S2", "% g", "cm/s")]
+    ['cm/s2', 'cm/s2', 'm/s2', 'g', 'ft/s2', '%g', None]
     """
     text = name.strip().lower()
-    return _SPELLINGS.get(text) or (stated_unit(text) if _PER_SECOND_SQUARED.fullmatch(text) else None)
+    return _SPELLINGS.get(text) or (stated_unit(text) if _PER_SECOND_SQUARED.fullmatch(text.strip("()[]")) else None)
 
 
 def stated_unit(text: str) -> str | None:
     """Return the acceleration unit that a header states, or None where it states none, several or another."""
-    found = _units(text)
+    found = stated_units(text)
     return found[0] if len(found) == 1 and found[0] in ACCELERATION_UNITS else None
 
 
 def unknown_unit(text: str) -> str | None:
     """Return what a header states for a unit where it is none of `ACCELERATION_UNITS`, or several; else None."""
-    return None if stated_unit(text) else " and ".join(_units(text)) or None
+    return None if stated_unit(text) else " and ".join(stated_units(text)) or None
 
 
-def _units(text: str) -> list[str]:
-    """Every unit that a header states, by its name if it is a known one."""
-    found = {f"{length.lower()}/s2" for length in _PER_SECOND_SQUARED.findall(text)}
-    found |= {name.lower() for name in (*_BRACKETED_G.findall(text), *_IN_G.findall(text))}
+def stated_units(text: str) -> list[str]:
+    """Return every unit that a header states, by its name in `ACCELERATION_UNITS` if it is there, in order."""
+    found = {_per_second_squared(first or second) for first, second in _PER_SECOND_SQUARED.findall(text)}
+    found |= {_part_of_g(name) for name in (*_BRACKETED_G.findall(text), *_IN_G.findall(text))}
     if _GAL.search(text):
         found.add("cm/s2")
     for said in _UNITS_OF.findall(text):
-        if _G.match(said):
-            found.add("g")
+        of_g = _G.match(said)
+        if of_g:
+            found.add(_part_of_g(of_g[1] or "g"))
         elif said[0] in ".0123456789" or not found:
             found.add(said.strip()[:30])
     return sorted(found)
+
+
+def _per_second_squared(length: str) -> str:
+    name = length.lower()
+    return f"{_LENGTHS.get(name, name)}/s2"
+
+
+def _part_of_g(said: str) -> str:
+    """Return g, mg or %g for a spelling of it."""
+    name = said.lower()
+    return "%g" if name[0] in "%p" else "mg" if name[0] == "m" else "g"
+
+
+def contradiction(text: str, unit: str) -> str | None:
+    """Return the unit that a header states where it is not `unit`, a key of `ACCELERATION_UNITS`; else None.
+
+    Words behind "units:" that are no unit ("see below") contradict nothing.
+    """
+    found = [said for said in stated_units(text) if said in ACCELERATION_UNITS or _UNIT_LIKE.search(said)]
+    same = ACCELERATION_UNITS[unit]
+    if not found or any(ACCELERATION_UNITS.get(said) == same for said in found):
+        return None
+    return " and ".join(found)

@@ -129,6 +129,7 @@ def hashable(value: Any) -> Hashable:
 
 
 _BRIEF: Final = 60
+_SHORT: Final = 200
 _MOST_BITS: Final = 4096
 """Python writes no number as text that has many more."""
 
@@ -162,6 +163,11 @@ def printable(text: str, *, lines: bool = False) -> str:
     """
     shown = text.encode("utf-8", "backslashreplace").decode("utf-8")
     return shown.translate({**_SHOWN_AS_ESCAPES, **_OF_LINES} if lines else _SHOWN_AS_ESCAPES)
+
+
+def short(text: str) -> str:
+    """Return words of a file as a message shows them: printable, and their beginning where they are long."""
+    return printable(text if len(text) <= _SHORT else text[: _SHORT - 3] + "...")
 
 
 def as_name(value: Any, parameter: str, owner: str, kind: type[SeismassError], *, lines: bool = False) -> str:

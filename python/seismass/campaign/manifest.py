@@ -10,7 +10,7 @@ from typing import Any, Final
 from seismass import _kernel
 from seismass.base.errors import InvalidOption
 from seismass.base.files import read_file
-from seismass.base.values import refusal
+from seismass.base.values import brief, refusal
 from seismass.campaign.campaign import SCHEMA_VERSION, CampaignRuns
 from seismass.campaign.columns import UNITS
 from seismass.campaign.places import MANIFEST
@@ -85,7 +85,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     if not isinstance(found, dict) or found.get("kind") != KIND:
         raise refusal(InvalidOption, MANIFEST, "campaign", f"of the kind {KIND!r}", str(path))
     if found.get("schema_version") != SCHEMA_VERSION:
-        got = f"{found.get('schema_version')} in {path}"
+        got = f"{brief(found.get('schema_version'))} in {path}"
         raise refusal(InvalidOption, "schema_version", "campaign", str(SCHEMA_VERSION), got)
     for key, kind in _TYPES.items():
         # type() and not isinstance(), as true is an int.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -56,9 +57,33 @@ def give_answer(
     OSError
         A file cannot be written.
     """
+    print_answer(args, result, suite, write_answer(args, result), head=head, indent=indent, answer=answer)
+
+
+def write_answer(args: argparse.Namespace, result: Answer) -> list[Path]:
+    """Write the files of an answer where the options ask for them, and return them.
+
+    Raises
+    ------
+    OSError
+        A file cannot be written.
+    """
+    return [] if args.out is None else result.write(args.out, figures=not args.no_figures)
+
+
+def print_answer(
+    args: argparse.Namespace,
+    result: Answer,
+    suite: Suite,
+    files: Sequence[Path],
+    *,
+    head: str = "",
+    indent: int = 0,
+    answer: str = "",
+) -> None:
+    """Print an answer whose files are written; see `give_answer`."""
     from seismass.media.folder import PAGE
 
-    files = [] if args.out is None else result.write(args.out, figures=not args.no_figures)
     if args.json:
         warn_left_out(suite)
         print(result.to_json())

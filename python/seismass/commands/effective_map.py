@@ -51,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
     }
     parameters = EffectiveMassParameters(**{name: value for name, value in given.items() if value is not None})
     target = read_target(args)
-    suite = read_motions(args)
+    suite = read_motions(args, "seven")
     with progress() as tell:
         result = effective_mass_map(suite, target, parameters, threads=args.jobs, progress=tell)
     head = f"suite    {suite.name}: {len(suite)} motions\ntarget   {target.label}\n"

@@ -65,7 +65,7 @@ def run(args: argparse.Namespace) -> int:
         refuse_given(args, ("intensity",), "fragility", "where --method is cloud")
     models, rule, drift_limit = models_of(args.file, args.code_share)
     limits = [parse_limit(text) for text in args.limit or [drift_limit]]
-    suite = read_motions(args, "eleven")
+    suite = read_motions(args)
     common: dict[str, Any] = {"measure": args.measure, "period": args.measure_period, "at": args.at or ()}
     common |= {"seed": args.seed, "threads": args.jobs}
     with progress() as tell:

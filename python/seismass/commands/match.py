@@ -23,6 +23,7 @@ from seismass.commands.options import (
     numbers_option,
     positive_option,
     read_target,
+    reading,
     warn_left_out,
     warn_remarks,
 )
@@ -84,7 +85,7 @@ def run(args: argparse.Namespace) -> int:
 
     check_plot(args, "match")
     target = read_target(args)
-    suite = records_named(args.records, dt=args.dt, unit=args.unit)
+    suite = records_named(args.records, reading(args))
     _check_out(args.out, args.records, suite)
     with progress("records") as tell:
         matched = match_suite(

@@ -9,7 +9,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal, get_args
+from typing import TYPE_CHECKING, Any, Final, Literal, cast, get_args
 
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.model.springs import SHAPE_FIELDS
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from seismass.model.codes import CodeFraction
     from seismass.records import Suite
     from seismass.records.builtin import BuiltinName
+    from seismass.records.named import Reading
     from seismass.spectra import TargetSpectrum
 
 SPRING_OPTIONS: Final = {
@@ -69,11 +70,32 @@ def add_spring_options(group: argparse._ActionsContainer, names: Iterable[str] =
 
 
 def add_reading_options(parser: argparse.ArgumentParser) -> None:
-    """Add --dt and --unit, for a record whose file does not state them."""
+    """Add --dt, --unit, --format, --skip and --channel, which say of one file what it does not state."""
     parser.add_argument(
         "--dt", type=positive_option, metavar="S", help="time step of a record whose file does not state it, s"
     )
-    parser.add_argument("--unit", choices=tuple(ACCELERATION_UNITS), help="unit of a record whose file states none")
+    parser.add_argument(
+        "--unit",
+        choices=tuple(ACCELERATION_UNITS),
+        metavar="UNIT",
+        help=f"unit of a record whose file states none: {', '.join(ACCELERATION_UNITS)}".replace("%", "%%"),
+    )
+    parser.add_argument(
+        "--format", metavar="NAME", help="format of the file, such as columns, where its content shows another"
+    )
+    parser.add_argument(
+        "--skip", type=int, metavar="N", help="rows of numbers before the data that are no samples, of text of columns"
+    )
+    parser.add_argument(
+        "--channel", metavar="C", help="one channel of a file of several, by its number or its component"
+    )
+
+
+def reading(args: argparse.Namespace) -> Reading:
+    """Return what `add_reading_options` read."""
+    from seismass.records.named import Reading
+
+    return Reading(args.dt, args.unit, cast("Any", args.format), args.skip, args.channel)
 
 
 def add_records_options(group: argparse._ArgumentGroup) -> None:
@@ -86,13 +108,14 @@ def add_records_options(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument(
         "--suite",
-        choices=("seven", "eleven"),
-        help="built-in synthetic motions, where --records is left out: seven as ASCE 7-10 asks for, with which the "
-        "published numbers are (default), or eleven as ASCE 7-16 does (default of scaling by it)",
+        choices=("forty", "eleven", "seven"),
+        help="built-in synthetic motions, where --records is left out: forty with the scatter of recordings (default "
+        "of building, fragility, risk and slip), seven as ASCE 7-10 asks for, with published numbers (default "
+        "of study, map, validate and scale), or eleven as ASCE 7-16 does (default of scaling by it)",
     )
 
 
-def read_motions(args: argparse.Namespace, default: BuiltinName = "seven") -> Suite:
+def read_motions(args: argparse.Namespace, default: BuiltinName = "forty") -> Suite:
     """Return the suite that the options name.
 
     Raises

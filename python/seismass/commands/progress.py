@@ -54,14 +54,15 @@ class _Stage:
         self._done = self._total = 0
 
     def tell(self, done: int, total: int) -> None:
-        """Draw so much of so much."""
-        if self._task is None or total != self._total or done < self._done:
+        """Draw so much of so much; how much there is may turn out to be more on the way."""
+        ended = self._done == self._total != total
+        if self._task is None or ended or done < self._done:
             if self._task is not None:
                 self._bar.remove_task(self._task)
             self._task = self._bar.add_task("", total=total, completed=done, first=done, told=0.0)
         self._done, self._total = done, total
         (task,) = self._bar.tasks
-        self._bar.update(self._task, completed=done, told=task.elapsed or 0.0)
+        self._bar.update(self._task, completed=done, total=total, told=task.elapsed or 0.0)
 
 
 def _time_left_column() -> Any:

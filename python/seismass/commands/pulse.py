@@ -16,7 +16,7 @@ from seismass.commands.options import (
     add_reading_options,
     check_plot,
     positive_count,
-    refuse_given,
+    reading,
     warn_left_out,
 )
 from seismass.commands.terminal import show
@@ -94,13 +94,15 @@ def _groups(args: argparse.Namespace) -> list[Record | Pair]:
     if args.first.is_dir():
         if args.second is not None:
             raise InvalidOption(f"RECORD2 of pulse must be left out for a folder; got {args.second}")
-        refuse_given(args, ("dt", "unit"), "pulse", "for a folder")
+        reading(args).refuse(args.first, "a folder")
         pairs = find_pairs(args.first)
         if not len(pairs):
             raise InvalidMotion(f"pairs of {args.first} must be at least one; got none in {len(pairs.excluded)} files")
         warn_left_out(Suite(pairs.name, (), pairs.excluded))
         return list(pairs)
-    options: dict[str, Any] = {"dt": args.dt, "unit": args.unit}
+    options = reading(args).of_a_file()
+    if args.channel is not None:
+        options["channel"] = args.channel
     if args.second is not None:
         return [Pair.from_records(read_record(args.first, **options), read_record(args.second, **options))]
     return [_one_file(args.first, options)]
@@ -119,9 +121,11 @@ def _warn_remarks(groups: list[Record | Pair]) -> None:
 def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
     """The one record of a file, or the pair of its two horizontal channels."""
     from seismass.base.errors import InvalidOption
-    from seismass.records import Pair, read_records
+    from seismass.records import Pair, read_record, read_records
     from seismass.records.formats.directions import is_vertical
 
+    if "channel" in options:
+        return read_record(path, **options)
     records = read_records(path, **options)
     if len(records) == 1:
         return records[0]
@@ -130,7 +134,7 @@ def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
         there = ", ".join(record.component or "?" for record in records)
         raise InvalidOption(
             f"channels of {path.name} must be one, or two horizontal ones; got {len(records)} ({there}): "
-            "read_record(channel=...) takes them apart"
+            "--channel takes one"
         )
     return Pair.from_records(*level)
 

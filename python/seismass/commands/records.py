@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.command import Command
-from seismass.commands.options import add_json_option, add_reading_options, refuse_given
+from seismass.commands.options import add_json_option, add_reading_options, reading
 from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.records import Record, Suite
+    from seismass.records.named import Reading
 
 _UNREADABLE_LISTED: Final = 20
 
@@ -41,9 +42,9 @@ def run(args: argparse.Namespace) -> int:
     if args.path is not None and args.find is not None:
         raise InvalidOption(f"PATH of records must be left out where --find is given; got {args.path}")
     if args.path is None:
-        refuse_given(args, ("dt", "unit"), "records", "without PATH")
+        reading(args).refuse(Path("records"), "a look without PATH")
         return _find(args.find, args.json) if args.find is not None else _catalogue(args.json)
-    suite = _read(args.path, args.dt, args.unit)
+    suite = _read(args.path, reading(args))
     if args.json:
         unreadable = [{"file": str(one.file), "reason": one.reason} for one in suite.excluded]
         document = {"name": suite.name, "records": _rows(suite), "not_read": unreadable, "remarks": list(suite.remarks)}
@@ -53,37 +54,50 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _read(path: Path, dt: float | None, unit: str | None) -> Suite:
-    """The records of a path; of a file every channel, vertical ones too, and of a folder every file.
+def _read(path: Path, given: Reading) -> Suite:
+    """The records of a path; of a file every channel, vertical ones too, and of a folder or an archive every file.
 
     What cannot be read stands among what is left out, since the command is there to look.
     """
-    from seismass.base.errors import InvalidOption, RecordFormatError
+    from seismass.records import Suite
+    from seismass.records import read_records as read_channels
+    from seismass.records.archive import is_archive, unpacked
+    from seismass.records.named import is_list, records_named
+    from seismass.records.suite import named_after
+
+    if is_archive(path):
+        given.refuse(path, "an archive of records")
+        with unpacked(path) as (folder, names):
+            suite = named_after(_all_of(folder, path), path, names)
+        return suite
+    if path.is_dir():
+        given.refuse(path, "a folder of records")
+        return _all_of(path, path)
+    if is_list(path) or given.channel is not None:
+        return records_named(path, given)
+    return Suite(path.stem, read_channels(path, **given.of_a_file()))
+
+
+def _all_of(folder: Path, named: Path) -> Suite:
+    """Every record below a folder that is called by a path, with what is none."""
+    from seismass.base.errors import RecordFormatError
     from seismass.base.values import printable
     from seismass.records import Excluded, Suite
     from seismass.records import read_records as read_channels
-    from seismass.records.named import is_list, records_named
-    from seismass.records.suite import files_below
+    from seismass.records.folder import files_below
 
-    if not path.is_dir():
-        if is_list(path):
-            return records_named(path, dt=dt, unit=unit)
-        return Suite(path.stem, read_channels(path, dt=dt, unit=unit))
-    for name, value in (("--dt", dt), ("--unit", unit)):
-        if value is not None:
-            raise InvalidOption(f"{name} of {path.name} must be left out for a folder of records; got {value}")
     found: list[Record] = []
     excluded: list[Excluded] = []
-    for file in files_below(path):
+    for file in files_below(folder):
         try:
             found += read_channels(file)
         except RecordFormatError as error:
             excluded.append(Excluded(file, str(error)))
     if not found:
         raise RecordFormatError(
-            f"records of folder {printable(str(path))} must be at least one; got {len(excluded)} files that are none"
+            f"records of folder {printable(str(named))} must be at least one; got {len(excluded)} files that are none"
         )
-    return Suite(printable(path.resolve().name), tuple(found), tuple(excluded))
+    return Suite(printable(named.resolve().name), tuple(found), tuple(excluded))
 
 
 def _rows(suite: Suite) -> list[dict[str, Any]]:
@@ -102,6 +116,7 @@ def _rows(suite: Suite) -> list[dict[str, Any]]:
                 "azimuth": record.azimuth,
                 "network": record.network,
                 "synthetic": record.synthetic,
+                "place": record.place,
                 "file": None if record.source is None else str(record.source),
                 "sha256": record.sha256,
                 "remarks": [*record.remarks, *row["remarks"]],
@@ -135,7 +150,8 @@ def _table(suite: Suite) -> list[str]:
             f" {label}",
         )
         lines.append(text_line(cells, widths, indent=0, gap=1))
-        lines += [f"{'':5}{remark}" for remark in row["remarks"]]
+        where = [f"stands at: {row['place']}"] if row["place"] else []
+        lines += [f"{'':5}{remark}" for remark in (*where, *row["remarks"])]
     if suite.excluded:
         lines += ["", f"not read: {len(suite.excluded)} {'file' if len(suite.excluded) == 1 else 'files'}"]
         lines += [f"  {printable(one.file.name)}: {one.reason}" for one in suite.excluded[:_UNREADABLE_LISTED]]

@@ -75,7 +75,7 @@ def run(args: argparse.Namespace) -> int:
         drift_limit = f"drift_ratio={building.drift_limit:g}"
         if code_share is None and building.present_share > 0.0:
             code_share = min(1.0, building.code.fraction / building.present_share)
-    suite = read_motions(args, "eleven")
+    suite = read_motions(args)
     given = {"code_share": code_share, "design_rate": args.design_rate}
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     with progress() as tell:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from seismass.base.values import counted
 from seismass.commands.answer_output import write_figure
 from seismass.commands.command import Command
+from seismass.commands.exit_codes import RUNS
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_json_option,
@@ -258,4 +259,5 @@ methods:
   sa-t1                 each motion at the target at T
   mps                   modal pushover: the inelastic first-mode oscillator reaches the target deformation
 """,
+    codes=RUNS,
 )

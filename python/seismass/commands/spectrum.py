@@ -8,11 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.command import Command
+from seismass.commands.exit_codes import RUNS
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_reading_options,
     add_spring_options,
     numbers_option,
+    reading,
     refuse_given,
     warn_left_out,
     warn_remarks,
@@ -66,7 +68,7 @@ def run(args: argparse.Namespace) -> int:
     inelastic = args.strength is not None or args.ductility is not None
     unused = ("kind",) if inelastic else tuple(SPRING_OPTIONS)
     refuse_given(args, unused, "spectrum", f"{'with' if inelastic else 'without'} --strength or --ductility")
-    suite = records_named(args.records, dt=args.dt, unit=args.unit)
+    suite = records_named(args.records, reading(args))
     warn_left_out(suite)
     warn_remarks(suite)
     periods = np.geomspace(0.01, 10.0, 100) if args.period is None else np.array(args.period)
@@ -130,4 +132,5 @@ spectrum record.AT2 --ductility 2 4 --overstrength 1 --second-slope 0
 Columns: motion (number from 1), record, damping, period (s) and the ordinate: psa_g, sa_g (g), psv (m/s) or sd (m).
 Inelastic: strength (V_y/W), ductility, displacement (m), elastic_strength and reduction (R) instead.
 """,
+    codes=RUNS,
 )

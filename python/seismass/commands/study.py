@@ -10,10 +10,10 @@ from concurrent.futures import CancelledError, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seismass._kernel import VERSION
-from seismass.commands.answer_output import give_answer
+from seismass.commands.answer_output import print_answer, write_answer
 from seismass.commands.command import Command
 from seismass.commands.exit_codes import DONE, FAILED
 from seismass.commands.options import (
@@ -107,15 +107,16 @@ def run(args: argparse.Namespace) -> int:
         collapse_drift_ratio=args.collapse_drift_ratio,
     )
     target = read_target(args)
-    suite = read_motions(args)
+    suite = read_motions(args, "seven")
     inputs = f"{inputs_digest(suite, target, parameters)} {VERSION} {instruction_set()}"
     with folder_for(args.out), kept_folder(args.out, "study", inputs) as kept:
-        tables = _solved(args, suite, target, parameters, kept)
-        metadata = tables.metadata
-        if args.json:
-            for remark in metadata["remarks"]:
-                print(f"seismass: {remark}", file=sys.stderr)
-        give_answer(args, _Answer(tables, args.png), suite, indent=9, answer="  largest underestimation")
+        answer = _Answer(_solved(args, suite, target, parameters, kept), args.png)
+        files = write_answer(args, answer)
+    metadata = answer.tables.metadata
+    if args.json:
+        for remark in metadata["remarks"]:
+            print(f"seismass: {remark}", file=sys.stderr)
+    print_answer(args, answer, suite, files, indent=9, answer="  largest underestimation")
     return FAILED if metadata["counts"]["failed"] else DONE
 
 
@@ -171,12 +172,13 @@ class _Answer:
     @property
     def text(self) -> str:
         from seismass.show.study.findings import findings_text
+        from seismass.show.study.inputs import inputs_text
         from seismass.show.study.sensitivity import sensitivity_text
 
         metadata, sensitivity = self.tables.metadata, self.tables.sensitivity
         head = f"Underestimation of mean peak drift, (real - code) / code, code: {metadata['code']['name']}"
         changed = "" if sensitivity is None else f"\n\nOne choice changed at a time\n{sensitivity_text(sensitivity)}"
-        return f"{_inputs_text(metadata)}\n\n{head}\n{findings_text(metadata['findings'])}{changed}"
+        return f"{inputs_text(metadata)}\n\n{head}\n{findings_text(metadata['findings'])}{changed}"
 
     def to_json(self) -> str:
         return json.dumps(self.tables.metadata, indent=2)
@@ -186,31 +188,6 @@ class _Answer:
 
         with progress("figures") as tell:
             return write_study(self.tables, Path(folder), figures=figures, png=self.png, progress=tell)
-
-
-def _inputs_text(metadata: dict[str, Any]) -> str:
-    """The motions and what the numbers depend on."""
-    from seismass.show.study.words import DAMPING_TEXTS
-    from seismass.study import motions_text
-
-    counts, chosen, suite = metadata["counts"], metadata["parameters"], metadata["suite"]
-    none_recorded = ", none recorded" * (suite["synthetic"] == len(suite["motions"]))
-    lines = [f"suite    {suite['name']}: {motions_text(suite)}{none_recorded}"]
-    for motion in suite["motions"]:
-        lines.append(f"         {motion['motion']:>2}  x {motion['factor']:<7.4f} {motion['record']}")
-        lines += [f"{'':25}{remark}" for remark in motion["remarks"]]
-    lines += [
-        f"target   {metadata['target']['label']}",
-        f"runs     {counts['buildings']} buildings, {counts['analyses']} analyses, {counts['distinct']} distinct: "
-        f"{counts['completed']} completed, {counts['collapsed']} collapsed, {counts['failed']} failed",
-        f"springs  Omega = {chosen['overstrength']:g}, r2 = {chosen['second_slope']:g}, "
-        f"r3 = {chosen['third_slope']:g} (r2, r3: not the paper's numbers)",
-        f"damping  {100.0 * chosen['damping']:g} %, {DAMPING_TEXTS[chosen['damping_base']]}",
-    ]
-    for name, row in metadata["code"]["fractions"].items():
-        where = ", ".join(part for part in (row["clause"], row["status"]) if part)
-        lines.append(f"code     {metadata['code']['name']}, {name}: {row['fraction']:g} of the live load ({where})")
-    return "\n".join([*lines, *(f"remark   {remark}" for remark in metadata["remarks"])])
 
 
 def occupancy_option(text: str) -> tuple[str, float, float]:

@@ -37,7 +37,7 @@ def run(args: argparse.Namespace) -> int:
     if args.out is not None:
         check_out(args.out, "validation")
     target = read_target(args)
-    suite = read_motions(args)
+    suite = read_motions(args, "seven")
     sensitivity = None
     if args.sensitivity:
         with progress("studies") as tell:

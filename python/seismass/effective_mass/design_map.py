@@ -19,7 +19,6 @@ from seismass.base.views import view
 from seismass.design import response_spectrum_analysis
 from seismass.effective_mass.by_hand import yield_drift
 from seismass.effective_mass.curve import (
-    DEFAULT_FRACTIONS,
     Kind,
     interpolated,
     is_below,
@@ -249,8 +248,8 @@ def effective_mass_map(
 
     Notes
     -----
-    Definition as for `effective_mass`, with crossings by linear interpolation between shares 0.01 apart in place of
-    refined roots. Runs of models do not depend on friction and are shared.
+    Definition as for `effective_mass`, with crossings by linear interpolation between shares, 0.01 apart by default, in
+    place of refined roots. Runs of models do not depend on friction and are shared.
     """
     chosen = EffectiveMassParameters() if parameters is None else parameters
     if not isinstance(suite, Suite):
@@ -264,7 +263,8 @@ def effective_mass_map(
     buildings = [list(_loaded(chosen, number, design_spectrum)) for number in range(1, len(chosen.buildings) + 1)]
     scaled = [record.scaled(factor) for record, factor in zip(suite, scaling.factors, strict=True)]
     per_building = len(chosen.mass_ratios) * len(chosen.response_modification)
-    per_load = len(DEFAULT_FRACTIONS) + len(chosen.mus)
+    fractions = np.linspace(0.0, 1.0, chosen.shares)
+    per_load = len(fractions) + len(chosen.mus)
     total = len(chosen.intensities) * len(buildings) * per_building * per_load * len(suite)
     stages = Stages(progress, total)
     rows: list[dict[str, Any]] = []
@@ -273,14 +273,12 @@ def effective_mass_map(
     for intensity in chosen.intensities:
         motions = named_motions([record.scaled(intensity) for record in scaled], "effective mass map")
         for loads in buildings:
-            models = [
-                attached(load.scenes[0], share, chosen.model_damping) for load in loads for share in DEFAULT_FRACTIONS
-            ]
+            models = [attached(load.scenes[0], share, chosen.model_damping) for load in loads for share in fractions]
             model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
             scenes = [scene for load in loads for scene in load.scenes]
             real = solve(scenes, motions, threads=threads, progress=stages.next(len(scenes) * len(motions)))
             for number, load in enumerate(loads):
-                own = model.part(number * len(DEFAULT_FRACTIONS), len(DEFAULT_FRACTIONS))
+                own = model.part(number * len(fractions), len(fractions))
                 sliding = real.part(number * len(chosen.mus), len(chosen.mus))
                 rows += _cases(load, {"intensity": intensity}, own, sliding, motions, corner, chosen)
                 curve_of += [len(curves)] * len(chosen.mus)
@@ -289,7 +287,7 @@ def effective_mass_map(
         table=pl.DataFrame(rows, schema_overrides={"building": pl.UInt32, "storeys": pl.UInt32}),
         curve_of=np.array(curve_of, dtype=np.int64),
         curves=np.array(curves),
-        fractions=DEFAULT_FRACTIONS,
+        fractions=fractions,
         scaling=scaling,
         metadata={
             "schema_version": SCHEMA_VERSION,
@@ -363,7 +361,7 @@ def _cases(
     chosen: EffectiveMassParameters,
 ) -> list[dict[str, Any]]:
     """One row per friction coefficient."""
-    shares, mus = DEFAULT_FRACTIONS, np.array(chosen.mus)
+    shares, mus = np.linspace(0.0, 1.0, chosen.shares), np.array(chosen.mus)
     model_drift, real_drift = over_records(model.largest, "mean"), over_records(real.largest, "mean")
     curves = np.broadcast_to(model_drift, (len(mus), len(shares)))
     slides: NDArray[np.bool_] = np.asarray(real.slides.any(axis=1))
@@ -431,11 +429,11 @@ def _intervals(
         resamples=chosen.resamples,
         seed=chosen.seed,
     )
-    shares = model.scenes
+    shares, fractions = model.scenes, np.linspace(0.0, 1.0, chosen.shares)
     tail = 50.0 * (1.0 - chosen.confidence)
     ends = np.ones((2, real.scenes))
     for case in np.flatnonzero(slides):
         against = np.broadcast_to(drawn[:, shares + case, None], (len(drawn), shares))
-        ends[:, case] = np.percentile(interpolated(DEFAULT_FRACTIONS, drawn[:, :shares], against), [tail, 100.0 - tail])
+        ends[:, case] = np.percentile(interpolated(fractions, drawn[:, :shares], against), [tail, 100.0 - tail])
     ends[:, np.array(chosen.mus) == 0.0] = 0.0
     return ends[0], ends[1]

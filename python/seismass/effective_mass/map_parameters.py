@@ -10,6 +10,7 @@ import numpy as np
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_count, as_number, brief, refusal
 from seismass.design import Combination
+from seismass.effective_mass.curve import DEFAULT_FRACTIONS
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_damping
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
@@ -70,6 +71,8 @@ class EffectiveMassParameters:
         Damping of the models, see `attached_scene`.
     confidence, resamples, seed
         Of the bootstrap intervals.
+    shares : int
+        Number of shares from 0 to 1 at which models are solved; crossings are interpolated between them.
 
     Raises
     ------
@@ -94,6 +97,7 @@ class EffectiveMassParameters:
     confidence: float = 0.90
     resamples: int = 500
     seed: int = 0
+    shares: int = len(DEFAULT_FRACTIONS)
 
     def __post_init__(self) -> None:
         """Judge the axes and keep numbers as Python's own; building, design and scaling judge the rest."""
@@ -126,6 +130,7 @@ class EffectiveMassParameters:
         for name in ("overstrength", "second_slope", "third_slope", "damping", "scaling_period"):
             checked[name] = _number(getattr(self, name), name, least=0.0)
         checked["resamples"] = as_count(self.resamples, "resamples", owner, InvalidOption, least=1)
+        checked["shares"] = as_count(self.shares, "shares", owner, InvalidOption, least=2)
         checked["seed"] = as_count(self.seed, "seed", owner, InvalidOption)
         check_damping(self.model_damping, owner)
         for name, value in checked.items():

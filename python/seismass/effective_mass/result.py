@@ -22,6 +22,14 @@ if TYPE_CHECKING:
 SCHEMA_VERSION: Final = 1
 """Version of the tables and of the JSON of an effective mass."""
 
+SUITE_SCATTER: Final = 0.05
+"""By how much an interval is widened at each end for another suite of motions of the same kind.
+
+Over 1331 cases of a map the fraction under the forty synthetic motions and that under 36 far-field recordings differ by
+0.06 (standard deviation) without a bias. The 90 % interval of the records alone holds the far-field fraction in 74 % of
+the cases, widened by 0.05 in 96 %: docs/effective_mass.md. Suites of seven differ by more.
+"""
+
 KIND_TEXTS: Final[dict[Kind, str]] = {
     "stuck": "no goods slide under any motion, so that all of them act as mass",
     "root": "one share gives the drift of the real building",
@@ -53,6 +61,8 @@ class EffectiveMass(Result):
     interval : tuple of float or None
         Percentile bootstrap interval over the records, real and model drawn together; None with one earthquake alone
         or without a value. It is a little too narrow: a 90 % interval covers 80 to 92 %.
+    suite_interval : tuple of float or None
+        `interval` with the scatter between suites: `SUITE_SCATTER` further at each end, within 0 and 1.
     confidence : float
         Probability that the interval is made for.
     statistic : {"mean", "median"}
@@ -124,11 +134,12 @@ class EffectiveMass(Result):
     @property
     def text(self) -> str:
         """The answer in a few lines, its scatter and the estimates beside it."""
+        suites = self.suite_interval
         scatter = (
             "no interval"
-            if self.interval is None
+            if self.interval is None or suites is None
             else f"{100.0 * self.confidence:g} % interval over the records {self.interval[0]:.2f} to "
-            f"{self.interval[1]:.2f}"
+            f"{self.interval[1]:.2f}, over suites too {suites[0]:.2f} to {suites[1]:.2f}"
         )
         scale, unit = (1e3, "mm") if self.unit == "m" else (1e2, "% of the height")
         lines = [
@@ -139,6 +150,14 @@ class EffectiveMass(Result):
             *self.rule_lines,
         ]
         return "\n".join([*lines, *(f"remark              {remark}" for remark in self.remarks)])
+
+    @property
+    def suite_interval(self) -> tuple[float, float] | None:
+        """Interval over records and suites; that over the records alone where goods stick, or have no friction."""
+        if self.interval is None or self.kind == "stuck" or self.eta == 0.0:
+            return self.interval
+        low, high = self.interval
+        return max(0.0, low - SUITE_SCATTER), min(1.0, high + SUITE_SCATTER)
 
     @property
     def rule_lines(self) -> tuple[str, ...]:
@@ -162,6 +181,7 @@ class EffectiveMass(Result):
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the curve as plain values; null for what is no finite number."""
         names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]
+        names += ["suite_interval"]
         names += ["eta", "base_shear_coefficient", "estimate", "conservative", "collapses", "remarks"]
         document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
         document |= {"by_hand": asdict(self.by_hand)}

@@ -23,7 +23,7 @@ from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
 from seismass.records.builtin import builtin_suite
 from seismass.scaling import scale_asce7_10
 from seismass.show.animation.html import SPEEDS, element_html
-from seismass.spectra import TargetSpectrum
+from seismass.spectra import TargetSpectrum, corner_period, mean_spectrum
 
 RESAMPLES: Final = 2000
 """Bootstrap resamples: the default of `effective_mass`, and with its seed the same draws."""
@@ -141,6 +141,7 @@ def _given() -> dict[str, Any]:
         "resamples": counts.astype(int).tolist(),
         "bins": [one.content for one in BINS],
         "enlargements": list(FACTORS),
+        "corner": corner_period(lambda periods: mean_spectrum(suite, factors, periods)),
     }
 
 

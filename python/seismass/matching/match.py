@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from threading import Event
 from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
@@ -14,7 +15,7 @@ from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, is_one_of, refusal
 from seismass.matching.remarks import matching_remarks
 from seismass.matching.result import MatchedRecord, MatchedSuite
-from seismass.matching.solver import Ratios, adjust
+from seismass.matching.solver import STOP, Ratios, adjust
 from seismass.records.record import Record
 from seismass.records.suite import Suite
 from seismass.spectra import TargetSpectrum
@@ -231,13 +232,20 @@ def match_suite(
     tell = progress or (lambda done, total: None)
     tell(0, len(given))
     done: list[MatchedRecord] = []
+    stop = Event()
+
+    def matched_until_stopped(record: Any) -> MatchedRecord:
+        STOP.set(stop)
+        return match_spectrum(record, target, **options)
+
     # Two at a time: what one does in Python, the other does in libraries that let it.
     with ThreadPoolExecutor(AT_ONCE) as pool:
         try:
-            for one in pool.map(lambda record: match_spectrum(record, target, **options), given):
+            for one in pool.map(matched_until_stopped, given):
                 done.append(one)
                 tell(len(done), len(given))
         except BaseException:
+            stop.set()
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     matched = tuple(done)

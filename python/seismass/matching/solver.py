@@ -8,7 +8,9 @@ that none is left behind.
 
 from __future__ import annotations
 
+from contextvars import ContextVar
 from dataclasses import dataclass
+from threading import Event
 from typing import Final
 
 import numpy as np
@@ -87,6 +89,20 @@ class Ratios:
         return np.asarray(peaks)[:, 0, :] * self.over
 
 
+class Stopped(Exception):
+    """The suite that a motion belongs to is given up."""
+
+
+STOP: Final[ContextVar[Event | None]] = ContextVar("STOP", default=None)
+"""Set where the threads of a suite are to end before they are done, as on Ctrl-C."""
+
+
+def _end_if_stopped() -> None:
+    stop = STOP.get()
+    if stop is not None and stop.is_set():
+        raise Stopped
+
+
 def adjust(
     given: FloatArray,
     dt: float,
@@ -122,6 +138,11 @@ def adjust(
         Largest misfit |ratio - 1| at which the iteration ends.
     max_iterations : int
         Largest number of passes.
+
+    Raises
+    ------
+    Stopped
+        `STOP` is set.
     """
     matched = len(periods)
     periods, target = np.concatenate([periods, guards[0]]), np.concatenate([target, guards[1]])
@@ -135,6 +156,7 @@ def adjust(
     shortened = False
     span = (len(given), 0)  # of all wavelets so far
     while passes < max_iterations and not reached and passes - chosen < PATIENCE:
+        _end_if_stopped()
         extrema = oscillators.extrema(acceleration, SHARE, MOST)
         sought = extrema.largest & (extrema.oscillator < matched)
         # Those of the guards come last; they have no wavelets.
@@ -142,6 +164,7 @@ def adjust(
         time = dt * (extrema.step + extrema.fraction)[: len(own)]
         wavelets = place(time - delay[own], periods[own], damping, dt, len(given))
         first, last = min(span[0], wavelets.first), max(span[1], wavelets.last)
+        _end_if_stopped()
         influence = oscillators.influence(extrema, first, last)
         scale = np.sign(extrema.value) / displacement[extrema.oscillator]
         added = (acceleration - given)[first:last]
@@ -149,6 +172,7 @@ def adjust(
         taken_back = forget * scale * np.einsum("es,s->e", influence, added)
         within = slice(wavelets.first - first, wavelets.last - first)
         effect = _effect(influence[:, within], extrema.step, wavelets) * scale[:, None]
+        _end_if_stopped()
         weight = max(REGULARISATION[0] * float(power(REGULARISATION[1], passes)), REGULARISATION[2])
         ease = min(SECONDARY[0] * float(power(SECONDARY[1], passes)), 1.0)
         candidates = []
@@ -159,6 +183,7 @@ def adjust(
                 motion = acceleration.copy()
                 motion[first:last] += step * change
                 candidates.append(motion)
+        _end_if_stopped()
         scores = [_score(ratios) for ratios in between(candidates)]
         number = min(range(len(scores)), key=lambda which: scores[which][0])
         acceleration = candidates[number]
@@ -255,6 +280,7 @@ def _amplitudes(
     found = []
     for share in WEAKER:
         regular = (share * weight) ** 2 / emphasis
+        _end_if_stopped()
         held = largest.copy()
         for _ in range(HOLDS):
             added = held & ~known

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Final, Literal
 
 import polars as pl
 
-from seismass.base.errors import InvalidOption
+from seismass.base.errors import InvalidOption, SeismassError
 from seismass.base.files import open_regular, read_file, write_table, written_whole
-from seismass.base.values import refusal
+from seismass.base.values import refusal, short
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -59,6 +59,25 @@ def folder_for(out: Path) -> Iterator[None]:
             for path in made:
                 path.rmdir()
         raise
+
+
+@contextmanager
+def as_written(folder: Path) -> Iterator[None]:
+    """Refuse a folder whose documents and tables do not fit together, whatever they make fail.
+
+    Raises
+    ------
+    InvalidOption
+        What is read is not what was written.
+    """
+    try:
+        yield
+    except SeismassError:
+        raise
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, pl.exceptions.PolarsError) as error:
+        got = f"{type(error).__name__}: {error}"
+        requirement = "with documents and tables as seismass wrote them"
+        raise refusal(InvalidOption, f"folder {folder}", "report", requirement, short(got)) from None
 
 
 def write_folder(

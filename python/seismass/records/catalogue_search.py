@@ -16,10 +16,10 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import as_path, printable
 from seismass.records.catalogue import RECORDINGS, SUBSTITUTES, Component, Recording
 from seismass.records.catalogue_report import CatalogueSearch, FoundFile, Judged
+from seismass.records.folder import files_below
 from seismass.records.formats.directions import azimuth_of, is_vertical
 from seismass.records.read import HEAD_BYTES, format_of, read_records
 from seismass.records.record import Record
-from seismass.records.suite import files_below
 
 _ALL: Final = (*RECORDINGS, *SUBSTITUTES)
 _LARGEST_BYTES: Final = 8 * 1024 * 1024

@@ -28,6 +28,27 @@ SPIKE: Final = 5.0
 """A sample that stands out from its neighbours by so many times any other, and by half the peak, is a spike."""
 
 
+FEWEST_OF_ONE_SIGN: Final = 50
+"""So many samples of a motion have both signs: the ground comes to rest, so that its velocity returns to zero."""
+
+UNUSUAL_STEP: Final = (0.0005, 0.1)
+"""Steps (s) of strong-motion records: 2000 to 10 samples a second."""
+
+LARGE_PGA_G: Final = 2.0
+"""Few records are larger; one in m/s2 that is called g mostly is."""
+
+LARGE_PGV: Final = 3.5
+"""PGV (m/s) above which a unit is doubtful: TCU068 of Chi-Chi, among the largest recorded, has about 3 m/s."""
+
+
+def no_motion(record: Record) -> str | None:
+    """Return why samples are those of no motion: none of the other sign, as in a spectrum; else None."""
+    samples = record.acceleration
+    if record.samples < FEWEST_OF_ONE_SIGN or np.any(samples > 0.0) == np.any(samples < 0.0):
+        return None
+    return "its samples have one sign, as those of a spectrum or of absolute values, and no motion's have"
+
+
 def suspicions(record: Record, *, unit_given: bool) -> tuple[str, ...]:
     """Return remarks on samples that look wrong: the peak at the last sample, a doubtful unit, an offset, a spike.
 
@@ -50,14 +71,32 @@ def suspicions(record: Record, *, unit_given: bool) -> tuple[str, ...]:
         remarks.append(
             f"PGA {record.pga_g:.3g} g is above {LARGEST_PGA_G:g} g: the unit, {record.file_unit}, is doubtful"
         )
+    elif record.pga_g > LARGE_PGA_G:
+        remarks.append(
+            f"PGA {record.pga_g:.3g} g is above {LARGE_PGA_G:g} g, as few records are: is the unit {record.file_unit}?"
+        )
+    elif record.samples >= FEWEST_OF_ONE_SIGN and record.pgv > LARGE_PGV:
+        remarks.append(
+            f"PGV {record.pgv:.3g} m/s is above {LARGE_PGV:g} m/s: the unit, {record.file_unit}, or the step, "
+            f"{record.dt:g} s, is doubtful, or an offset was not removed"
+        )
     elif record.pga_g < SMALLEST_PGA_G and unit_given:
         remarks.append(f"PGA {record.pga_g:.2g} g is very small: the unit, {record.file_unit}, is doubtful")
+    one_sign = no_motion(record)
+    if one_sign:
+        remarks.append(one_sign)
+    usual = UNUSUAL_STEP[0] <= record.dt <= UNUSUAL_STEP[1]
+    if not usual:
+        remarks.append(
+            f"step {record.dt:g} s is outside {UNUSUAL_STEP[0]:g} to {UNUSUAL_STEP[1]:g} s, those of strong-motion "
+            "records: the unit of the times may be another"
+        )
     if record.samples >= 100:
         mean = abs(float(np.mean(samples / peak)))
         if mean > LARGEST_MEAN:
             remarks.append(f"mean is {100.0 * mean:.0f} % of the peak: an offset was not removed")
         frequency = _mean_frequency(record)
-        if frequency < SLOWEST:
+        if frequency < SLOWEST and usual:
             remarks.append(
                 f"mean frequency {frequency:.2g} Hz is low: velocity or displacement in place of acceleration, "
                 "or a very soft site"

@@ -13,11 +13,13 @@ import polars as pl
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
 from seismass.base.values import as_path, printable
+from seismass.records.folder import files_below
 from seismass.records.formats.directions import azimuth_of
 from seismass.records.pair import Pair
+from seismass.records.place import vertical_reason
 from seismass.records.record import Record
 from seismass.records.rotation import between
-from seismass.records.suite import Excluded, files_below, read_file, vertical_reason
+from seismass.records.suite import Excluded, read_file
 
 _SEQUENCE: Final = re.compile(r"^RSN(\d+)(?!\d)", re.IGNORECASE)
 _DIRECTION: Final = re.compile(

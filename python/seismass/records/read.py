@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import hashlib
 import math
 import os
@@ -17,12 +18,31 @@ from seismass.base.units import ACCELERATION_UNITS, unit_by_name
 from seismass.base.values import as_number, as_path, brief
 from seismass.records.checks import suspicions
 from seismass.records.formats import BY_NAME, COLUMNS, Arguments, Channel, Format, NotRead, known_binary, recognise
+from seismass.records.formats.table import is_row_of_numbers
 from seismass.records.record import Record
 
-FormatName: TypeAlias = Literal["at2", "cosmos", "csmip", "esm", "knet", "smc", "columns"]
+FormatName: TypeAlias = Literal[
+    "at2",
+    "cosmos",
+    "csmip",
+    "esm",
+    "geonet",
+    "knet",
+    "smc",
+    "resorce",
+    "csmnc",
+    "jma",
+    "nied_csv",
+    "cwa",
+    "afad",
+    "columns",
+]
 
 HEAD_BYTES: Final = 8192
 """A format is known by so much of a file."""
+
+FEWEST_WIDE: Final = 16
+"""Fewer bytes say nothing of an encoding."""
 
 MOST_NULS: Final = 4
 """A text whose header is padded has no more zero bytes than this."""
@@ -52,22 +72,24 @@ def read_record(
     Parameters
     ----------
     path : path-like
-        A file of PEER (.AT2, any vintage), COSMOS (V1, V2), CSMIP (V1, V2), ESM, K-NET or KiK-net, USGS SMC, or text of
-        one column (acceleration) or two (time, acceleration). The format is found in the content.
+        A file of PEER (.AT2, any vintage), COSMOS (V1, V2), CSMIP (V1, V2), ESM, GeoNet (V1A, V2A), K-NET or KiK-net,
+        USGS SMC, RESORCE, CSMNC, JMA, NIED's CSV, CWA, AFAD, or text of accelerations: one column, times and one or
+        several components, or several samples a line. The format is found in the content.
     dt : float, optional
-        Time step (s). One column needs it unless the file states it. For .AT2 it refines a step that the header
-        rounded to four decimals (.0039 for 1/256 s). It must agree with what the file says.
-    unit : {"g", "m/s2", "cm/s2", "gal"}, optional
+        Time step (s). One column needs it unless the file states it. It refines a step that a header rounded (.0039
+        for 1/256 s), and times that are rounded. It must agree with what the file says.
+    unit : {"g", "m/s2", "cm/s2", "gal", "mm/s2", "mg", "%g", "ft/s2", "in/s2"}, optional
         Unit of the accelerations in the file; spellings such as "cm/s^2", "cm/sec2" or "Gal" are understood. .AT2 files
         are in g unless their header states another. Text has no default, a wrong one being wrong by a factor of ten: it
-        must be given unless the header states it. It must agree with what the file says, where that is one of these.
-    format : {"at2", "cosmos", "csmip", "esm", "knet", "smc", "columns"}, optional
-        By default what the content shows, and else columns.
+        must be given unless the header states it. It must agree with what the file says.
+    format : str, optional
+        A key of the table in the documentation, such as "at2" or "columns". By default what the content shows, and
+        else columns.
     skip : int, optional
         Columns only: how many rows of numbers before the data are not data (see `parse_columns`).
     channel : int or str, optional
-        Which of several channels of a file (COSMOS, CSMIP): its number there, or its component. Needed where there are
-        several.
+        Which of several channels of a file: its number there (of a text of columns that of its column), or its
+        component. Needed where there are several.
 
     Raises
     ------
@@ -171,7 +193,9 @@ def format_of(head: str, source: Path) -> Format:
     if found is not None:
         name, instead = found
         raise NotRead(f"format of {source.name} must be one that is read; got {name}: {instead}")
-    return BY_NAME["at2"] if source.suffix.lower() in (".at2", ".vt2", ".dt2") else COLUMNS
+    if source.suffix.lower() not in (".at2", ".vt2", ".dt2") or is_row_of_numbers(head.lstrip().partition("\n")[0]):
+        return COLUMNS  # numbers from the first line on are no .AT2 file, whatever the suffix
+    return BY_NAME["at2"]
 
 
 def read_bytes(source: Path) -> bytes:
@@ -185,7 +209,8 @@ def read_bytes(source: Path) -> bytes:
     try:
         with open_regular(source) as file:
             head = file.read(HEAD_BYTES)
-            refuse_binary(head, source)
+            if wide_encoding(head) is None:
+                refuse_binary(head, source)
             size = os.fstat(file.fileno()).st_size
             if size <= LARGEST_BYTES:  # else nothing more is read
                 content = head + file.read(LARGEST_BYTES + 1)
@@ -209,6 +234,20 @@ def refuse_binary(head: bytes, source: Path) -> None:
         raise NotRead(f"content of {source.name} must be text; got {name}: {instead}")
 
 
+def wide_encoding(head: bytes) -> str | None:
+    """Return the encoding of two bytes a character by its mark, or by zeros in every other byte; None for others."""
+    for mark, name in ((codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16")):
+        if head.startswith(mark) and not head.startswith(codecs.BOM_UTF32_LE):
+            return name
+    pairs = head[: len(head) // 2 * 2]
+    if len(pairs) >= FEWEST_WIDE:
+        if not any(pairs[1::2]) and all(pairs[::2]):
+            return "utf-16-le"
+        if not any(pairs[::2]) and all(pairs[1::2]):
+            return "utf-16-be"
+    return None
+
+
 def read_text(source: Path) -> str:
     """Return the text of a record file, with any line ends and with UTF-8 or Latin-1 letters."""
     return decoded(read_bytes(source), source)
@@ -222,6 +261,9 @@ def decoded(content: bytes, source: Path) -> str:
     RecordFormatError
         They are binary, or there is nothing but blanks.
     """
+    wide = wide_encoding(content[:HEAD_BYTES])
+    if wide is not None:
+        content = content.decode(wide, "replace").encode()
     if b"\0" in content and content[:HEAD_BYTES].isascii():  # some SMC files are padded, and so is their station code
         content = content.rstrip(b"\0\x1a\r\n\t ") or content
         if content.count(b"\0", 0, HEAD_BYTES) <= MOST_NULS:

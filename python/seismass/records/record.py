@@ -61,6 +61,9 @@ class Record(Value):
         Network or agency that recorded it; empty where the source does not say.
     sha256 : str
         Digest of the bytes of the source file; empty for a record that no file holds.
+    place : str
+        Where the sensor stands, as the source says: "Roof", "borehole"; empty for the surface of the ground, or where
+        the source does not say.
     history : tuple of str
         What was done to the samples after reading, in order.
     file_unit : str
@@ -88,6 +91,7 @@ class Record(Value):
     network: str = ""
     sha256: str = ""
     history: tuple[str, ...] = ()
+    place: str = ""
     file_unit: str = "m/s2"
 
     def __post_init__(self, unit: str) -> None:

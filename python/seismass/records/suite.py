@@ -6,7 +6,6 @@ import csv
 import io
 import math
 import os
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,26 +17,27 @@ from seismass.base.files import open_regular
 from seismass.base.units import stated_unit
 from seismass.base.values import as_path, brief, printable, refusal
 from seismass.base.views import view
+from seismass.records.archive import is_archive, unpacked
+from seismass.records.checks import no_motion
+from seismass.records.folder import files_below
 from seismass.records.formats import COLUMNS, NotRead
-from seismass.records.formats.columns import is_row_of_numbers
 from seismass.records.formats.directions import is_vertical
+from seismass.records.formats.headers import names_acceleration, stated_step
+from seismass.records.formats.table import is_row_of_numbers
+from seismass.records.place import has_vertical_name, reason_to_leave, vertical_reason
 from seismass.records.read import (
     HEAD_BYTES,
+    FormatName,
     decoded,
     format_of,
     read_record,
     read_records,
     read_text,
     refuse_binary,
+    wide_encoding,
 )
 from seismass.records.record import Record
 
-_VERTICAL_NAME = re.compile(
-    r"[-_.](?:UP|VERT?|VERTICAL|DWN|UD)(?![A-Z0-9])"  # a word of the name: BRA-UP, ERZ-UP__copy
-    r"|[-_.][VZ]$"  # a letter at its end: 1059-V
-    r"|(?:UP|VERT?|DWN|[BH][NH]Z)\.?$",  # joined to a station code: HECVER, TCUUP.
-    re.IGNORECASE,
-)
 _SAID_BY_NAME = "files are read by name or from a list, where their units can be given"
 LARGEST_COLUMNS = 32 * 1024 * 1024
 """Text of columns above so many bytes is left to be read by name."""
@@ -159,15 +159,16 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     Parameters
     ----------
     path : path-like
-        A directory: every file in it and below that shows a record format (see `read_record`), and text of columns that
-        states its unit and step, sorted by path, every horizontal channel of each. Vertical components are left out by
-        header and by file name (-UP, VER, -V, ...), files of other kinds with the reason; hidden ones are not looked
-        at. Or a CSV with a column `file`, relative to the CSV, one row per record in the order to keep, and a column
-        `channel` for files of several; its columns `name`, `event`, `station`, `component` replace what the files say,
-        `dt` and `unit` are passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the
-        remarks; a `number` is for the reader. Other columns are not used, and named in the remarks of the suite. A
-        vertical component in the list is an error: by header, by `component`, and by file name unless `component` is
-        given.
+        A directory, or a ZIP archive of one: every file in it and below that shows a record format (see `read_record`),
+        and text of columns that states its unit and step, sorted by path, every horizontal channel of each. Vertical
+        components are left out by header and by file name (-UP, VER, -V, ...), sensors in structures and below the
+        surface by their header, files of other kinds with the reason; hidden ones are not looked at. Or a CSV with a
+        column `file`, relative to the CSV, one row per record in the order to keep, and a column `channel` for files of
+        several; its columns `name`, `event`, `station`, `component` replace what the files say, `dt` and `unit` are
+        passed to `read_record`, the accelerations are multiplied by `scale`, `note` is added to the remarks; a `number`
+        is for the reader. Other columns are not used, and named in the remarks of the suite. A vertical component in
+        the list is an error: by header, by `component`, and by file name unless `component` is given. Sensors in
+        structures are read where a list names them.
 
     Raises
     ------
@@ -178,12 +179,22 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     source = as_path(path, "suite", RecordFormatError)
     if source.is_dir():
         return _read_directory(source)
+    if is_archive(source):
+        with unpacked(source) as (folder, names):
+            return named_after(_read_directory(folder), source, names)
     if source.suffix.lower() == ".csv":
         return _read_list(source)
-    raise RecordFormatError(f"suite of records must be a directory or a .csv file; got {source}")
+    raise RecordFormatError(f"suite of records must be a directory, a ZIP archive or a .csv file; got {source}")
 
 
-def suite_of_file(path: Path, *, dt: float | None = None, unit: str | None = None) -> Suite:
+def suite_of_file(
+    path: Path,
+    *,
+    dt: float | None = None,
+    unit: str | None = None,
+    format: FormatName | None = None,
+    skip: int | None = None,
+) -> Suite:
     """Return the one record of a file, vertical or not, or the horizontal channels of a file of several.
 
     Raises
@@ -191,13 +202,18 @@ def suite_of_file(path: Path, *, dt: float | None = None, unit: str | None = Non
     RecordFormatError
         As for `read_records`, or all of several channels are vertical.
     """
-    records = read_records(path, dt=dt, unit=unit)
+    records = read_records(path, dt=dt, unit=unit, format=format, skip=skip)
     if len(records) == 1:
         return Suite(records[0].name, records)
-    taken = tuple(record for record in records if not vertical_reason(record))
+    taken = tuple(record for record in records if not reason_to_leave(record))
     if not taken:
-        raise RecordFormatError(f"channels of {path.name} must be at least one horizontal; got {len(records)} vertical")
-    reasons = ((record.name, vertical_reason(record)) for record in records)
+        vertical = sum(vertical_reason(record) is not None for record in records)
+        others = len(records) - vertical
+        elsewhere = f" and {others} in a structure or below the surface: say which channel" if others else ""
+        raise RecordFormatError(
+            f"channels of {path.name} must be at least one horizontal; got {vertical} vertical{elsewhere}"
+        )
+    reasons = ((record.name, reason_to_leave(record)) for record in records)
     left_out = tuple(Excluded(path, f"{name}: {reason}") for name, reason in reasons if reason)
     return Suite(printable(path.stem), taken, left_out)
 
@@ -211,7 +227,7 @@ def _read_directory(directory: Path) -> Suite:
             excluded.append(Excluded(file, read))
             continue
         for record in read:
-            reason = vertical_reason(record)
+            reason = reason_to_leave(record)
             if reason:
                 excluded.append(Excluded(file, reason if len(read) == 1 else f"{record.name}: {reason}"))
             else:
@@ -221,6 +237,15 @@ def _read_directory(directory: Path) -> Suite:
             f"records of directory {directory} must be at least one horizontal record; got {_counted(excluded)}"
         )
     return Suite(printable(directory.resolve().name), tuple(_with_copies(records)), tuple(excluded))
+
+
+def named_after(suite: Suite, archive: Path, names: dict[Path, str]) -> Suite:
+    """Return the suite of an unpacked archive, with its files named as they are in the archive."""
+    records = tuple(
+        record.replace(source=archive / names[record.source]) if record.source in names else record for record in suite
+    )
+    excluded = tuple(Excluded(archive / names.get(one.file, one.file.name), one.reason) for one in suite.excluded)
+    return Suite(printable(archive.stem), records, excluded, suite.remarks)
 
 
 def read_file(file: Path) -> tuple[Record, ...] | str:
@@ -238,8 +263,10 @@ def read_file(file: Path) -> tuple[Record, ...] | str:
         with open_regular(file) as opened:
             head = opened.read(HEAD_BYTES)
             size = os.fstat(opened.fileno()).st_size
-        refuse_binary(head, file)
-        if b"\0" in head:
+        wide = wide_encoding(head) is not None
+        if not wide:
+            refuse_binary(head, file)
+        if b"\0" in head and not wide:
             return "not read: binary data"
         if not head.strip():
             return read_records(file) if file.suffix.lower() == ".at2" else "not read: an empty file"
@@ -267,9 +294,15 @@ def _read_columns(file: Path, head: str, size: int) -> tuple[Record, ...] | str:
     if len(header) == len(lines) or stated_unit("\n".join(header)) is None or size > LARGEST_COLUMNS:
         return kind
     try:
-        return read_records(file)
+        records = read_records(file)
+        words = "\n".join(header)
+        doubtful = next((reason for record in records if (reason := no_motion(record))), None)
+        if doubtful is None and not names_acceleration(words) and stated_step(words, file.name) is None:
+            labelled = any(record.component for record in records)
+            doubtful = None if labelled else "its header does not say that it holds accelerations"
     except RecordFormatError as error:
         return f"not read: {error}"
+    return f"not read: {doubtful}; read it by name or from a list if it is a motion" if doubtful else records
 
 
 def _with_copies(records: list[Record]) -> Iterator[Record]:
@@ -281,21 +314,6 @@ def _with_copies(records: list[Record]) -> Iterator[Record]:
             copy = f"the same file as {printable(original.source.name)}"
             record = record.replace(remarks=(*record.remarks, copy))
         yield record
-
-
-def files_below(directory: Path) -> list[Path]:
-    """Return the files in a directory and below, sorted by path, without hidden ones and those out of reach."""
-    inside = ((file.relative_to(directory), file) for file in directory.rglob("*") if _is_file(file))
-    seen = [(path.as_posix(), file) for path, file in inside if not any(part.startswith(".") for part in path.parts)]
-    return [file for _, file in sorted(seen)]
-
-
-def _is_file(path: Path) -> bool:
-    """Whether a path is a file; a link to a place that may not be looked at is none."""
-    try:
-        return path.is_file()
-    except OSError:
-        return False
 
 
 def _counted(excluded: list[Excluded]) -> str:
@@ -344,7 +362,7 @@ def _read_list(source: Path) -> Suite:
                     f"file of {source.name}, row {number}, must be a horizontal component; "
                     f"got {cells['file']}, component {component}"
                 )
-        if not cells.get("component") and _has_vertical_name(record):
+        if not cells.get("component") and has_vertical_name(record):
             raise RecordFormatError(
                 f"file of {source.name}, row {number}, must be a horizontal component, or have its `component` given; "
                 f"got {cells['file']}, vertical by its name"
@@ -371,16 +389,3 @@ def _cell_number(cells: dict[str, str], column: str, source: Path, row: int) -> 
         return float(cell)
     except ValueError as error:
         raise RecordFormatError(f"{column} of {source.name}, row {row}, must be a number; got {cell!r}") from error
-
-
-def vertical_reason(record: Record) -> str | None:
-    """Return why a record is a vertical component, or None."""
-    if is_vertical(record.component):
-        return f"vertical component by its header: {record.component}"
-    if _has_vertical_name(record):
-        return f"vertical component by its name: {record.name}"
-    return None
-
-
-def _has_vertical_name(record: Record) -> bool:
-    return _VERTICAL_NAME.search(record.name) is not None

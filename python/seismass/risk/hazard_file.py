@@ -12,7 +12,7 @@ import numpy as np
 
 from seismass.base.errors import RecordFormatError
 from seismass.base.files import read_utf8
-from seismass.base.values import FloatArray, as_path, brief, frozen, printable, refusal
+from seismass.base.values import FloatArray, as_path, brief, frozen, printable, refusal, short
 
 RATE_WORDS: Final = frozenset({"rate", "rates", "lambda", "frequency", "afe", "mafe"})
 """Words of which one is in the name of the column of rates."""
@@ -93,10 +93,10 @@ def _columns(header: list[str], place: str) -> tuple[int, int]:
     ]
     if len(rates) != 1 or len(intensities) != 1:
         requirement = "one of an intensity (Sa, IM, PGA) and one of an annual rate (rate, lambda, MAFE)"
-        raise refusal(RecordFormatError, "columns", place, requirement, ", ".join(header))
+        raise refusal(RecordFormatError, "columns", place, requirement, short(", ".join(header)))
     unit = _OTHER_UNITS.intersection(words[intensities[0]][1:])
     if unit:
-        raise refusal(RecordFormatError, "unit of the intensity", place, "g", header[intensities[0]])
+        raise refusal(RecordFormatError, "unit of the intensity", place, "g", short(header[intensities[0]]))
     return intensities[0], rates[0]
 
 

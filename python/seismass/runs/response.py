@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.errors import InvalidOption
 from seismass.base.forks import require_polars
-from seismass.base.values import FloatArray, frozen, refusal
+from seismass.base.values import FloatArray, frozen, read_only, refusal
 from seismass.base.views import view
 from seismass.model.motion import Motion
 from seismass.model.plausibility import motion_remarks
@@ -291,8 +291,7 @@ class Response:
             log["kind"] = np.array(EVENT_KINDS)[self._get("event_kind")]
             for name in ("number", "sign", "element"):
                 log[name] = self._get(f"event_{name}")
-            log.setflags(write=False)
-            self._known["event_log"] = log
+            self._known["event_log"] = read_only(log)
         listed: NDArray[np.void] = self._known["event_log"]
         return listed
 
@@ -374,10 +373,9 @@ class Response:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._run = None
-        self._known = state["known"]
-        for value in self._known.values():
-            if isinstance(value, np.ndarray):
-                value.setflags(write=False)
+        self._known = {
+            name: read_only(value) if isinstance(value, np.ndarray) else value for name, value in state["known"].items()
+        }
         self.scene = state["scene"]
         self.motion = state["motion"]
         self.record = state["record"]

@@ -14,7 +14,7 @@ from seismass.base.elementary import exp, log
 from seismass.base.errors import RecordFormatError
 from seismass.base.files import read_utf8
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_path, frozen, printable, refusal
+from seismass.base.values import FloatArray, as_path, brief, frozen, printable, refusal, short
 from seismass.spectra.checks import OWNER
 from seismass.spectra.period_table import PeriodTable
 
@@ -63,10 +63,11 @@ def read_table(path: str | os.PathLike[str], *, zero: bool = False) -> tuple[Flo
 
 
 def _parse_csv(text: str, file: str, zero: bool) -> tuple[FloatArray, FloatArray]:
+    text, separator = _with_points(text)
     try:
         rows = [
             [cell.strip() for cell in row]
-            for row in csv.reader(io.StringIO(text))
+            for row in csv.reader(io.StringIO(text), delimiter=separator)
             if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
         ]
     except csv.Error as error:
@@ -80,7 +81,7 @@ def _parse_csv(text: str, file: str, zero: bool) -> tuple[FloatArray, FloatArray
             cell = row[column] if column < len(row) else ""
             at_zero = zero and number == 1 and name == "period" and _is_number(cell) and float(cell) == 0.0
             if not (at_zero or (_is_number(cell) and 0.0 < float(cell) < np.inf)):
-                raise refusal(RecordFormatError, name, f"{file}, point {number},", "a positive number", repr(cell))
+                raise refusal(RecordFormatError, name, f"{file}, point {number},", "a positive number", brief(cell))
         points.append([float(row[column]) for column in columns])
     if len(points) < 2:
         raise refusal(RecordFormatError, "points", file, "at least two rows of period and Sa", str(len(points)))
@@ -93,6 +94,16 @@ def _parse_csv(text: str, file: str, zero: bool) -> tuple[FloatArray, FloatArray
     return periods, ordinates
 
 
+def _with_points(text: str) -> tuple[str, str]:
+    """Return a text with points for decimal commas, and what separates its cells: where there are semicolons, those."""
+    if ";" not in text:
+        return text, ","
+    rows = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    cells = [cell for line in rows[-1:] for cell in line.split(";")]
+    decimal = any("," in cell for cell in cells) and not any("." in cell for cell in cells)
+    return text.replace(",", ".") if decimal else text, ";"
+
+
 def _named_columns(header: list[str], file: str) -> tuple[int, int]:
     words = [cell.lower().replace("(", " ").replace("_", " ").split() for cell in header]
     found = []
@@ -100,11 +111,14 @@ def _named_columns(header: list[str], file: str) -> tuple[int, int]:
         columns = [index for index, cell in enumerate(words) if cell and cell[0] in names]
         if len(columns) != 1:
             requirement = "one period or T and one Sa"
-            raise refusal(RecordFormatError, "columns", file, requirement, ", ".join(header))
+            raise refusal(RecordFormatError, "columns", file, requirement, short(", ".join(header)))
         found.append(columns[0])
+    of_period = [word.strip("()[]") for word in words[found[0]][1:]]
+    if of_period and of_period[0] not in ("s", "sec", "seconds", ""):
+        raise refusal(RecordFormatError, "unit of period", file, "s", " ".join(of_period))
     unit = [word.strip("()[]") for word in words[found[1]][1:]]
     if unit and unit != ["g"]:
-        raise refusal(RecordFormatError, "unit of Sa", file, "g", " ".join(unit))
+        raise refusal(RecordFormatError, "unit of Sa", file, "g", short(" ".join(unit)))
     return found[0], found[1]
 
 

@@ -78,7 +78,7 @@ FRACTION_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     "base_shear_coefficient": ("1", "C1: mean peak base shear of the attached model over the weight of all"),
     "eta": ("1", "friction coefficient over C1"),
     "height_ratio": ("1", "h_g/h_m: mean height of the goods by mass over that of building and goods"),
-    "exponent": ("1", "p of the rule: 1.2 (1 + T/T_c) where the building yields, else 1 + T/(2 T_c)"),
+    "exponent": ("1", "p of the rule: 1.2 (1 + x) where the building yields, else 1 + x/2, x = T/T_c, at most 1.5"),
     "estimate": ("1", "min(1, eta_h^p), eta_h = eta/sqrt(h_g/h_m): best estimate of the effective fraction"),
     "conservative": ("1", "min(1, eta_h): its conservative estimate"),
     "effective": ("1", "effective fraction lambda_eff; null without `--effective` and where a run collapsed"),

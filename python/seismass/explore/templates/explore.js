@@ -298,7 +298,7 @@
   function drawFraction() {
     const palette = colours();
     drawCurve(one(".curve"), palette, found, state);
-    drawRule(one(".rule"), palette, found, given.bins, state);
+    drawRule(one(".rule"), palette, found, given.bins, given.corner, state);
   }
   function sayFraction() {
     const place = one(".fraction");
@@ -313,7 +313,7 @@
       const part = found.left === undefined ? "" : ` ${Math.round(100 * (1 - found.left / SHARES))} % done.`;
       place.textContent = `eta = ${fixed(found.eta, 3)} (C1 = ${fixed(found.coefficient, 4)}). Being solved over the built-in suite\u2026${part}`;
     } else {
-      place.textContent = fractionWords(found).long;
+      place.textContent = fractionWords(found, given.corner).long;
       list.append(...fractionRemarks(found).map((words) => Object.assign(document.createElement("li"), { textContent: words })));
     }
     fractionTables(root, done ? found : null, given.suite);
@@ -331,7 +331,7 @@
   }
   // Said once the reader pauses, so that a screen reader is not flooded.
   function say() {
-    const fraction = found !== null && found.shares ? ` ${fractionWords(found).short}` : "";
+    const fraction = found !== null && found.shares ? ` ${fractionWords(found, given.corner).short}` : "";
     const words = runWords(solved) + fraction;
     if (one(".answer").textContent !== words) one(".answer").textContent = words;
   }

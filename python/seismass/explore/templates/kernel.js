@@ -34,6 +34,8 @@ function openKernel(instance) {
       }),
     );
   }
+  // What the rule by hand takes.
+  const ruleOf = ([coefficient, eta, period, heightRatio, yields]) => ({ coefficient, eta, period, heightRatio, yields: yields === 1 });
   const listed = (scene) => [
     scene.storeys, scene.period, scene.damping, scene.overstrength, scene.secondSlope, scene.thirdSlope,
     ...scene.strength, ...scene.massRatio, ...scene.muS, ...scene.muK,
@@ -74,8 +76,7 @@ function openKernel(instance) {
     beginEffective(scene) {
       give(listed(scene));
       checked(calls.seismass_effective_begin());
-      const [coefficient, eta] = output();
-      return { coefficient, eta };
+      return ruleOf(output());
     },
     // Solves some shares; returns how many are left.
     solveEffective(shares) {
@@ -85,9 +86,9 @@ function openKernel(instance) {
     answerEffective() {
       checked(calls.seismass_effective_answer());
       const { answer, ...lists } = named(ANSWER);
-      const [kind, value, low, high, real, model, coefficient, eta] = answer;
+      const [kind, value, low, high, real, model, ...rule] = answer;
       const KINDS = ["stuck", "root", "multiple", "zero", "one"];
-      return { kind: KINDS[kind], value, low, high, realMean: real, modelMean: model, coefficient, eta, ...lists };
+      return { kind: KINDS[kind], value, low, high, realMean: real, modelMean: model, ...ruleOf(rule), ...lists };
     },
   };
 }

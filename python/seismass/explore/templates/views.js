@@ -45,13 +45,23 @@ function runWords({ state, real, code, full }) {
   return parts.join(" ");
 }
 
-function fractionWords(found) {
-  const rule = `eta = ${fixed(found.eta, 3)} (C1 = ${fixed(found.coefficient, 4)}): min(1, eta\u00b2) = ${fixed(Math.min(1, found.eta ** 2), 3)} at best, min(1, eta) = ${fixed(Math.min(1, found.eta), 3)} to be safe`;
+// The rule of `seismass.effective_mass.estimate`; the corner is T_c of the suite (s).
+function ruleBy(found, corner) {
+  const ratio = Math.min(found.period / corner, 1.5);
+  const power = found.yields ? 1.2 * (1 + ratio) : 1 + ratio / 2;
+  const height = Math.sqrt(found.heightRatio);
+  const share = (eta, exponent) => Math.min(1, (eta / height) ** exponent);
+  return { power, best: (eta) => share(eta, power), safe: (eta) => share(eta, 1) };
+}
+
+function fractionWords(found, corner) {
+  const { power, best, safe } = ruleBy(found, corner);
+  const rule = `eta = ${fixed(found.eta, 3)} (C1 = ${fixed(found.coefficient, 4)}): min(1, eta_h^p) = ${fixed(best(found.eta), 3)} at best, min(1, eta_h) = ${fixed(safe(found.eta), 3)} to be safe; p = ${fixed(power, 2)} (${found.yields ? "yields" : "stays elastic"}), h_g/h_m = ${fixed(found.heightRatio, 2)}`;
   return {
     short: `Effective fraction of the goods ${fixed(found.value, 2)}, 90 % interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}.`,
     long:
       `Effective fraction ${fixed(found.value, 3)} (90 % interval over the motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
-      `${found.kind}: ${KIND_WORDS[found.kind]}. By hand, ${rule}.`,
+      `${found.kind}: ${KIND_WORDS[found.kind]}. By the rule, ${rule}.`,
   };
 }
 
@@ -256,12 +266,12 @@ function drawCurve(canvas, colours, found, state) {
   canvas.setAttribute("aria-label", `Real over model drift is ${at(0)} with nothing attached, ${at(state.counted)} with the share of the code and ${at(1)} with all; it is 1 at the effective fraction ${fixed(found.value, 3)}.`);
 }
 
-function drawRule(canvas, colours, found, bins, state) {
+function drawRule(canvas, colours, found, bins, corner, state) {
   const chart = chartOf(canvas, colours);
   if (chart.width === 0) return;
   const keyEnd = chart.key([
-    { words: "min(1, eta\u00b2)", colour: colours.ink },
-    { words: "min(1, eta)", colour: colours.ink, dash: [4, 3] },
+    { words: "the rule for this case", colour: colours.ink },
+    { words: "p = 1, to be safe", colour: colours.ink, dash: [4, 3] },
     { words: "other buildings, median, 16 to 84 %", colour: colours.soft, fill: 0.35 },
     { words: "this case", colour: colours.yield },
     { words: "code", colour: colours.model, dash: [4, 3] },
@@ -276,10 +286,13 @@ function drawRule(canvas, colours, found, bins, state) {
     panel.line([[from, median], [end, median]], { colour: colours.soft, width: 2 });
   }
   const curve = (rule) => Array.from({ length: 101 }, (_, i) => (i / 100) * most).map((eta) => [eta, Math.min(1, rule(eta))]);
-  panel.line(curve((eta) => eta), { colour: colours.ink, width: 1.3, dash: [4, 3] });
-  panel.line(curve((eta) => eta * eta), { colour: colours.ink, width: 1.6 });
+  const rule = found === null || found.error ? null : ruleBy(found, corner);
+  if (rule !== null) {
+    panel.line(curve(rule.safe), { colour: colours.ink, width: 1.3, dash: [4, 3] });
+    panel.line(curve(rule.best), { colour: colours.ink, width: 1.6 });
+  }
   panel.line([[0, state.counted], [most, state.counted]], { colour: colours.model, width: 1.3, dash: [4, 3] });
-  if (found === null) {
+  if (rule === null) {
     canvas.setAttribute("aria-label", "Effective fraction against eta: there are no goods, or they are being solved.");
     return;
   }
@@ -292,5 +305,5 @@ function drawRule(canvas, colours, found, bins, state) {
   }
   if (found.eta > most) chart.text(`eta = ${general(found.eta, 3)} \u2192`, box.right - 4, panel.y(0.9), { size: 11, align: "right", colour: colours.yield });
   const where = found.shares ? `effective fraction ${fixed(found.value, 2)}, interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}` : "effective fraction not solved yet";
-  canvas.setAttribute("aria-label", `This case has eta ${fixed(found.eta, 2)}: ${where}; min(1, eta squared) is ${fixed(Math.min(1, found.eta ** 2), 2)}, min(1, eta) ${fixed(Math.min(1, found.eta), 2)}, the code's share ${fixed(state.counted, 2)}.`);
+  canvas.setAttribute("aria-label", `This case has eta ${fixed(found.eta, 2)}: ${where}; the rule gives ${fixed(rule.best(found.eta), 2)}, to be safe ${fixed(rule.safe(found.eta), 2)}, the code's share ${fixed(state.counted, 2)}.`);
 }

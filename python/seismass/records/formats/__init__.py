@@ -11,10 +11,12 @@ from seismass.records.formats.cosmos import COSMOS
 from seismass.records.formats.csmip import CSMIP
 from seismass.records.formats.esm import ESM
 from seismass.records.formats.foreign import known_binary, known_text
+from seismass.records.formats.geonet import GEONET
+from seismass.records.formats.headed_kinds import HEADED
 from seismass.records.formats.knet import KNET
 from seismass.records.formats.smc import SMC
 
-FORMATS: Final = (KNET, ESM, COSMOS, CSMIP, SMC, AT2, COLUMNS)
+FORMATS: Final = (KNET, ESM, GEONET, COSMOS, CSMIP, *HEADED, SMC, AT2, COLUMNS)
 """In order of certainty: what a head has that no other format has comes first, and text of columns last."""
 
 BY_NAME: Final = {one.name: one for one in FORMATS}

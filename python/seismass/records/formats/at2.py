@@ -13,12 +13,12 @@ from typing import Final
 import numpy as np
 
 from seismass.base.errors import RecordFormatError
-from seismass.base.units import ACCELERATION_UNITS, stated_unit, unknown_unit
+from seismass.base.units import ACCELERATION_UNITS, contradiction, stated_unit, unknown_unit
 from seismass.base.values import printable
 from seismass.records.formats.common import LINE_WIDTH, Arguments, Channel, Format, NotRead, refuse_skip
 from seismass.records.formats.directions import azimuth_of
-from seismass.records.formats.headers import other_quantity, step_in_seconds
-from seismass.records.formats.numbers import is_cut_off, is_number, parse_numbers, to_float
+from seismass.records.formats.headers import other_quantity, rounding_remark, step_in_seconds
+from seismass.records.formats.numbers import NUMBER, is_cut_off, is_number, parse_numbers, to_float
 from seismass.records.record import Record
 
 HEADER_LINES: Final = 10
@@ -26,6 +26,9 @@ HEADER_LINES: Final = 10
 
 HEADER_ROUNDING: Final = 0.500001e-4
 """Half the fourth decimal (s), to which headers round the step however many decimals they write."""
+
+LONGEST_COMPONENT: Final = 3
+"""Words of a component, as in "90 DEG" or "LONGITUDINAL COMP"; prose has more."""
 
 _COUNTS = (
     re.compile(
@@ -38,6 +41,11 @@ _COUNTS = (
     ),
 )
 _STATION_OF = re.compile(r"\(([A-Z]{2,8}) STATION \w+\)")
+_ROTATED = re.compile(r"\brotat(?:ed|ion)\b|\bF[NP] component\b|\bfault[- ](?:normal|parallel)\b", re.IGNORECASE)
+_SOURCE_OF_ROTATION = re.compile(r"\bH1\b.*rotat", re.IGNORECASE)
+_AZIMUTH = re.compile(r"\bazimuth\s*[=:]?\s*(\d{1,3}(?:\.\d+)?)", re.IGNORECASE)
+_SCALED = re.compile(rf"\bscal(?:e|ing)[ -]?factor\s*[=:]?\s*({NUMBER})", re.IGNORECASE)
+_WORDS = re.compile(r"[A-Za-z]{3}|\*{3}")
 _SYNTHETIC = re.compile(r"\bSYNTHETIC\b", re.IGNORECASE)
 
 
@@ -84,9 +92,11 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
     written = f"{step} s" if seconds == to_float(step) else f"{step} {step_unit}"
     exact_dt = _agreed_step(seconds, dt, written, file, remarks)
     unit = _agreed_unit(header, unit, file)
+    rotated = _rotation(titles, remarks)
     if unit != "g":
         remarks.append(f"accelerations are in {unit}; those of the PEER database are in g")
 
+    lines = _without_trailer(lines, points, remarks)
     numbered = enumerate(lines[line_of_counts + 1 :], start=line_of_counts + 2)
     tokens, values = parse_numbers(numbered, file)
     if len(values) < points:
@@ -108,7 +118,7 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
     uneven = _uneven_line(lines, line_of_counts + 1)
     if uneven:
         remarks.append(f"line {uneven} has another number of values than the others: lines may be missing or moved")
-    event, station, component = _titles(titles)
+    event, station, component = _titles(titles) if rotated is None else rotated
     return Record(
         acceleration=values * ACCELERATION_UNITS[unit],
         dt=exact_dt,
@@ -123,6 +133,38 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
         synthetic=bool(_SYNTHETIC.search(header)),
         remarks=tuple(remarks),
     )
+
+
+def _without_trailer(lines: list[str], points: int, remarks: list[str]) -> list[str]:
+    """Return the lines without a last one of words, such as "*** End Data ***", where some follow the numbers."""
+    end = len(lines)
+    while end and (not lines[end - 1].strip() or not any(character.isdigit() for character in lines[end - 1])):
+        end -= 1
+    words = [line.strip() for line in lines[end:] if line.strip()]
+    if points and words and all(_WORDS.search(line) for line in words):
+        remarks.append(f"words behind the numbers left out: {printable(words[0])[:40]}")
+        return lines[:end]
+    return lines
+
+
+def _rotation(titles: list[str], remarks: list[str]) -> tuple[str, str, str] | None:
+    """Return event, station and component of a record that its header says to be rotated, with remarks; else None.
+
+    The titles of such a file are those of the two components that it was made of, of which none is its direction.
+    """
+    header = "\n".join(titles)
+    scale = _SCALED.search(header)
+    if scale and to_float(scale[1]) != 1.0:
+        remarks.append(f"its header says that it is scaled by {scale[1]}")
+    if not _ROTATED.search(header):
+        return None
+    azimuth = _AZIMUTH.search(header)
+    component = azimuth[1] if azimuth else ""
+    said = f"azimuth {component}" if component else "its azimuth is not stated"
+    remarks.append(f"its header says that it is rotated: {said}")
+    source = next((line.partition(":")[2] for line in titles if _SOURCE_OF_ROTATION.search(line)), "")
+    parts = [part.strip() for part in source.split(",")]
+    return (", ".join(parts[:-2]), parts[-2], component) if len(parts) > 2 else (source.strip(), "", component)
 
 
 def _uneven_line(lines: list[str], start: int) -> int | None:
@@ -171,9 +213,12 @@ def _find_counts(lines: list[str]) -> tuple[int, int, str, str] | None:
 
 def _agreed_step(step: float, dt: float | None, written: str, file: str, remarks: list[str]) -> float:
     if dt is None:
+        figures = rounding_remark(written.split()[0]) if written.endswith(" s") else []
         binary = 2 ** round(-math.log2(step))  # digital recorders sampled 128, 200 or 256 times a second
         if 0.0 < abs(1.0 / binary - step) <= HEADER_ROUNDING:
             remarks.append(f"step {written} taken as written; it may be 1/{binary} s rounded, which dt= would give")
+        else:
+            remarks.extend(figures)
         return step
     if abs(dt - step) > HEADER_ROUNDING:
         raise RecordFormatError(f"dt of {file} must agree with its header, {written}; got {dt:g} s")
@@ -184,13 +229,14 @@ def _agreed_step(step: float, dt: float | None, written: str, file: str, remarks
 
 def _agreed_unit(header: str, unit: str | None, file: str) -> str:
     stated, unknown = stated_unit(header), unknown_unit(header)
-    if stated and unit and stated != unit:
-        raise RecordFormatError(f"unit of {file} must be that of its header, {stated}; got {unit}")
+    against = contradiction(header, unit) if unit else None
+    if against:
+        raise RecordFormatError(f"unit of {file} must be that of its header, {against}; got {unit}")
     if unknown and not unit:
         raise RecordFormatError(
             f"unit of {file} must be one of {', '.join(ACCELERATION_UNITS)}, or be given; got {unknown!r} in its header"
         )
-    return unit or stated or "g"
+    return stated or unit or "g"
 
 
 def _network(header: str) -> str:
@@ -200,9 +246,15 @@ def _network(header: str) -> str:
 
 
 def _titles(titles: list[str]) -> tuple[str, str, str]:
-    """Return event, station and component of "event, date, station, component" or of what there is of it."""
+    """Return event, station and component of "event, date, station, component" or of what there is of it.
+
+    A component is a direction or a short name; prose between commas is a title and nothing else. "TST002, E, (CWB)"
+    has the operator behind a comma.
+    """
     title = titles[1] if len(titles) > 1 else ""
     parts = [part.strip() for part in title.split(",")]
-    if len(parts) < 3:
+    if len(parts) > 3 and parts[-1].startswith("(") and azimuth_of(parts[-2]) is not None:
+        parts[-2:] = [f"{parts[-2]} {parts[-1]}"]
+    if len(parts) < 3 or len(parts[-1].partition("(")[0].split()) > LONGEST_COMPONENT:
         return title, "", ""
     return ", ".join(parts[:-2]), parts[-2], parts[-1]

@@ -44,6 +44,7 @@ _DATA = re.compile(
     re.IGNORECASE,
 )
 _APPROXIMATELY = re.compile(r"approx\w*\s+([\d.]+)\s+sec", re.IGNORECASE)
+_LOCATION = re.compile(r"\blocation:[ \t]*(.*)", re.IGNORECASE)
 _CHANNEL = re.compile(r"Cha\w*:?\s*(?P<number>[?\d]+)\s*:\s*(?P<component>[^(\n]*)", re.IGNORECASE)
 _CODE = re.compile(r"Code:\s*(?P<network>\w+)-(?P<station>\S+)")
 _SCNL = re.compile(r"<SCNL>\s*(?P<station>[^.\s]+)\.(?P<channel>[^.\s]+)\.(?P<network>[^.\s]+)")
@@ -223,9 +224,16 @@ def _channel(raw: _Raw, source: Path, arguments: Arguments, number: int, several
         network=(scnl or place_code or {"network": ""})["network"],
         source=source,
         file_unit=unit,
+        place=_location(raw.text[1:]),
         remarks=tuple(remarks),
     )
     return Channel(label, record)
+
+
+def _location(lines: list[str]) -> str:
+    """Return where the sensor stands, as the line of the channel has it."""
+    found = _LOCATION.search("\n".join(lines))
+    return printable(" ".join(found[1].split())) if found else ""
 
 
 def _written(raw: _Raw, index: int) -> str:

@@ -54,6 +54,7 @@ _COUNT_V1 = re.compile(r"NO\. OF POINTS\s*=\s*(\d+)", re.IGNORECASE)
 _LENGTH = re.compile(rf"RECORD LENGTH\s*=\s*({_NUMBER})\s*SEC", re.IGNORECASE)
 _CHANNEL = re.compile(r"CHAN\s+(?P<number>\d+)\s*:\s*(?P<component>[^(\n]*)", re.IGNORECASE)
 _STATION = re.compile(r"STATION\s+(?:NO\.|ID\.)\s*(?P<code>\w+)?", re.IGNORECASE)
+_WIDE_GAP = re.compile(r"\s{2,}|\s*(?=\blocation:)", re.IGNORECASE)
 _AGENCY = re.compile(r"PROCESSED:\s*[\d/]*\s*,\s*([A-Z]+)", re.IGNORECASE)
 _CHANNELS = re.compile(r"\(\s*\d+\s*CHNS?\s+OF\s+(\d+)", re.IGNORECASE)
 _END = re.compile(r"\s*/&.*")
@@ -255,8 +256,9 @@ def _channel(
     if channels and not several and int(channels[1]) > 1:
         remarks.append(f"the station has {channels[1]} channels; this file has one")
     place = _CHANNEL.search("\n".join(titles[5:9]))
-    # The place in a building may stand further right.
-    component = re.split(r"\s{2,}", place["component"].strip())[0] if place else ""
+    # The place in a building stands further right, with or without its word.
+    component, _, where = _WIDE_GAP.sub("\n", place["component"].strip()).partition("\n") if place else ("", "", "")
+    where = " ".join(where.split()).removeprefix("Location:").strip()
     contradiction = direction_remark(component, angle, _VERTICAL)
     if contradiction:
         remarks.append(contradiction)
@@ -273,6 +275,7 @@ def _channel(
             network=_network(header, titles[6] if corrected else titles[5]),
             source=source,
             file_unit=unit,
+            place=printable(where),
             remarks=tuple(remarks),
         ),
     )

@@ -7,9 +7,9 @@ from typing import Final
 
 _WORDS: Final = {
     **dict.fromkeys(("N", "NS", "NORTH"), 0.0),
-    **dict.fromkeys(("E", "EW", "EAST"), 90.0),
+    **dict.fromkeys(("E", "EW", "EO", "EAST"), 90.0),
     **dict.fromkeys(("S", "SN", "SOUTH"), 180.0),
-    **dict.fromkeys(("W", "WE", "WEST"), 270.0),
+    **dict.fromkeys(("W", "WE", "OE", "WEST"), 270.0),
 }
 _DEGREES = re.compile(r"(\d{1,3})(?:\.0*)?\s*(?:DEG(?:REES?)?)?(?:\s*\(.*)?", re.IGNORECASE)
 _QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])", re.IGNORECASE)
@@ -24,6 +24,7 @@ def azimuth_of(component: str) -> float | None:
     positive to north and east. "UP", "H1", "LONGITUDINAL" and what is not understood give None.
     """
     text = component.strip().upper()
+    text = text.partition("(")[0].strip() or text  # "N (CWB)": what stands in brackets is the operator
     degrees = _DEGREES.fullmatch(text)
     if degrees:
         return float(degrees[1]) % 360.0 if int(degrees[1]) <= 360 else None

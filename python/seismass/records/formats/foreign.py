@@ -56,10 +56,7 @@ _LINES: Final[tuple[tuple[re.Pattern[str], str, str], ...]] = tuple(
         ),
         (r"\s*<\?xml|\s*<q:quakeml|\s*<FDSNStationXML", "XML", _NETWORK),
         (r"\s*[{\[]\s*(?:[\"{\[]|$)", "JSON", _NETWORK),
-        (r"(?s).{0,400}?\bGNS Science\b", "GeoNet V1A or V2A", _NETWORK),
-        (r"STRONG GROUND MOTION RECORDS OF TURKIYE", "NSMN (AFAD) text", "read its ESM ASCII file"),
         (r"\* VOL[12]", "BHRC (ISMN, Iran)", _NETWORK),
-        (r"#Earthquake Information|(?s:#?\s*StationCode\s*:.{0,800}?AmplitudeUnit)", "CWB (CWA, Taiwan)", _NETWORK),
         (
             r"\*{20,}\s+INSTITUTO DE INGENIERIA|(?s:.{0,800}?ARCHIVO ESTANDAR DE ACELERACION)",
             "UNAM standard acceleration",
@@ -84,7 +81,7 @@ def known_binary(head: bytes) -> tuple[str, str] | None:
     if head.startswith(b"PK\x03\x04"):
         if b"[Content_Types].xml" in head or b"xl/" in head:
             return "Excel (.xlsx)", "save the sheet as CSV"
-        return "ZIP", _UNPACK
+        return "ZIP", "unpack it, or read it as a folder (read_suite, seismass records)"
     if head[_TAR_AT : _TAR_AT + 5] == b"ustar":
         return "tar", _UNPACK
     if _SEED.match(head):

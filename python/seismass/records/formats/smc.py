@@ -37,6 +37,7 @@ _INTEGERS: Final = 6
 _REALS: Final = 10
 _DATA: Final = Layout(8, 10)
 _KIND = re.compile(r"\d*\s*(?P<kind>[A-Z]+(?: [A-Z]+)*)", re.IGNORECASE)
+_VOLUME = re.compile(r"\s*\d\s+[A-Z]", re.IGNORECASE)
 _STATION = re.compile(r"station\s*=\s*(?P<name>.*?)\s*component\s*=\s*(?P<component>.*)", re.IGNORECASE)
 _SOURCE = re.compile(r"data source\s*=\s*(.*)", re.IGNORECASE)
 
@@ -46,7 +47,16 @@ MISSING_REAL: Final = 1e30
 
 def _recognises(head: str) -> bool:
     lines = head.splitlines()
-    return len(lines) > _TEXT and lines[5].startswith("station =") and lines[7].startswith("inst type")
+    if len(lines) > _TEXT and lines[5].startswith("station =") and lines[7].startswith("inst type"):
+        return True
+    # Programs that write the format leave its text blank: the volume above and integers below are left of it.
+    whole = header_values(lines, _TEXT, _INTEGERS, Layout(8, 10, True))
+    return (
+        len(lines) > _TEXT + _INTEGERS
+        and _VOLUME.match(lines[0]) is not None
+        and len(whole) == 8 * _INTEGERS
+        and not any(number is None or number % 1.0 for number in whole)
+    )
 
 
 def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:

@@ -5,12 +5,20 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
+from seismass.base.files import written_whole
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.records.builtin import MICRO
 from seismass.records.record import Record
+from seismass.records.synthetic.scenarios import SCENARIOS, generate_scenario
 from seismass.records.synthetic.seven import RECIPES, Recipe, generate
 from seismass.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
+
+if TYPE_CHECKING:
+    import polars as pl
 
 ALL_RECIPES: Final = (*RECIPES, *SITE_RECIPES)
 
@@ -51,22 +59,37 @@ def at2_text(record: Record, generator: int = 1) -> str:
 def write_motion(directory: Path, recipe: Recipe | SiteRecipe) -> None:
     """Write the motion of a recipe as an .AT2 file."""
     text = at2_text(made(recipe), version(recipe))
-    (directory / f"{recipe.name}.AT2").write_text(text, encoding="utf-8", newline="\n")
+    with written_whole(directory / f"{recipe.name}.AT2") as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
 
 
 def write_list(file: Path, recipes: Iterable[Recipe | SiteRecipe]) -> None:
     """Write a list of motions as `read_suite` takes it."""
-    with file.open("w", newline="", encoding="utf-8") as stream:
+    with written_whole(file) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
         rows = csv.writer(stream, lineterminator="\n")
         rows.writerow(("number", "event", "station", "file", "note"))
         for recipe in recipes:
             rows.writerow((recipe.number, "synthetic", "none", f"{recipe.name}.AT2", recipe.note))
 
 
+def forty_table() -> pl.DataFrame:
+    """Make the forty motions: a row each, with its class and its samples as whole numbers of 1e-6 g."""
+    import polars as pl
+
+    rows = []
+    for scenario in SCENARIOS:
+        record = generate_scenario(scenario)
+        samples = np.rint(record.acceleration / (MICRO * STANDARD_GRAVITY)).astype(np.int32)
+        row = {name: getattr(scenario, name) for name in ("name", "seed", "magnitude", "distance", "site", "note")}
+        rows.append({**row, "parameters": record.remarks[1], "dt": record.dt, "acceleration": samples})
+    return pl.DataFrame(rows, schema_overrides={"acceleration": pl.List(pl.Int32)})
+
+
 def write_suite(directory: Path) -> None:
-    """Write every motion as an .AT2 file, and the lists that name them in order."""
+    """Write every motion as an .AT2 file, the lists that name them in order, and the table of the forty."""
     directory.mkdir(parents=True, exist_ok=True)
     for recipe in ALL_RECIPES:
         write_motion(directory, recipe)
     for name, recipes in LISTS.items():
         write_list(directory / name, recipes)
+    forty_table().write_parquet(directory / "forty.parquet", compression="zstd", compression_level=19)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.records.synthetic.ends import ramp
 
 Array = NDArray[np.float64]
 
@@ -60,3 +61,11 @@ def gain_over_frequency(log_ratio: Array, frequency: Array) -> Array:
     """Return exp(log_ratio), given at the matched periods, at frequencies (Hz); constant beyond its ends."""
     log_frequency = np.log(np.maximum(frequency, 1e-3))
     return np.exp(np.interp(log_frequency, -np.log(MATCHED_PERIODS[::-1]), log_ratio[::-1]))
+
+
+def shaped(process: Array, dt: float, log_ratio: Array) -> Array:
+    """Multiply the Fourier amplitudes by the ratio at the period 1 / frequency, and take off the highest."""
+    length = 2 * len(process)  # zeros beside the motion keep it from wrapping round
+    frequency = frequencies(length, dt)
+    gain = gain_over_frequency(log_ratio, frequency) * (1.0 - ramp(frequency, *LOW_PASS))
+    return np.fft.irfft(np.fft.rfft(process, length) * gain, length)[: len(process)]

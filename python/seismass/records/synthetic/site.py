@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.records.record import Record
-from seismass.records.synthetic.ends import at_rest_in_the_end, ramp, tapered
+from seismass.records.synthetic.ends import at_rest_in_the_end, tapered
 from seismass.records.synthetic.near_fault import NearFaultPulse
 from seismass.records.synthetic.noise import normals, sample_times
 from seismass.records.synthetic.process import (
@@ -36,13 +36,11 @@ from seismass.records.synthetic.process import (
 from seismass.records.synthetic.shaping import (
     LEVEL,
     LEVEL_SPREAD,
-    LOW_PASS,
     MATCHED_PERIODS,
     SHAPE_CORRELATION,
     SHAPE_SPREAD,
     asce7_shape,
-    frequencies,
-    gain_over_frequency,
+    shaped,
     spectrum,
 )
 
@@ -114,7 +112,7 @@ def generate_site(recipe: SiteRecipe) -> Record:
     for _ in range(CORRECTIONS):
         motion = high_passed(process, recipe.dt, chosen.corner) + pulse
         ratio = np.log(target / spectrum(motion, recipe.dt, MATCHED_PERIODS))
-        process = _shaped(process, recipe.dt, np.clip(ratio, -math.log(LARGEST_GAIN), math.log(LARGEST_GAIN)))
+        process = shaped(process, recipe.dt, np.clip(ratio, -math.log(LARGEST_GAIN), math.log(LARGEST_GAIN)))
     motion = tapered(high_passed(process, recipe.dt, chosen.corner) + pulse, time)
     return Record(
         acceleration=at_rest_in_the_end(motion, recipe.dt),
@@ -144,11 +142,3 @@ def _target(source: random.Random) -> Array:
     level = LEVEL * math.exp(LEVEL_SPREAD * float(normals(source, 1)[0]))
     target: Array = level * asce7_shape(MATCHED_PERIODS) * np.exp(wander)
     return target
-
-
-def _shaped(process: Array, dt: float, log_ratio: Array) -> Array:
-    """Multiply the Fourier amplitudes by the ratio at the period 1 / frequency, and take off the highest."""
-    length = 2 * len(process)  # zeros beside the motion keep it from wrapping round
-    frequency = frequencies(length, dt)
-    gain = gain_over_frequency(log_ratio, frequency) * (1.0 - ramp(frequency, *LOW_PASS))
-    return np.fft.irfft(np.fft.rfft(process, length) * gain, length)[: len(process)]

@@ -26,7 +26,7 @@ LIMITS: Final = (
     "Shear buildings in one direction: no torsion, no flexible floors, no foundation.",
     "Rigid goods that slide by Coulomb friction; goods that rock, topple, strike or deform are not covered.",
     "Trilinear storeys without loss of strength but by P-Delta; Omega, r2 and r3 decide about large drifts.",
-    "The interval of a fraction is over these motions alone, and covers a little less than it says.",
+    "The interval of a fraction resamples these motions, and is 0.05 wider at each end for another suite.",
     "This page checks drift and stability of a model. It replaces neither the design of members nor the judgement of "
     "the engineer who signs it.",
 )

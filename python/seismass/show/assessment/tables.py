@@ -12,10 +12,11 @@ import polars as pl
 
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.base.errors import InvalidOption
-from seismass.base.files import open_regular, read_file
-from seismass.base.values import refusal
+from seismass.base.files import read_file, read_table
+from seismass.base.values import brief, refusal
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.curve import Kind
+from seismass.media.folder import as_written
 
 DOCUMENT: Final = "assessment.json"
 """File by which a folder is known as that of an assessment."""
@@ -24,7 +25,10 @@ NEEDED: Final = ("storeys", "governing", "masses", "slip", "runs", "checks")
 
 @dataclass(frozen=True)
 class Fraction:
-    """Effective fraction at one friction, as figures draw it; the names are those of `EffectiveMass`."""
+    """Effective fraction at one friction, as figures draw it; the names are those of `EffectiveMass`.
+
+    `interval` is its `suite_interval`.
+    """
 
     value: float
     kind: Kind
@@ -126,19 +130,20 @@ def read_assessment_tables(folder: Path) -> AssessmentTables:
         raise refusal(InvalidOption, "content", DOCUMENT, "JSON as `seismass building` writes it", f"{error}") from None
     version = document.get("schema_version") if isinstance(document, dict) else None
     if version != SCHEMA_VERSION:
-        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", f"{version}")
-    names = [*NEEDED, *(["curve"] if document["effective"] else []), *(["scaling"] if document["factors"] else [])]
+        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", brief(version))
+    with as_written(folder):
+        names = [*NEEDED, *(["curve"] if document["effective"] else []), *(["scaling"] if document["factors"] else [])]
     tables = {}
     for name in names:
         path = folder / f"{name}.parquet"
         if not path.exists():
             raise refusal(InvalidOption, path.name, f"folder {folder}", f"there beside {DOCUMENT}", "none")
         try:
-            with open_regular(path) as file:
-                tables[name] = pl.read_parquet(file)
+            tables[name] = read_table(path)
         except pl.exceptions.PolarsError as error:
             raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
-    return _made(document, tables)
+    with as_written(folder):
+        return _made(document, tables)
 
 
 def _made(document: dict[str, Any], tables: dict[str, pl.DataFrame]) -> AssessmentTables:
@@ -165,7 +170,7 @@ def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
         return math.nan if value is None else float(value)
 
     names = ("value", "real", "model", "eta", "base_shear_coefficient", "estimate", "conservative", "confidence")
-    ends = values["interval"]
+    ends = values["suite_interval"]
     return Fraction(
         **{name: number(values[name]) for name in names},
         kind=values["kind"],

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 from seismass.base.errors import InvalidOption
 from seismass.base.files import written_whole
 from seismass.base.values import as_path
-from seismass.media.folder import PAGE, check_out, write_folder
+from seismass.media.folder import PAGE, as_written, check_out, write_folder
 from seismass.show.assessment.tables import DOCUMENT, AssessmentTables, assessment_tables, read_assessment_tables
 
 if TYPE_CHECKING:
@@ -78,10 +78,12 @@ def write_assessment_page(folder: Path, target: Path, *, progress: Progress | No
     OSError
         The file cannot be written.
     """
-    tables = read_assessment_tables(folder)
-    _, drawings = _drawn(tables, progress)
+    with as_written(folder):
+        tables = read_assessment_tables(folder)
+        _, drawings = _drawn(tables, progress)
+        page = _page(tables, drawings)
     with written_whole(target) as temporary:
-        temporary.write_text(_page(tables, drawings), encoding="utf-8")
+        temporary.write_text(page, encoding="utf-8")
 
 
 def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[dict[str, Figure], dict[str, str]]:

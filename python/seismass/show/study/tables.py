@@ -11,9 +11,9 @@ import polars as pl
 
 from seismass.animation import animate
 from seismass.base.errors import InvalidOption
-from seismass.base.files import open_regular, read_file
+from seismass.base.files import read_file, read_table
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import refusal
+from seismass.base.values import brief, refusal
 from seismass.show.animation.html import element_content
 from seismass.study import SCHEMA_VERSION, Sensitivity, StudyResult
 from seismass.study.example import Example
@@ -126,7 +126,7 @@ def read_study_tables(folder: Path) -> StudyTables:
     metadata = _document(folder / DOCUMENT)
     version = metadata.get("schema_version")
     if version != SCHEMA_VERSION:
-        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", f"{version}")
+        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", brief(version))
     tables = {name: _table(folder, name) for name in _OWN}
     tables |= {name: _table(folder, name) for name in OPTIONAL_TABLES if (folder / f"{name}.parquet").exists()}
     read = StudyTables(
@@ -171,8 +171,7 @@ def _table(folder: Path, name: str) -> pl.DataFrame:
     if not path.exists():
         raise refusal(InvalidOption, f"{name}.parquet", f"folder {folder}", "there beside study.json", "none")
     try:
-        with open_regular(path) as file:
-            return pl.read_parquet(file)
+        return read_table(path)
     except pl.exceptions.PolarsError as error:
         raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
 

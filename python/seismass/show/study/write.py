@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 import polars as pl
 
 from seismass.base.files import written_whole
-from seismass.media.folder import PAGE, write_folder
+from seismass.media.folder import PAGE, as_written, write_folder
 from seismass.show.study.tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, StudyTables, read_study_tables
 from seismass.study.columns import TABLES, units_of
 
@@ -107,10 +107,12 @@ def write_study_page(folder: Path, target: Path, *, progress: Progress | None = 
     """
     from seismass.show.study.page import study_page
 
-    result = read_study_tables(folder)
-    _, drawings = _drawn(result, progress)
+    with as_written(folder):
+        result = read_study_tables(folder)
+        _, drawings = _drawn(result, progress)
+        page = study_page(result, drawings)
     with written_whole(target) as temporary:
-        temporary.write_text(study_page(result, drawings), encoding="utf-8")
+        temporary.write_text(page, encoding="utf-8")
 
 
 def _drawn(result: StudyTables, progress: Progress | None) -> tuple[dict[str, Figure], dict[str, str]]:

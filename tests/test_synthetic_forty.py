@@ -1,0 +1,65 @@
+"""The forty motions of the default suite: made again from their seeds, at rest, and with the scatter of recordings."""
+
+from __future__ import annotations
+
+import numpy as np
+import polars as pl
+import pytest
+
+import seismass as sm
+from seismass.records.builtin import MICRO, data_directory
+from seismass.records.synthetic.ends import end_state
+from seismass.records.synthetic.scenarios import SCENARIOS, generate_scenario, two_period_shape
+from seismass.spectra import corner_period, mean_spectrum, response_spectrum
+
+SUITE = sm.builtin_suite("forty")
+TARGET = sm.TargetSpectrum.asce7()
+
+
+def test_forty_in_eight_classes_labelled_synthetic() -> None:
+    assert len(SUITE) == len(SCENARIOS) == 40
+    assert all(record.synthetic and "not a recording" in record.remarks[0] for record in SUITE)
+    table = pl.read_parquet(data_directory() / "synthetic" / "forty.parquet")
+    assert table.group_by("magnitude", "distance", "site").len()["len"].to_list() == [5] * 8
+    assert table["seed"].n_unique() == 40
+
+
+@pytest.mark.parametrize("number", [1, 8, 30])
+def test_stored_motions_are_those_of_their_seeds(number: int) -> None:
+    made = generate_scenario(SCENARIOS[number - 1])
+    stored = SUITE[number - 1]
+    assert (made.name, made.dt, made.samples) == (stored.name, stored.dt, stored.samples)
+    # Rounded to 1e-6 g; instruction sets differ by some 1e-14 g, which may move a tie.
+    np.testing.assert_allclose(made.acceleration, stored.acceleration, atol=0.51 * MICRO * sm.STANDARD_GRAVITY)
+
+
+def test_motions_end_at_rest() -> None:
+    for record in SUITE:
+        velocity, displacement = end_state(record.acceleration, record.dt)
+        # Rounding leaves a random walk: 3e-6 m/s2 x 0.02 s x sqrt(4800) in velocity, times the 96 s of the longest.
+        assert abs(velocity) < 3e-5
+        assert abs(displacement) < 3e-3
+
+
+def test_two_period_shape_is_that_of_asce_7() -> None:
+    """S_DS = 1.07 g, and T_S = S_D1/S_DS, by `TargetSpectrum.asce7` with a T_L beyond all periods."""
+    periods = np.geomspace(0.05, 5.0, 40)
+    expected = sm.TargetSpectrum.asce7(1.07, 1.07 * 0.45, tl=20.0)(periods)
+    np.testing.assert_allclose(two_period_shape(periods, 0.45), expected, rtol=1e-12)
+
+
+def test_scatter_of_scaled_spectra_is_that_of_the_far_field_recordings() -> None:
+    """Standard deviations of ln Sa of 36 components of FEMA P-695 scaled in the same way, computed once from them.
+
+    At 0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2 and 3 s; within 20 %. T_c of their mean is 0.501 s.
+    """
+    periods = np.array([0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0])
+    recorded = np.array([0.36, 0.35, 0.25, 0.23, 0.30, 0.29, 0.39, 0.49, 0.64])
+    factors = sm.scaling.scale_asce7_10(SUITE, TARGET).factors
+    logarithms = [
+        np.log(factor * response_spectrum(record, periods)).ravel()
+        for record, factor in zip(SUITE, factors, strict=True)
+    ]
+    np.testing.assert_allclose(np.std(logarithms, axis=0), recorded, rtol=0.2)
+    corner = corner_period(lambda at: mean_spectrum(SUITE, factors, at))
+    assert corner == pytest.approx(0.501, rel=0.1)
