@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +12,10 @@ import pytest
 from matplotlib.figure import Figure
 
 import seismass as sm
+from seismass.assessment.answer import rounded_up
 from seismass.assessment.building_file import example_file
+from seismass.assessment.damping import force_ratios
 from seismass.assessment.models import with_mass
-from seismass.assessment.run import advised_share
 from seismass.assessment.tables import statistics_of
 from seismass.cli import main
 
@@ -144,16 +144,9 @@ def test_the_share_advised_covers_every_friction(warehouse: sm.Assessment) -> No
     assert warehouse.storeys["model"].unique(maintain_order=True).to_list() == MODELS
 
 
-@pytest.mark.parametrize(
-    ("values", "share"),
-    [([0.5], 0.5), ([0.5 + 1e-13], 0.5), ([0.501, 0.2], 0.55), ([0.0], 0.0), ([math.nan, 0.1], 1.0)],
-)
-def test_shares_are_rounded_up_to_a_twentieth(values: list[float], share: float) -> None:
-    class Known:
-        def __init__(self, value: float) -> None:
-            self.value = value
-
-    assert advised_share([Known(value) for value in values]) == share  # type: ignore[list-item,misc]
+@pytest.mark.parametrize(("value", "share"), [(0.5, 0.5), (0.5 + 1e-13, 0.5), (0.501, 0.55), (0.0, 0.0), (0.99, 1.0)])
+def test_shares_are_rounded_up_to_a_twentieth(value: float, share: float) -> None:
+    assert rounded_up(value) == share
 
 
 def test_friction_that_holds_the_goods_gives_all_of_them() -> None:
@@ -177,11 +170,13 @@ def test_without_goods_the_answer_says_so(tmp_path: Path) -> None:
     assert result.advised is None
     assert result.effective == {}
     assert result.storeys["model"].unique().to_list() == ["bare"]
-    assert "ANSWER    no goods on the floors" in result.text
+    assert "ANSWER    no answer: there are no goods on the floors, and no live load could act as mass" in result.text
     names = {path.name for path in result.write(tmp_path)}
     assert {"drift.png", "storeys.csv", "assessment.json"} <= names
     assert "effective_fraction.png" not in names
-    assert json.loads(result.to_json())["answer"]["advised_share_of_goods_present"] is None
+    document = json.loads(result.to_json())
+    assert document["answer"] is None
+    assert document["reason"] == "there are no goods on the floors, and no live load could act as mass"
 
 
 def test_without_heights_drifts_are_in_millimetres() -> None:
@@ -193,17 +188,52 @@ def test_without_heights_drifts_are_in_millimetres() -> None:
     assert any(line == "P-Delta: none (heights are not known)." for line in result.assumptions)
 
 
-def test_collapses_are_counted_and_leave_no_mean() -> None:
-    """A collapse ratio below most drifts: means are null, the answer is by the median or all goods."""
-    result = sm.assess(tables(building={"collapse_drift_ratio": 0.009}), resamples=20)
-    collapsed = result.collapses["real"]
+@pytest.fixture(scope="module")
+def collapsing() -> sm.Assessment:
+    """A collapse ratio below most drifts."""
+    return sm.assess(tables(building={"collapse_drift_ratio": 0.009}), resamples=20)
+
+
+def test_a_collapse_leaves_no_mean_and_no_answer(collapsing: sm.Assessment) -> None:
+    collapsed = collapsing.collapses["real"]
     assert collapsed > 0
-    assert mean_of(result, "real", "collapsed")[0] == collapsed
-    assert mean_of(result, "real")[0] is None
-    assert mean_of(result, "real", "theta")[0] is None
-    assert f"The building collapses under {collapsed} of 40 motions (goods slide)." in result.advice
-    assert f"goods slide {collapsed}" in result.text
-    json.loads(result.to_json())
+    assert mean_of(collapsing, "real", "collapsed")[0] == collapsed
+    assert mean_of(collapsing, "real")[0] is None
+    assert mean_of(collapsing, "real", "theta")[0] is None
+    assert f"The building collapses under {collapsed} of 40 motions (goods slide)." in collapsing.advice
+    assert f"goods slide {collapsed}" in collapsing.text
+    assert collapsing.advised is None
+    # The friction with most collapses is named; of several the stated one.
+    reals = {name: count for name, count in collapsing.collapses.items() if name.startswith("real")}
+    assert collapsing.answer.headline.startswith(f"no answer: the building collapses under {max(reals.values())} of 40")
+    document = json.loads(collapsing.to_json())
+    assert document["answer"] is None
+    assert document["reason"] == collapsing.answer.reason
+
+
+def test_without_an_answer_nothing_stands_as_if_there_were_one(collapsing: sm.Assessment, tmp_path: Path) -> None:
+    """No nan, no share, no empty figure, no green bar; what has no value is told from what is not met."""
+    assert "nan" not in collapsing.text
+    assert "lambda = " not in collapsing.text
+    assert not any("Attach" in line or "attach " in line for line in collapsing.advice)
+    collapsing.write(tmp_path)
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert '<div class="answer bad">' in page
+    assert "have no value, since runs collapse" in page
+    assert "nan" not in page.lower().replace("name", "")[: page.index("<h2")]
+    known = [name for name in ("effective_fraction", "drift", "slip") if (tmp_path / f"{name}.svg").exists()]
+    assert tuple(known) == collapsing.figure_names
+
+
+def test_a_building_that_always_collapses_has_no_empty_figures(tmp_path: Path) -> None:
+    """Every drift is above a collapse ratio of 0.001: no model has a mean, no fraction a value."""
+    result = sm.assess(tables(building={"collapse_drift_ratio": 0.001}), resamples=20)
+    assert result.answer.reason == "the building collapses under 40 of 40 motions (mu as stated)"
+    assert result.figure_names == ("slip",)
+    result.write(tmp_path)
+    assert not (tmp_path / "drift.svg").exists()
+    assert "nan" not in result.text
+    assert main(["report", str(tmp_path)]) == 0
 
 
 def test_what_a_collapsed_run_decides_is_null() -> None:
@@ -229,7 +259,7 @@ def test_another_code_changes_the_design_too() -> None:
     strengths = [result.building.structure().yield_shear[0] for result in (one, other)]
     assert strengths[1] > strengths[0]
     assert any("NBC of Canada, storage, 0.6 of the design live load" in line for line in other.assumptions)
-    assert any("second-hand: check it in the code" in remark for remark in other.remarks)
+    assert "the fraction of NBC of Canada was not checked against the code (second-hand)" in other.remarks
 
 
 def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
@@ -237,8 +267,8 @@ def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
     one = sm.assess(tables(), resamples=20, threads=1, progress=lambda done, total: calls.append((done, total)))
     two = sm.assess(tables(), resamples=20, threads=2)
     assert one.to_dict() == two.to_dict()
-    # Seven models, and 102 for each of three frictions, under forty motions.
-    assert calls[-1] == ((7 + 3 * 102) * 40, (7 + 3 * 102) * 40)
+    # Seven models, 102 for each of three frictions, and two at each of 21 shares of a design, under forty motions.
+    assert calls[-1] == ((7 + 3 * 102 + 42) * 40, (7 + 3 * 102 + 42) * 40)
     assert [done for done, _ in calls] == sorted(done for done, _ in calls)
 
 
@@ -249,6 +279,118 @@ def test_what_is_unlikely_is_remarked_on() -> None:
     assert any("the goods present weigh 48 times the building" in remark for remark in remarks)
     assert "the drift limit is 2 of the height: limits are ratios, not per cent" in remarks
     assert len(set(remarks)) == len(remarks)
+
+
+DOUBTS: list[tuple[dict[str, Any], str]] = [
+    # S_DS in m/s2, and S_DS and S_D1 exchanged.
+    ({"site": {"sds_g": 9.81, "sd1_g": 5.9}}, "S_DS of the target spectrum is 9.81 g, above 4 g"),
+    ({"site": {"sds_g": 1.0, "sd1_g": 6.0}}, "S_D1 of the target spectrum is 6 g, above S_DS = 1 g"),
+    # Loads in psf; a mass in place of a weight, and one in lb over an area in m2.
+    ({"goods": {"live_load_kpa": 125.0}}, "design live load of floor 1 is 125 kPa, above 25 kPa: are loads in kPa"),
+    ({"building": {"dead_load_kpa": 125.0}}, "dead load of floor 1 is 125 kPa, above 20 kPa (and 1 more)"),
+    (
+        {"building": {"dead_load_kpa": None, "mass_kg": 2500.0}},
+        "weight over the area of floor 1 is 0.04903 kPa, outside",
+    ),
+    (
+        {"building": {"dead_load_kpa": None, "mass_kg": 2.5e6}},
+        "weight over the area of floor 1 is 49.03 kPa, outside 0.5",
+    ),
+    # Limits in per cent.
+    ({"building": {"drift_limit": 2.0}}, "the drift limit is 2 of the height: limits are ratios"),
+    ({"building": {"collapse_drift_ratio": 10.0}}, "the collapse drift ratio is 10 of the height"),
+    ({"building": {"theta_limit": 25.0}}, "the limit of the stability coefficient is 25: limits are ratios"),
+    # Storeys from the roof down, by their names and by their goods.
+    ({"storeys": [{"name": "Roof", "live_load_kpa": 0.0}, {}]}, "floor 1 of 2 is named Roof: storeys are listed from"),
+    ({"storeys": [{"live_load_kpa": 0.0}, {}, {}]}, "floor 1 is the only one without goods, the uppermost has some"),
+    # Strength of a slider: damping in the modes carries what it cannot.
+    (
+        {
+            "building": {"design": None, "R": None, "period_s": None, "stiffness_kn_per_m": 1e5, "second_slope": 1e-4},
+            "storeys": [
+                {"stiffness_kn_per_m": 1e7, "yield_shear_over_weight": 0.06},
+                {"live_load_kpa": 0.0, "yield_shear_over_weight": 5.0},
+            ],
+        },
+        "spring and damping of storey 1 carry ",
+    ),
+    # Strengths stated as a thousandth of what they are over the weight.
+    (
+        {"building": {"design": None, "R": None, "yield_shear_over_weight": 0.01, "p_delta": False}},
+        "the yield shear of storey 1 is 0.01 of the weight",
+    ),
+]
+
+
+@pytest.mark.parametrize(("changes", "doubt"), DOUBTS, ids=range(len(DOUBTS)))
+def test_a_doubt_about_the_input_stands_in_the_headline(changes: dict[str, Any], doubt: str, tmp_path: Path) -> None:
+    given = tables(**{name: values for name, values in changes.items() if name != "storeys"})
+    given["storeys"] = changes.get("storeys", given["storeys"])
+    result = sm.assess(given, mu_factors=(1, 1), resamples=2)
+    assert any(sentence.startswith(doubt) for sentence in result.answer.doubts), result.answer.doubts
+    assert "ANSWER    DOUBTFUL INPUT: " in result.text
+    assert any(sentence.startswith(doubt) for sentence in result.remarks)
+    document = json.loads(result.to_json())
+    assert document["doubts"] == list(result.answer.doubts)
+    assert document["headline"].startswith(f"DOUBTFUL INPUT: {result.answer.doubts[0]}; ")
+    result.write(tmp_path)
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert '<div class="answer bad">' in page
+    assert "DOUBTFUL INPUT: " in page
+
+
+def test_ordinary_buildings_raise_no_doubt(small: sm.Assessment, warehouse: sm.Assessment) -> None:
+    assert small.answer.doubts == warehouse.answer.doubts == ()
+    assert small.text.splitlines()[2].startswith("ANSWER    two analyses")
+    # A wharf carries 48 kPa; its code says that it is one.
+    wharf = tables(code={"id": "asce61-14"}, goods={"live_load_kpa": 48.0}, building={"dead_load_kpa": 15.0})
+    assert not any("live load" in doubt for doubt in sm.assess(wharf, mu_factors=(1, 1), resamples=2).answer.doubts)
+
+
+def test_strong_motions_and_large_drifts_are_doubts() -> None:
+    """Motions scaled by 20: a mean PGA above 3 g, and drifts above 10 % of the height."""
+    motions = [record.scaled(20.0) for record in sm.builtin_suite("seven")]
+    result = sm.assess(tables(building={"p_delta": False}), motions, scale=False, mu_factors=(1, 1), resamples=2)
+    assert any(doubt.startswith("the mean PGA of the motions is ") for doubt in result.answer.doubts)
+    assert any("above 10 %: no building stands this" in doubt for doubt in result.answer.doubts)
+    assert sum("has a PGA of" in doubt for doubt in result.answer.doubts) == 1
+
+
+def test_inertia_over_the_spring_force_is_that_of_the_run() -> None:
+    """Mass times absolute acceleration above the storey, over its peak spring force; there are no goods."""
+    building = sm.Building.uniform(2, 0.4, yield_shear_over_weight=[0.1, 0.1])
+    scene, record = sm.Scene(building), sm.builtin_suite("seven")[0]
+    run = sm.simulate(scene, record, histories=True)
+    inertia = np.abs((building.mass * run.floor_acceleration).sum(axis=1)).max()
+    expected = inertia / np.abs(run.storey_force[:, 0]).max()
+    assert force_ratios(scene, [record])[0] == pytest.approx(expected, rel=1e-9)
+
+
+def test_mixed_use_counts_floor_by_floor() -> None:
+    """The code's model has the mass of each floor; floors that a code exempts and full offices are remarked on."""
+    given = tables(goods={"occupied": None})
+    given["storeys"] = [{"use": "ordinary"}, {}, {"live_load_kpa": 0.3}]
+    result = sm.assess(given, mu_factors=(1, 1), resamples=2)
+    assert result.building.code_share == pytest.approx((0.25 * 6.0 + 0.25 * 0.3) / 12.3, rel=1e-12)
+    assert any(remark.startswith("storage adds at most 5 % to the weight of floor 3") for remark in result.remarks)
+    assert any("ordinary live load of floor 1 is taken as rigid goods" in remark for remark in result.remarks)
+    assert any("by floor 0 0.25 0.25, together 0.128" in line for line in result.assumptions)
+    assert json.loads(result.to_json())["code"]["share_of_design_live_load"] == result.building.code_share
+
+
+def test_a_slider_is_damped_above_alone_and_raises_no_doubt() -> None:
+    """A weak, stiff first storey: with damping in all modes a doubt, with that of the building above it none."""
+    given = tables(building={"design": None, "R": None, "period_s": None, "stiffness_kn_per_m": 1e5})
+    given["storeys"] = [
+        {"stiffness_kn_per_m": 1e7, "yield_shear_over_weight": 0.06, "live_load_kpa": 0.0, "second_slope": 1e-4},
+        {"yield_shear_over_weight": 5.0},
+    ]
+    doubted = sm.assess(given, mu_factors=(1, 1), resamples=2).answer.doubts
+    assert any(doubt.startswith("spring and damping of storey 1") for doubt in doubted)
+    given["building"]["damping_from_storey"] = 2
+    result = sm.assess(given, mu_factors=(1, 1), resamples=2)
+    assert not any("spring and damping" in doubt for doubt in result.answer.doubts)
+    assert any("above floor 1; the storeys below are not damped" in line for line in result.assumptions)
 
 
 def test_wrong_arguments_are_refused() -> None:
@@ -301,11 +443,76 @@ def test_figures_have_what_they_should(warehouse: sm.Assessment) -> None:
 
 
 def test_the_page_says_the_answer_first(warehouse: sm.Assessment) -> None:
+    """Both analyses, the base of shares once, what governs, why, on which motions."""
     lines = warehouse.text.splitlines()
-    assert lines[3].startswith(f"ANSWER    use lambda = {warehouse.advised:.2f} of the goods present")
+    assert lines[3] == "ANSWER    two analyses; the larger drift of each storey counts"
+    share, load = warehouse.advised, warehouse.advised_of_live_load
+    assert lines[4] == (
+        f"          1  lambda = {share:.2f} of the goods present ({load:.2f} of the design live load) as mass"
+    )
+    assert lines[5] == "          2  no goods"
+    box = " ".join(" ".join(lines[3:30]).split())
+    value = max(effective.value for effective in warehouse.effective.values())
+    assert f"why {share:.2f} since mu x 1.5 gives {value:.2f} [" in box
+    assert "rounded up to a multiple of 0.05" in box
+    assert "motions on 40 synthetic motions, none recorded, scaled by " in box
     assert all(len(line) <= 120 for line in lines)
     for heading in ("Peak storey drift", "Stability coefficient", "Slip of the goods", "In an analysis", "Assumptions"):
         assert any(line.startswith(heading) for line in lines)
+
+
+def test_the_governing_drift_is_the_largest_of_its_row(warehouse: sm.Assessment, small: sm.Assessment) -> None:
+    """Of both analyses and all frictions, as printed; sliding goods are named only where they drift more."""
+    for result in (warehouse, small):
+        for row in result.governing.iter_rows(named=True):
+            models = ("advised", "bare", "real", "real_mu_low", "real_mu_high")
+            means = {model: mean_of(result, model)[row["storey"] - 1] for model in models}
+            assert [row[model] for model in models] == list(means.values())
+            assert round(100.0 * row["governing"], 2) == round(100.0 * max(means.values()), 2)
+            by = "analysis 1" if means["advised"] >= means["bare"] else "analysis 2"
+            if round(100.0 * max(means["advised"], means["bare"]), 2) == round(100.0 * row["governing"], 2):
+                assert row["governed_by"] == by
+            else:
+                assert row["governed_by"].startswith("goods slide, mu")
+    document = json.loads(warehouse.to_json())
+    governs = " ".join(document["answer"]["governs"])
+    largest = max(row["governing"] for row in document["governing"])
+    assert f"{100.0 * largest:.2f} % of 2 %" in governs
+
+
+def test_masses_of_both_analyses_are_those_of_the_models(warehouse: sm.Assessment) -> None:
+    masses, building = warehouse.tables["masses"], warehouse.building
+    np.testing.assert_allclose(masses["mass_1"], building.mass + warehouse.advised * building.goods, rtol=1e-14)
+    np.testing.assert_array_equal(masses["mass_2"], building.mass)
+    np.testing.assert_allclose(masses["weight_1"], G * masses["mass_1"].to_numpy(), rtol=1e-14)
+    # Goods are 0.8 of the live load on floors 1 to 3, and the roof has none.
+    np.testing.assert_allclose(masses["multiplier"], [*3 * [0.8 * warehouse.advised], 0.0], rtol=1e-14)
+
+
+def test_the_share_for_strengths_is_that_of_the_design(small: sm.Assessment) -> None:
+    """`effective_mass_of_design` at the friction that decides; stated strengths have none."""
+    assert small.scaling is not None
+    building = sm.read_building(tables())
+    motions = [r.scaled(f) for r, f in zip(sm.builtin_suite("forty"), small.scaling.factors, strict=True)]
+    alone = sm.effective_mass_of_design(
+        lambda share: building.structure(None, share * building.goods), building.scene(mu_factor=1.5).blocks, motions
+    )
+    assert small.design is not None
+    assert small.design.value == pytest.approx(alone.value, abs=1e-9)
+    assert f"{rounded_up(alone.value):.2f} of the goods present" in small.answer.design
+    stated = sm.assess(
+        tables(building={"design": None, "R": None, "yield_shear_over_weight": 0.3}), mu_factors=(1, 1), resamples=2
+    )
+    assert stated.design is None
+    assert stated.answer.design == "strengths are as stated: lambda is for the analysis, not for W of a design"
+
+
+def test_a_share_that_changes_nothing_is_said_not_to_matter() -> None:
+    """Goods of 0.15 % of the floor."""
+    result = sm.assess(tables(goods={"live_load_kpa": 0.0075}), mu_factors=(1, 1), resamples=20)
+    assert result.answer.matters is False
+    assert result.answer.headline.startswith("the share does not matter: no storey's drift changes by more than 0.")
+    assert json.loads(result.to_json())["answer"]["share_matters"] is False
 
 
 def test_command_prints_page_and_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -316,12 +523,12 @@ def test_command_prints_page_and_json(tmp_path: Path, capsys: pytest.CaptureFixt
     out = str(tmp_path / "out")
     assert main(["building", str(file), "--out", out, "--no-figures", "--mu-factors", "1", "1"]) == 0
     page = capsys.readouterr().out
-    assert "ANSWER    use lambda" in page
-    assert page.rstrip().splitlines()[-1].startswith("15 files in ")
+    assert "ANSWER    two analyses" in page
+    assert page.rstrip().splitlines()[-1].startswith("19 files in ")
     options = ["--json", "--no-figures", "--sds", "0.8", "--sd1", "0.5", "--code", "nbc", "--period", "0.6"]
     assert main(["building", str(file), "--out", out, *options]) == 0
     document = json.loads(capsys.readouterr().out)
-    assert document["answer"]["code"]["fraction"] == 0.6
+    assert document["code"]["fraction"] == 0.6
     assert document["target"]["sds_g"] == 0.8
     assert document["assumptions"]
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.assessment.building_file import KEYS, example_file
+from seismass.assessment.building_file import KEYS, US_KEYS, example_file
 from seismass.assessment.own_building import DesignRule
 
 G = 9.80665
@@ -299,3 +299,119 @@ def test_the_file_of_the_page_is_read(tmp_path: Path) -> None:
     building = sm.read_building(tmp_path / "warehouse.toml")
     assert building.storeys == 2
     assert building.goods[0] == pytest.approx(0.8 * 7.2 * 1200.0 * 1e3 / G, rel=1e-14)
+
+
+def test_us_units_are_the_same_building() -> None:
+    """NIST SP 811: 1 ft is 0.3048 m, 1 psf 47.88026 Pa, 1 kip 4448.222 N, 1 kip/in 175126.8 N/m."""
+    us = given(
+        building={
+            "stiffness_kn_per_m": None,
+            "stiffness_kip_per_in": 2.0e8 / 175126.8,
+            "height_m": None,
+            "height_ft": 4.0 / 0.3048,
+            "area_m2": None,
+            "area_ft2": 500.0 / 0.3048**2,
+            "dead_load_kpa": None,
+            "dead_load_psf": 5000.0 / 47.88026,
+            "yield_shear_kn": None,
+            "yield_shear_kip": 9.0e5 / 4448.222,
+        },
+        goods={"live_load_kpa": None, "live_load_psf": 6000.0 / 47.88026},
+        storeys=[{}, {"live_load_psf": 0.0}],
+    )
+    one, two = sm.read_building(given()), sm.read_building(us)
+    for name in ("mass", "stiffness", "yield_shear", "heights", "gravity_load", "live_load", "area"):
+        np.testing.assert_allclose(getattr(one, name), getattr(two, name), rtol=1e-6, err_msg=name)
+    weights = given(building={"dead_load_kpa": None, "weight_kip": 2.5e6 / 4448.222, "gravity_load_kip": 10.0})
+    np.testing.assert_allclose(sm.read_building(weights).mass, one.mass, rtol=1e-6)
+    gravity = sm.read_building(weights).gravity_load
+    assert gravity is not None
+    np.testing.assert_allclose(gravity, 44482.22, rtol=1e-6)
+    loads = given(goods={"live_load_kpa": None, "live_load_kip": 3.0e6 / 4448.222})
+    np.testing.assert_allclose(sm.read_building(loads).live_load[0], one.live_load[0], rtol=1e-6)
+    # A storey's own value in one unit stands for the default in another.
+    mixed = sm.read_building(given(storeys=[{"height_ft": 10.0, "live_load_psf": 50.0}, {}]))
+    assert mixed.heights is not None
+    assert mixed.heights[0] == pytest.approx(3.048, rel=1e-12)
+    assert mixed.live_load[0] * G / 500.0 == pytest.approx(50.0 * 47.88026, rel=1e-6)
+
+
+@pytest.mark.parametrize("period_mass", ["bare", "code share", "all"])
+def test_the_mass_of_a_period_is_what_the_file_says(period_mass: str) -> None:
+    """The kernel's periods of the building with that mass attached."""
+    building = sm.read_building(
+        given(building={"stiffness_kn_per_m": None, "period_s": 0.6, "period_mass": period_mass})
+    )
+    attached = {"bare": 0.0, "code share": 0.25, "all": 1.0}[period_mass] * np.array([3.0e6 / G, 0.0])
+    bare = building.structure()
+    with_goods = sm.Building(bare.mass + attached, bare.stiffness, yield_shear=np.inf)
+    assert with_goods.periods[0] == pytest.approx(0.6, rel=1e-12)
+
+
+def test_each_floor_has_its_use_its_fraction_or_none() -> None:
+    """IS 1893: storage 0.50, ordinary 0.25; a floor of its own fraction, and one that is exempt."""
+    storeys = [{}, {"use": "ordinary"}, {"fraction": 0.3}, {"exempt": True}]
+    building = sm.read_building(given(storeys=storeys, code={"id": "is1893"}))
+    load = 3.0e6 / G
+    np.testing.assert_allclose(building.code_mass, [0.5 * load, 0.25 * load, 0.3 * load, 0.0], rtol=1e-15)
+    assert building.code_share == pytest.approx((0.5 + 0.25 + 0.3) / 4.0, rel=1e-15)
+    tables = given(storeys=storeys, building={"yield_shear_kn": None, "design": True, "R": 4.0})
+    designed = sm.read_building(tables)
+    expected = designed.mass + designed.code_mass
+    np.testing.assert_allclose(
+        designed.analysis().storey_shear, designed.analysis(None, designed.code_mass).storey_shear
+    )
+    assert expected[3] == designed.mass[3]
+    assert sm.read_building(given(code={"fraction": 0.4})).code_share == 0.4
+
+
+def test_damping_above_a_storey_leaves_those_below_without() -> None:
+    """Sum of forces on a rigid motion of all that is above is zero, and the modes above have the ratio."""
+    building = sm.read_building(given(building={"damping_from_storey": 2}, storeys=[{}, {}, {"live_load_kpa": 0.0}]))
+    structure = building.structure()
+    matrix = structure.damping_matrix
+    np.testing.assert_allclose(matrix @ np.ones(3), 0.0, atol=1e-6 * np.abs(matrix).max())
+    above = sm.Building(structure.mass[1:], structure.stiffness[1:], yield_shear=np.inf, damping=0.05)
+    np.testing.assert_allclose(matrix[1:, 1:], above.damping_matrix, rtol=1e-12)
+
+
+MORE_WRONG: list[tuple[dict[str, Any], str]] = [
+    ({"building": {"height_ft": 13.0}}, "building.height_ft of building must be left out where building.height_m is"),
+    (
+        {"building": {"height_m": None, "height_ft": -1.0}},
+        "building.height_ft of building must be a positive number; got",
+    ),
+    ({"goods": {"height_ft": 13.0}}, "goods.height_ft of building must be one of the keys"),
+    ({"building": {"period_mass": "all"}}, "building.period_s of building must be given; got nothing"),
+    (
+        {"building": {"stiffness_kn_per_m": None, "period_s": 0.5, "period_mass": "half"}},
+        "building.period_mass of building must be one of bare, code share, all; got 'half'",
+    ),
+    (
+        {"storeys": [{"use": "ordinary", "fraction": 0.1}, {}]},
+        r"storeys\[1\].use of building must be left out where storeys\[1\].fraction is given",
+    ),
+    ({"storeys": [{"use": "office"}, {}]}, r"storeys\[1\].use of building must be one of storage, ordinary; got 'offi"),
+    (
+        {"storeys": [{"use": "ordinary"}, {}], "code": {"fraction": 0.1}},
+        r"storeys\[1\].use of building must be left out where code.fraction is given",
+    ),
+    (
+        {"building": {"damping_from_storey": 3}},
+        "building.damping_from_storey of building must be a whole number from 1 to 2; got 3",
+    ),
+]
+
+
+@pytest.mark.parametrize(("changes", "message"), MORE_WRONG, ids=range(len(MORE_WRONG)))
+def test_wrong_units_masses_uses_and_damping_are_refused(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(sm.errors.InvalidBuildingFile, match=message):
+        sm.read_building(given(**changes))
+
+
+def test_the_page_and_the_example_name_the_keys_in_us_units() -> None:
+    text = example_file().read_text(encoding="utf-8")
+    for keys in US_KEYS.values():
+        for key in keys:
+            assert f"`{key}`" in PAGE, key
+            assert re.search(rf"\b{key}\b", text), key

@@ -246,7 +246,7 @@ def test_records_are_read_to_the_bit(in_node: Any, tmp_path: Path) -> None:
         samples = np.ascontiguousarray(record.acceleration, dtype="<f8")
         assert one == {
             "dt": record.dt,
-            "unit": record.unit,
+            "unit": record.file_unit,
             "samples": hashlib.sha256(samples.tobytes()).hexdigest(),
         }, number
 

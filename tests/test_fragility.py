@@ -271,3 +271,41 @@ def test_an_extrapolated_median_is_remarked() -> None:
     fit = fit_counts(LEVELS, COLLAPSES, 40)
     assert fit.remarks == ("the median is extrapolated: intensities were from 0.2 to 1",)
     assert fit_counts(DAHAL_LEVELS, DAHAL_COLLAPSES, 45).remarks == ()
+
+
+@pytest.mark.parametrize(
+    "levels", [[0.2, 0.4, 0.6, 0.8], [0.1, 0.2, 0.3], [0.15, 0.25], [0.1, 0.17, 0.31, 0.44, 0.56, 0.77]]
+)
+@pytest.mark.parametrize("runs", [7, 11, 20, 44])
+def test_equal_counts_have_no_curve(levels: list[float], runs: int) -> None:
+    """The maximum is at slope zero, where no lognormal curve is: rounding must not decide the sign of the slope."""
+    for exceeding in range(1, runs):
+        fit = fit_counts(levels, [exceeding] * len(levels), runs, resamples=20)
+        assert fit.kind == "falling", exceeding
+        assert np.isnan(fit.median)
+
+
+def test_data_of_one_intensity_have_no_curve() -> None:
+    assert fit_counts([0.2, 0.2, 0.2], [1, 2, 3], 20).kind == "none"
+    assert fit_counts([0.2, 0.2, 0.2], [0, 0, 0], 20).kind == "never"
+    assert fit_cloud([0.2, 0.2, 0.2, 0.2], [0.01, 0.02, 0.03, 0.02], 0.02).kind == "none"
+
+
+def test_a_cloud_of_equal_demands_has_no_curve() -> None:
+    """The slope of the regression is zero but for rounding."""
+    fit = fit_cloud([0.1, 0.17, 0.31, 0.44, 0.56, 0.77], [0.011] * 6, 0.02)
+    assert fit.kind == "falling"
+    assert np.isnan(fit.median)
+
+
+def test_capacities_that_are_equal_but_for_rounding_are_a_step() -> None:
+    fit = fit_capacities([0.3, 0.1 + 0.2, 0.3])
+    assert (fit.kind, fit.dispersion) == ("step", 0.0)
+
+
+def test_levels_without_scatter_have_no_interval() -> None:
+    """One run at each level exceeds or does not: drawing it again gives the same."""
+    fit = fit_counts([0.2, 0.3, 0.4, 0.5, 0.6], [0, 1, 0, 1, 1], 1)
+    assert fit.kind == "fitted"
+    assert fit.median_interval is None
+    assert fit_counts([0.2, 0.3, 0.4, 0.5], [0, 3, 2, 5], 5).median_interval is not None

@@ -39,7 +39,7 @@ RUN = [
     "match record.AT2 --out matched.AT2 --plot matched.png",
     "pulse RSN1106_KOBE_KJM000.AT2 --json",
     "validate",
-    "report assessment",
+    "report warehouse",
     "completion bash > ~/.local/share/bash-completion/completions/seismass",
 ]
 """Lines of the help, each of them quick; every command is there."""

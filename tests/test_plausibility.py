@@ -71,8 +71,11 @@ def test_motions_are_counted_from_1_and_named():
 
 
 def test_targets(tmp_path):
-    assert target_remarks(sm.TargetSpectrum.asce7(9.9, 5.0)) == ()
-    assert target_remarks(sm.TargetSpectrum.asce7(10.1, 5.0))[0].startswith("S_DS of the target spectrum is 10.1 g")
+    assert target_remarks(sm.TargetSpectrum.asce7(3.9, 2.0)) == ()
+    assert target_remarks(sm.TargetSpectrum.asce7(4.1, 2.0))[0].startswith("S_DS of the target spectrum is 4.1 g")
+    assert target_remarks(sm.TargetSpectrum.asce7(1.0, 6.0)) == (
+        "S_D1 of the target spectrum is 6 g, above S_DS = 1 g: are they exchanged?",
+    )
     file = tmp_path / "hazard.csv"
     file.write_text("0.1,11\n2.0,0.3\n")
     assert target_remarks(sm.TargetSpectrum.from_csv(file))[0].startswith("largest Sa of the target spectrum is 11 g")
@@ -104,3 +107,20 @@ def test_the_command_that_scales_prints_remarks_once_and_keeps_them(capsys):
     remarks = json.loads(capsys.readouterr().out)["remarks"]
     assert [remark.split(" is ")[0] for remark in remarks[:1]] == ["S_DS of the target spectrum"]
     assert remarks[1].startswith("scale factors are outside 0.2 to 5")
+
+
+def test_a_run_says_what_is_unlikely_about_its_input() -> None:
+    scene = sm.Scene(sm.Building.uniform(1, 0.4), [sm.Block(1, mass_ratio=1.0, mu=40.0)])
+    response = sm.simulate(scene, sm.Motion([0.0, 350.0, 0.0], dt=0.01))
+    assert response.remarks == (
+        *scene.remarks,
+        "motion 1 has a PGA of 35.69 g, above 5 g: are its accelerations in m/s2?",
+    )
+    for remark in response.remarks:
+        assert remark in response.text
+    assert (
+        sm.simulate(
+            scene.replace(blocks=[sm.Block(1, mass_ratio=1.0, mu=0.4)]), sm.Motion([0.0, 3.5, 0.0], 0.01)
+        ).remarks
+        == ()
+    )

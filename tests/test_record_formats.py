@@ -100,7 +100,7 @@ def test_a_format_is_read_whatever_its_suffix(
     assert [(r.component, r.azimuth, r.network, r.station) for r in records] == channels
     for number, record in enumerate(records):
         points = 200 if name in ("made.EW", "made.UD2") else POINTS
-        assert (record.samples, record.unit, record.source) == (points, unit, file)
+        assert (record.samples, record.file_unit, record.source) == (points, unit, file)
         assert record.dt == pytest.approx(DT, rel=1e-12)
         assert record.sha256 == hashlib.sha256(FILES[name]).hexdigest()
         expected = np.array(MADE["motion"](number, points)) * 0.01
@@ -465,7 +465,7 @@ def test_units_are_understood_in_their_spellings(tmp_path: Path) -> None:
     file = put(tmp_path, "a.txt", "0.1\n-0.2\n0.3\n")
     for unit in ("gal", "cm/s2", "Gals"):
         record = read_record(file, dt=0.01, unit=unit)
-        assert (record.unit, record.pga) == ("cm/s2", pytest.approx(0.003, rel=1e-15))
+        assert (record.file_unit, record.pga) == ("cm/s2", pytest.approx(0.003, rel=1e-15))
     assert read_record(put(tmp_path, "b.txt", "acceleration (gal)\n1\n2\n"), dt=0.01).pga == pytest.approx(
         0.02, rel=1e-15
     )

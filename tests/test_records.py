@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from seismass.base.errors import InvalidMotion, RecordFormatError
 from seismass.base.units import STANDARD_GRAVITY, stated_unit, unknown_unit
 from seismass.commands.options import left_out
+from seismass.model.motion import Motion
 from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
 from seismass.records.formats.headers import NO_COUNT
 from seismass.records.formats.numbers import is_cut_off, split_touching
@@ -77,7 +78,7 @@ def test_header_labels(tmp_path: Path) -> None:
         "Town",
         "90",
     )
-    assert (record.source, record.unit, record.synthetic, record.remarks) == (file, "g", False, ())
+    assert (record.source, record.file_unit, record.synthetic, record.remarks) == (file, "g", False, ())
     assert record.duration == pytest.approx(0.06)
     assert record.pga_g == pytest.approx(0.25, rel=1e-15)
 
@@ -463,9 +464,30 @@ def test_real_columns(shared: Path) -> None:
     assert (el_centro.samples, el_centro.remarks) == (1560, (NO_COUNT,))
     assert el_centro.pga_g == pytest.approx(0.3188, abs=1e-4)  # El Centro 1940 NS as widely used
     esm = read_record(formats / "esm/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC")
-    assert (esm.dt, esm.samples, esm.unit) == (0.005, 19128, "cm/s2")
+    assert (esm.dt, esm.samples, esm.file_unit) == (0.005, 19128, "cm/s2")
     assert esm.pga == pytest.approx(0.300022e-2, rel=1e-9)
     chi_chi = read_record(formats / "two_column/ChiChi.txt", unit="g")
     assert (chi_chi.dt, chi_chi.samples) == (0.005, 11800)
     duzce = read_record(formats / "two_column/Duzce_1999_375-090.csv")  # its header says g
     assert (duzce.dt, duzce.samples) == (0.01, 3077)
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"), [("m/s2", 1.0), ("g", 9.80665), ("cm/s2", 0.01), ("Gal", 0.01), ("m/s/s", 1.0)]
+)
+def test_a_unit_converts_wherever_it_stands(unit: str, factor: float) -> None:
+    """Samples given, of records and of motions, horizontal and vertical; what is kept is in m/s2 and converts once."""
+    samples, up = [0.0, 0.398, -0.1], [0.0, 0.2, 0.1]
+    record = Record(samples, 0.01, unit=unit, vertical=up)
+    motion = Motion(samples, 0.01, up, unit=unit)
+    for one in (record, motion, record.replace(name="again"), pickle.loads(pickle.dumps(record))):
+        np.testing.assert_allclose(one.acceleration, factor * np.array(samples), rtol=1e-15)
+        np.testing.assert_allclose(one.vertical, factor * np.array(up), rtol=1e-15)
+    assert not record.acceleration.flags.writeable
+    assert record.scaled(2.0).pga == pytest.approx(2.0 * 0.398 * factor, rel=1e-15)
+
+
+def test_a_unit_that_is_none_is_refused() -> None:
+    for made in (Record, Motion):
+        with pytest.raises(InvalidMotion, match=r"unit of .* must be one of g, m/s2, cm/s2, gal, .*; got 'bananas'"):
+            made([0.0, 1.0], 0.01, unit="bananas")

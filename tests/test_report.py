@@ -272,8 +272,11 @@ def test_page_of_a_building_has_every_part_and_the_numbers_of_the_assessment(bui
     for part in (*document["advice"], *document["assumptions"], document["metadata"]["inputs_sha256"]):
         assert part in text
     # The answer that the README has for this building.
-    assert "Use lambda = 0.80 of the goods present, 0.64 of the design live load" in text
-    assert "the effective fraction is 0.38 (90 % interval 0.26 to 0.48)" in text
+    assert (
+        "Analysis 1: lambda = 0.80 of the goods present (0.64 of the design live load) as mass. Analysis 2: no" in text
+    )
+    assert "mu as stated gives 0.38 [0.26, 0.48]" in text
+    assert '<div class="answer">' in page
 
 
 def test_checks_are_those_of_the_storeys(building: Path) -> None:
@@ -284,7 +287,7 @@ def test_checks_are_those_of_the_storeys(building: Path) -> None:
             of = storeys.filter(model=row["model"])
             assert row["value"] == of[column].max()
             assert row["met"] == (row["value"] <= row["limit"])
-    assert set(checks["model"]) == {"real", "real_mu_low", "real_mu_high", "advised"}
+    assert set(checks["model"]) == {"real", "real_mu_low", "real_mu_high", "advised", "bare"}
     assert "table 12.12-1" in checks.filter(check="mean drift ratio")["source"][0]
 
 
@@ -297,6 +300,7 @@ def test_checks_that_fail_are_said_first(tmp_path: Path) -> None:
     assert failed.height > 0
     assert f"{failed.height} of " in analysis_text(page)
     assert "checks are not met." in analysis_text(page)
+    assert '<div class="answer bad">' in page
 
 
 def test_page_of_a_building_without_heights_and_goods(tmp_path: Path) -> None:

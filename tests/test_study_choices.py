@@ -292,7 +292,7 @@ def test_remarks_on_inputs_are_kept_and_printed_once(tmp_path: Path, capsys: pyt
         "mu_s of block 1 is 40, above 1.5 (and 1 more): friction coefficients are ratios, not per cent",
     ]
     assert cli.main(["study", "--out", str(tmp_path), "--no-figures", "--sds", "107", "--sd1", "61"]) == 0
-    assert capsys.readouterr().out.count("S_DS of the target spectrum is 107 g, above 10 g") == 1
+    assert capsys.readouterr().out.count("S_DS of the target spectrum is 107 g, above 4 g") == 1
 
 
 def test_sensitivity_changes_one_choice_at_a_time() -> None:

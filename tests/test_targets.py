@@ -174,7 +174,7 @@ def test_mean_of_a_suite_is_solved_for_at_each_period() -> None:
 
 def test_remarks_look_at_every_kind() -> None:
     loud = sm.TargetSpectrum.eurocode8(1, "A", agr_g=30.0)
-    assert target_remarks(loud)[0].startswith("largest Sa of the target spectrum is 75 g, above 10 g")
+    assert target_remarks(loud)[0].startswith("largest Sa of the target spectrum is 75 g, above 4 g")
 
 
 def test_corner_period_of_asce7_is_t_s() -> None:

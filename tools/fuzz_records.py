@@ -298,7 +298,7 @@ def classify(original: Original, records: tuple[Record, ...]) -> str:
     if len(records) != len(before):
         return "defect: silent"
     if any(a.samples != b.samples for a, b in zip(records, before, strict=True)):
-        same_step = all(a.dt == b.dt and a.unit == b.unit for a, b in zip(records, before, strict=True))
+        same_step = all(a.dt == b.dt and a.file_unit == b.file_unit for a, b in zip(records, before, strict=True))
         return "no count" if NO_COUNT in records[0].remarks and same_step else "defect: silent"
     changed = []
     for a, b in zip(records, before, strict=True):

@@ -5,57 +5,39 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Final
 
+import numpy as np
 import polars as pl
 
-from seismass.assessment.models import ADVISED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW, REALS
-from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.assessment.answer import Answer
+from seismass.assessment.governing import friction_words
+from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REALS
+from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding, fractions_of
 from seismass.design import THETA_THRESHOLD
+from seismass.design.weight import SMALL_SHARE
 from seismass.effective_mass import EffectiveMass
 from seismass.media.text_table import numbers_text
+from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
-from seismass.model.plausibility import motion_remarks
-from seismass.model.scene import Scene
 from seismass.scaling import ScalingResult
 from seismass.spectra import TargetSpectrum
-from seismass.spectra.remarks import target_remarks
 
+ASCE_CODES: Final = ("asce7-10", "asce7-16", "asce7-22")
+"""Codes that exempt storage of little weight."""
 SHORT: Final = 1.05
 """A storey whose goods-slide drift is more than so many times the model's is not covered by it."""
-MOST_GOODS: Final = 5.0
-"""Weight of the goods present over that of the building; what is above is remarked on."""
-LARGEST_LIMIT: Final = 0.1
-"""Limit of the drift ratio, likewise."""
-NAMES: Final = {
-    REAL: "goods slide",
-    REAL_LOW: "goods slide, low mu",
-    REAL_HIGH: "goods slide, high mu",
-    ADVISED: "advised",
-    CODE: "code",
-    "attached": "all attached",
-    BARE: "none attached",
-}
-"""What texts and figures call the models."""
-
-
-def motions_in_words(suite: dict[str, Any]) -> str:
-    """Return how many motions there are and of what kind, and what to do where none was recorded."""
-    motions, synthetic = len(suite["motions"]), suite["synthetic"]
-    if synthetic == motions:
-        return f"{motions} synthetic motions: use recordings of the site for a decision"
-    return f"{motions} motions" + (f", of which {synthetic} are synthetic" if synthetic else ", recorded")
 
 
 def advice_of(
     building: OwnBuilding,
-    advised: float | None,
-    effective: dict[str, EffectiveMass],
+    answer: Answer,
     storeys: pl.DataFrame,
     slip: pl.DataFrame,
     collapses: dict[str, int],
     motions: int,
 ) -> tuple[str, ...]:
     """Return what to use in an analysis, and what the checks say, sentence by sentence."""
-    if advised is None:
+    reals = [name for name in REALS if name in collapses]
+    if not reals:
         return (
             "There are no goods on the floors: the effective fraction has no meaning, and there is no live load to "
             "attach.",
@@ -63,17 +45,19 @@ def advice_of(
             *_collapses(collapses, (BARE,), motions),
         )
     lines = []
-    reals = [name for name in REALS if name in effective]
-    collapsed = _collapses(collapses, reals, motions)
-    lines += collapsed
-    if collapsed:
+    if answer.reason is not None:
+        lines += _collapses(collapses, (*reals, ADVISED, BARE), motions)
         lines.append("A share that fits drifts says nothing of collapse: strengthen the building before it is used.")
-    share = advised * building.present_share
-    lines.append(
-        f"Attach {advised:.2f} of the goods present ({share:.2f} of the design live load) as mass; keep their whole "
-        "weight in P-Delta, and the damping of the building without goods."
-    )
-    lines += _envelope(storeys, reals)
+    else:
+        one, _ = answer.analyses
+        lines.append(
+            f"Analysis 1: attach {one.share_of_goods_present:.2f} of the goods present "
+            f"({one.share_of_design_live_load:.2f} of the design live load) as mass. Analysis 2: attach none. In both "
+            "keep the whole weight of the goods in P-Delta, and the damping of the building without goods. Take the "
+            "larger drift of each storey."
+        )
+        lines += _envelope(building, storeys, reals)
+        lines.append(f"For strengths: {answer.design}.")
     lines += _checks(building, storeys, reals)
     lines += _against_code(building, storeys, reals)
     lines += _slip_advice(slip)
@@ -85,31 +69,34 @@ def _mean(storeys: pl.DataFrame, model: str) -> list[float | None]:
     return means
 
 
-def _largest_ratio(storeys: pl.DataFrame, reals: Sequence[str], models: tuple[str, ...]) -> tuple[float, int] | None:
-    """Largest real mean over the largest mean of the models, over storeys and frictions, with its storey."""
-    found: list[tuple[float, int]] = []
+def _largest_ratio(
+    storeys: pl.DataFrame, reals: Sequence[str], models: tuple[str, ...]
+) -> tuple[float, int, str] | None:
+    """Largest real mean over the largest of the models, over storeys and frictions, with its storey and friction."""
+    found: list[tuple[float, int, str]] = []
     covers = [_mean(storeys, model) for model in models]
     for real in reals:
         for number, (drift, *of) in enumerate(zip(_mean(storeys, real), *covers, strict=True), start=1):
             known = [value for value in of if value is not None]
             if drift is not None and len(known) == len(of) and max(known) > 0.0:
-                found.append((drift / max(known), number))
-    return max(found) if found else None
+                found.append((drift / max(known), number, real))
+    return max(found, key=lambda one: one[:2]) if found else None
 
 
-def _envelope(storeys: pl.DataFrame, reals: Sequence[str]) -> list[str]:
+def _envelope(building: OwnBuilding, storeys: pl.DataFrame, reals: Sequence[str]) -> list[str]:
     alone, both = (_largest_ratio(storeys, reals, models) for models in ((ADVISED,), (ADVISED, BARE)))
     if alone is None or both is None:
         return []
+    words = friction_words(building)
     if alone[0] <= SHORT:
         return [
-            f"This one analysis covers every storey: the mean drift with sliding goods is at most {alone[0]:.2f} times "
-            f"its own (storey {alone[1]})."
+            f"Analysis 1 alone covers every storey here: the mean drift with sliding goods is at most {alone[0]:.2f} "
+            f"times its own (storey {alone[1]}, {words[alone[2]]})."
         ]
     return [
-        f"Run a second analysis without goods and take the larger drift of each storey: with sliding goods storey "
-        f"{alone[1]} drifts {alone[0]:.2f} times the first analysis, and no storey more than {both[0]:.2f} times the "
-        f"larger of both."
+        f"Analysis 1 alone does not: with sliding goods storey {alone[1]} drifts {alone[0]:.2f} times its own "
+        f"({words[alone[2]]}). No storey drifts more than {both[0]:.2f} times the larger of both (storey {both[1]}, "
+        f"{words[both[2]]})."
     ]
 
 
@@ -125,7 +112,8 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
     if missing:
         listed = ", ".join(NAMES[model] for model in missing)
         lines.append(
-            f"The limit of {limit:g} % is not met where runs collapse ({listed}): drift and stability have no mean."
+            f"Where runs collapse ({listed}) drift and stability have no mean: no value to hold against the limit of "
+            f"{limit:g} %."
         )
     if worst.height:
         row = worst.row(0, named=True)
@@ -162,8 +150,8 @@ def _against_code(building: OwnBuilding, storeys: pl.DataFrame, reals: Sequence[
     if worst is None:
         return []
     return [
-        f"With sliding goods storey {worst[1]} drifts {worst[0]:.2f} times the model with the code's "
-        f"{building.code.fraction:g} of the design live load, more than any other storey does."
+        f"With sliding goods ({friction_words(building)[worst[2]]}) storey {worst[1]} drifts {worst[0]:.2f} times the "
+        f"model with the code's {building.code_share:.3g} of the design live load, more than any other storey does."
     ]
 
 
@@ -182,24 +170,13 @@ def _slip_advice(slip: pl.DataFrame) -> list[str]:
 
 def remarks_of(
     building: OwnBuilding,
-    real: Scene,
-    motions: list[Any],
-    target: TargetSpectrum | None,
+    doubts: tuple[str, ...],
     scaling: ScalingResult | None,
     effective: dict[str, EffectiveMass],
     suite: dict[str, Any],
 ) -> tuple[str, ...]:
-    """Return what is unlikely about the input and what to know about the numbers, each sentence once."""
-    found = [*real.remarks, *motion_remarks(motions)]
-    heavy = float(building.goods.sum() / building.mass.sum())
-    if heavy > MOST_GOODS:
-        found.append(
-            f"the goods present weigh {heavy:.3g} times the building: are both loads in the units of their keys?"
-        )
-    if building.drift_limit > LARGEST_LIMIT:
-        found.append(f"the drift limit is {building.drift_limit:g} of the height: limits are ratios, not per cent")
-    if target is not None:
-        found += target_remarks(target)
+    """Return the doubts, and what to know about the numbers, each sentence once."""
+    found = list(doubts)
     if scaling is not None:
         found += scaling.doubts
     if suite["synthetic"] == len(suite["motions"]):
@@ -209,9 +186,32 @@ def remarks_of(
         # What storeys the share does not cover is advice, of the share that is advised.
         once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
         found += [label + remark for remark in once if name == REAL or " motions are few" not in remark]
-    if building.code.status not in ("verified", "as stated"):
-        found.append(f"the fraction of {building.code.code} is {building.code.status}: check it in the code")
+    found += _about_code_mass(building)
+    if building.code.status not in (VERIFIED, AS_STATED):
+        found.append(f"the fraction of {building.code.code} was {NOT_CHECKED} ({building.code.status})")
     return tuple(dict.fromkeys(found))
+
+
+def _about_code_mass(building: OwnBuilding) -> list[str]:
+    """Floors that a code exempts and the file does not, and ordinary live load that is all taken as there."""
+    found = []
+    share = np.divide(building.code_mass, building.mass)
+    small = np.flatnonzero((share > 0.0) & (share <= SMALL_SHARE))
+    if building.code.code_id in ASCE_CODES and len(small):
+        listed = ", ".join(str(floor + 1) for floor in small)
+        found.append(
+            f"storage adds at most {100.0 * SMALL_SHARE:g} % to the weight of floor {listed}, which ASCE 7 exempts: "
+            "exempt = true in its table leaves it out of the code's mass"
+        )
+    ordinary = [(use or building.code.use) == "ordinary" for use in building.uses]
+    full = np.flatnonzero(np.array(ordinary) & (building.occupied == 1.0) & (building.live_load > 0.0))
+    if len(full):
+        listed = ", ".join(str(floor + 1) for floor in full)
+        found.append(
+            f"all of the ordinary live load of floor {listed} is taken as rigid goods that are there: state "
+            "what is there (occupied)"
+        )
+    return found
 
 
 def assumptions_of(
@@ -263,10 +263,18 @@ def _about_structure(building: OwnBuilding) -> list[str]:
             f"Strength: V_y = V_e/R with R = {rule.R:g}, response spectrum analysis ({rule.combination.upper()}) under "
             f"the site spectrum, with {building.design_fraction:g} of the design live load as mass."
         )
+    first = building.damping_from_storey
+    of = "" if first == 1 else f" above floor {first - 1}; the storeys below are not damped"
     lines.append(
-        f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods; every model has that "
-        "matrix."
+        f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods{of}; every model has "
+        "that matrix."
     )
+    if building.stated_period is not None and building.period_mass != "bare":
+        acting = "the code's share of the live load" if building.period_mass == "code share" else "all goods present"
+        lines.append(
+            f"Period: {building.stated_period:.3g} s as stated, with {acting} as mass; {building.period():.3g} s "
+            "without goods."
+        )
     if building.gravity_load is not None:
         return [*lines, "P-Delta: weight of floors and of all goods present, whatever share of their mass is attached."]
     why = "heights are not known" if building.heights is None else "switched off"
@@ -314,6 +322,11 @@ def _about_code(building: OwnBuilding) -> str:
     code = building.code
     parts = [f"{code.code}, {code.use}" + " (none was stated)" * (not building.code_stated)]
     parts[0] += f", {code.fraction:g} of the design live load"
+    if any(building.uses) or not np.isnan(building.own_fractions).all():
+        by_floor = fractions_of(code, building.own_fractions, building.uses)
+        parts[0] += (
+            f" where a floor states no other; by floor {numbers_text(by_floor)}, together {building.code_share:.3g}"
+        )
     if code.low < code.high:
         parts[0] += f", the upper end of {code.low:g} to {code.high:g}"
     parts += [part for part in (code.clause, code.status, code.note) if part]

@@ -8,32 +8,51 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final, NoReturn, cast, get_args
+from typing import Any, Final, cast, get_args
 
 import numpy as np
 
-from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, DesignRule, OwnBuilding
-from seismass.base.errors import InvalidBuildingFile, InvalidOption, SeismassError
-from seismass.base.input_table import NOT_NEGATIVE, POSITIVE, SHARE, Need, Table, load_table
+from seismass.assessment.file_goods import (
+    FRICTION,
+    LIVE_LOAD,
+    code_of,
+    floor_codes,
+    friction_of,
+    live_load_of,
+    mu_factors_of,
+)
+from seismass.assessment.file_values import (
+    STRONG,
+    US_GOODS_KEYS,
+    US_STOREY_KEYS,
+    held,
+    key_of,
+    missing,
+    number_of,
+    positive,
+    stated,
+    to_si,
+)
+from seismass.assessment.own_building import (
+    DEFAULT_DRIFT_LIMIT,
+    DEFAULT_THETA_LIMIT,
+    DesignRule,
+    OwnBuilding,
+    fractions_of,
+)
+from seismass.base.errors import InvalidBuildingFile
+from seismass.base.input_table import POSITIVE, SHARE, Need, Table, load_table
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import as_path, printable
+from seismass.base.values import as_path, brief, printable
 from seismass.design import Combination, vibration_modes
-from seismass.model.codes import CodeFraction, code_fraction
 from seismass.model.damping import DEFAULT_DAMPING
-from seismass.model.friction import BOUND_FACTORS, bound_factors, friction_pair
 from seismass.model.springs import DEFAULT_THIRD_SLOPE, SHAPE_FIELDS
 from seismass.records.builtin import data_directory
 from seismass.spectra import DEFAULT_TL, TargetSpectrum
 
-DEFAULT_CODE: Final = "asce7-10"
-"""Code whose fraction is taken where the file names none."""
-
 _MASS: Final = ("dead_load_kpa", "mass_kg")
 _STIFFNESS: Final = ("stiffness_kn_per_m", "stiffness_n_per_m")
 _STRENGTH: Final = ("yield_shear_kn", "yield_shear_n", "yield_shear_over_weight")
-_LIVE_LOAD: Final = ("live_load_kpa", "live_load_kg")
-_FRICTION: Final = ("friction", "mu", "mu_s")
-_STRONG: Final = Need("positive (inf: the storey stays elastic)", lambda number: number > 0.0)
 _STOREY: Final = (
     "height_m",
     "area_m2",
@@ -46,7 +65,7 @@ _STOREY: Final = (
     "second_slope",
     "third_slope",
 )
-_GOODS: Final = (*_LIVE_LOAD, "occupied", *_FRICTION, "mu_k")
+_GOODS: Final = (*LIVE_LOAD, "occupied", *FRICTION, "mu_k")
 _DESIGN: Final = ("R", "design_fraction", "combination")
 KEYS: Final = {
     "": ("name", "note", "site", "code", "building", "goods", "storeys"),
@@ -54,7 +73,9 @@ KEYS: Final = {
     "code": ("id", "use", "fraction"),
     "building": (
         "period_s",
+        "period_mass",
         "damping",
+        "damping_from_storey",
         "p_delta",
         "design",
         *_DESIGN,
@@ -65,9 +86,17 @@ KEYS: Final = {
         *_STOREY,
     ),
     "goods": ("mu_factors", *_GOODS),
-    "storeys": ("name", *_STOREY, *_GOODS),
+    "storeys": ("name", "use", "fraction", "exempt", *_STOREY, *_GOODS),
 }
 """Keys of each table of a building file, the file itself first."""
+US_KEYS: Final[dict[str, tuple[str, ...]]] = {
+    "building": tuple(US_STOREY_KEYS),
+    "goods": tuple(US_GOODS_KEYS),
+    "storeys": (*US_STOREY_KEYS, *US_GOODS_KEYS),
+}
+"""Keys in US units, in place of those in SI units."""
+PERIOD_MASSES: Final = ("bare", "code share", "all")
+"""What `period_s` is the period of: the building without goods, with the code's share of them, or with all present."""
 
 
 def example_file() -> Path:
@@ -118,17 +147,18 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
     if not storeys:
         top.refuse("storeys", "a table per storey, storey 1 first", "none")
     for storey in storeys:
-        storey.known(KEYS["storeys"])
+        _known(storey, "storeys")
     building, goods, site, code = (_table(top, key) for key in ("building", "goods", "site", "code"))
     _unique(building, goods, storeys)
     mass = np.array([_mass(storey, building) for storey in storeys])
     heights = _heights(storeys, building)
-    fraction = _code(code)
+    fraction = code_of(code)
+    own_fractions, uses = floor_codes(storeys, fraction)
     strength, design = _strength(storeys, building, mass)
-    live_load = np.array([_live_load(storey, goods, building) for storey in storeys])
-    occupied = np.array([_stated(storey, goods, "occupied", SHARE, 1.0) for storey in storeys])
+    live_load = np.array([live_load_of(storey, goods, building) for storey in storeys])
+    occupied = np.array([stated(storey, goods, "occupied", SHARE, 1.0) for storey in storeys])
     friction = [
-        _friction(storey, goods) if load * share > 0.0 else ("", 0.0, 0.0)
+        friction_of(storey, goods) if load * share > 0.0 else ("", 0.0, 0.0)
         for storey, load, share in zip(storeys, live_load, occupied, strict=True)
     ]
     p_delta = building.flag("p_delta", heights is not None)
@@ -141,30 +171,41 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
     def springs(name: str) -> Any:
         return np.array([_spring(storey, building, name) for storey in storeys])
 
+    period_mass = _period_mass(building)
+    counted = {"bare": 0.0 * mass, "all": occupied * live_load}
+    if period_mass == "code share":
+        counted["code share"] = fractions_of(fraction, own_fractions, uses) * live_load
     return OwnBuilding(
         name=printable(top.text("name")) or ("building" if path is None else printable(path.stem)),
         note=printable(top.text("note"), lines=True),
         storey_names=tuple(printable(storey.text("name")) for storey in storeys),
         mass=mass,
-        stiffness=_stiffness(storeys, building, mass),
+        stiffness=_stiffness(storeys, building, mass, counted[period_mass]),
+        stated_period=_optional(building, "period_s"),
+        period_mass=period_mass,
         heights=heights,
         yield_shear=strength,
         design=design,
         overstrength=springs("overstrength"),
         second_slope=springs("second_slope"),
         third_slope=np.array(
-            [_stated(storey, building, "third_slope", SHARE, DEFAULT_THIRD_SLOPE) for storey in storeys]
+            [stated(storey, building, "third_slope", SHARE, DEFAULT_THIRD_SLOPE) for storey in storeys]
         ),
         damping=building.number("damping", DEFAULT_DAMPING, SHARE),
+        damping_from_storey=_damping_from(building, len(storeys)),
         gravity_load=_gravity_load(storeys, building, mass) if p_delta else None,
+        area=np.array([positive(storey, building, "area_m2", np.nan) for storey in storeys]),
+        dead_load_stated=np.array([key_of(storey, building, _MASS) == "dead_load_kpa" for storey in storeys]),
         live_load=live_load,
         occupied=occupied,
         friction=tuple(name for name, _, _ in friction),
         mu_s=np.array([static for _, static, _ in friction]),
         mu_k=np.array([kinetic for _, _, kinetic in friction]),
-        mu_factors=_mu_factors(goods),
+        mu_factors=mu_factors_of(goods),
         target=_target(site, Path() if path is None else path.parent),
         code=fraction,
+        own_fractions=own_fractions,
+        uses=uses,
         code_stated=bool(code.values),
         drift_limit=building.number("drift_limit", DEFAULT_DRIFT_LIMIT, POSITIVE),
         theta_limit=building.number("theta_limit", DEFAULT_THETA_LIMIT, POSITIVE),
@@ -177,14 +218,20 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
 def _table(top: Table, key: str) -> Table:
     """Return a table, empty where the file has none."""
     table = top.table(key) if key in top.values else Table({}, key, top.file, InvalidBuildingFile)
-    table.known(KEYS[key])
+    _known(table, key)
     return table
+
+
+def _known(table: Table, kind: str) -> None:
+    """Refuse keys that are not known, and put those in US units into SI units."""
+    table.known(KEYS[kind], also=US_KEYS.get(kind, ()))
+    to_si(table)
 
 
 def _unique(building: Table, goods: Table, storeys: list[Table]) -> None:
     """Refuse two keys of one table that say the same."""
     for table in (building, goods, *storeys):
-        for group in (_MASS, _STIFFNESS, _STRENGTH, _LIVE_LOAD, _FRICTION):
+        for group in (_MASS, _STIFFNESS, _STRENGTH, LIVE_LOAD, FRICTION):
             table.one_of(*group)
         for key in ("mu", "friction"):
             table.excluded("mu_k", key)
@@ -193,39 +240,9 @@ def _unique(building: Table, goods: Table, storeys: list[Table]) -> None:
             table.left_out(_STIFFNESS, f"{building.key('period_s')} is given", "both")
 
 
-def _held(storey: Table, default: Table, group: tuple[str, ...]) -> tuple[Table, str] | None:
-    """Return where a storey's value stands: in its own table, or else in the defaults."""
-    for table in (storey, default):
-        for key in group:
-            if key in table.values:
-                return table, key
-    return None
-
-
-def _number(held: tuple[Table, str], need: Need) -> float:
-    table, key = held
-    return table.number(key, need=need)
-
-
-def _stated(storey: Table, default: Table, key: str, need: Need, value: float) -> float:
-    """Return a number of a storey or of the defaults, or the value that stands for a missing one."""
-    held = _held(storey, default, (key,))
-    return value if held is None else _number(held, need)
-
-
-def _positive(storey: Table, default: Table, key: str, value: float | None = None) -> float:
-    """Return a positive number of a storey or of the defaults; a missing one is refused where there is no value."""
-    if value is not None:
-        return _stated(storey, default, key, POSITIVE, value)
-    held = _held(storey, default, (key,))
-    if held is None:
-        storey.refuse(key, f"given, or {default.key(key)} for all storeys", "nothing")
-    return _number(held, POSITIVE)
-
-
 def _spring(storey: Table, default: Table, name: str) -> float:
     field = SHAPE_FIELDS[name]
-    return _stated(
+    return stated(
         storey, default, name, Need(field.requirement, lambda number: bool(field.accepts(number))), field.default
     )
 
@@ -234,56 +251,68 @@ def _optional(table: Table, key: str) -> float | None:
     return table.number(key, need=POSITIVE) if key in table.values else None
 
 
-def _missing(storey: Table, default: Table, group: tuple[str, ...]) -> NoReturn:
-    others = "".join(f", or {key}" for key in group[1:])
-    storey.refuse(group[0], f"given{others}, here or in {default.place}", "nothing")
-
-
 def _mass(storey: Table, building: Table) -> float:
     """Mass of a floor without goods (kg)."""
-    held = _held(storey, building, _MASS)
-    if held is None:
-        _missing(storey, building, _MASS)
-    table, key = held
+    place = held(storey, building, _MASS)
+    if place is None:
+        missing(storey, building, _MASS)
+    table, key = place
     value = table.number(key, need=POSITIVE)
-    return value if key == "mass_kg" else 1e3 * value * _positive(storey, building, "area_m2") / STANDARD_GRAVITY
+    return value if key == "mass_kg" else 1e3 * value * positive(storey, building, "area_m2") / STANDARD_GRAVITY
 
 
 def _heights(storeys: list[Table], building: Table) -> Any:
     """Heights (m), or None where none is known."""
-    if not any(_held(storey, building, ("height_m",)) for storey in storeys):
+    if not any(held(storey, building, ("height_m",)) for storey in storeys):
         return None
-    return np.array([_positive(storey, building, "height_m") for storey in storeys])
+    return np.array([positive(storey, building, "height_m") for storey in storeys])
 
 
 def _gravity_load(storeys: list[Table], building: Table, mass: Any) -> Any:
     """Gravity load of each floor without goods (N): its weight, unless stated."""
     return np.array(
         [
-            1e3 * _positive(storey, building, "gravity_load_kn", 1e-3 * STANDARD_GRAVITY * float(floor))
+            1e3 * positive(storey, building, "gravity_load_kn", 1e-3 * STANDARD_GRAVITY * float(floor))
             for storey, floor in zip(storeys, mass, strict=True)
         ]
     )
 
 
-def _stiffness(storeys: list[Table], building: Table, mass: Any) -> Any:
-    """Storey stiffnesses (N/m): as stated, or as the period of the building without goods asks."""
+def _stiffness(storeys: list[Table], building: Table, mass: Any, counted: Any) -> Any:
+    """Storey stiffnesses (N/m): as stated, or as the period of the building with the mass counted on floors asks."""
     if "period_s" not in building.values:
         values = []
         for storey in storeys:
-            held = _held(storey, building, _STIFFNESS)
-            if held is None:
+            place = held(storey, building, _STIFFNESS)
+            if place is None:
                 where = f"given, or {_STIFFNESS[1]}, or {building.key('period_s')} for the whole building"
                 storey.refuse(_STIFFNESS[0], where, "nothing")
-            unit = 1e3 if held[1] == "stiffness_kn_per_m" else 1.0
-            values.append(unit * _number(held, POSITIVE))
+            unit = 1e3 if place[1] == "stiffness_kn_per_m" else 1.0
+            values.append(unit * number_of(place, POSITIVE))
         for table in (building, *storeys):
             table.left_out(("relative_stiffness",), f"{building.key('period_s')} is", "given")
         return np.array(values)
     period = building.number("period_s", need=POSITIVE)
-    relative = np.array([_positive(storey, building, "relative_stiffness", 1.0) for storey in storeys])
+    relative = np.array([positive(storey, building, "relative_stiffness", 1.0) for storey in storeys])
     trial = relative * mass.mean()
-    return trial * (vibration_modes(mass, trial).periods[0] / period) ** 2
+    return trial * (vibration_modes(mass + counted, trial).periods[0] / period) ** 2
+
+
+def _period_mass(building: Table) -> str:
+    """What the stated period is the period of."""
+    if "period_mass" not in building.values:
+        return "bare"
+    building.needed("period_s")
+    chosen = building.text("period_mass")
+    if chosen not in PERIOD_MASSES:
+        building.refuse("period_mass", f"one of {', '.join(PERIOD_MASSES)}", brief(chosen))
+    return chosen
+
+
+def _damping_from(building: Table, storeys: int) -> int:
+    """Lowest storey that is damped."""
+    need = Need(f"a whole number from 1 to {storeys}", lambda number: number in range(1, storeys + 1))
+    return int(building.number("damping_from_storey", 1.0, need))
 
 
 def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, DesignRule | None]:
@@ -302,66 +331,12 @@ def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, De
     units = {"yield_shear_kn": 1e3, "yield_shear_n": 1.0, "yield_shear_over_weight": weight}
     values = []
     for storey in storeys:
-        held = _held(storey, building, _STRENGTH)
-        if held is None:
+        place = held(storey, building, _STRENGTH)
+        if place is None:
             others = ", or ".join(("", *_STRENGTH[1:])).removeprefix(", or ")
             storey.refuse(_STRENGTH[0], f"given, or {others}, or {building.key('design')} = true with R", "nothing")
-        values.append(units[held[1]] * _number(held, _STRONG))
+        values.append(units[place[1]] * number_of(place, STRONG))
     return np.array(values), None
-
-
-def _live_load(storey: Table, goods: Table, building: Table) -> float:
-    """Design live load of a floor as a mass (kg)."""
-    held = _held(storey, goods, _LIVE_LOAD)
-    if held is None:
-        return 0.0
-    table, key = held
-    value = table.number(key, need=NOT_NEGATIVE)
-    if key == "live_load_kg" or value == 0.0:
-        return value
-    return 1e3 * value * _positive(storey, building, "area_m2") / STANDARD_GRAVITY
-
-
-def _friction(storey: Table, goods: Table) -> tuple[str, float, float]:
-    """Contact (empty: stated as numbers), static and kinetic coefficient of the goods of a floor."""
-    held = _held(storey, goods, _FRICTION)
-    if held is None:
-        _missing(storey, goods, _FRICTION)
-    table, key = held
-    if key == "friction":
-        try:
-            pair = friction_pair(table.text(key))
-        except SeismassError as error:
-            table.refuse_as(key, error)
-        return pair.pair_id, pair.mu_s, pair.mu_k
-    static = table.number(key, need=NOT_NEGATIVE)
-    if key == "mu" or "mu_k" not in table.values:
-        return "", static, static
-    requirement = f"from 0 to {table.key('mu_s')} = {static:g}"
-    return "", static, table.number("mu_k", need=Need(requirement, lambda number: 0.0 <= number <= static))
-
-
-def _mu_factors(goods: Table) -> tuple[float, float]:
-    given = goods.values.get("mu_factors", BOUND_FACTORS)
-    try:
-        return bound_factors(given, "goods")
-    except InvalidOption as error:
-        goods.refuse_as("mu_factors", error)
-
-
-def _code(table: Table) -> CodeFraction:
-    if "fraction" in table.values:
-        table.excluded("id", "fraction")
-        table.excluded("use", "fraction")
-        value = table.number("fraction", need=SHARE)
-        return CodeFraction("own", "a fraction of one's own", "storage", value, value, value, "", "", "as stated")
-    names = {key: table.text(key) for key in ("id", "use")}
-    try:
-        found = code_fraction(names["id"] or DEFAULT_CODE)
-        return code_fraction(found.code_id, names["use"] or "storage")  # type: ignore[arg-type]
-    except InvalidOption as error:
-        key = "use" if str(error).startswith("use") else "id"
-        table.refuse_as(key, error)
 
 
 def _target(site: Table, folder: Path) -> TargetSpectrum | None:

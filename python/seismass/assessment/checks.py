@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import polars as pl
 
-from seismass.assessment.models import ADVISED, REALS
+from seismass.assessment.models import ADVISED, BARE, REALS
 from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import THETA_THRESHOLD, drift_limit
@@ -15,7 +15,7 @@ from seismass.spectra import TargetSpectrum
 
 
 def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[str, int]) -> pl.DataFrame:
-    """Return one row per check and model: goods that slide, at all frictions, and the advised share.
+    """Return one row per check and model: goods that slide, at all frictions, and both analyses.
 
     Parameters
     ----------
@@ -32,9 +32,7 @@ def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[s
         check, model; storey with the largest value; value and limit; met, null where collapses leave no value; source,
         the clause of the limit and how it was checked.
     """
-    models = [model for model in (*REALS, ADVISED, "bare") if model in collapses]
-    if len(models) > 1:
-        models.remove("bare")
+    models = [model for model in (*REALS, ADVISED, BARE) if model in collapses]
     rows: list[dict[str, Any]] = [
         {"check": "collapsed runs", "model": model, "value": float(collapses[model]), "limit": 0.0, "source": ""}
         for model in models
@@ -118,6 +116,7 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
     rule = building.design
     return {
         "storeys": [dict(zip(names, row, strict=True)) for row in zip(*columns.values(), strict=True)],
+        "goods_present_over_design_live_load": building.present_share,
         "weight": building.weight,
         "weight_of_goods": STANDARD_GRAVITY * float(building.goods.sum()),
         "period_bare": building.period(),

@@ -25,6 +25,16 @@ ADVISED: Final = "advised"
 CODE: Final = "code"
 ATTACHED: Final = "attached"
 BARE: Final = "bare"
+NAMES: Final = {
+    REAL: "goods slide",
+    REAL_LOW: "goods slide, low mu",
+    REAL_HIGH: "goods slide, high mu",
+    ADVISED: "advised",
+    CODE: "code",
+    ATTACHED: "all attached",
+    BARE: "none attached",
+}
+"""What texts and figures call the models."""
 
 
 def friction_factors(building: OwnBuilding) -> dict[str, float]:
@@ -62,17 +72,18 @@ def compared_models(building: OwnBuilding, target: TargetSpectrum | None, advise
     target : TargetSpectrum or None
         Site spectrum, for strengths of a design.
     advised : float or None
-        Share of the goods present that the advised model has attached.
+        Share of the goods present that the advised model has attached; None leaves that model out.
     """
     real = building.scene(target)
     bare = with_mass(real, np.zeros(building.storeys))
-    if advised is None:
+    if not (building.goods > 0.0).any():
         return {BARE: bare}
     reals = {name: building.scene(target, mu_factor=factor) for name, factor in friction_factors(building).items()}
+    attached = {} if advised is None else {ADVISED: with_mass(real, advised * building.goods)}
     return {
         **reals,
-        ADVISED: with_mass(real, advised * building.goods),
-        CODE: with_mass(real, building.code.fraction * building.live_load),
+        **attached,
+        CODE: with_mass(real, building.code_mass),
         ATTACHED: with_mass(real, building.goods),
         BARE: bare,
     }

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
@@ -17,7 +18,7 @@ from seismass.base.values import FloatArray, brief, content_hash, refusal, same_
 from seismass.design import THETA_CAP, Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
 from seismass.model.block import Block
 from seismass.model.building import Building
-from seismass.model.codes import CodeFraction
+from seismass.model.codes import CodeFraction, code_fraction
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.scene import Scene
 from seismass.spectra import TargetSpectrum
@@ -47,6 +48,22 @@ class DesignRule:
     combination: Combination = "srss"
 
 
+def fractions_of(code: CodeFraction, own: FloatArray, uses: tuple[str, ...]) -> FloatArray:
+    """Return the fraction of the design live load that counts on each floor.
+
+    Parameters
+    ----------
+    code : CodeFraction
+        Code, with the use of floors that state none.
+    own : ndarray, shape (storeys,)
+        Fraction that a floor states; NaN: none.
+    uses : tuple of str
+        Use that a floor states; empty: none.
+    """
+    of_code = [code_fraction(code.code_id, use).fraction if use else code.fraction for use in uses]  # type: ignore[arg-type]
+    return np.where(np.isnan(own), of_code, own)
+
+
 @dataclass(frozen=True, eq=False)
 class OwnBuilding:
     """A building with its goods, as a building file describes it; see `read_building`.
@@ -61,6 +78,10 @@ class OwnBuilding:
         Floor masses without goods (kg).
     stiffness : ndarray, shape (storeys,)
         Initial storey stiffnesses (N/m).
+    stated_period : float or None
+        First period (s) from which they were found; None where they were stated.
+    period_mass : {"bare", "code share", "all"}
+        Which goods acted as mass in that period: none, the code's share, or all present.
     heights : ndarray, shape (storeys,), or None
         Storey heights (m); None where they are not known: then drifts are in metres and there is no limit.
     yield_shear : ndarray, shape (storeys,), or None
@@ -71,8 +92,14 @@ class OwnBuilding:
         Omega, r2 and r3 of the storeys.
     damping : float
         Ratio of critical damping in every mode of the building without goods.
+    damping_from_storey : int
+        Lowest storey that is damped; above 1 the modes are those of the building above the floor below it.
     gravity_load : ndarray, shape (storeys,), or None
         Gravity load of each floor without goods (N), to which the weight of the goods is added; None: no P-Delta.
+    area : ndarray, shape (storeys,)
+        Floor areas (m2); NaN where they are not stated.
+    dead_load_stated : ndarray of bool, shape (storeys,)
+        Whether the mass of a floor was stated as a dead load per area.
     live_load : ndarray, shape (storeys,)
         Design live load of each floor as a mass (kg).
     occupied : ndarray, shape (storeys,)
@@ -86,7 +113,11 @@ class OwnBuilding:
     target : TargetSpectrum or None
         Site spectrum; None where the file has none.
     code : CodeFraction
-        The code, and the fraction of the design live load that it counts as mass.
+        The code, and the fraction of the design live load that it counts as mass where a floor states none of its own.
+    own_fractions : ndarray, shape (storeys,)
+        Fraction that a floor states, 0 where it is exempt; NaN: that of the code.
+    uses : tuple of str
+        Use of each floor; empty: that of the file.
     code_stated : bool
         Whether the file names the code.
     drift_limit, theta_limit : float
@@ -104,6 +135,8 @@ class OwnBuilding:
     storey_names: tuple[str, ...]
     mass: FloatArray
     stiffness: FloatArray
+    stated_period: float | None
+    period_mass: str
     heights: FloatArray | None
     yield_shear: FloatArray | None
     design: DesignRule | None
@@ -111,7 +144,10 @@ class OwnBuilding:
     second_slope: FloatArray
     third_slope: FloatArray
     damping: float
+    damping_from_storey: int
     gravity_load: FloatArray | None
+    area: FloatArray
+    dead_load_stated: NDArray[np.bool_]
     live_load: FloatArray
     occupied: FloatArray
     friction: tuple[str, ...]
@@ -120,6 +156,8 @@ class OwnBuilding:
     mu_factors: tuple[float, float]
     target: TargetSpectrum | None
     code: CodeFraction
+    own_fractions: FloatArray
+    uses: tuple[str, ...]
     code_stated: bool
     drift_limit: float
     theta_limit: float
@@ -153,22 +191,43 @@ class OwnBuilding:
         return float(self.goods.sum()) / total if total > 0.0 else 0.0
 
     @property
-    def design_fraction(self) -> float:
-        """Fraction of the design live load in the mass of the design: as stated, else that of the code."""
+    def code_mass(self) -> FloatArray:
+        """What the code counts of the live load on each floor (kg), shape (storeys,)."""
+        counted: FloatArray = fractions_of(self.code, self.own_fractions, self.uses) * self.live_load
+        return counted
+
+    @property
+    def code_share(self) -> float:
+        """What the code counts over the design live load of the whole building; that of the code without live load."""
+        total = float(self.live_load.sum())
+        uniform = not any(self.uses) and np.isnan(self.own_fractions).all()
+        return self.code.fraction if uniform or total == 0.0 else float(self.code_mass.sum()) / total
+
+    @property
+    def design_mass(self) -> FloatArray:
+        """Mass of the live load in the design (kg): the fraction that is stated, else what the code counts."""
         stated = None if self.design is None else self.design.fraction
-        return self.code.fraction if stated is None else stated
+        return self.code_mass if stated is None else stated * self.live_load
+
+    @property
+    def design_fraction(self) -> float:
+        """Mass of the live load in the design over the design live load of the whole building."""
+        stated = None if self.design is None else self.design.fraction
+        return self.code_share if stated is None else stated
 
     def period(self, attached: FloatArray | float = 0.0) -> float:
         """Return the first period (s) with a mass attached to each floor (kg)."""
         return float(vibration_modes(self.mass + attached, self.stiffness).periods[0])
 
-    def analysis(self, target: TargetSpectrum | None = None) -> SpectrumAnalysis:
+    def analysis(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> SpectrumAnalysis:
         """Return the response spectrum analysis of the building with the mass of its design.
 
         Parameters
         ----------
         target : TargetSpectrum, optional
             Site spectrum; default the building's own.
+        attached : ndarray, shape (storeys,), optional
+            Mass of the design beside that of the floors (kg); default the fraction of the design live load.
 
         Raises
         ------
@@ -176,7 +235,7 @@ class OwnBuilding:
             There is no site spectrum, or it does not cover the modal periods.
         """
         return response_spectrum_analysis(
-            self.mass + self.design_fraction * self.live_load,
+            self.mass + (self.design_mass if attached is None else attached),
             self.stiffness,
             self.site_spectrum(target),
             combination="srss" if self.design is None else self.design.combination,
@@ -191,8 +250,13 @@ class OwnBuilding:
             raise refusal(InvalidOption, "target", f"building {self.name}", requirement, brief(chosen))
         return chosen
 
-    def structure(self, target: TargetSpectrum | None = None) -> Building:
+    def structure(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> Building:
         """Return the building without goods; strengths of a design need the site spectrum.
+
+        Parameters
+        ----------
+        target, attached
+            As for `analysis`.
 
         Raises
         ------
@@ -203,7 +267,7 @@ class OwnBuilding:
         """
         strength = self.yield_shear
         if strength is None and self.design is not None:
-            strength = self.analysis(target).storey_shear / self.design.R
+            strength = self.analysis(target, attached).storey_shear / self.design.R
         return Building(
             self.mass,
             self.stiffness,
@@ -211,10 +275,23 @@ class OwnBuilding:
             overstrength=self.overstrength,
             second_slope=self.second_slope,
             third_slope=self.third_slope,
-            damping=self.damping,
+            damping=self.damping if self.damping_from_storey == 1 else self._damping_above(),
             heights=self.heights,
             gravity_load=self.gravity_load,
         )
+
+    def _damping_above(self) -> FloatArray:
+        """Damping matrix in the modes of the building above the floor on which the lowest damped storey stands."""
+        below = self.damping_from_storey - 1
+        above = Building(
+            self.mass[below:], self.stiffness[below:], yield_shear=np.inf, damping=self.damping
+        ).damping_matrix
+        # Displacements of the floors above relative to that floor.
+        relative = np.zeros((self.storeys - below, self.storeys))
+        relative[:, below:] = np.eye(self.storeys - below)
+        relative[:, below - 1] = -1.0
+        matrix: FloatArray = relative.T @ above @ relative
+        return matrix
 
     def scene(self, target: TargetSpectrum | None = None, *, mu_factor: float = 1.0) -> Scene:
         """Return the building with its goods, one block per loaded floor.

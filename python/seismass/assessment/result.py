@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
+from seismass.assessment.answer import Answer, floor_masses
 from seismass.assessment.checks import checks_table, input_document
 from seismass.assessment.own_building import OwnBuilding
 from seismass.base.values import content_hash, same_content
@@ -21,8 +23,26 @@ from seismass.spectra import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 3
+SCHEMA_VERSION: Final = 4
 """Version of the tables and of the JSON of an assessment."""
+
+
+def shown_figures(fractions: bool, storeys: pl.DataFrame, slip: pl.DataFrame) -> tuple[str, ...]:
+    """Return the names of the figures that have something to show.
+
+    Parameters
+    ----------
+    fractions : bool
+        Whether some effective fraction has a value.
+    storeys, slip : polars.DataFrame
+        Tables of an assessment.
+    """
+    shown = {
+        "effective_fraction": fractions,
+        "drift": storeys["mean"].drop_nulls().len() > 0,
+        "slip": slip["peak_mean"].drop_nulls().len() > 0,
+    }
+    return tuple(name for name, is_shown in shown.items() if is_shown)
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,14 +55,18 @@ class Assessment(Result):
         What was assessed.
     target : TargetSpectrum or None
         Site spectrum; None where motions were taken as they are and strengths were stated.
-    advised : float or None
-        Share of the goods present to attach as mass in an analysis: the largest of the effective fractions for friction
-        as stated and at its bounds, rounded up to 0.05. None without goods, or where no fraction has a value.
+    answer : Answer
+        The pair of analyses, what governs which storey, why this share, on which motions; or why there is none.
     effective : dict of str to EffectiveMass
         Effective fractions of the goods present, by friction: "real" as stated, "real_mu_low" and "real_mu_high" at its
-        bounds. Empty without goods.
+        bounds; by the median where the building collapses under some motion. Empty without goods.
+    design : EffectiveMass or None
+        Share that a design of the strengths and the analysis have in common, at the friction that decides; see
+        `seismass.effective_mass_of_design`. None where strengths are stated, and without an answer.
     storeys : polars.DataFrame
         Drift, limit and stability coefficient by model and storey; see `seismass.assessment.tables.storey_table`.
+    governing : polars.DataFrame
+        Drifts of both analyses and of goods that slide by storey; see `seismass.assessment.governing.governing_table`.
     slip : polars.DataFrame
         Slip demand by friction and floor; see `seismass.assessment.tables.slip_table`.
     runs : polars.DataFrame
@@ -67,9 +91,11 @@ class Assessment(Result):
 
     building: OwnBuilding
     target: TargetSpectrum | None
-    advised: float | None
+    answer: Answer
     effective: dict[str, EffectiveMass]
+    design: EffectiveMass | None = field(repr=False)
     storeys: pl.DataFrame = field(repr=False)
+    governing: pl.DataFrame = field(repr=False)
     slip: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
     collapses: dict[str, int]
@@ -84,6 +110,14 @@ class Assessment(Result):
     __hash__ = content_hash
 
     @property
+    def advised(self) -> float | None:
+        """Share of the goods present to attach in analysis 1; None where there is no answer.
+
+        The largest of the effective fractions for friction as stated and at its bounds, rounded up to 0.05.
+        """
+        return self.answer.analyses[0].share_of_goods_present if self.answer.analyses else None
+
+    @property
     def advised_of_live_load(self) -> float | None:
         """The advised mass over the design live load of the whole building, to compare with the fraction of a code."""
         return None if self.advised is None else self.advised * self.building.present_share
@@ -96,9 +130,11 @@ class Assessment(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """The tables by name: storeys, slip, runs, checks; curve of the fraction and scaling where known."""
+        """The tables by name: storeys, governing, masses, slip, runs, checks; curve and scaling where known."""
         tables = {
             "storeys": self.storeys,
+            "governing": self.governing,
+            "masses": floor_masses(self.answer, self.building),
             "slip": self.slip,
             "runs": self.runs,
             "checks": checks_table(self.building, self.storeys, self.collapses),
@@ -114,8 +150,9 @@ class Assessment(Result):
 
     @property
     def figure_names(self) -> tuple[str, ...]:
-        """effective_fraction, drift, slip; without goods drift alone."""
-        return ("effective_fraction", "drift", "slip") if self.effective else ("drift",)
+        """effective_fraction, drift, slip: those that have something to show."""
+        fractions = any(math.isfinite(one.value) for one in self.effective.values())
+        return shown_figures(fractions, self.storeys, self.slip)
 
     @view
     def plot(self, name: str | None = None) -> Figure:
@@ -142,14 +179,17 @@ class Assessment(Result):
             "name": building.name,
             "note": building.note,
             "input": input_document(building, self.target),
-            "answer": {
-                "advised_share_of_goods_present": self.advised,
-                "advised_share_of_design_live_load": self.advised_of_live_load,
-                "goods_present_over_design_live_load": building.present_share,
-                "code": asdict(code) | {"id": code.code_id},
-            },
+            "headline": self.answer.headline,
+            "statement": self.answer.statement,
+            "doubts": list(self.answer.doubts),
+            "doubt_lines": list(self.answer.doubt_lines),
+            "reason": self.answer.reason,
+            "on_motions": self.answer.motions,
+            "answer": self._answer_document(),
+            "code": asdict(code) | {"id": code.code_id, "share_of_design_live_load": building.code_share},
             "effective": {model: result.to_dict() for model, result in self.effective.items()},
             "storeys": self.storeys.to_dicts(),
+            "governing": self.governing.to_dicts(),
             "slip": self.slip.to_dicts(),
             "collapses": self.collapses,
             "suite": self.suite,
@@ -162,6 +202,24 @@ class Assessment(Result):
         }
         finite: dict[str, Any] = finite_values(document)
         return finite
+
+    def _answer_document(self) -> dict[str, Any] | None:
+        """The answer as plain values; None where there is none."""
+        answer = self.answer
+        if not answer.analyses:
+            return None
+        share = None if self.design is None else self.design.value
+        return {
+            "advised_share_of_goods_present": self.advised,
+            "advised_share_of_design_live_load": self.advised_of_live_load,
+            "share_for_strengths_of_goods_present": share,
+            "analyses": [asdict(one) for one in answer.analyses],
+            "pair": list(answer.pair),
+            "governs": list(answer.governs),
+            "why": answer.why,
+            "design": answer.design,
+            "share_matters": answer.matters,
+        }
 
     @view
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:

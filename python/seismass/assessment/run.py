@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -14,14 +13,18 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
+from seismass.assessment.answer import answer_of, deciding, rounded_up
 from seismass.assessment.building_file import read_building
+from seismass.assessment.doubts import doubts_of
+from seismass.assessment.governing import governing_table
 from seismass.assessment.models import compared_models, friction_factors, solve_models
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
-from seismass.effective_mass import EffectiveMass, effective_mass
+from seismass.effective_mass import EffectiveMass, effective_mass, effective_mass_of_design
+from seismass.model.building import Building
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.model.scene import Scene
@@ -30,10 +33,10 @@ from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.spectra import TargetSpectrum
 
-ROUNDING_STEP: Final = 0.05
-"""An advised share is the next multiple of it."""
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
+DESIGN_SHARES: Final = np.linspace(0.0, 1.0, 21)
+"""Shares at which that of a design of strengths is looked for before its root is refined; each takes two models."""
 SHARES: Final = 101
 """Shares at which each effective fraction is looked for."""
 
@@ -117,13 +120,18 @@ def assess(
     loaded = bool((chosen.goods > 0.0).any())
     frictions = friction_factors(chosen) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
-    stages = _Stages(progress, (models + len(frictions) * (1 + SHARES)) * len(suite))
+    designs = 2 * len(DESIGN_SHARES) if loaded and chosen.design is not None else 0
+    stages = _Stages(progress, (models + len(frictions) * (1 + SHARES) + designs) * len(suite))
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
     effective = {
         name: _effective(chosen.scene(spectrum, mu_factor=factor), scaled, bootstrap, threads, stages)
         for name, factor in frictions.items()
     }
-    advised = advised_share(list(effective.values())) if loaded else None
+    advised = advised_share(effective)
+    design = None
+    if designs and advised is not None:
+        factor = frictions[deciding(effective)]
+        design = _design_share(chosen, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
     scenes = compared_models(chosen, spectrum, advised)
     names = [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(suite, start=1)]
     kernel_motions = [getattr(motion, "motion", motion) for motion in scaled]
@@ -132,24 +140,29 @@ def assess(
     )
     real = chosen.scene(spectrum)
     storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, runs), collapses_of(runs)
+    governing = governing_table(chosen, storeys)
     about = {
         "name": suite.name if isinstance(suite, Suite) else "motions",
         "motions": names,
         "synthetic": sum(bool(getattr(motion, "synthetic", False)) for motion in suite),
     }
+    doubts = doubts_of(chosen, real, scaled, spectrum, storeys)
+    answer = answer_of(chosen, advised, effective, design, storeys, governing, collapses, about, scaling, doubts)
     return Assessment(
         building=chosen,
         target=spectrum,
-        advised=advised,
+        answer=answer,
         effective=effective,
+        design=design,
         storeys=storeys,
+        governing=governing,
         slip=slip,
         runs=runs,
         collapses=collapses,
         scaling=scaling,
         suite=about,
-        advice=advice_of(chosen, advised, effective, storeys, slip, collapses, len(suite)),
-        remarks=remarks_of(chosen, real, scaled, spectrum, scaling, effective, about),
+        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite)),
+        remarks=remarks_of(chosen, doubts, scaling, effective, about),
         assumptions=assumptions_of(chosen, spectrum, scaling, about),
         metadata={
             "schema_version": SCHEMA_VERSION,
@@ -164,13 +177,30 @@ def assess(
     )
 
 
-def advised_share(results: list[EffectiveMass]) -> float:
-    """Return the largest effective fraction, rounded up to 0.05; 1 where one of them has no value."""
-    values = [result.value for result in results]
-    if not all(math.isfinite(value) for value in values):
-        return 1.0
-    # Roots are located to 1e-12, so that one at a multiple is not lifted to the next.
-    return min(1.0, round(ROUNDING_STEP * math.ceil(max(values) / ROUNDING_STEP - 1e-9), 2))
+def advised_share(effective: dict[str, EffectiveMass]) -> float | None:
+    """Return the largest effective fraction, rounded up to 0.05; None without goods, or where one has no mean."""
+    if not effective or any(result.statistic != "mean" for result in effective.values()):
+        return None
+    return rounded_up(effective[deciding(effective)].value)
+
+
+def _design_share(
+    building: OwnBuilding,
+    target: TargetSpectrum | None,
+    factor: float,
+    motions: list[Any],
+    threads: int | None,
+    progress: Progress | None,
+) -> EffectiveMass:
+    """Share that goes into the design of the strengths and is attached, at one friction; no bootstrap."""
+
+    def designed(share: float) -> Building:
+        return building.structure(target, share * building.goods)
+
+    blocks = building.scene(target, mu_factor=factor).blocks
+    return effective_mass_of_design(
+        designed, blocks, motions, fractions=DESIGN_SHARES, resamples=1, threads=threads, progress=progress
+    )
 
 
 def _building(given: Any, code: CodeFraction | None, mu_factors: tuple[float, float] | None) -> OwnBuilding:
@@ -250,7 +280,13 @@ def _digest(
     bootstrap: dict[str, Any],
 ) -> str:
     """SHA-256 of everything that the numbers depend on."""
-    limits = [building.drift_limit, building.theta_limit, building.code.fraction, building.design_fraction]
+    limits = [
+        building.drift_limit,
+        building.theta_limit,
+        building.code.fraction,
+        building.code_share,
+        building.design_fraction,
+    ]
     described = [SCHEMA_VERSION, None if target is None else target.parameters, bootstrap, limits]
     digest = hashlib.sha256(json.dumps(described, sort_keys=True).encode())
     for name, scene in scenes.items():

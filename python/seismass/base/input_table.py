@@ -7,7 +7,7 @@ import json
 import math
 import re
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any, Final, NamedTuple, NoReturn
 
@@ -119,10 +119,10 @@ class Table:
         """Raise the error of the one form."""
         raise refusal(self._kind, self.key(key), self.file, requirement, got)
 
-    def known(self, keys: tuple[str, ...]) -> None:
-        """Refuse every other key."""
+    def known(self, keys: tuple[str, ...], also: Collection[str] = ()) -> None:
+        """Refuse every other key; those that are `also` taken are not proposed."""
         for key in self._all_keys:
-            if key not in keys:
+            if key not in keys and key not in also:
                 close = difflib.get_close_matches(key, keys, n=1)
                 hint = f" (did you mean {self.key(close[0])}?)" if close else ""
                 self.refuse(key, f"one of the keys {', '.join(keys)}{hint}", "an unknown key")

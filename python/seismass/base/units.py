@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import Final
+from typing import Any, Final
 
 from seismass import _kernel
+from seismass.base.errors import SeismassError
+from seismass.base.values import brief, refusal
 
 STANDARD_GRAVITY: Final = _kernel.STANDARD_GRAVITY
 """Standard gravity (m/s2), 3rd CGPM 1901: the g of every number in this package."""
@@ -49,6 +51,24 @@ _IN_G = re.compile(rf"\bacc[a-z.]*[ \t]+in[ \t]+({_PART_OF_G})(?:'s)?(?!\w)(?![ 
 _UNITS_OF = re.compile(r"\bunits?[ \t]*(?:of\b|[:=])[ \t]*([^\s].*)", re.IGNORECASE)
 _UNIT_LIKE = re.compile(r"[/%\d]|count|volt|digit", re.IGNORECASE)
 _G = re.compile(rf"[(\[]?[ \t]*(?:g(?:'s|ravity)?|({_PART_OF_G}))(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
+
+
+def acceleration_factor(unit: Any, owner: str, kind: type[SeismassError]) -> float:
+    """Return a unit of accelerations in m/s2, whatever its spelling; another one is refused.
+
+    Parameters
+    ----------
+    unit : str
+        "m/s2", "g", "cm/s2" or "gal", or another spelling of them.
+    owner : str
+        Whose unit it is, as errors name it.
+    kind : type
+        Class of the error.
+    """
+    name = unit_by_name(unit) if isinstance(unit, str) else None
+    if name is None:
+        raise refusal(kind, "unit", owner, f"one of {', '.join(ACCELERATION_UNITS)}", brief(unit))
+    return ACCELERATION_UNITS[name]
 
 
 def unit_by_name(name: str) -> str | None:

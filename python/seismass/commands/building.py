@@ -45,7 +45,9 @@ def options(parser: argparse.ArgumentParser) -> None:
         metavar="LOW,HIGH",
         help="bounds of friction as factors (0.67,1.5); 1,1 leaves them out",
     )
-    add_answer_options(parser, "assessment")
+    add_answer_options(parser, "the name of FILE")
+    # A folder of its own for each building, so that a second never replaces the first.
+    parser.set_defaults(out=None)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -57,6 +59,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment.building_file import read_building
     from seismass.media.folder import check_out
 
+    args.out = args.out or Path(args.file.stem)
     check_out(args.out, "assessment")
     building = read_building(args.file)
     code, target = read_code(args, "building"), _target(args)
@@ -85,12 +88,21 @@ def _listing(args: argparse.Namespace) -> str:
 
         return example_file().read_text(encoding="utf-8")
     if args.codes:
-        from seismass.model.codes import code_table
+        from seismass.model.codes import MARK, code_legend, code_table
 
         rows = [["id", "use", "fraction", "clause", "status", "code"]]
         for row in code_table().iter_rows(named=True):
             fraction = f"{row['low']:g} to {row['high']:g}" if row["low"] < row["high"] else f"{row['fraction']:g}"
-            rows.append([row["code_id"], row["use"], fraction, row["clause"], row["status"], row["code"]])
+            rows.append(
+                [
+                    row["code_id"],
+                    row["use"],
+                    fraction,
+                    row["clause"],
+                    row["status"],
+                    row["code"] + MARK * (not row["checked"]),
+                ]
+            )
     else:
         from seismass.model.friction import friction_table
 
@@ -98,7 +110,8 @@ def _listing(args: argparse.Namespace) -> str:
         for row in friction_table().iter_rows(named=True):
             source = f"{row['source']} ({row['kind']})"
             rows.append([row["pair_id"], f"{row['mu_s']:g}", f"{row['mu_k']:.4g}", row["contact"], source])
-    return "\n".join(text_table(rows, left=len(rows[0]), indent=0)) + "\n"
+    lines = text_table(rows, left=len(rows[0]), indent=0)
+    return "\n".join([*lines, *([f"\n{code_legend()}"] if args.codes else [])]) + "\n"
 
 
 def _target(args: argparse.Namespace) -> TargetSpectrum | None:

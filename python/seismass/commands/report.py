@@ -39,7 +39,7 @@ COMMAND = Command(
     ),
     examples="""
 report study
-report assessment
+report warehouse
 report study --out study.html
 """,
     options=options,

@@ -19,7 +19,7 @@ from seismass.effective_mass.curve import bootstrap_counts
 from seismass.explore.chart import BINS, CASES
 from seismass.explore.compiled import kernel_file
 from seismass.media.page import page_html, templates
-from seismass.model.codes import code_fraction
+from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
 from seismass.records.builtin import builtin_suite
 from seismass.scaling import scale_asce7_10
 from seismass.show.animation.html import SPEEDS, element_html
@@ -94,6 +94,7 @@ def explorer_html(kernel: Path | None = None) -> str:
             animation=animation,
             records=[(record.name, f"{record.name}, {record.duration:g} s") for record in suite],
             codes=_codes(),
+            codes_legend=f"{MARK} {NOT_CHECKED}",
             chart={"cases": f"{CASES}"},
             assumptions=ASSUMPTIONS,
             given=Markup(json.dumps(_given(), separators=(",", ":")).replace("<", "\\u003c")),
@@ -119,7 +120,7 @@ def _templates() -> Environment:
 
 def _codes() -> list[tuple[float, str]]:
     rows = [code_fraction(code, "storage") for code in CODES]
-    named = [(row.fraction, f"{row.code}, storage: {row.fraction:g}") for row in rows]
+    named = [(row.fraction, f"{row.code}{row.mark}, storage: {row.fraction:g}") for row in rows]
     return [(0.0, "none: 0"), *named, (1.0, "all: 1")]
 
 

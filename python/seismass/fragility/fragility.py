@@ -183,7 +183,8 @@ def fit_counts(
         Runs there.
     confidence, resamples, seed
         Of the bootstrap intervals: runs of each level are drawn again by themselves, as for other motions at each
-        level. Analyses that scale the same motions draw these instead.
+        level. Analyses that scale the same motions draw these instead. There are none where at every level all runs or
+        none exceed, as with one run at each.
 
     Raises
     ------
@@ -218,9 +219,10 @@ def fit_counts(
     fits = probit_fits(at, hit[None], runs[None])
     whole = bool((hit == np.rint(hit)).all() and (runs == np.rint(runs)).all())
     drawn = None
-    if chosen.resamples and whole and runs.sum() > 0:
+    share = np.divide(hit, runs, out=np.zeros(len(at)), where=runs > 0.0)
+    # Levels at which all runs or none exceed, one run at each among them, have no scatter to draw from.
+    if chosen.resamples and whole and ((share > 0.0) & (share < 1.0)).any():
         number = runs.astype(np.int64)
-        share = np.divide(hit, runs, out=np.zeros(len(at)), where=runs > 0.0)
         counts = np.random.default_rng(chosen.seed).binomial(number, share, size=(chosen.resamples, len(at)))
         drawn = probit_fits(at, counts.astype(np.float64), np.broadcast_to(runs, counts.shape))
     return fragility_of(

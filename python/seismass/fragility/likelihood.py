@@ -32,6 +32,9 @@ _ITERATIONS: Final = 100
 _HALVINGS: Final = 40
 _SAME: Final = 1e-12
 """Logarithms of intensities that differ by less are the same."""
+_FLAT: Final = 1e-9
+"""Slope (per standard deviation of the logarithms, or of logarithms on one another) below which a curve does not rise:
+rounding of sums decides the sign of a slope that is zero."""
 _ROUNDING: Final = 1e-13
 """By how much a loss may grow relative to itself in a step that helps."""
 _CONVERGED: Final = 1e-20
@@ -72,7 +75,9 @@ def probit_fits(intensity: FloatArray, exceeding: FloatArray, total: FloatArray)
     lowest_hit = np.where(hit, log, np.inf).min(axis=1)
     highest_missed = np.where(missed, log, -np.inf).max(axis=1)
     both = ~never & ~always
-    alone = both & ((total > 0.0).sum(axis=1) == 1)
+    runs = total > 0.0
+    lowest, highest = np.where(runs, log, np.inf).min(axis=1), np.where(runs, log, -np.inf).max(axis=1)
+    alone = both & (highest - lowest < _SAME)
     kind[alone] = NONE
     step = both & ~alone & (lowest_hit >= highest_missed)
     kind[step] = STEP
@@ -81,7 +86,8 @@ def probit_fits(intensity: FloatArray, exceeding: FloatArray, total: FloatArray)
     rest = both & ~alone & ~step
     with np.errstate(invalid="ignore", divide="ignore"):
         # The likelihood rises with the slope at slope zero where the mean of ln(x) over the exceeding runs is larger.
-        rises = exceeding @ log / exceeding.sum(axis=1) > safe @ log / safe.sum(axis=1)
+        means = exceeding @ log / exceeding.sum(axis=1) - safe @ log / safe.sum(axis=1)
+        rises = means > _FLAT * (highest - lowest)
     kind[rest & ~rises] = FALLING
     fitted = np.flatnonzero(rest & rises)
     if len(fitted):
@@ -123,7 +129,7 @@ def capacity_fits(capacity: FloatArray, exceeded: NDArray[np.bool_], weight: Flo
     least = np.where(drawn & exceeded, log, np.inf).min(axis=1)
     most = np.where(drawn, log, -np.inf).max(axis=1)
     # All capacities are equal, and no motion is known to have a larger one.
-    step = ~never & (most <= least)
+    step = ~never & (most <= least + _SAME)
     kind[step], median[step], dispersion[step] = STEP, np.exp(least[step]), 0.0
     full = ~never & ~step & ~(drawn & ~exceeded).any(axis=1)
     mean = weight[full] @ log / weight[full].sum(axis=1)
@@ -165,6 +171,9 @@ def logistic_fits(x: FloatArray, occurred: NDArray[np.bool_], weight: FloatArray
     both = ~never & ~always
     lowest_hit, highest_hit = np.where(hit, x, np.inf).min(axis=1), np.where(hit, x, -np.inf).max(axis=1)
     lowest_missed, highest_missed = np.where(missed, x, np.inf).min(axis=1), np.where(missed, x, -np.inf).max(axis=1)
+    alone = both & (np.maximum(highest_hit, highest_missed) - np.minimum(lowest_hit, lowest_missed) < _SAME)
+    kind[alone] = NONE
+    both &= ~alone
     step = both & (lowest_hit >= highest_missed)
     kind[step], centre[step] = STEP, 0.5 * (lowest_hit + highest_missed)[step]
     falling = both & ~step & (highest_hit <= lowest_missed)
@@ -172,7 +181,7 @@ def logistic_fits(x: FloatArray, occurred: NDArray[np.bool_], weight: FloatArray
     if len(rest):
         middle, spread = float(x.mean()), float(x.std())
         a, b = _logistic((x - middle) / spread, occurred, weight[rest])
-        rises = b > 0.0
+        rises = b > _FLAT
         centre[rest[rises]] = middle - spread * a[rises] / b[rises]
         width[rest[rises]] = spread / b[rises]
         falling[rest[~rises]] = True
@@ -216,11 +225,11 @@ def cloud_fits(
         scatter = np.sqrt((own * error * error).sum(axis=1) / (number - 2.0))
         median = np.exp(middle_x + (np.log(limit) - middle_y) / slope)
     spread = np.where(own > 0.0, np.abs(off), 0.0).max(axis=1, initial=0.0)
-    kind = np.where(slope > 0.0, FITTED, FALLING).astype(np.int8)
+    kind = np.where(slope > _FLAT, FITTED, FALLING).astype(np.int8)
     kind[(number <= 2.0) | (spread < _SAME)] = NONE
     kind[collapse.kind == FALLING] = FALLING
     fitted = kind == FITTED
-    curves[fitted, 0], curves[fitted, 1] = median[fitted], (scatter / slope)[fitted]
+    curves[fitted, 0], curves[fitted, 1] = median[fitted], scatter[fitted] / slope[fitted]
     nothing = number == 0.0
     kind[nothing & (collapse.kind == NEVER)], kind[nothing & (collapse.kind == ALWAYS)] = NEVER, ALWAYS
     curves[kind == NEVER, 0], curves[kind == ALWAYS, 0] = np.inf, 0.0

@@ -14,14 +14,18 @@ from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, is_one_of, known_id, refusal
 
 __all__ = [
+    "AS_STATED",
     "CODE_IDS",
     "CODE_NAMES",
     "FROM_MEMORY",
+    "MARK",
+    "NOT_CHECKED",
     "SECOND_HAND",
     "VERIFIED",
     "CodeFraction",
     "Use",
     "code_fraction",
+    "code_legend",
     "code_table",
 ]
 
@@ -38,6 +42,12 @@ VERIFIED: Final = "verified"
 SECOND_HAND: Final = "second-hand"
 FROM_MEMORY: Final = "from memory, unverified"
 """Status of a row: read in the text named, read in a text that quotes it, or neither."""
+AS_STATED: Final = "as stated"
+"""Status of a fraction of one's own."""
+NOT_CHECKED: Final = "not checked against the code"
+"""What every table, figure and page says of a row that was not read in the code's own text."""
+MARK: Final = "\N{DAGGER}"
+"""Mark of such a row."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +83,16 @@ class CodeFraction:
     clause: str
     note: str
     status: str
+
+    @property
+    def checked(self) -> bool:
+        """Whether the fraction was read in the code's own text, or stated by the user."""
+        return self.status in (VERIFIED, AS_STATED)
+
+    @property
+    def mark(self) -> str:
+        """`MARK` where the fraction was not checked against the code's text; else nothing."""
+        return "" if self.checked else MARK
 
 
 def _row(
@@ -312,7 +332,23 @@ def code_table() -> pl.DataFrame:
     Returns
     -------
     polars.DataFrame
-        Columns `code_id`, `code`, `use`, `fraction`, `low`, `high`, `clause`, `note`, `status`, as `CodeFraction` has
-        them.
+        Columns `code_id`, `code`, `use`, `fraction`, `low`, `high`, `clause`, `note`, `status`, `checked`, as
+        `CodeFraction` has them.
     """
-    return pl.DataFrame([asdict(row) for row in _ROWS])
+    return pl.DataFrame([asdict(row) | {"checked": row.checked} for row in _ROWS])
+
+
+def code_legend() -> str:
+    """Return what `MARK` means, with the number of rows of each status.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.codes.code_legend().partition(":")[0]
+    '\N{DAGGER} not checked against the code'
+    """
+    counts = {status: sum(row.status == status for row in _ROWS) for status in (VERIFIED, SECOND_HAND, FROM_MEMORY)}
+    return (
+        f"{MARK} {NOT_CHECKED}: {counts[SECOND_HAND]} of {len(_ROWS)} rows are second-hand, {counts[FROM_MEMORY]} from "
+        f"memory; {counts[VERIFIED]} were read in the text named"
+    )

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY, acceleration_factor
 from seismass.base.values import FloatArray, Value, as_array, as_number, brief, frozen, refusal
 
 MOST_SAMPLES: Final = 10_000_000
@@ -27,16 +27,19 @@ class Motion(Value):
     Parameters
     ----------
     acceleration : array_like, shape (samples,)
-        Horizontal ground acceleration (m/s2).
+        Horizontal ground acceleration (in `unit`); kept in m/s2.
     dt : float
         Time step (s).
     vertical : array_like, shape (samples,), optional
-        Vertical ground acceleration (m/s2), up positive.
+        Vertical ground acceleration (in `unit`), up positive.
+    unit : {"m/s2", "g", "cm/s2", "gal"}
+        Unit of the accelerations that are given.
 
     Raises
     ------
     InvalidMotion
-        No sample, a value that is not a finite number, a step that is not positive, unequal lengths.
+        No sample, a value that is not a finite number, a unit that is none of those, a step that is not positive,
+        unequal lengths.
 
     Examples
     --------
@@ -51,11 +54,19 @@ class Motion(Value):
     dt: float
     vertical: FloatArray | None
 
-    def __init__(self, acceleration: ArrayLike, dt: float, vertical: ArrayLike | None = None) -> None:
+    def __init__(
+        self, acceleration: ArrayLike, dt: float, vertical: ArrayLike | None = None, *, unit: str = "m/s2"
+    ) -> None:
+        factor = acceleration_factor(unit, "motion", InvalidMotion)
+
+        def given(values: ArrayLike, name: str) -> FloatArray:
+            samples = as_array(values, name, "motion", InvalidMotion)
+            return samples if factor == 1.0 else frozen(samples * factor)
+
         self._set(
-            acceleration=as_array(acceleration, "acceleration", "motion", InvalidMotion),
+            acceleration=given(acceleration, "acceleration"),
             dt=as_number(dt, "dt", "motion", InvalidMotion),
-            vertical=None if vertical is None else as_array(vertical, "vertical acceleration", "motion", InvalidMotion),
+            vertical=None if vertical is None else given(vertical, "vertical acceleration"),
         )
         self._set(_kernel=_kernel.Motion(self.acceleration, self.dt, self.vertical))
 

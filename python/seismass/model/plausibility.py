@@ -30,6 +30,8 @@ PERIOD_RANGE: Final = (0.01, 10.0)
 """First period (s)."""
 MAX_PGA: Final = 5.0
 """Peak ground acceleration (g); the largest recorded one is about 4 g."""
+MAX_MEAN_PGA: Final = 3.0
+"""Mean of the peak ground accelerations of a suite as it is used (g); no site has such a hazard."""
 
 
 def model_remarks(building: Building | None, blocks: Sequence[Block]) -> tuple[str, ...]:
@@ -134,6 +136,36 @@ def motion_remarks(motions: Any) -> tuple[str, ...]:
             called = f"motion {number}, {name}," if name else f"motion {number}"
             found.append(f"{called} has a PGA of {pga:.4g} g, above {MAX_PGA:g} g: are its accelerations in m/s2?")
     return tuple(found)
+
+
+def mean_motion_remarks(motions: Any) -> tuple[str, ...]:
+    """Return what is unlikely about the mean PGA of a suite as it is used, scale factors included.
+
+    Parameters
+    ----------
+    motions : Motion, Record or iterable of them
+        The motions.
+
+    Returns
+    -------
+    tuple of str
+        At most one sentence.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> mean_motion_remarks(sm.Motion([0.0, 35.0, 0.0], dt=0.01))
+    ('the mean PGA of the motions is 3.569 g, above 3 g: are site spectrum and accelerations in their units?',)
+    """
+    listed: Iterable[Any] = [motions] if hasattr(motions, "acceleration") else motions
+    peaks = [float(np.abs(motion.acceleration).max()) / STANDARD_GRAVITY for motion in listed]
+    mean = float(np.mean(peaks)) if peaks else 0.0
+    if mean <= MAX_MEAN_PGA:
+        return ()
+    return (
+        f"the mean PGA of the motions is {mean:.4g} g, above {MAX_MEAN_PGA:g} g: are site spectrum and accelerations "
+        "in their units?",
+    )
 
 
 def _numbered(values: Any, wrong: Any, sentence: str) -> list[str]:

@@ -68,18 +68,20 @@ def suspicions(record: Record, *, unit_given: bool) -> tuple[str, ...]:
     if record.samples > 2 and where == record.samples - 1:
         remarks.append("the largest acceleration is the last sample: the file may be cut off")
     if record.pga_g > LARGEST_PGA_G:
-        remarks.append(f"PGA {record.pga_g:.3g} g is above {LARGEST_PGA_G:g} g: the unit, {record.unit}, is doubtful")
+        remarks.append(
+            f"PGA {record.pga_g:.3g} g is above {LARGEST_PGA_G:g} g: the unit, {record.file_unit}, is doubtful"
+        )
     elif record.pga_g > LARGE_PGA_G:
         remarks.append(
-            f"PGA {record.pga_g:.3g} g is above {LARGE_PGA_G:g} g, as few records are: is the unit {record.unit}?"
+            f"PGA {record.pga_g:.3g} g is above {LARGE_PGA_G:g} g, as few records are: is the unit {record.file_unit}?"
         )
     elif record.samples >= FEWEST_OF_ONE_SIGN and record.pgv > LARGE_PGV:
         remarks.append(
-            f"PGV {record.pgv:.3g} m/s is above {LARGE_PGV:g} m/s: the unit, {record.unit}, or the step, "
+            f"PGV {record.pgv:.3g} m/s is above {LARGE_PGV:g} m/s: the unit, {record.file_unit}, or the step, "
             f"{record.dt:g} s, is doubtful, or an offset was not removed"
         )
     elif record.pga_g < SMALLEST_PGA_G and unit_given:
-        remarks.append(f"PGA {record.pga_g:.2g} g is very small: the unit, {record.unit}, is doubtful")
+        remarks.append(f"PGA {record.pga_g:.2g} g is very small: the unit, {record.file_unit}, is doubtful")
     one_sign = no_motion(record)
     if one_sign:
         remarks.append(one_sign)

@@ -6,7 +6,7 @@ What is computed from the samples stands in intensity.py, what changes them in p
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import InitVar, dataclass, fields
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidMotion
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY, acceleration_factor
 from seismass.base.values import Value, as_array, as_name, as_number, brief, frozen, printable, refusal
 from seismass.base.views import view
 from seismass.records import intensity, processing
@@ -38,7 +38,7 @@ class Record(Value):
     Parameters
     ----------
     acceleration : array_like, shape (samples,)
-        Ground acceleration (m/s2), first sample at t = 0; kept as a read-only copy.
+        Ground acceleration in `unit`, first sample at t = 0; kept as a read-only copy in m/s2.
     dt : float
         Time step (s).
     name : str
@@ -47,12 +47,12 @@ class Record(Value):
         What the source calls them; empty where it does not say.
     source : Path, optional
         The file it was read from.
-    unit : str
-        Unit of the accelerations in that file: "g", "m/s2" or "cm/s2". The samples here are in m/s2 whatever it is.
+    unit : {"m/s2", "g", "cm/s2", "gal"}
+        Unit of the accelerations that are given, also of `vertical`; those of the record are in m/s2 whatever it is.
     synthetic : bool
         True for a made motion that no instrument recorded.
     vertical : array_like, shape (samples,), optional
-        Vertical ground acceleration (m/s2, up positive) at the same instants.
+        Vertical ground acceleration (in `unit`, up positive) at the same instants.
     remarks : tuple of str
         What a reader had to interpret or leave out.
     azimuth : float, optional
@@ -66,12 +66,14 @@ class Record(Value):
         the source does not say.
     history : tuple of str
         What was done to the samples after reading, in order.
+    file_unit : str
+        Unit of the accelerations in the source file, as a label: "g", "m/s2" or "cm/s2".
 
     Raises
     ------
     InvalidMotion
-        No sample, a value that is not finite, a step that is not positive, components of different length, remarks or
-        history that are no tuple of strings.
+        No sample, a value that is not finite, a unit that is none of those, a step that is not positive, components of
+        different length, remarks or history that are no tuple of strings.
     """
 
     acceleration: NDArray[np.float64]
@@ -81,7 +83,7 @@ class Record(Value):
     station: str = ""
     component: str = ""
     source: Path | None = None
-    unit: str = "m/s2"
+    unit: InitVar[str] = "m/s2"
     synthetic: bool = False
     vertical: NDArray[np.float64] | None = None
     remarks: tuple[str, ...] = ()
@@ -90,15 +92,17 @@ class Record(Value):
     sha256: str = ""
     history: tuple[str, ...] = ()
     place: str = ""
+    file_unit: str = "m/s2"
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, unit: str) -> None:
         for label in ("name", "event", "station", "component", "network"):
             object.__setattr__(self, label, as_name(getattr(self, label), label, "record", InvalidMotion))
         what = f"record {self.name}" if self.name else "record"
+        factor = acceleration_factor(unit, what, InvalidMotion)
         object.__setattr__(self, "dt", _number("dt", self.dt, what, positive=True))
-        object.__setattr__(self, "acceleration", _samples("acceleration", self.acceleration, what))
+        object.__setattr__(self, "acceleration", _samples("acceleration", self.acceleration, what, factor))
         if self.vertical is not None:
-            vertical = _samples("vertical", self.vertical, what)
+            vertical = _samples("vertical", self.vertical, what, factor)
             if len(vertical) != self.samples:
                 raise InvalidMotion(
                     f"vertical of {what} must be as long as the horizontal, {self.samples} samples; "
@@ -367,7 +371,7 @@ def _number(parameter: str, value: Any, what: str, *, positive: bool) -> float:
     return number
 
 
-def _samples(parameter: str, values: ArrayLike, what: str) -> NDArray[np.float64]:
+def _samples(parameter: str, values: ArrayLike, what: str, factor: float) -> NDArray[np.float64]:
     samples = as_array(values, parameter, what, InvalidMotion)
     if len(samples) == 0:
         raise refusal(InvalidMotion, parameter, what, "a list of at least one sample", "none")
@@ -375,4 +379,4 @@ def _samples(parameter: str, values: ArrayLike, what: str) -> NDArray[np.float64
     if len(wrong):
         got = f"{samples[wrong[0]]} at sample {wrong[0]}"
         raise refusal(InvalidMotion, parameter, what, "finite at every sample", got)
-    return samples
+    return samples if factor == 1.0 else frozen(samples * factor)

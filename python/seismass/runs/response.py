@@ -14,6 +14,7 @@ from seismass.base.forks import require_polars
 from seismass.base.values import FloatArray, frozen, read_only, refusal
 from seismass.base.views import view
 from seismass.model.motion import Motion
+from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.runs.rack_results import RackResults
 from seismass.runs.response_views import ResponseAnimation, ResponsePlots
@@ -118,6 +119,11 @@ class Response(RackResults):
         if value is None:
             raise refusal(InvalidOption, option, "simulate", f"asked for, if {name} is wanted", "False")
         return value
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What is unlikely about scene and motion, in sentences: wrong units above all."""
+        return (*self.scene.remarks, *motion_remarks(self.motion))
 
     @property
     def status(self) -> str:

@@ -52,7 +52,7 @@ def run_text(
         f"  motion    {named}{motion.samples} samples at {motion.dt:g} s ({motion.duration:g} s), "
         f"PGA {motion.pga_g:.3f} g{vertical}"
     )
-    lines += [f"            {remark}" for remark in remarks or scene.remarks]
+    lines += [f"            {remark}" for remark in remarks or response.remarks]
     if scene.building is not None:
         lines += ["", *text_table(_storey_table(scene.building, response), left=0)]
     if scene.racks:

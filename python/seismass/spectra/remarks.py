@@ -9,8 +9,8 @@ import numpy as np
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.spectra.target import TargetSpectrum
 
-MAX_ORDINATE: Final = 10.0
-"""Ordinate of a target spectrum (g)."""
+MAX_ORDINATE: Final = 4.0
+"""Ordinate of a target spectrum (g); no site has an S_DS above it, and 1 g stated in m/s2 is 9.81."""
 
 
 PARAMETERS: Final[dict[str, dict[str, tuple[float, float, str, str]]]] = {
@@ -41,13 +41,14 @@ def target_remarks(target: TargetSpectrum) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        A sentence on an ordinate that is too large, and one for each parameter of a code outside its range.
+        Sentences on an ordinate that is too large, on S_DS and S_D1 that are exchanged, and on parameters of a code
+        outside their ranges.
 
     Examples
     --------
     >>> import seismass as sm
     >>> target_remarks(sm.TargetSpectrum.asce7(sds_g=107.0, sd1_g=61.0))
-    ('S_DS of the target spectrum is 107 g, above 10 g: spectral accelerations are in g, not per cent',)
+    ('S_DS of the target spectrum is 107 g, above 4 g: spectral accelerations are in g, not m/s2 or per cent',)
     """
     parameters = target.parameters
     if "sds_g" in parameters:
@@ -63,10 +64,15 @@ def target_remarks(target: TargetSpectrum) -> tuple[str, ...]:
         for name, (least, most, unit, doubt) in ranges.items()
         if not least <= parameters[name] <= most
     )
-    large = tuple(
+    found = [
         f"{name} of the target spectrum is {value:.4g} g, above {MAX_ORDINATE:g} g: "
-        "spectral accelerations are in g, not per cent"
+        "spectral accelerations are in g, not m/s2 or per cent"
         for name, value in ordinates.items()
         if value > MAX_ORDINATE
-    )
-    return large + outside
+    ]
+    if "sd1_g" in parameters and parameters["sd1_g"] > parameters["sds_g"]:
+        found.append(
+            f"S_D1 of the target spectrum is {parameters['sd1_g']:.4g} g, above S_DS = {parameters['sds_g']:.4g} g: "
+            "are they exchanged?"
+        )
+    return (*found, *outside)

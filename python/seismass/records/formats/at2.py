@@ -129,7 +129,7 @@ def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | N
         azimuth=azimuth_of(component),
         network=_network(header),
         source=source,
-        unit=unit,
+        file_unit=unit,
         synthetic=bool(_SYNTHETIC.search(header)),
         remarks=tuple(remarks),
     )

@@ -237,7 +237,7 @@ def _channel(
         component=printable(direction),
         azimuth=azimuth_of(direction) if direction else None,
         source=source,
-        unit=name,
+        file_unit=name,
         remarks=remarks,
     )
     return Channel(column.key, record)

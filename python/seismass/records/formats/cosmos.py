@@ -223,7 +223,7 @@ def _channel(raw: _Raw, source: Path, arguments: Arguments, number: int, several
         azimuth=azimuth,
         network=(scnl or place_code or {"network": ""})["network"],
         source=source,
-        unit=unit,
+        file_unit=unit,
         place=_location(raw.text[1:]),
         remarks=tuple(remarks),
     )

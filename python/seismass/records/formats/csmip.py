@@ -274,7 +274,7 @@ def _channel(
             azimuth=azimuth_of(component),
             network=_network(header, titles[6] if corrected else titles[5]),
             source=source,
-            unit=unit,
+            file_unit=unit,
             place=printable(where),
             remarks=tuple(remarks),
         ),

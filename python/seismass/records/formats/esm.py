@@ -93,7 +93,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         azimuth=azimuth_of(stream),
         network=header.get("NETWORK", ""),
         source=source,
-        unit=unit,
+        file_unit=unit,
         remarks=tuple(remarks),
     )
     return (Channel(stream or "1", record),)

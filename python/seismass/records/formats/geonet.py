@@ -102,7 +102,7 @@ def _channel(lines: list[str], at: int, number: int, source: Path, arguments: Ar
         azimuth=azimuth_of(component),
         network="GeoNet",
         source=source,
-        unit="mm/s2",
+        file_unit="mm/s2",
         remarks=tuple(remarks),
     )
     return Channel(str(number), record), end

@@ -143,7 +143,7 @@ def _parse(header: Header, text: str, source: Path, arguments: Arguments) -> tup
                     azimuth=azimuth_of(component),
                     network=header.network if isinstance(header.network, str) else _found(header.network, words),
                     source=source,
-                    unit=unit,
+                    file_unit=unit,
                     remarks=tuple(own),
                 ),
             )

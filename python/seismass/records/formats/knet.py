@@ -114,7 +114,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         azimuth=azimuth,
         network="KiK-net" if header["Dir."].isdecimal() else "K-NET",
         source=source,
-        unit="cm/s2",
+        file_unit="cm/s2",
         place="borehole" if header["Dir."] in ("1", "2", "3") else "",
         remarks=tuple(remarks),
     )

@@ -104,7 +104,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
         azimuth=_azimuth(component, whole),
         network=agency[1].strip() if agency else "",
         source=source,
-        unit="cm/s2",
+        file_unit="cm/s2",
         remarks=tuple(remarks),
     )
     return (Channel(component or "1", record),)

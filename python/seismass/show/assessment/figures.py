@@ -12,14 +12,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.assessment.advice import NAMES
-from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
-from seismass.assessment.result import Assessment
+from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, NAMES, REAL, REAL_HIGH, REAL_LOW
+from seismass.assessment.result import Assessment, shown_figures
 from seismass.base.values import FloatArray
 from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.model.codes import AS_STATED, MARK, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.tables import AssessmentTables, Fraction, assessment_tables
-from seismass.show.effective_mass.figures import STORAGE_CODES
+from seismass.show.effective_mass.figures import STORAGE_CODES, marked_legend
 
 PURPLE: Final = "#CC79A7"
 DASH: Final = (0, (5, 2))
@@ -43,9 +43,9 @@ MODEL_LOOKS: Final[dict[str, tuple[str, Any, str]]] = {
 
 
 def assessment_figures(result: AssessmentTables) -> dict[str, Figure]:
-    """Return the figures of an assessment by name: effective_fraction and slip where there are goods, and drift."""
-    names = ("effective_fraction", "drift", "slip") if result.effective else ("drift",)
-    return {name: _drawn(result, name) for name in names}
+    """Return the figures of an assessment that have something to show, by name."""
+    fractions = any(np.isfinite(one.value) for one in result.effective.values())
+    return {name: _drawn(result, name) for name in shown_figures(fractions, result.storeys, result.slip)}
 
 
 def assessment_figure(result: Assessment, name: str | None = None) -> Figure:
@@ -70,6 +70,8 @@ def fraction_figure(result: AssessmentTables) -> Figure:
     low, high = result.mu_factors
     factors = {REAL: "", REAL_HIGH: rf", {high:g} $\mu$", REAL_LOW: rf", {low:g} $\mu$"}
     for model, effective in result.effective.items():
+        if not np.isfinite(effective.value):
+            continue
         colour, line, marker, name = FRICTION_LOOKS[model]
         curve = effective.curve.filter(pl.col("storey") == 0).sort("fraction")
         share = curve["fraction"].to_numpy()
@@ -83,9 +85,8 @@ def fraction_figure(result: AssessmentTables) -> Figure:
             axes.fill_between(share, lowest, highest, color=colour, alpha=0.15, linewidth=0.0, label=label)
         label = rf"friction {name}{factors[model]}: $\lambda_{{eff}}$ = {_value(effective)}"
         axes.plot(share, ratio, color=colour, linestyle=line, linewidth=1.7, label=label, marker=marker, markevery=[])
-        if np.isfinite(effective.value):
-            at = effective.real / effective.model
-            axes.plot([effective.value], [at], color=colour, marker=marker, markersize=7.5, clip_on=False, zorder=5)
+        at = effective.real / effective.model
+        axes.plot([effective.value], [at], color=colour, marker=marker, markersize=7.5, clip_on=False, zorder=5)
     axes.axhline(1.0, color=INK, linewidth=0.9)
     axes.set_xlim(0.0, 1.0)
     _mark_shares(axes, result)
@@ -93,7 +94,8 @@ def fraction_figure(result: AssessmentTables) -> Figure:
     axes.set_ylabel("largest storey drift, mean over the motions:\ngoods slide / model (above 1: the model is unsafe)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=1, frameon=False)
-    figure.supxlabel(_caption(result), fontsize=7.5)
+    shown = STORAGE_CODES if result.code["use"] == "storage" else {}
+    figure.supxlabel(f"{_caption(result)}{marked_legend(shown)}", fontsize=7.5)
     return figure
 
 
@@ -109,9 +111,13 @@ def _mark_shares(axes: Axes, result: AssessmentTables) -> None:
     if result.advised is not None:
         label = f"advised: {result.advised:.2f} of the goods present"
         axes.axvline(result.advised, color=INK, linestyle=DASH, linewidth=1.2, label=label)
-    if code["fraction"] <= present:
-        label = f"{_plain(code['code'])}: {code['fraction']:g} of the design live load"
-        axes.axvline(code["fraction"] / present, color=PURPLE, linestyle=DASH_DOT, linewidth=1.4, label=label)
+    if code["share_of_design_live_load"] <= present:
+        label = (
+            f"{_plain(code['code'])}: {code['share_of_design_live_load']:.3g} of the design live load{_unchecked(code)}"
+        )
+        axes.axvline(
+            code["share_of_design_live_load"] / present, color=PURPLE, linestyle=DASH_DOT, linewidth=1.4, label=label
+        )
     if code["use"] != "storage":
         return
     marks = {name: share / present for name, share in STORAGE_CODES.items() if share <= present}
@@ -124,7 +130,7 @@ def drift_figure(result: AssessmentTables) -> Figure:
     """Mean peak drift of each storey by model, with 16 and 84 % over the motions, beside the limit."""
     storeys, limit, names = result.storeys, result.drift_limit, result.storey_names
     scale = 1e3 if limit is None else 1e2
-    models = [model for model in MODEL_LOOKS if model in set(storeys["model"])]
+    models = [model for model in MODEL_LOOKS if model in set(storeys.drop_nulls("mean")["model"])]
     figure = Figure(figsize=(6.8, 2.2 + 0.85 * len(names)), layout="constrained")
     axes = figure.add_subplot()
     spacing = 0.15
@@ -237,12 +243,17 @@ def slip_figure(result: AssessmentTables) -> Figure:
     return figure
 
 
+def _unchecked(code: dict[str, Any]) -> str:
+    """Mark and words of a code whose fraction was not read in its text."""
+    return "" if code["status"] in (VERIFIED, AS_STATED) else f" {MARK} {NOT_CHECKED}"
+
+
 def _model_label(result: AssessmentTables, model: str) -> str:
     if model == ADVISED and result.advised is not None:
         return rf"advised, $\lambda$ = {result.advised:.2f} of the goods"
     if model == CODE:
         code = result.code
-        return f"{_plain(code['code'])}, {code['fraction']:g} of the live load"
+        return f"{_plain(code['code'])}, {code['share_of_design_live_load']:.3g} of the live load{_unchecked(code)}"
     return {REAL: "goods slide, friction as stated", ATTACHED: "all goods attached", BARE: "no goods attached"}.get(
         model, NAMES[model]
     )

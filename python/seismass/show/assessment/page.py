@@ -9,8 +9,7 @@ from typing import Any, Final
 import polars as pl
 from markupsafe import Markup
 
-from seismass.assessment.advice import NAMES, motions_in_words
-from seismass.assessment.models import REAL, REAL_HIGH, REAL_LOW
+from seismass.assessment.models import ADVISED, BARE, NAMES, REAL, REAL_HIGH, REAL_LOW
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
@@ -18,6 +17,8 @@ from seismass.effective_mass.rules import BY_HAND
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
 from seismass.media.svg import short_svg
 from seismass.media.text_table import number_text
+from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
+from seismass.show.assessment.box import answer_lines, box_class
 from seismass.show.assessment.tables import AssessmentTables, Fraction
 from seismass.show.study.page import bullets_html, long_html
 
@@ -54,46 +55,16 @@ def building_page(result: AssessmentTables, drawings: Mapping[str, str]) -> str:
         Section("Effective fraction", _fractions(result, drawings)),
         Section("Drifts", _drifts(result, drawings)),
         *([Section("Slip of the goods", _slip(result, drawings))] if result.slip.height else []),
-        Section("In an analysis", [bullets_html(document["advice"])]),
+        Section("In an analysis", [bullets_html(document["advice"]), *_masses(result)]),
         Section("Remarks", [bullets_html(document["remarks"] or ["None."])]),
         Section("Assumptions", [bullets_html(document["assumptions"])]),
         Section("Limits of this page", [bullets_html(list(LIMITS))]),
         Section("Provenance", _provenance(result)),
     ]
-    lead = [Markup('<div class="answer">{}</div>').format(text_html(*_answer(result)))]
+    lead = [Markup('<div class="{}">{}</div>').format(box_class(result), text_html(*answer_lines(result)))]
     version = f"seismass {document['metadata']['package_version']}"
     subtitle = "; ".join(part for part in (document["note"], version) if part)
     return page_html(document["name"] or "Building", sections, subtitle=subtitle, lead=lead)
-
-
-def _answer(result: AssessmentTables) -> list[Markup]:
-    document, code = result.document, result.code
-    if result.advised is None:
-        return [Markup("There are no goods on the floors: no live load could act as mass.")]
-    share = document["answer"]["advised_share_of_design_live_load"]
-    real = result.effective[REAL]
-    spread = "" if real.interval is None else f" ({100.0 * real.confidence:g} % interval {_interval(real)})"
-    failed = result.checks.filter(pl.col("met").eq_missing(False) | pl.col("met").is_null())
-    verdict = (
-        Markup('<span class="good">All checks are met.</span>')
-        if not failed.height
-        else Markup('<span class="warn">{} of {} checks are not met.</span>').format(
-            failed.height, result.checks.height
-        )
-    )
-    return [
-        Markup(
-            "Use <strong>lambda = {advised:.2f}</strong> of the goods present, {share:.2f} of the design live load, as "
-            "mass in an analysis."
-        ).format(advised=result.advised, share=share),
-        Markup("On {}.").format(motions_in_words(document["suite"])),
-        Markup(
-            "With friction as stated the effective fraction is {value}{spread}; {code} counts {fraction:g} of the "
-            "design live load. {verdict}"
-        ).format(
-            value=_number(real.value), spread=spread, code=code["code"], fraction=code["fraction"], verdict=verdict
-        ),
-    ]
 
 
 def _number(value: float | None, digits: int = 2) -> str:
@@ -122,8 +93,9 @@ def _input(result: AssessmentTables) -> list[Markup]:
         "live load",
         "P-Delta": "with the weight of building and goods" if given["p_delta"] else "none",
         "Bounds of friction": "{:g} and {:g} times mu".format(*given["mu_factors"]),
-        "Code": f"{code['code']}, {code['use']}: {code['fraction']:g} of the design live load"
-        + "".join(f"; {code[name]}" for name in ("clause", "status", "note") if code[name]),
+        "Code": f"{code['code']}, {code['use']}: {code['share_of_design_live_load']:.3g} of the design live load"
+        + "".join(f"; {code[name]}" for name in ("clause", "status", "note") if code[name])
+        + ("" if code["status"] in (VERIFIED, AS_STATED) else f"; {NOT_CHECKED}"),
         "Site spectrum": "none" if document["target"] is None else document["target"]["label"],
         "Motions": f"{document['suite']['name']}: {', '.join(document['suite']['motions'])}",
     }
@@ -170,7 +142,8 @@ def _checks(result: AssessmentTables) -> Markup:
 
 
 def _verdict(text: str) -> Markup:
-    return Markup('<span class="{}">{}</span>').format("good" if text == "met" else "warn", text)
+    looks = {"met": "good", "not met": "warn"}
+    return Markup('<span class="{}">{}</span>').format(looks.get(text, ""), text)
 
 
 def _figure(drawings: Mapping[str, str], name: str, caption: str, alt: str) -> Markup:
@@ -185,8 +158,8 @@ def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Ma
     rows = [
         {
             "friction": words[model],
-            "value": None if math.isnan(one.value) else one.value,
-            "interval": _interval(one),
+            "value": "no value" if math.isnan(one.value) else f"{one.value:.2f}",
+            "interval": _interval(one) + ("" if one.statistic == "mean" else f", by the {one.statistic}"),
             "kind": f"{one.kind}: {KIND_TEXTS[one.kind]}",
             "eta": one.eta,
             "estimate": one.estimate,
@@ -202,10 +175,12 @@ def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Ma
             drawings,
             "effective_fraction",
             "Mean largest drift with sliding goods over that of the model, against the share of the goods attached.",
-            f"The curve for friction as stated crosses one at a share of {_number(real.value)}.",
+            f"The curve for friction as stated crosses one at a share of {_number(real.value)}."
+            if math.isfinite(real.value)
+            else "For friction as stated there is no share.",
         ),
         table_html(
-            pl.DataFrame(rows, schema_overrides={"value": pl.Float64}),
+            pl.DataFrame(rows),
             f"Effective fraction of the goods present by friction; C1 = {real.base_shear_coefficient:.4f} is the mean "
             f"peak base shear of the runs with all goods attached over the weight of all, eta = mu_k/C1; without a run "
             f"C1 = {rule.base_shear_coefficient:.4f} and eta = {rule.eta:.3f}. {RULE_IN_WORDS}: here p = "
@@ -220,7 +195,7 @@ def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Ma
             },
             formats={
                 "kind": long_html,
-                **dict.fromkeys(("value", "eta", "estimate", "conservative", "by_hand"), ".2f"),
+                **dict.fromkeys(("eta", "estimate", "conservative", "by_hand"), ".2f"),
             },
         ),
     ]
@@ -246,6 +221,7 @@ def _drifts(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Marku
         row = worst.row(0, named=True)
         said = f"The largest mean is {scale * row['mean']:.2f} {unit}, storey {row['storey']}, {NAMES[row['model']]}."
     return [
+        *([_governing(result, scale, unit)] if result.answer is not None else []),
         _figure(
             drawings,
             "drift",
@@ -262,6 +238,60 @@ def _drifts(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Marku
                 **({"theta": ".3f"} if ratio else {}),
             },
         ),
+    ]
+
+
+def _governing(result: AssessmentTables, scale: float, unit: str) -> Markup:
+    """Both analyses and all frictions, storey by storey."""
+    low, high = result.mu_factors
+    headers = {
+        ADVISED: f"analysis 1 ({unit})",
+        BARE: f"analysis 2 ({unit})",
+        REAL: f"goods slide, mu as stated ({unit})",
+        REAL_HIGH: f"mu x {high:g} ({unit})",
+        REAL_LOW: f"mu x {low:g} ({unit})",
+        "governing": f"governs ({unit})",
+        "limit": f"limit ({unit})",
+        "governed_by": "governed by",
+    }
+    shown = [name for name in headers if result.governing[name].null_count() < result.governing.height]
+    table = result.governing.select("storey", "name", *shown)
+    if not any(table["name"]):
+        table = table.drop("name")
+    drifts = [name for name in shown if name != "governed_by"]
+    return table_html(
+        table,
+        "Mean peak drift of each storey in both analyses and with goods that slide; the largest governs.",
+        headers={name: headers[name] for name in shown},
+        formats=dict.fromkeys(drifts, lambda value: f"{scale * value:.2f}"),
+    )
+
+
+def _masses(result: AssessmentTables) -> list[Markup]:
+    """What to type into another program."""
+    if result.answer is None:
+        return []
+    table = result.masses
+    if not any(table["name"]):
+        table = table.drop("name")
+    return [
+        table_html(
+            table,
+            "Mass of each floor in both analyses, for another program. The multiplier is that of the design live load "
+            "in the mass source of analysis 1; in analysis 2 it is 0.",
+            headers={
+                "mass_1": "analysis 1: mass (t)",
+                "weight_1": "weight (kN)",
+                "multiplier": "multiplier of the live load",
+                "mass_2": "analysis 2: mass (t)",
+                "weight_2": "weight (kN)",
+            },
+            formats={
+                **dict.fromkeys(("mass_1", "mass_2"), lambda value: f"{1e-3 * value:.1f}"),
+                **dict.fromkeys(("weight_1", "weight_2"), _thousandth),
+                "multiplier": ".2f",
+            },
+        )
     ]
 
 

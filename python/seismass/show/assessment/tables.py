@@ -20,7 +20,7 @@ from seismass.media.folder import as_written
 
 DOCUMENT: Final = "assessment.json"
 """File by which a folder is known as that of an assessment."""
-NEEDED: Final = ("storeys", "slip", "runs", "checks")
+NEEDED: Final = ("storeys", "governing", "masses", "slip", "runs", "checks")
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class AssessmentTables:
     ----------
     document : dict
         What assessment.json holds.
-    storeys, slip, runs, checks : polars.DataFrame
+    storeys, governing, masses, slip, runs, checks : polars.DataFrame
         Tables of the assessment.
     scaling : polars.DataFrame or None
         Factors of the motions.
@@ -63,6 +63,8 @@ class AssessmentTables:
 
     document: dict[str, Any]
     storeys: pl.DataFrame = field(repr=False)
+    governing: pl.DataFrame = field(repr=False)
+    masses: pl.DataFrame = field(repr=False)
     slip: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
     checks: pl.DataFrame = field(repr=False)
@@ -70,20 +72,25 @@ class AssessmentTables:
     effective: dict[str, Fraction] = field(repr=False)
 
     @property
+    def answer(self) -> dict[str, Any] | None:
+        """The answer, as assessment.json has it; None where there is none."""
+        answer: dict[str, Any] | None = self.document["answer"]
+        return answer
+
+    @property
     def advised(self) -> float | None:
-        """Share of the goods present to attach."""
-        share: float | None = self.document["answer"]["advised_share_of_goods_present"]
-        return share
+        """Share of the goods present to attach in analysis 1; None where there is no answer."""
+        return None if self.answer is None else float(self.answer["advised_share_of_goods_present"])
 
     @property
     def present_share(self) -> float:
         """Goods present over the design live load."""
-        return float(self.document["answer"]["goods_present_over_design_live_load"])
+        return float(self.document["input"]["goods_present_over_design_live_load"])
 
     @property
     def code(self) -> dict[str, Any]:
         """The code: its name, use, fraction, range, clause, status and note."""
-        code: dict[str, Any] = self.document["answer"]["code"]
+        code: dict[str, Any] = self.document["code"]
         return code
 
     @property
@@ -146,6 +153,8 @@ def _made(document: dict[str, Any], tables: dict[str, pl.DataFrame]) -> Assessme
     return AssessmentTables(
         document=document,
         storeys=tables["storeys"],
+        governing=tables["governing"],
+        masses=tables["masses"],
         slip=tables["slip"],
         runs=tables["runs"],
         checks=tables["checks"],

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-import math
 import textwrap
 from typing import Any, Final
 
 import polars as pl
 
-from seismass.assessment.advice import NAMES, motions_in_words
-from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, REAL, REAL_HIGH, REAL_LOW
+from seismass.assessment.answer import floor_masses
+from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REAL_HIGH, REAL_LOW
 from seismass.assessment.result import Assessment
-from seismass.effective_mass import ByHand, EffectiveMass
+from seismass.effective_mass import ByHand
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
-from seismass.effective_mass.result import KIND_TEXTS
 from seismass.media.text_table import number_text, text_table
+from seismass.model.codes import NOT_CHECKED
 
 WIDTH: Final = 108
 """Columns of the page."""
-_SHOWN: Final = (REAL, ADVISED, CODE, ATTACHED, BARE)
-"""Models whose drifts the page shows; those at the bounds of friction stand in the tables."""
+_STABLE: Final = (ADVISED, BARE, REAL, REAL_HIGH, REAL_LOW, CODE)
+"""Models whose drifts and stability coefficients are printed, in this order; that with all goods is in the tables."""
 
 
 def assessment_text(result: Assessment) -> str:
@@ -31,6 +30,8 @@ def assessment_text(result: Assessment) -> str:
     lines += ["", *_answer(result), "", *_drifts(result)]
     if building.heights is not None:
         lines += ["", *_stability(result)]
+    if result.answer.analyses:
+        lines += ["", *_masses(result)]
     if result.slip.height:
         lines += ["", *_slips(result)]
     lines += ["", *_motions(result), "", "In an analysis", *_bullets(result.advice)]
@@ -40,34 +41,48 @@ def assessment_text(result: Assessment) -> str:
     return "\n".join(lines)
 
 
+def _told(label: str, text: str) -> list[str]:
+    return textwrap.wrap(text, WIDTH, initial_indent=f"{label:10}", subsequent_indent=" " * 10)
+
+
 def _answer(result: Assessment) -> list[str]:
-    building, code = result.building, result.building.code
-    if result.advised is None or result.advised_of_live_load is None:
-        return ["ANSWER    no goods on the floors: there is no live load whose fraction could act as mass"]
-    share = building.present_share
-    present = (
-        "" if share == 1.0 else f" of the goods present, {result.advised_of_live_load:.2f} of the design live load"
-    )
-    lines = [f"ANSWER    use lambda = {result.advised:.2f}{present}"]
-    for name, words in ((REAL, "mu as stated"), (REAL_HIGH, "mu x {high:g}"), (REAL_LOW, "mu x {low:g}")):
-        if name in result.effective:
-            low, high = building.mu_factors
-            lines.append(f"          {words.format(low=low, high=high):14}{_fraction(result.effective[name])}")
-    lines.append(f"          on {motions_in_words(result.suite)}")
-    real = result.effective[REAL]
-    lines.append(f"          {real.kind}: {KIND_TEXTS[real.kind]}")
-    of_present = "" if share == 1.0 else f" ({code.fraction / share:.2f} of the goods present)"
-    spread = f" (range {code.low:g} to {code.high:g})" if code.low < code.high else ""
-    source = "".join(f"; {part}" for part in (code.clause, code.status) if part)
-    told = f"{code.code}, {code.use}: {code.fraction:g}{spread} of the design live load{of_present}{source}"
-    lines += textwrap.wrap(told, WIDTH, initial_indent="code      ", subsequent_indent=" " * 10)
-    lines += [
-        f"rule      eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}, mean peak base shear of "
-        f"the runs: {RULE} = {real.estimate:.2f} at best,",
-        f"          {SAFE_RULE} = {real.conservative:.2f} to be safe",
-        *_rule(real.by_hand),
-    ]
+    answer = result.answer
+    doubts = enumerate(answer.doubt_lines)
+    lines = [line for number, doubt in doubts for line in _told("ANSWER" if number == 0 else "", doubt)]
+    lines += _told("" if lines else "ANSWER", answer.statement)
+    for one, words in zip(answer.analyses, answer.pair, strict=True):
+        lines.append(f"          {one.number}  {words}")
+    for number, sentence in enumerate(answer.governs):
+        lines += _told("governs" if number == 0 else "", sentence)
+    if answer.why:
+        lines += _told("why", answer.why)
+    if answer.design:
+        lines += _told("strength", answer.design)
+    lines += _told("motions", answer.motions)
+    if not result.effective:
+        return lines
+    lines += _told("code", _code(result))
+    if answer.analyses:
+        real = result.effective[REAL]
+        lines += _told(
+            "rule",
+            f"eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}, mean peak base shear of the "
+            f"runs: {RULE} = {real.estimate:.2f} at best, {SAFE_RULE} = {real.conservative:.2f} to be safe",
+        )
+        lines += _rule(real.by_hand)
     return lines
+
+
+def _code(result: Assessment) -> str:
+    """The code's fraction on the base of the shares, with its own in brackets."""
+    code, share = result.building.code, result.building.present_share
+    of_load = result.building.code_share
+    spread = f", range {code.low:g} to {code.high:g}" if code.low < code.high else ""
+    source = "".join(f"; {part}" for part in (code.clause, code.status, "" if code.checked else NOT_CHECKED) if part)
+    return (
+        f"{code.code}{code.mark}, {code.use}: {of_load / share:.2f} of the goods present ({of_load:.3g} of "
+        f"the design live load{spread}){source}"
+    )
 
 
 def _rule(rule: ByHand) -> list[str]:
@@ -80,31 +95,22 @@ def _rule(rule: ByHand) -> list[str]:
     ]
 
 
-def _fraction(result: EffectiveMass) -> str:
-    if not math.isfinite(result.value):
-        return "no value: the building collapses under too many motions"
-    scatter = "no interval"
-    if result.suite_interval is not None and all(math.isfinite(end) for end in result.suite_interval):
-        low, high = result.suite_interval
-        scatter = f"{100.0 * result.confidence:g} % interval {low:.2f} to {high:.2f}"
-    kind = {"stuck": "no goods slide", "one": "all act, and a little more", "zero": "none needs to be attached"}
-    of = "" if result.statistic == "mean" else f", by the {result.statistic}"
-    return f"lambda_eff = {result.value:.2f} ({scatter}{of})" + (
-        f"; {kind[result.kind]}" if result.kind in kind else ""
-    )
-
-
 def _label(result: Assessment, model: str) -> str:
-    if model == ADVISED and result.advised is not None:
-        return f"lambda {result.advised:.2f}"
-    if model == CODE:
-        return f"code {result.building.code.fraction:g}"
-    return NAMES[model]
+    """Heading of a model's column, short."""
+    low, high = result.building.mu_factors
+    return {
+        ADVISED: "analysis 1",
+        BARE: "analysis 2" if result.answer.analyses else "no goods",
+        CODE: f"code {result.building.code_share:.3g}{result.building.code.mark}",
+        REAL: "slide, mu",
+        REAL_HIGH: f"mu x {high:g}",
+        REAL_LOW: f"mu x {low:g}",
+    }[model]
 
 
 def _models(result: Assessment) -> list[str]:
     known = set(result.storeys["model"])
-    return [model for model in _SHOWN if model in known]
+    return [model for model in _STABLE if model in known]
 
 
 def _storey_label(row: dict[str, Any]) -> str:
@@ -120,37 +126,60 @@ def _drifts(result: Assessment) -> list[str]:
     scale, unit = (1e3, "mm") if building.heights is None else (1e2, "% of the height")
     limit = "" if building.heights is None else f"; limit {100.0 * building.drift_limit:g} %"
     motions = len(result.suite["motions"])
-    lines = [f"Peak storey drift, {unit}: mean of {motions} motions [16 %, 84 % of them]{limit}"]
-    rows = [["storey", *(_label(result, model) for model in models)]]
-    for storey in range(1, building.storeys + 1):
-        cells = []
-        for model in models:
-            row = _of(result, storey, model)
-            mean, low, high = (number_text(row[name], scale=scale) for name in ("mean", "p16", "p84"))
-            above = (
-                "*" if building.heights is not None and (row["mean"] is None or row["mean_over_limit"] > 1.0) else " "
-            )
-            cells.append(f"{mean}{above}[{low}, {high}]")
-        rows.append([_storey_label(_of(result, storey, models[0])), *cells])
+    governed = bool(result.answer.analyses)
+    lines = [f"Peak storey drift, {unit}: mean of {motions} motions{limit}"]
+    rows = [["storey", *(_label(result, model) for model in models), *(["governs"] if governed else [])]]
+    scatter = [rows[0][: 1 + len(models)]]
+    for row in result.governing.iter_rows(named=True):
+        of = [_of(result, row["storey"], model) for model in models]
+        label = _storey_label(row)
+        cells = [_marked(one["mean"], one["mean_over_limit"], scale) for one in of]
+        if governed:
+            by = (row["governed_by"] or "").replace("goods slide, ", "slide, ").replace("mu as stated", "mu")
+            drift = _marked(row["governing"], row["governing_over_limit"], scale)
+            cells.append(f"{drift} {by}".rstrip())
+        rows.append([label, *cells])
+        scatter.append([label, *(_range(one["p16"], one["p84"], scale) for one in of)])
     if building.heights is not None:
-        rows.append(["motions above limit", *(f"{_above(result, model)} of {motions}" for model in models)])
-    lines += [*text_table(rows), *_at_bounds(result, scale)]
-    if any("*" in line for line in lines):
-        lines.append("  * mean above the limit, or no mean because runs collapsed")
-    return lines
+        above = [f"{_above(result, model)} of {motions}" for model in models]
+        rows.append(["motions above limit", *above, *([""] if governed else [])])
+    lines += text_table(rows)
+    marks = "".join("".join(row[1:]) for row in rows[1:])
+    notes = [f"  * mean above the limit{limit.removeprefix('; limit')}"] * ("*" in marks)
+    notes += ["  no value: runs collapse"] * ("no value" in marks)
+    return [*lines, *notes, f"From 16 to 84 % of the motions, {unit}", *text_table(scatter)]
 
 
-def _at_bounds(result: Assessment, scale: float) -> list[str]:
-    """Mean of the worst storey with sliding goods, at the bounds of friction."""
-    low, high = result.building.mu_factors
-    words = {REAL: "mu as stated", REAL_HIGH: f"mu x {high:g}", REAL_LOW: f"mu x {low:g}"}
-    found = []
-    for model, word in words.items():
-        means = result.storeys.filter(pl.col("model") == model)["mean"]
-        if len(means):
-            worst = None if means.null_count() else float(means.to_numpy().max())
-            found.append(f"{word} {number_text(worst, scale=scale)}")
-    return [f"  worst storey while goods slide: {', '.join(found)}"] if len(found) > 1 else []
+def _marked(mean: float | None, over_limit: float | None, scale: float) -> str:
+    if mean is None:
+        return "no value"
+    return f"{scale * mean:.2f}" + ("*" if over_limit is not None and over_limit > 1.0 else "")
+
+
+def _range(low: float | None, high: float | None, scale: float) -> str:
+    if low is None:
+        return "no value"
+    return f"from {scale * low:.2f}" if high is None else f"{scale * low:.2f}-{scale * high:.2f}"
+
+
+def _masses(result: Assessment) -> list[str]:
+    """What to type into another program, floor by floor."""
+    lines = [
+        "Mass of each floor for another program; the multiplier is that of the design live load in the mass source"
+    ]
+    rows = [["floor", "analysis 1: t", "kN", "multiplier", "analysis 2: t", "kN"]]
+    for row in floor_masses(result.answer, result.building).iter_rows(named=True):
+        rows.append(
+            [
+                f"{row['floor']} {row['name']}".rstrip()[:18],
+                f"{1e-3 * row['mass_1']:.1f}",
+                f"{1e-3 * row['weight_1']:.0f}",
+                f"{row['multiplier']:.2f}",
+                f"{1e-3 * row['mass_2']:.1f}",
+                f"{1e-3 * row['weight_2']:.0f}",
+            ]
+        )
+    return lines + text_table(rows)
 
 
 def _above(result: Assessment, model: str) -> int:
@@ -167,7 +196,7 @@ def _stability(result: Assessment) -> list[str]:
     for storey in range(1, result.building.storeys + 1):
         of = [_of(result, storey, model) for model in models]
         values = [*(row["theta"] for row in of), of[0]["theta_elastic"]]
-        rows.append([_storey_label(of[0]), *(number_text(value, ".3f") for value in values)])
+        rows.append([_storey_label(of[0]), *("no value" if value is None else f"{value:.3f}" for value in values)])
     return lines + text_table(rows)
 
 

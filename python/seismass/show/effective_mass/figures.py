@@ -16,7 +16,7 @@ from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.effective_mass.result import EffectiveMass
 from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
-from seismass.model.codes import code_fraction
+from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
 
 _MARKED: Final = {
     "asce7-10": "ASCE 7",
@@ -31,13 +31,16 @@ _MARKED: Final = {
 
 
 def _storage_codes() -> Iterator[tuple[str, float]]:
-    of_share = {code_id: code_fraction(code_id, "storage").fraction for code_id in _MARKED}
-    for share in dict.fromkeys(of_share.values()):
-        yield ", ".join(name for code_id, name in _MARKED.items() if of_share[code_id] == share), share
+    rows = {code_id: code_fraction(code_id, "storage") for code_id in _MARKED}
+    for share in dict.fromkeys(row.fraction for row in rows.values()):
+        named = [f"{name}{rows[code_id].mark}" for code_id, name in _MARKED.items() if rows[code_id].fraction == share]
+        yield ", ".join(named), share
 
 
 STORAGE_CODES: Final[Mapping[str, float]] = dict(_storage_codes())
 """Shares of codes for storage that figures mark, by the names of those that have them; see `seismass.model.codes`."""
+CODES_LEGEND: Final = f"{MARK} {NOT_CHECKED}"
+"""What stands below a figure that marks them."""
 _RATIO_TICKS: Final = (0.25, 0.33, 0.5, 0.67, 0.8, 1.0, 1.25, 1.5, 2.0, 3.0, 4.0)
 
 
@@ -76,7 +79,7 @@ def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
         mark_codes(axes, marks)
         figure.legend(loc="outside upper center", ncols=2, frameon=False)
-        figure.supxlabel(_caption(result), fontsize=7.5)
+        figure.supxlabel(f"{_caption(result)}{marked_legend(marks)}", fontsize=7.5)
     return figure
 
 
@@ -87,6 +90,11 @@ def _mark_answer(axes: Axes, result: EffectiveMass) -> None:
         axes.plot(result.interval, [1.0, 1.0], color=VERMILION, linewidth=3.0, solid_capstyle="butt", zorder=4)
     ratio = result.real / result.model
     axes.plot([result.value], [ratio], color=VERMILION, marker="D", markersize=7.0, linestyle="", label=text, zorder=5)
+
+
+def marked_legend(marks: Mapping[str, float]) -> str:
+    """Return the legend of codes that were not checked, on a line of its own; empty where none is marked."""
+    return f"\n{CODES_LEGEND}" if any(MARK in name for name in marks) else ""
 
 
 def mark_codes(axes: Axes, marks: Mapping[str, float]) -> None:

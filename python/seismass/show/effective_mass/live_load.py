@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from seismass.effective_mass.live_load import LiveLoadUncertainty
 from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
-from seismass.show.effective_mass.figures import STORAGE_CODES
+from seismass.show.effective_mass.figures import STORAGE_CODES, marked_legend
 
 
 def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> Figure:
@@ -67,7 +67,8 @@ def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> 
         figure.legend(*upper.get_legend_handles_labels(), loc="outside upper center", ncols=2, frameon=False)
         about = result.metadata
         figure.supxlabel(
-            f"{about['samples']} samples, {about['motions']} motions; mu {about['mu']}, occupancy {about['occupancy']}",
+            f"{about['samples']} samples, {about['motions']} motions; mu {about['mu']}, occupancy {about['occupancy']}"
+            f"{marked_legend(STORAGE_CODES)}",
             fontsize=7.5,
         )
     return figure

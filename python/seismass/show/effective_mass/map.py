@@ -15,7 +15,7 @@ from seismass.effective_mass.design_map import EffectiveMassMap
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate
 from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE
-from seismass.show.effective_mass.figures import STORAGE_CODES
+from seismass.show.effective_mass.figures import STORAGE_CODES, marked_legend
 
 LONGEST_ETA: Final = 2.2
 """Largest eta that the figure shows; beyond it the fraction is 1."""
@@ -87,7 +87,7 @@ def collapse_figure(result: EffectiveMassMap) -> Figure:
         for handle in legend.get_lines()[:-1]:
             handle.set_alpha(1.0)
             handle.set_markersize(5.0)
-        figure.supxlabel(map_caption(result), fontsize=7.5)
+        figure.supxlabel(f"{map_caption(result)}{marked_legend(STORAGE_CODES)}", fontsize=7.5)
     return figure
 
 

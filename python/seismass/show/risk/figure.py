@@ -18,7 +18,7 @@ from seismass.media.axes import grid_lines
 from seismass.media.figure_file import CAPTION_CHARACTERS
 from seismass.media.result import named_figure
 from seismass.media.style import BLUE, GREEN, GREY, INK, LAMBDA, ORANGE, STYLE, VERMILION, plain
-from seismass.show.effective_mass.figures import STORAGE_CODES, mark_codes
+from seismass.show.effective_mass.figures import STORAGE_CODES, mark_codes, marked_legend
 
 if TYPE_CHECKING:
     from seismass.risk.result import RiskTargetedShare
@@ -35,8 +35,10 @@ def risk_figure(
         figure = Figure(figsize=(_WIDTH, 5.0), layout="constrained")
         left, right = figure.subplots(1, 2)
         _hazard(left, result)
-        _rates(right, result, STORAGE_CODES if codes is None else codes)
-        figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * _WIDTH)), fontsize=7.5)
+        marks = STORAGE_CODES if codes is None else codes
+        _rates(right, result, marks)
+        caption = textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * _WIDTH))
+        figure.supxlabel(f"{caption}{marked_legend(marks)}", fontsize=7.5)
     return figure
 
 

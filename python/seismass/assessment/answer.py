@@ -1,0 +1,306 @@
+"""The answer of an assessment: a pair of analyses, what governs, why this share, on which motions; or why none.
+
+Text, page and JSON say what stands here, and nothing else beside it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import polars as pl
+
+from seismass.assessment.governing import ANALYSES, friction_words, largest_change
+from seismass.assessment.models import ADVISED, ATTACHED, BARE, REALS
+from seismass.assessment.own_building import OwnBuilding
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.effective_mass import EffectiveMass
+from seismass.scaling import ScalingResult
+
+ROUNDING_STEP: Final = 0.05
+"""An advised share is the next multiple of it."""
+MOST_DOUBTS: Final = 3
+"""Doubts that stand in the headline; the others are among the remarks."""
+NO_MATTER: Final = 0.01
+"""Change of a drift below which the share does not matter."""
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """One of the two analyses: what is attached to the floors as mass.
+
+    Attributes
+    ----------
+    number : int
+        1: with the share; 2: without goods.
+    model : str
+        Its name in the tables.
+    share_of_goods_present, share_of_design_live_load : float
+        What is attached, over the goods present and over the design live load of the whole building.
+    mass, goods_mass : tuple of float
+        Mass of each floor in the analysis, and what of it is goods (kg).
+    multipliers : tuple of float
+        Goods in the analysis over the design live load of each floor: multiplier of the live load in a mass source.
+    """
+
+    number: int
+    model: str
+    share_of_goods_present: float
+    share_of_design_live_load: float
+    mass: tuple[float, ...]
+    goods_mass: tuple[float, ...]
+    multipliers: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What an assessment answers.
+
+    Attributes
+    ----------
+    statement : str
+        The answer in one line; "no answer: ..." where there is none.
+    reason : str or None
+        Why there is no answer.
+    doubts : tuple of str
+        What makes the input doubtful; it stands before the statement.
+    analyses : tuple of Analysis
+        The pair; empty where there is no answer.
+    governs : tuple of str
+        Which analysis governs which storeys, and what goods that slide drift beside it.
+    why : str
+        The friction that decides, the fraction at it, and the rounding.
+    design : str
+        Which share goes into the weight W of a design of strengths.
+    motions : str
+        On which motions the answer stands.
+    matters : bool or None
+        Whether the share changes the drift of any storey by more than 1 %; None where there is no answer.
+    """
+
+    statement: str
+    reason: str | None
+    doubts: tuple[str, ...]
+    analyses: tuple[Analysis, ...] = ()
+    governs: tuple[str, ...] = ()
+    why: str = ""
+    design: str = ""
+    motions: str = ""
+    matters: bool | None = None
+
+    @property
+    def headline(self) -> str:
+        """The statement, behind the first doubt where the input is doubtful."""
+        return "; ".join([*self.doubt_lines[:1], self.statement])
+
+    @property
+    def doubt_lines(self) -> tuple[str, ...]:
+        """What stands before the statement where the input is doubtful."""
+        shown = [f"DOUBTFUL INPUT: {doubt}" for doubt in self.doubts[:MOST_DOUBTS]]
+        further = len(self.doubts) - len(shown)
+        return (*shown, *([f"and {further} more doubts, among the remarks"] if further else []))
+
+    @property
+    def pair(self) -> tuple[str, ...]:
+        """The two analyses in words, the base of shares in the first."""
+        return tuple(
+            f"lambda = {one.share_of_goods_present:.2f} of the goods present ({one.share_of_design_live_load:.2f} of "
+            "the design live load) as mass"
+            if one.model == ADVISED
+            else "no goods"
+            for one in self.analyses
+        )
+
+
+def answer_of(
+    building: OwnBuilding,
+    advised: float | None,
+    effective: dict[str, EffectiveMass],
+    design: EffectiveMass | None,
+    storeys: pl.DataFrame,
+    governing: pl.DataFrame,
+    collapses: dict[str, int],
+    suite: dict[str, Any],
+    scaling: ScalingResult | None,
+    doubts: tuple[str, ...],
+) -> Answer:
+    """Return the answer of an assessment of its parts, as `Assessment` has them."""
+    on = motions_sentence(suite, scaling)
+    reason = _reason(building, effective, collapses, len(suite["motions"]))
+    if reason is not None or advised is None:
+        why = reason or "there are no goods on the floors, and no live load could act as mass"
+        return Answer(f"no answer: {why}", why, doubts, motions=on)
+    words = friction_words(building)
+    change = largest_change(storeys, (*(name for name in REALS if name in effective), ATTACHED, BARE))
+    matters = change is None or change > NO_MATTER
+    statement = "two analyses; the larger drift of each storey counts"
+    if not matters:
+        assert change is not None
+        statement = (
+            f"the share does not matter: no storey's drift changes by more than {100.0 * max(change, 1e-4):.2g} %, "
+            "whether none or all of the goods act as mass"
+        )
+    return Answer(
+        statement,
+        None,
+        doubts,
+        analyses=(_analysis(building, 1, ADVISED, advised), _analysis(building, 2, BARE, 0.0)),
+        governs=_governs(governing),
+        why=_why(advised, effective, words),
+        design=_design(building, advised, design),
+        motions=on,
+        matters=matters,
+    )
+
+
+def rounded_up(value: float) -> float:
+    """Return a share rounded up to `ROUNDING_STEP`, at most 1."""
+    # Roots are located to 1e-12, so that one at a multiple is not lifted to the next.
+    return min(1.0, round(ROUNDING_STEP * math.ceil(value / ROUNDING_STEP - 1e-9), 2))
+
+
+def deciding(effective: dict[str, EffectiveMass]) -> str:
+    """Return the friction whose fraction is the largest; the stated one, where several are."""
+    return max(effective, key=lambda name: effective[name].value)
+
+
+def motions_sentence(suite: dict[str, Any], scaling: ScalingResult | None) -> str:
+    """Return on how many motions of which kind an answer stands, and how they were scaled."""
+    count, synthetic = len(suite["motions"]), suite["synthetic"]
+    if synthetic == count:
+        kind = f"{count} synthetic motions, none recorded"
+    elif synthetic:
+        kind = f"{count} motions, {synthetic} of them synthetic"
+    else:
+        kind = f"{count} recorded motions"
+    if scaling is None:
+        how = "taken as they are"
+    else:
+        low, high = float(np.min(scaling.factors)), float(np.max(scaling.factors))
+        how = f"scaled by {low:.2f} to {high:.2f} so that their mean is not below the site spectrum (ASCE/SEI 7-10)"
+    advice = "; use recordings of the site's hazard for a decision" if synthetic else ""
+    return f"on {kind}, {how}{advice}"
+
+
+def _reason(
+    building: OwnBuilding, effective: dict[str, EffectiveMass], collapses: dict[str, int], motions: int
+) -> str | None:
+    """Why there is no answer: what collapses, the building first, then the analyses."""
+    words = friction_words(building)
+    fallen = {name: collapses[name] for name in REALS if collapses.get(name)}
+    if fallen:
+        worst = max(fallen, key=lambda name: fallen[name])
+        at = "" if len(effective) == 1 else f" ({words[worst]})"
+        return f"the building collapses under {fallen[worst]} of {motions} motions{at}"
+    if not effective:
+        count = collapses.get(BARE)
+        return f"the building collapses under {count} of {motions} motions" if count else None
+    for name, called in ANALYSES.items():
+        if collapses.get(name):
+            return f"{called} collapses under {collapses[name]} of {motions} motions"
+    return None
+
+
+def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> Analysis:
+    goods = share * building.goods
+    load = building.live_load
+    multipliers = np.divide(goods, load, out=np.zeros(len(load)), where=load > 0.0)
+    return Analysis(
+        number,
+        model,
+        share,
+        share * building.present_share,
+        tuple((building.mass + goods).tolist()),
+        tuple(goods.tolist()),
+        tuple(multipliers.tolist()),
+    )
+
+
+def _governs(governing: pl.DataFrame) -> tuple[str, ...]:
+    """One sentence per analysis that governs a storey, and one about the goods that slide."""
+    scale, unit = (1e2, "%") if governing["unit"][0] == "ratio" else (1e3, "mm")
+    lines = []
+    for by in dict.fromkeys(governing["governed_by"].to_list()):
+        of = governing.filter(pl.col("governed_by") == by).sort("governing", descending=True)
+        row = of.row(0, named=True)
+        limit = "" if row["limit"] is None else f" of {scale * row['limit']:g} %"
+        over = "" if row["limit"] is None or row["governing_over_limit"] <= 1.0 else ", above the limit"
+        where = _storeys(of["storey"].to_list())
+        largest = "" if of.height == 1 else f"storey {row['storey']}, "
+        named = f" {row['name']}" if row["name"] else ""
+        called = f"storey {row['storey']}{named}" if of.height == 1 else where
+        lines.append(f"{called}: {by}, {largest}{scale * row['governing']:.2f} {unit}{limit}{over}")
+    ratio, storey, at = max(
+        (row["sliding"] / max(row[ADVISED], row[BARE]), row["storey"], row["sliding_at"])
+        for row in governing.iter_rows(named=True)
+    )
+    lines.append(f"with sliding goods no storey drifts more than {ratio:.2f} times the larger (storey {storey}, {at})")
+    return tuple(lines)
+
+
+def _storeys(numbers: list[int]) -> str:
+    ordered = sorted(numbers)
+    if ordered == list(range(ordered[0], ordered[-1] + 1)):
+        return f"storeys {ordered[0]} to {ordered[-1]}"
+    return f"storeys {', '.join(str(number) for number in ordered)}"
+
+
+def _why(advised: float, effective: dict[str, EffectiveMass], words: dict[str, str]) -> str:
+    decides = deciding(effective)
+    parts = []
+    for name in sorted(effective, key=lambda name: name != decides):
+        parts.append(f"{words[name]} gives {_value(effective[name])}")
+    confidence = 100.0 * effective[decides].confidence
+    interval = f" ({confidence:g} % interval)" if effective[decides].suite_interval is not None else ""
+    rounded = f", rounded up to a multiple of {ROUNDING_STEP:g}" if advised - effective[decides].value > 1e-9 else ""
+    others = f"; {', '.join(parts[1:])}" if len(parts) > 1 else ""
+    return f"{advised:.2f} since {parts[0]}{interval}{rounded}{others}"
+
+
+def _value(result: EffectiveMass) -> str:
+    if result.suite_interval is None:
+        return f"{result.value:.2f}"
+    return f"{result.value:.2f} [{result.suite_interval[0]:.2f}, {result.suite_interval[1]:.2f}]"
+
+
+def _design(building: OwnBuilding, advised: float, design: EffectiveMass | None) -> str:
+    """Which share goes into W."""
+    if building.design is None:
+        return "strengths are as stated: lambda is for the analysis, not for W of a design"
+    here = f"W here has {building.design_fraction:g} of the design live load"
+    if design is None or not math.isfinite(design.value):
+        return f"{here}; no share for W could be found, since buildings designed with some shares collapse"
+    share = rounded_up(design.value)
+    return (
+        f"for a design of strengths {share:.2f} of the goods present ({share * building.present_share:.2f} of the "
+        f"design live load) go into W; {here}, and lambda = {advised:.2f} is for the analysis of that building"
+    )
+
+
+def floor_masses(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
+    """Return what to type into another program: one row per floor.
+
+    Returns
+    -------
+    polars.DataFrame
+        floor, name; mass_1 and mass_2 (kg) and weight_1 and weight_2 (N) of the floor in both analyses; multiplier, of
+        the live load in the mass source of analysis 1. Empty where there is no answer.
+    """
+    columns: dict[str, Any] = {"floor": [], "name": [], "mass_1": [], "weight_1": [], "multiplier": []}
+    columns |= {"mass_2": [], "weight_2": []}
+    if answer.analyses:
+        one, two = answer.analyses
+        columns = {
+            "floor": list(range(1, building.storeys + 1)),
+            "name": list(building.storey_names),
+            "mass_1": list(one.mass),
+            "weight_1": [STANDARD_GRAVITY * value for value in one.mass],
+            "multiplier": list(one.multipliers),
+            "mass_2": list(two.mass),
+            "weight_2": [STANDARD_GRAVITY * value for value in two.mass],
+        }
+    schema: dict[str, Any] = {"floor": pl.UInt32, "name": pl.String}
+    schema |= dict.fromkeys(("mass_1", "weight_1", "multiplier", "mass_2", "weight_2"), pl.Float64)
+    return pl.DataFrame(columns, schema=schema)

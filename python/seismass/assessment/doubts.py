@@ -1,0 +1,175 @@
+"""Doubts about an input: valid, but so unlikely that a wrong unit or order is the usual cause.
+
+They stand in the headline. The limits are far outside what buildings, sites and records have; they judge no design.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+import polars as pl
+
+from seismass.assessment.damping import damping_doubts
+from seismass.assessment.models import NAMES
+from seismass.assessment.own_building import OwnBuilding
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
+from seismass.model.plausibility import mean_motion_remarks, motion_remarks
+from seismass.model.scene import Scene
+from seismass.spectra import TargetSpectrum
+from seismass.spectra.remarks import target_remarks
+
+MOST_GOODS: Final = 5.0
+"""Weight of the goods present over that of the building."""
+MAX_LIVE_LOAD: Final = 25.0
+"""Design live load of a floor (kPa): heavy storage has 12, compact stacks as much; 50 psf are 2.4."""
+MAX_LIVE_LOAD_OF_PIERS: Final = 60.0
+"""The same of piers and wharves, whose decks carry stacked containers: 1000 psf are 48."""
+PIER_CODES: Final = ("asce61-14",)
+"""Codes of piers and wharves."""
+MAX_DEAD_LOAD: Final = 20.0
+"""Dead load of a floor (kPa), where it is stated as such: a solid slab of 0.8 m."""
+FLOOR_WEIGHT_RANGE: Final = (0.5, 30.0)
+"""Weight of a floor without goods over its area (kPa)."""
+MAX_DRIFT_LIMIT: Final = 0.1
+"""Limit of the drift ratio."""
+MAX_COLLAPSE_RATIO: Final = 0.2
+"""Drift ratio at which a storey counts as collapsed."""
+MAX_THETA_LIMIT: Final = 1.0
+"""Limit of the stability coefficient; at 1 gravity has taken the whole stiffness."""
+MIN_STRENGTH: Final = 0.03
+"""Stated yield shear of the first storey over the weight of the building without goods; with weights typed as masses it
+is a tenth of what was meant."""
+MAX_DRIFT: Final = 0.1
+"""Mean peak drift ratio that a model can be believed at."""
+ROOFS: Final = ("roof", "dach", "toit", "techo", "tetto")
+"""Words in the name of a floor that is the uppermost."""
+
+
+def doubts_of(
+    building: OwnBuilding,
+    real: Scene,
+    motions: list[Any],
+    target: TargetSpectrum | None,
+    storeys: pl.DataFrame,
+) -> tuple[str, ...]:
+    """Return what makes the input of an assessment doubtful, each sentence once.
+
+    Parameters
+    ----------
+    building : OwnBuilding
+        The building.
+    real : Scene
+        It with its goods.
+    motions : list of Record or Motion
+        Motions, scaled.
+    target : TargetSpectrum or None
+        Site spectrum.
+    storeys : polars.DataFrame
+        `Assessment.storeys`.
+    """
+    found = [
+        *real.remarks,
+        *_about_loads(building),
+        *_about_order(building),
+        *_about_strength(building),
+        *_about_limits(building),
+        *(() if target is None else target_remarks(target)),
+        *_about_motions(motions),
+        *mean_motion_remarks(motions),
+        *_about_drifts(storeys),
+        *damping_doubts(real, motions),
+    ]
+    return tuple(dict.fromkeys(found))
+
+
+def _about_motions(motions: list[Any]) -> tuple[str, ...]:
+    """The first motion that is too strong, with the number of the others."""
+    found = motion_remarks(motions)
+    return found if len(found) < 2 else (f"{found[0]} (and {len(found) - 1} more motions)",)
+
+
+def _about_loads(building: OwnBuilding) -> list[str]:
+    """Loads over their areas, and goods over the building."""
+    heaviest = MAX_LIVE_LOAD_OF_PIERS if building.code.code_id in PIER_CODES else MAX_LIVE_LOAD
+    low, high = FLOOR_WEIGHT_RANGE
+    live, floor = (1e-3 * STANDARD_GRAVITY * mass / building.area for mass in (building.live_load, building.mass))
+    dead = np.where(building.dead_load_stated, floor, np.nan)
+    psf = "are loads in kPa (1 psf is 0.0479 kPa)?"
+    found = [
+        *_outside(building, "design live load", live, 0.0, heaviest, f"above {heaviest:g} kPa{{others}}: {psf}"),
+        *_outside(building, "dead load", dead, 0.0, MAX_DEAD_LOAD, f"above {MAX_DEAD_LOAD:g} kPa{{others}}: {psf}"),
+    ]
+    if not any(text.startswith("dead load") for text in found):
+        asked = f"outside {low:g} to {high:g} kPa{{others}}: are area and mass or load in the units of their keys?"
+        found += _outside(building, "weight over the area", floor, low, high, asked)
+    heavy = float(building.goods.sum() / building.mass.sum())
+    if heavy > MOST_GOODS:
+        found.append(
+            f"the goods present weigh {heavy:.3g} times the building: are both loads in the units of their keys?"
+        )
+    return found
+
+
+def _outside(building: OwnBuilding, what: str, values: FloatArray, low: float, high: float, sentence: str) -> list[str]:
+    """A sentence about the first floor with a value (kPa) outside a range; NaN is not known."""
+    places = np.flatnonzero((values < low) | (values > high))
+    if not len(places):
+        return []
+    floor = int(places[0]) + 1
+    name = building.storey_names[floor - 1]
+    called = f"floor {floor}, {name}," if name else f"floor {floor}"
+    others = f" (and {len(places) - 1} more)" if len(places) > 1 else ""
+    return [f"{what} of {called} is {values[floor - 1]:.4g} kPa, {sentence.format(others=others)}"]
+
+
+def _about_order(building: OwnBuilding) -> list[str]:
+    """Storeys listed roof first: a lower floor is named roof, or is the only one without goods."""
+    asked = "storeys are listed from the ground up; is the list from the roof down?"
+    if building.storeys == 1:
+        return []
+    for floor, name in enumerate(building.storey_names[:-1], start=1):
+        if any(word in name.lower().split() for word in ROOFS):
+            return [f"floor {floor} of {building.storeys} is named {name}: {asked}"]
+    if building.storeys > 2 and building.goods[0] == 0.0 and (building.goods[1:] > 0.0).all():
+        return [f"floor 1 is the only one without goods, the uppermost has some: {asked}"]
+    return []
+
+
+def _about_strength(building: OwnBuilding) -> list[str]:
+    """A stated strength that no building has: weights typed as masses make the rest ten times as heavy."""
+    if building.yield_shear is None or building.yield_shear[0] >= MIN_STRENGTH * building.weight:
+        return []
+    ratio = float(building.yield_shear[0]) / building.weight
+    return [
+        f"the yield shear of storey 1 is {ratio:.3g} of the weight of the building, below {MIN_STRENGTH:g}: are masses "
+        "in kg and not weights in N, and strengths in their units?"
+    ]
+
+
+def _about_limits(building: OwnBuilding) -> list[str]:
+    """Limits in per cent."""
+    limits = (
+        ("drift limit", building.drift_limit, MAX_DRIFT_LIMIT, " of the height"),
+        ("collapse drift ratio", building.collapse_drift_ratio, MAX_COLLAPSE_RATIO, " of the height"),
+        ("limit of the stability coefficient", building.theta_limit, MAX_THETA_LIMIT, ""),
+    )
+    return [
+        f"the {name} is {value:g}{of}: limits are ratios, not per cent"
+        for name, value, largest, of in limits
+        if value is not None and value > largest
+    ]
+
+
+def _about_drifts(storeys: pl.DataFrame) -> list[str]:
+    """Drifts that no building stands."""
+    worst = storeys.filter(pl.col("unit") == "ratio").drop_nulls("mean").sort("mean", descending=True)
+    if not worst.height or worst["mean"][0] <= MAX_DRIFT:
+        return []
+    row = worst.row(0, named=True)
+    return [
+        f"the mean drift of storey {row['storey']} is {100.0 * row['mean']:.3g} % of its height "
+        f"({NAMES[row['model']]}), above {100.0 * MAX_DRIFT:g} %: no building stands this; are site, strengths and "
+        "heights in their units?"
+    ]

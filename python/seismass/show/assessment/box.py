@@ -1,0 +1,57 @@
+"""The box at the top of an assessment's page: doubts, the pair of analyses, what governs, why, on which motions."""
+
+from __future__ import annotations
+
+from markupsafe import Markup
+
+from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
+from seismass.show.assessment.tables import AssessmentTables
+
+
+def box_class(result: AssessmentTables) -> str:
+    """Return the class of the box: green only with an answer, without doubts, and with all checks met."""
+    met = result.checks["met"].eq_missing(True).all()
+    return "answer" if result.answer is not None and met and not result.document["doubts"] else "answer bad"
+
+
+def answer_lines(result: AssessmentTables) -> list[Markup]:
+    """Return the lines of the box."""
+    document, answer = result.document, result.answer
+    lines = [Markup('<strong class="warn">{}</strong>').format(doubt) for doubt in document["doubt_lines"]]
+    lines.append(Markup("<strong>{}</strong>").format(_sentence(document["statement"])))
+    if answer is not None:
+        pair = zip(answer["analyses"], answer["pair"], strict=True)
+        lines += [Markup("<strong>Analysis {}: {}.</strong>").format(one["number"], words) for one, words in pair]
+        lines.append(Markup("Governs: {}.").format("; ".join(answer["governs"])))
+        lines += [Markup("Why: {}.").format(answer["why"]), Markup("{}").format(_sentence(answer["design"]))]
+    lines.append(Markup("{}").format(_sentence(document["on_motions"])))
+    if result.effective:
+        lines.append(Markup("{}").format(_code_sentence(result)))
+    lines.append(_verdicts(result))
+    return lines
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def _code_sentence(result: AssessmentTables) -> str:
+    """The code's fraction on the base of the shares, with its own in brackets."""
+    code = result.code
+    unchecked = "" if code["status"] in (VERIFIED, AS_STATED) else f"; {NOT_CHECKED}"
+    return (
+        f"{code['code']}: {code['share_of_design_live_load'] / result.present_share:.2f} of the goods present "
+        f"({code['share_of_design_live_load']:.3g} of the design live load{unchecked})."
+    )
+
+
+def _verdicts(result: AssessmentTables) -> Markup:
+    """How many checks are met; those without a value are told apart."""
+    count = result.checks.height
+    failed = result.checks.filter(met=False).height
+    missing = result.checks["met"].null_count()
+    if not failed + missing:
+        return Markup('<span class="good">All checks are met.</span>')
+    said = [f"{failed} of {count} checks are not met"] * bool(failed)
+    said += [f"{missing} of {count} have no value, since runs collapse"] * bool(missing)
+    return Markup('<span class="warn">{}.</span>').format("; ".join(said))
