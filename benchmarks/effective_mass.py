@@ -28,7 +28,7 @@ def records() -> tuple[str, list[sm.Record]]:
     shared = os.environ.get("SEISMASS_SHARED")
     if shared:
         page = runpy.run_path(str(Path(__file__).parents[1] / "tools" / "effective_mass_page.py"))
-        suite = page["suites"](Path(shared))["far_field"]
+        suite = page["far_field_components"](Path(shared))
         factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7()).factors
     else:
         seven = list(sm.builtin_suite("seven"))

@@ -16,7 +16,7 @@ from seismass.assessment.answer import rounded_up
 from seismass.assessment.building_file import example_file
 from seismass.assessment.damping import force_ratios
 from seismass.assessment.models import with_mass
-from seismass.assessment.tables import statistics_of
+from seismass.assessment.tables import drift_statistics, statistics_of
 from seismass.cli import main
 
 G = 9.80665
@@ -234,6 +234,15 @@ def test_a_building_that_always_collapses_has_no_empty_figures(tmp_path: Path) -
     assert not (tmp_path / "drift.svg").exists()
     assert "nan" not in result.text
     assert main(["report", str(tmp_path)]) == 0
+
+
+def test_few_collapses_leave_a_mean_and_change_the_headline() -> None:
+    """One of eleven: the larger of 1.2 times the median and the mean of the others, by hand; two of eleven: none."""
+    drifts = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, np.inf])  # median 6, mean of the others 5.5
+    assert drift_statistics(drifts)["mean"] == pytest.approx(1.2 * 6.0)
+    assert drift_statistics(np.where(drifts == 10.0, np.inf, drifts))["mean"] is None
+    skewed = np.array([1.0] * 8 + [50.0, np.inf])  # 1 of 10, median 1, mean of the others 58 / 9
+    assert drift_statistics(skewed)["mean"] == pytest.approx(58.0 / 9.0)
 
 
 def test_what_a_collapsed_run_decides_is_null() -> None:

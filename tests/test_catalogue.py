@@ -274,7 +274,7 @@ def test_command_lists_records(tmp_path: Path, capsys: pytest.CaptureFixture[str
     ("arguments", "message"),
     [
         (["records", "{0}", "--find", "{0}"], "PATH of records must be left out where --find is given"),
-        (["records", "--dt", "0.1"], "--dt of records must be left out without PATH; got 0.1"),
+        (["records", "--dt", "0.1"], "--dt of records must be left out for a look without PATH; got 0.1"),
         (["records", "{0}", "--unit", "g"], "must be left out for a folder of records; got g"),
         (["records", "{0}"], "must be at least one; got 0 files that are none"),
         (["records", "{0}/no.AT2"], "record file must be a file that can be read"),

@@ -112,7 +112,7 @@ def test_readme_table_of_rules_is_that_of_the_page() -> None:
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()[2:]]
     assert len(rows) == 7
     for rule, mean, interval, unsafe in rows:
-        numbers = printed[rule]
+        numbers = printed[rule.replace("\N{DAGGER}", "")]  # the mark of what was not checked against the code
         assert [mean, interval, unsafe] == [numbers[0], " ".join(numbers[2:5]), " ".join(numbers[6:])]
     assert "goods slide in 3670" in block
     assert "3670 of 4928 cases" in text

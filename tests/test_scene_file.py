@@ -430,14 +430,14 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     ),
     ({"motion": changed(MOTION, ("dt",))}, sm.errors.InvalidSceneFile, r"motion.dt of .* must be given; got nothing"),
     (
-        {"motion": changed(MOTION, unit="ft/s2")},
+        {"motion": changed(MOTION, unit="furlong/s2")},
         sm.errors.InvalidSceneFile,
-        r"motion.unit of .* must be one of g, m/s2, cm/s2, gal; got 'ft/s2'",
+        r"motion.unit of .* must be one of g, m/s2, cm/s2, gal, mm/s2, mg, %g, ft/s2, in/s2; got 'furlong/s2'",
     ),
     (
         {"motion": changed(MOTION, unit=["g"])},
         sm.errors.InvalidSceneFile,
-        r"motion.unit of .* must be one of g, m/s2, cm/s2, gal; got \['g'\]",
+        r"motion.unit of .* must be one of g, m/s2, cm/s2, gal, mm/s2, mg, %g, ft/s2, in/s2; got \['g'\]",
     ),
     (
         {"building": changed(BUILDING, damping={"kind": ["modal"]})},

@@ -162,7 +162,11 @@ def test_a_folder_is_read(shared: Path) -> None:
         ),
         ({"period_range": 1.0}, sm.errors.InvalidOption, "period_range of scaling must be two positive multiples"),
         ({"target": "CSV"}, sm.errors.InvalidOption, "target of scaling must be a TargetSpectrum; got 'CSV'"),
-        ({"suite": "nowhere"}, sm.errors.RecordFormatError, "suite of records must be a directory or a .csv file"),
+        (
+            {"suite": "nowhere"},
+            sm.errors.RecordFormatError,
+            "suite of records must be a directory, a ZIP archive or a .csv file",
+        ),
     ],
 )
 def test_bad_arguments_are_refused(arguments: dict, error: type[sm.SeismassError], message: str) -> None:

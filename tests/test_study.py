@@ -555,7 +555,7 @@ def test_command_prints_json_and_takes_options(tmp_path: Path, capsys: pytest.Ca
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--records", "nowhere"], "suite of records must be a directory or a .csv file; got nowhere"),
+        (["--records", "nowhere"], "suite of records must be a directory, a ZIP archive or a .csv file; got nowhere"),
         (
             ["--target", "nowhere.csv"],
             "path of target spectrum must be a file of text that can be read; got nowhere.csv",

@@ -50,18 +50,20 @@ RESULTS = """
     Selection ScalingResult SlipDemand SpringPath
 """
 TYPES = "Base Candidate CatalogueSearch Distribution Excluded FoundFile Fragility GroundMotion Kind Misfit Use"
+SEE = "see tests/test_racks_walls_stops.py"
 PARTS = """
     as_motions asce43 compared_models corner_period example_description exceedance_table intensity_of newmark_bound
     newmark_pulse parse_limit parse_size pulse_indicator_2007 pulse_indicator_2014 signed_peaks solve_grid
     wilson_interval
 """
 LEFT_OUT: dict[str, str] = {
+    **dict.fromkeys(("Rack", "RackBlock", "Stops"), SEE),
     **dict.fromkeys(TYPES.split(), "a type or a part of a result"),
     **dict.fromkeys(PARTS.split(), "a step of a public call, which has checked what it is given"),
     **dict.fromkeys(("HuntAndFill", "IntensityMeasure", "multiple_stripes", "cloud_analysis"), "see its own tests"),
     **dict.fromkeys(("fit_capacities", "fit_cloud", "fit_counts"), "see its own tests"),
     **dict.fromkeys(RESULTS.split(), "a result, made by the package"),
-    **dict.fromkeys(("catalogue", "code_table", "instruction_set"), "takes nothing"),
+    **dict.fromkeys(("catalogue", "code_legend", "code_table", "instruction_set"), "takes nothing"),
     "EffectiveMassParameters": "see effective_mass_map",
     "NearFaultPulse": "see synthetic_motion",
     "SyntheticParameters": "see synthetic_motion",

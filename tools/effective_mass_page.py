@@ -15,7 +15,7 @@ import polars as pl
 
 from seismass.effective_mass import EffectiveMassMap, EffectiveMassParameters, effective_mass_map
 from seismass.media.figure_file import save_figure
-from seismass.records import Suite, builtin_suite, read_suite
+from seismass.records import Suite, builtin_suite, read_record, read_suite
 from seismass.show.effective_mass.map import collapse_figure, rules_figure
 from seismass.show.effective_mass.map_text import bins_text, by_period_text, rules_text
 from seismass.spectra import TargetSpectrum
@@ -23,6 +23,15 @@ from seismass.spectra import TargetSpectrum
 ROOT = Path(__file__).parents[1]
 PARTS = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 PAGE = ROOT / "docs" / "effective_mass.md"
+MORE = (
+    "01_Hector_Mine_1999_Hector/RSN1787_HECTOR_HEC000.AT2",
+    "01_Hector_Mine_1999_Hector/RSN1787_HECTOR_HEC090.AT2",
+    "02_Loma_Prieta_1989_Gilroy_Array_3/RSN767_LOMAP_G03000.AT2",
+    "02_Loma_Prieta_1989_Gilroy_Array_3/RSN767_LOMAP_G03090.AT2",
+    "07_Kobe_1995_substitutes/RSN1111_KOBE_NIS000.AT2",
+    "07_Kobe_1995_substitutes/RSN1111_KOBE_NIS090.AT2",
+)
+"""Components of the far-field set that are, or stand beside, records of the paper: no rule was fitted on them."""
 TITLES = {
     "builtin": "Built-in suite, 7 synthetic motions",
     "paper": "The paper's seven recordings (one substitute)",
@@ -38,6 +47,13 @@ def suites(shared: Path) -> dict[str, Suite]:
         "paper": read_suite(records / "paper_seven.csv"),
         "far_field": Suite("FEMA P-695 far field", read_suite(records / "fema_p695_far_field").records),
     }
+
+
+def far_field_components(shared: Path) -> Suite:
+    """Return 42 components of 21 of the far-field pairs: those of the far-field suite and `MORE`."""
+    records = shared / "records"
+    more = (read_record(records / file) for file in MORE)
+    return Suite("FEMA P-695 far field", (*read_suite(records / "fema_p695_far_field").records, *more))
 
 
 def tables(key: str, result: EffectiveMassMap) -> list[str]:

@@ -91,8 +91,8 @@ def blocks(names: Mapping[str, Any]) -> dict[str, list[str]]:
 
 def far_field(names: Mapping[str, Any], shared: Path) -> list[str]:
     """Return the table of rules under 42 recorded components."""
-    suites = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))["suites"]
-    return rules(names["scene"], suites(shared)["far_field"])
+    suite = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))["far_field_components"]
+    return rules(names["scene"], suite(shared))
 
 
 def main(shared: Path | None) -> None:

@@ -56,8 +56,8 @@ def blocks(names: Mapping[str, Any]) -> dict[str, list[str]]:
 
 def far_field(names: Mapping[str, Any], shared: Path) -> list[str]:
     """Return the table of shares under 42 recorded components."""
-    suites = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))["suites"]
-    return limits(names["building"], suites(shared)["far_field"], names["hazard"], (0.2,))
+    suite = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))["far_field_components"]
+    return limits(names["building"], suite(shared), names["hazard"], (0.2,))
 
 
 def main(shared: Path | None) -> None:

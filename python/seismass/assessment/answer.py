@@ -15,6 +15,7 @@ import polars as pl
 from seismass.assessment.governing import ANALYSES, friction_words, largest_change
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, REALS
 from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.tables import few_collapses
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass import EffectiveMass
 from seismass.scaling import ScalingResult
@@ -143,7 +144,7 @@ def answer_of(
             "whether none or all of the goods act as mass"
         )
     return Answer(
-        statement,
+        f"{_collapsing(collapses, words, len(suite['motions']))}{statement}",
         None,
         doubts,
         analyses=(_analysis(building, 1, ADVISED, advised), _analysis(building, 2, BARE, 0.0)),
@@ -189,18 +190,31 @@ def _reason(
 ) -> str | None:
     """Why there is no answer: what collapses, the building first, then the analyses."""
     words = friction_words(building)
-    fallen = {name: collapses[name] for name in REALS if collapses.get(name)}
+    fallen = {name: collapses[name] for name in REALS if not few_collapses(collapses.get(name, 0), motions)}
     if fallen:
         worst = max(fallen, key=lambda name: fallen[name])
         at = "" if len(effective) == 1 else f" ({words[worst]})"
         return f"the building collapses under {fallen[worst]} of {motions} motions{at}"
     if not effective:
-        count = collapses.get(BARE)
-        return f"the building collapses under {count} of {motions} motions" if count else None
+        count = collapses.get(BARE, 0)
+        many = not few_collapses(count, motions)
+        return f"the building collapses under {count} of {motions} motions" if many else None
     for name, called in ANALYSES.items():
-        if collapses.get(name):
+        if not few_collapses(collapses.get(name, 0), motions):
             return f"{called} collapses under {collapses[name]} of {motions} motions"
     return None
+
+
+def _collapsing(collapses: dict[str, int], words: dict[str, str], motions: int) -> str:
+    """What the statement begins with where few runs collapse: the friction with most of them, and the statistic."""
+    fallen = {name: collapses[name] for name in REALS if collapses.get(name)}
+    if not fallen:
+        return ""
+    worst = max(fallen, key=lambda name: fallen[name])
+    return (
+        f"THE BUILDING COLLAPSES under {fallen[worst]} of {motions} motions ({words[worst]}): lambda is by the median, "
+        "mean drifts are 1.2 times the median or the mean of the others; "
+    )
 
 
 def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> Analysis:

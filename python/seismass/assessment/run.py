@@ -20,7 +20,7 @@ from seismass.assessment.governing import governing_table
 from seismass.assessment.models import compared_models, friction_factors, solve_models
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
-from seismass.assessment.tables import collapses_of, slip_table, storey_table
+from seismass.assessment.tables import collapses_of, few_collapses, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
 from seismass.effective_mass import EffectiveMass, effective_mass, effective_mass_of_design
@@ -104,7 +104,7 @@ def assess(
     >>> import seismass as sm
     >>> result = sm.assess({
     ...     "site": {"sds_g": 1.0, "sd1_g": 0.6},
-    ...     "building": {"period_s": 0.4, "height_m": 4, "area_m2": 500, "dead_load_kpa": 5, "design": True, "R": 4},
+    ...     "building": {"period_s": 0.4, "height_m": 4, "area_m2": 500, "dead_load_kpa": 5, "design": True, "R": 3},
     ...     "goods": {"live_load_kpa": 6, "friction": "timber-on-steel"},
     ...     "storeys": [{}, {"live_load_kpa": 0}],
     ... }, resamples=100)
@@ -178,8 +178,9 @@ def assess(
 
 
 def advised_share(effective: dict[str, EffectiveMass]) -> float | None:
-    """Return the largest effective fraction, rounded up to 0.05; None without goods, or where one has no mean."""
-    if not effective or any(result.statistic != "mean" for result in effective.values()):
+    """Return the largest effective fraction, rounded up to 0.05; None without goods, or where many runs collapse."""
+    many = (not few_collapses(each.collapses["real"], each.records.height) for each in effective.values())
+    if not effective or any(many):
         return None
     return rounded_up(effective[deciding(effective)].value)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 import numpy as np
 import polars as pl
@@ -13,6 +13,30 @@ from seismass.base.quantiles import QUANTILES
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.model.scene import Scene
+
+MOST_COLLAPSES: Final = 0.1
+"""Share of the motions that may bring a collapse where drifts still have a mean: one of eleven, and four of forty."""
+MEDIAN_FACTOR: Final = 1.2
+"""The mean is then this times the median, and at least the mean of the others: ASCE/SEI 7-16, 16.4 (from memory)."""
+
+
+def drift_statistics(drifts: FloatArray) -> dict[str, float | None]:
+    """Return `statistics_of` drifts, with a mean where no more than `MOST_COLLAPSES` of the runs collapsed.
+
+    Parameters
+    ----------
+    drifts : ndarray, shape (motions,)
+        Infinite where the run collapsed.
+    """
+    known, fallen = statistics_of(drifts), np.isinf(drifts)
+    if fallen.any() and few_collapses(int(fallen.sum()), len(drifts)):
+        known["mean"] = max(MEDIAN_FACTOR * float(np.median(drifts)), float(drifts[~fallen].mean()))
+    return known
+
+
+def few_collapses(collapsed: int, motions: int) -> bool:
+    """Whether so few runs collapsed that drifts have a mean, and an assessment an answer."""
+    return collapsed <= MOST_COLLAPSES * motions
 
 
 def statistics_of(values: FloatArray) -> dict[str, float | None]:
@@ -55,7 +79,8 @@ def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.D
     -------
     polars.DataFrame
         model, storey, name; unit of the drifts ("ratio" of the height, or "m" without heights); mean, p16, median, p84
-        and max of the peak drift over the motions (null where a collapsed run decides it); limit, mean_over_limit and
+        and max of the peak drift over the motions (null where a collapsed run decides it; of the mean see
+        `drift_statistics`); limit, mean_over_limit and
         motions_above_limit (null without heights); collapsed, the number of runs; mean_peak_shear (N); theta, P d/(V h)
         with the mean peak drift d and the mean peak storey shear V; theta_elastic = P/(k h); theta_limit.
     """
@@ -67,8 +92,9 @@ def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.D
             of = runs.filter((pl.col("model") == model) & (pl.col("storey") == storey))
             collapsed = of["collapsed"].to_numpy()
             drift = np.where(collapsed, np.inf, of[column].to_numpy())
-            known = statistics_of(drift)
-            shear = None if collapsed.any() else float(of["peak_storey_shear"].to_numpy().mean())
+            known = drift_statistics(drift)
+            shears = of["peak_storey_shear"].to_numpy()[~collapsed]
+            shear = float(shears.mean()) if known["mean"] is not None else None
             mean, load = known["mean"], float(gravity[storey - 1])
             elastic = None if heights is None else load / float(building.stiffness[storey - 1] * heights[storey - 1])
             rows.append(
