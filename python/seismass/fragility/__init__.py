@@ -1,7 +1,8 @@
 """Fragility of buildings with sliding goods, and what a code's model makes of it: intensities, limit states, fits."""
 
 from seismass.fragility.analysis import cloud_analysis, incremental_dynamic_analysis, multiple_stripes
-from seismass.fragility.fragility import Fragility, fit_capacities, fit_cloud, fit_counts
+from seismass.fragility.fits import fit_capacities, fit_cloud, fit_counts
+from seismass.fragility.fragility import Fragility
 from seismass.fragility.hunt import HuntAndFill
 from seismass.fragility.limits import LimitState, parse_limit
 from seismass.fragility.measures import IntensityMeasure, intensity_of

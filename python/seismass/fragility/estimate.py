@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.base.values import FloatArray
-from seismass.fragility.fragility import BootstrapOptions, Fragility, as_curves, cloud_remarks, fragility_of
+from seismass.fragility.fits import cloud_remarks
+from seismass.fragility.fragility import BootstrapOptions, Fragility, as_curves, fragility_of
 from seismass.fragility.likelihood import capacity_fits, cloud_fits, probit_fits
 
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from seismass.base.errors import InvalidOption
 from seismass.base.quantiles import quantile
 from seismass.base.values import FloatArray, as_number, refusal
-from seismass.fragility.fragility import fit_counts
+from seismass.fragility.fits import fit_counts
 from seismass.media.axes import grid_lines, single
 from seismass.media.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, plain
 from seismass.plots.columns import checked_table, demand_of, in_unit, label_of, one_value

@@ -10,7 +10,7 @@ from typing import Any, Final, Protocol, TypeAlias, TypedDict
 
 import numpy as np
 import polars as pl
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
@@ -18,7 +18,6 @@ from seismass.base.files import polars_writing, written_whole
 from seismass.base.forks import require_polars
 from seismass.base.kept import digest_of, kept_folder
 from seismass.base.values import (
-    FloatArray,
     as_count,
     as_flag,
     as_path,
@@ -30,6 +29,7 @@ from seismass.base.values import (
 )
 from seismass.model.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
 from seismass.model.scene import Scene
+from seismass.runs.batch_tables import batch_table, heights_of, heights_of_runs
 from seismass.runs.grid.columns import IndexArray
 from seismass.runs.grid.grid import Grid
 from seismass.runs.simulate import instruction_set
@@ -348,8 +348,8 @@ class _SceneBatch:
             **options,
             progress=progress,
         )
-        heights = [_heights_of(each) for each in chosen]
-        return _table(batch, rows[:, 0], rows[:, 1], self.names, _heights(heights, scene, batch.storeys))
+        heights = [heights_of(each) for each in chosen]
+        return batch_table(batch, rows[:, 0], rows[:, 1], self.names, heights_of_runs(heights, scene, batch.storeys))
 
 
 @dataclass(frozen=True, slots=True)
@@ -376,8 +376,8 @@ class _GridBatch:
             progress=progress,
         )
         heights = [building.heights for building in self.grid.buildings]
-        of_scene = _heights(heights, self.grid._building_of(scene), batch.storeys)
-        return _table(batch, scene, motion, self.names, of_scene)
+        of_scene = heights_of_runs(heights, self.grid._building_of(scene), batch.storeys)
+        return batch_table(batch, scene, motion, self.names, of_scene)
 
 
 def _iterated(values: Any) -> Iterable[Any]:
@@ -419,113 +419,3 @@ def _pairs(pairs: ArrayLike, scenes: int, motions: int) -> IndexArray:
             got = f"{rows[wrong[0], column]} in pair {wrong[0] + 1}"
             raise refusal(InvalidOption, "pairs", "batch", limits, got)
     return np.ascontiguousarray(rows, dtype=np.int64) - 1
-
-
-def _table(
-    batch: _kernel.Batch, scene: IndexArray, motion: IndexArray, names: list[str], heights: FloatArray
-) -> pl.DataFrame:
-    """The flat columns of a batch as a frame, without a Python object per run; `heights` as `peak_drift`."""
-    failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
-    storeys, blocks = batch.storeys, batch.blocks
-    per_storey = {
-        "peak_drift": batch.peak_drift,
-        "peak_drift_time": batch.peak_drift_time,
-        "peak_drift_ratio": batch.peak_drift / heights,
-        "residual_drift": batch.residual_drift,
-        "peak_floor_acceleration": batch.peak_floor_acceleration,
-        "peak_storey_shear": batch.peak_storey_shear,
-    }
-    per_block = {
-        "peak_slip": batch.peak_slip,
-        "peak_slip_time": batch.peak_slip_time,
-        "residual_slip": batch.residual_slip,
-        "slip_path": batch.slip_path,
-    }
-    reasons = pl.DataFrame(batch.failures, schema={"run": pl.UInt32, "reason": pl.String}, orient="row")
-    unknown = pl.element().is_nan().all()
-    table = (
-        pl.DataFrame(
-            {
-                "run": np.arange(len(scene), dtype=np.uint32),
-                "scene": (scene + 1).astype(np.uint64),
-                "motion": (motion + 1).astype(np.uint32),
-                "record": pl.Series(names, dtype=pl.String).gather(motion),
-                "status": pl.Series(_kernel.Batch.status_names(), dtype=pl.String).gather(batch.status),
-                "end_time": pl.Series(batch.end_time).fill_nan(None),
-                "collapsed_storey": pl.Series(batch.collapsed_storey).replace(0, None),
-                **_lists(per_storey, storeys, failed),
-                **_lists(per_block, blocks, failed),
-                "events": batch.events,
-                "yields": batch.yields,
-                "slips": batch.slips,
-            }
-        )
-        .join(reasons, on="run", how="left", maintain_order="left")
-        .with_columns(
-            pl.col("peak_storey_shear").list.first().alias("peak_base_shear"),
-            # A run that ended early has no residual.
-            pl.col("residual_drift", "residual_slip").list.eval(pl.element().fill_nan(None)),
-            pl.when(pl.col("peak_drift_ratio").list.eval(unknown).list.first().not_())
-            .then("peak_drift_ratio")
-            .alias("peak_drift_ratio"),
-            pl.when(pl.col("status") != "failed").then(pl.col("events", "yields", "slips")),
-        )
-    )
-    return table.select(_COLUMNS)
-
-
-_COLUMNS: Final = (
-    "scene",
-    "motion",
-    "record",
-    "status",
-    "reason",
-    "end_time",
-    "collapsed_storey",
-    "peak_drift",
-    "peak_drift_time",
-    "peak_drift_ratio",
-    "residual_drift",
-    "peak_floor_acceleration",
-    "peak_storey_shear",
-    "peak_base_shear",
-    "peak_slip",
-    "peak_slip_time",
-    "residual_slip",
-    "slip_path",
-    "events",
-    "yields",
-    "slips",
-)
-
-
-def _heights_of(scene: Scene) -> FloatArray | None:
-    return None if scene.building is None else scene.building.heights
-
-
-def _heights(known: list[FloatArray | None], which: IndexArray, storeys: NDArray[np.uint32]) -> FloatArray:
-    """Height of each storey of each run, flat; NaN where not known. Run i has `storeys[i]` of those of `which[i]`."""
-    flat: FloatArray = np.full(int(storeys.sum()), np.nan)
-    if all(heights is None for heights in known):
-        return flat
-    starts = np.cumsum([0, *(0 if heights is None else len(heights) for heights in known)])
-    unknown = np.array([heights is None for heights in known])
-    within = np.arange(len(flat)) - np.repeat(np.cumsum(storeys) - storeys, storeys)
-    owner = np.repeat(which, storeys)
-    has = ~unknown[owner]
-    joined = np.concatenate([heights for heights in known if heights is not None])
-    flat[has] = joined[(starts[owner] + within.astype(np.int64))[has]]
-    return flat
-
-
-def _lists(columns: dict[str, FloatArray], lengths: NDArray[np.uint32], failed: pl.Series) -> dict[str, pl.Series]:
-    """Flat values as list columns, `lengths[i]` values in row i; null in failed rows."""
-    rows = pl.DataFrame({"run": np.arange(len(lengths), dtype=np.uint32), "empty": lengths == 0, "failed": failed})
-    owners = np.repeat(rows["run"].to_numpy(), lengths)
-    lists = pl.DataFrame({"run": owners, **columns}).group_by("run", maintain_order=True).agg(pl.all())
-    nothing = pl.lit([], dtype=pl.List(pl.Float64))
-    filled = rows.join(lists, on="run", how="left", maintain_order="left").select(
-        pl.when(pl.col("empty") & ~pl.col("failed")).then(nothing).otherwise(pl.col(name)).alias(name)
-        for name in columns
-    )
-    return {name: filled[name] for name in columns}

@@ -8,12 +8,12 @@ from typing import Any, Final
 import polars as pl
 from markupsafe import Markup, escape
 
-from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
 from seismass.media.svg import short_svg
 from seismass.show.animation.html import element_html
 from seismass.show.study.answer import SHORT, answer, compared_rules, percent, span
 from seismass.show.study.captions import labels_of
+from seismass.show.study.page_tables import fractions_table, slip_table, storeys_table
 from seismass.show.study.slip import slip_demand
 from seismass.show.study.tables import StudyTables
 from seismass.show.study.words import assumptions, provenance
@@ -25,7 +25,6 @@ VERDICT_CLASSES: Final = {"reproduced": "good", "not reproduced": "warn", "depen
 _PAPER_FIGURES: Final = {
     factor: f" (the paper's Fig. {number})" for factor, number in ((1.0, 6), (2.0, 7), (4.0, 8), (6.0, 9))
 }
-_KEYS: Final = ("occupancy", "storeys", "R", "alpha", "mu")
 
 
 def study_page(result: StudyTables, drawings: Mapping[str, str]) -> str:
@@ -59,9 +58,9 @@ def study_page(result: StudyTables, drawings: Mapping[str, str]) -> str:
             "Tables",
             [],
             [
-                Section("Drift of every storey", [_storeys_table(result)]),
-                Section("Fractions of every building", [_fractions_table(result.fractions)]),
-                Section("Slip of every building", [_slip_table(slip_demand(result.responses))]),
+                Section("Drift of every storey", [storeys_table(result)]),
+                Section("Fractions of every building", [fractions_table(result.fractions)]),
+                Section("Slip of every building", [slip_table(slip_demand(result.responses))]),
             ],
         ),
         Section("Assumptions", [bullets_html(assumptions(metadata)), *_remarks(metadata)]),
@@ -259,11 +258,6 @@ def _underestimation(result: StudyTables, page: _Pictures) -> list[Markup]:
     return parts
 
 
-def _shown_keys(table: pl.DataFrame) -> list[str]:
-    """Key columns, without a friction coefficient that is the same throughout."""
-    return [name for name in _KEYS if name != "mu" or table["mu"].n_unique() > 1]
-
-
 def _fraction(result: StudyTables, page: _Pictures) -> list[Markup]:
     fractions = result.fractions
     parts = []
@@ -317,74 +311,6 @@ def _extremes(summary: pl.DataFrame) -> tuple[str, str]:
 def _largest_slip(demand: pl.DataFrame) -> float:
     known = demand["mean"].drop_nulls().to_numpy()
     return float(known.max()) if known.size else 0.0
-
-
-def _storeys_table(result: StudyTables) -> Markup:
-    names = {
-        "storey": "storey",
-        "mean_peak_drift_real": "real (mm)",
-        "mean_peak_drift_code": "code (mm)",
-        "mean_peak_drift_attached": "attached (mm)",
-        "underestimation_percent": "under-estimation",
-        "p16_underestimation_percent": "16 %",
-        "median_underestimation_percent": "median",
-        "p84_underestimation_percent": "84 %",
-        "ratio_mass": "attached / code",
-        "ratio_sliding": "real / attached",
-    }
-    table = result.summary.select(*_shown_keys(result.summary), *names)
-    millimetres = [name for name in names if name.startswith("mean_peak")]
-    percents = [name for name in names if name.endswith("percent")]
-    return table_html(
-        table,
-        "Mean peak drift of every storey by the three models, and (real \N{EN DASH} code) / code: of the means, "
-        "and motion by motion.",
-        headers=names,
-        formats={
-            **dict.fromkeys(millimetres, lambda drift: f"{1e3 * drift:.1f}"),
-            **dict.fromkeys(percents, percent),
-            **dict.fromkeys(("ratio_mass", "ratio_sliding"), ".2f"),
-        },
-    )
-
-
-def _fractions_table(fractions: pl.DataFrame) -> Markup:
-    names = {
-        "base_shear_coefficient": "C1",
-        "eta": "eta",
-        "height_ratio": "h_g/h_m",
-        "exponent": "p",
-        "estimate": RULE,
-        "conservative": SAFE_RULE,
-        "effective": "effective fraction",
-        "low": "5 %",
-        "high": "95 %",
-        "kind": "kind",
-    }
-    known = [name for name in names if fractions[name].null_count() < fractions.height]
-    return table_html(
-        fractions.select(*_shown_keys(fractions), *known),
-        "Every building: mean peak base shear coefficient C1 of the attached model, eta = mu/C1, the estimates with "
-        f"{RULE_IN_WORDS}" + (", and the effective fraction with its interval." if "effective" in known else "."),
-        headers={name: names[name] for name in known},
-        formats={name: ".3f" if name.startswith("base") else ".2f" for name in known if name != "kind"},
-    )
-
-
-def _slip_table(demand: pl.DataFrame) -> Markup:
-    names = {
-        "mean": "mean (mm)",
-        "p16": "16 % (mm)",
-        "p84": "84 % (mm)",
-        "largest": "largest (mm)",
-        "residual": "residual, mean (mm)",
-    }
-    return table_html(
-        demand.select(*_shown_keys(demand), "slides", *names),
-        "Slip demand of each building: of the floor on which goods slide farthest, under each motion.",
-        headers={**names, "slides": "motions in which goods slide"},
-        formats=dict.fromkeys(names, lambda slip: f"{1e3 * slip:.1f}"),
-    )
 
 
 def _sensitivity(result: StudyTables, page: _Pictures) -> Iterator[Section]:
