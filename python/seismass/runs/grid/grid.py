@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Final, Literal, Self, TypeAlias, Unpack, get_args
+from typing import Any, Final, Self, Unpack, get_args
 
 import numpy as np
 import polars as pl
@@ -16,7 +16,7 @@ from seismass.base.values import FloatArray, as_count, as_number, brief, content
 from seismass.model.block import Block
 from seismass.model.building import Building, chain_kernel
 from seismass.model.scene import Scene
-from seismass.model.springs import SHAPE_FIELDS, SpringShape, checked_names, takes_springs
+from seismass.model.springs import SHAPE_FIELDS
 from seismass.runs.grid.axes import AXIS_OF, GridAxis, axes_of, described, table_of
 from seismass.runs.grid.buildings import (
     ATTACHED_DAMPING,
@@ -39,10 +39,8 @@ from seismass.runs.grid.columns import (
     share_values,
 )
 from seismass.runs.grid.design import StrengthDesign
+from seismass.runs.grid.options import GridOptions, Roof, grid_options, takes_grid_options
 from seismass.runs.grid.sample import SampleMethod, sampled_arguments
-
-Roof: TypeAlias = Literal["loaded", "bare"]
-"""Whether the uppermost floor of a building carries blocks."""
 
 MAX_SCENES: Final = 2**53
 """Most scenes of a grid: beyond, doubles in which numbers of scenes may be read skip some."""
@@ -176,57 +174,26 @@ class Grid:
         for name, value in state.items():
             setattr(self, name, value)
 
-    @takes_springs(SHAPE_FIELDS, default=None)
+    @takes_grid_options
     def __init__(
         self,
         building: Building | Sequence[Building] | None = None,
         *,
-        storeys: ArrayLike | None = None,
-        period: ArrayLike | None = None,
         building_index: ArrayLike | None = None,
-        strength: ArrayLike | None = None,
-        R: ArrayLike | None = None,  # noqa: N803 - the name that codes give it
-        design: StrengthDesign | None = None,
-        yield_shear_over_weight: ArrayLike | None = None,
-        floors: ArrayLike | None = None,
-        roof: Roof = "loaded",
-        mass_ratio: ArrayLike | None = None,
-        occupancy: ArrayLike | None = None,
-        attached: ArrayLike | None = None,
-        attached_of: AttachedOf = "present",
-        sliding: ArrayLike | None = None,
-        damping: AttachedDamping = "same",
-        mu: ArrayLike | None = None,
-        mu_s: ArrayLike | None = None,
-        mu_k: ArrayLike | None = None,
-        scale: ArrayLike | None = None,
         motion: ArrayLike | None = None,
-        collapse_drift: float | None = None,
-        **shape: Unpack[SpringShape],
+        **options: Unpack[GridOptions],
     ) -> None:
-        checked_names(dict(shape), SHAPE_FIELDS, "Grid")
-        uniform, index, periods = given_buildings(building, storeys, period)
-        self._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
+        chosen = grid_options(dict(options), "Grid")
+        storeys = chosen["storeys"]
+        index, periods = self._set_common(building, chosen)
         if storeys is not None:
             if building_index is not None:
                 raise refusal(InvalidScene, "building_index", "grid", "left out where storeys is given", "both")
-            period = None
         elif building_index is None and len(self.buildings) > 1:
             raise refusal(InvalidScene, "building_index", "grid", "given where there are several buildings", "none")
         else:
             index = index_values(building_index, "building_index", InvalidScene)
-        values = block_values(len(self.floors), mass_ratio, mu, mu_s, mu_k)
-        values |= changing_values(
-            self.buildings,
-            period=period,
-            strength=strength,
-            R=R,
-            yield_shear_over_weight=yield_shear_over_weight,
-            **shape,
-        )
-        of_design = attached_of == "design"
-        values |= share_values(attached, sliding, occupancy, mass_ratio, of_design=of_design)
-        values |= number_values({"scale": scale})
+        values = self._values(chosen)
         indices = {"building": index}
         if motion is not None:
             indices["motion"] = index_values(motion, "motion", InvalidOption)
@@ -235,40 +202,16 @@ class Grid:
         for name, length in lengths.items():
             if length not in (1, self._length):
                 requirement = f"one value, or as many as the longest column has, {self._length}"
-                given = "storeys" if name == "building" and storeys is not None else as_given(name, mu)
+                given = "storeys" if name == "building" and storeys is not None else as_given(name, chosen["mu"])
                 raise refusal(InvalidScene, given, "grid", requirement, f"{length} values")
         self._columns = {name: Column(column) for name, column in values.items()}
         self._indices = {name: Column(column) for name, column in indices.items()}
-        self._set_formed(periods, damping, attached_of, design)
+        self._set_formed(periods, chosen["damping"], chosen["attached_of"], chosen["design"])
         self._check(range(self._length))
 
     @classmethod
-    @takes_springs(SHAPE_FIELDS, default=None)
-    def product(
-        cls,
-        building: Building | Sequence[Building] | None = None,
-        *,
-        storeys: ArrayLike | None = None,
-        period: ArrayLike | None = None,
-        strength: ArrayLike | None = None,
-        R: ArrayLike | None = None,  # noqa: N803 - the name that codes give it
-        design: StrengthDesign | None = None,
-        yield_shear_over_weight: ArrayLike | None = None,
-        floors: ArrayLike | None = None,
-        roof: Roof = "loaded",
-        mass_ratio: ArrayLike | None = None,
-        occupancy: ArrayLike | None = None,
-        attached: ArrayLike | None = None,
-        attached_of: AttachedOf = "present",
-        sliding: ArrayLike | None = None,
-        damping: AttachedDamping = "same",
-        mu: ArrayLike | None = None,
-        mu_s: ArrayLike | None = None,
-        mu_k: ArrayLike | None = None,
-        scale: ArrayLike | None = None,
-        collapse_drift: float | None = None,
-        **shape: Unpack[SpringShape],
-    ) -> Self:
+    @takes_grid_options
+    def product(cls, building: Building | Sequence[Building] | None = None, **options: Unpack[GridOptions]) -> Self:
         """Return every combination of the values of each axis, of which only the axes are held.
 
         The axes are building, period, strength or R, overstrength, slopes and what else shapes springs, mass ratio,
@@ -309,25 +252,13 @@ class Grid:
         >>> grid.table(4, 5)["mu_s"].to_list()
         [0.3, 0.3]
         """
-        checked_names(dict(shape), SHAPE_FIELDS, "Grid.product")
+        chosen = grid_options(dict(options), "Grid.product")
         grid = cls.__new__(cls)
-        uniform, index, periods = given_buildings(building, storeys, period)
-        grid._set_common(uniform, floors, roof, mass_ratio, collapse_drift)
-        if storeys is None:
+        index, periods = grid._set_common(building, chosen)
+        if chosen["storeys"] is None:
             index = np.arange(len(grid.buildings))
-        values = block_values(len(grid.floors), mass_ratio, mu, mu_s, mu_k)
-        values |= changing_values(
-            grid.buildings,
-            period=None if storeys is not None else period,
-            strength=strength,
-            R=R,
-            yield_shear_over_weight=yield_shear_over_weight,
-            **shape,
-        )
-        of_design = attached_of == "design"
-        values |= share_values(attached, sliding, occupancy, mass_ratio, of_design=of_design)
-        values |= number_values({"scale": scale})
-        lengths = {"building": len(index), **axis_lengths(values, mu)}
+        values = grid._values(chosen)
+        lengths = {"building": len(index), **axis_lengths(values, chosen["mu"])}
         each, total = {}, 1
         for axis in reversed(lengths):
             each[axis] = total
@@ -337,7 +268,7 @@ class Grid:
         grid._length = total
         grid._columns = {name: Column(column, each[AXIS_OF[name]]) for name, column in values.items()}
         grid._indices = {"building": Column(index, each["building"])}
-        grid._set_formed(periods, damping, attached_of, design)
+        grid._set_formed(periods, chosen["damping"], chosen["attached_of"], chosen["design"])
         # Friction is judged by itself, all else with the first value of friction and scale.
         grid._check(range(0, total, each["attached"]))
         grid._check(range(0, each["attached"], each["friction"]))
@@ -495,10 +426,11 @@ class Grid:
         of = f"{counted(len(self.buildings), 'building')}, {counted(len(self.floors), 'block')} each"
         return f"Grid({counted(self._length, 'scene')}, {of}{columns})"
 
-    def _set_common(
-        self, buildings: tuple[Building, ...], floors: Any, roof: Any, mass_ratio: Any, collapse_drift: Any
-    ) -> None:
-        self.buildings = buildings
+    def _set_common(self, building: Any, chosen: dict[str, Any]) -> tuple[IndexArray, FloatArray]:
+        """Keep buildings, floors and collapse drift; return which building each value of storeys has, and periods."""
+        floors, roof, mass_ratio = (chosen[name] for name in ("floors", "roof", "mass_ratio"))
+        collapse_drift = chosen["collapse_drift"]
+        self.buildings, index, periods = given_buildings(building, chosen["storeys"], chosen["period"])
         self._everywhere = floors is None
         if not is_one_of(roof, get_args(Roof)):
             raise refusal(InvalidScene, "roof", "grid", "loaded or bare", brief(roof))
@@ -517,6 +449,17 @@ class Grid:
         self.collapse_drift = (
             None if collapse_drift is None else as_number(collapse_drift, "collapse_drift", "grid", InvalidScene)
         )
+        return index, periods
+
+    def _values(self, chosen: dict[str, Any]) -> dict[str, Any]:
+        """Return the values of every column: of blocks, of buildings, of shares and of motions."""
+        values = block_values(len(self.floors), *(chosen[name] for name in ("mass_ratio", "mu", "mu_s", "mu_k")))
+        changing = {name: chosen[name] for name in ("strength", "R", "yield_shear_over_weight", *SHAPE_FIELDS)}
+        period = None if chosen["storeys"] is not None else chosen["period"]
+        values |= changing_values(self.buildings, period=period, **changing)
+        shares = (chosen[name] for name in ("attached", "sliding", "occupancy", "mass_ratio"))
+        values |= share_values(*shares, of_design=chosen["attached_of"] == "design")
+        return values | number_values({"scale": chosen["scale"]})
 
     def _set_formed(self, periods: FloatArray, damping: Any, attached_of: Any, design: Any) -> None:
         """Keep what forms the buildings of scenes, of columns that are known by now."""
