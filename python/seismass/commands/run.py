@@ -14,7 +14,6 @@ from seismass.base.files import write_table, written_whole
 from seismass.commands.command import Command
 from seismass.commands.options import add_json_option, add_out_option, check_files
 from seismass.commands.terminal import show
-from seismass.media.result import finite_values
 from seismass.runs.response import Response
 from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
 from seismass.runs.simulate import simulate
@@ -65,50 +64,8 @@ def _write_histories(response: Response, path: Path) -> None:
 
 
 def as_json(file: SceneFile, response: Response) -> dict[str, Any]:
-    """Return what `--json` prints: SI units, null for what is not a finite number."""
-    lists = (
-        "peak_drift",
-        "peak_drift_time",
-        "peak_slip",
-        "peak_slip_time",
-        "peak_floor_acceleration",
-        "peak_floor_acceleration_time",
-        "peak_storey_shear",
-        "peak_storey_shear_time",
-        "residual_drift",
-        "residual_slip",
-        "slip_path",
-    )
-    result: dict[str, Any] = {
-        "name": file.name,
-        "status": response.status,
-        "collapsed_storey": response.collapsed_storey,
-        "end_time": response.end_time,
-        "dt": file.motion.dt,
-        "remarks": list(file.remarks),
-        **{name: getattr(response, name).tolist() for name in lists},
-        "peak_base_shear": response.peak_base_shear,
-    }
-    if file.scene.engine == "general":
-        result |= response.rack_values()
-    if response.peak_drift_ratio is not None and response.residual_drift_ratio is not None:
-        result["peak_drift_ratio"] = response.peak_drift_ratio.tolist()
-        result["residual_drift_ratio"] = response.residual_drift_ratio.tolist()
-    if file.scene.building is not None:
-        building = file.scene.building
-        result["mass_stated"] = building.mass_is_stated
-        result["peak_shear_over_weight"] = (response.peak_storey_shear / building.weight).tolist()
-    result["counts"] = {kind: count for kind, count in response.counts.items() if count}
-    result["events"] = [
-        {key: value for key, value in event.items() if value is not None}
-        for event in response.events.iter_rows(named=True)
-    ]
-    result["energy"] = response.energy
-    if file.scene.building is not None:
-        result["damping_matrix"] = file.scene.building.damping_matrix.tolist()
-    result["statistics"] = response.statistics
-    finite: dict[str, Any] = finite_values(result)
-    return finite
+    """Return what `--json` prints: the response, under the name and with the remarks of the file."""
+    return response.to_dict() | {"name": file.name, "remarks": list(file.remarks)}
 
 
 COMMAND = Command(

@@ -17,6 +17,7 @@ from seismass.model.motion import Motion
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.runs.rack_results import RackResults
+from seismass.runs.response_document import ResponseDocument
 from seismass.runs.response_views import ResponseAnimation, ResponsePlots
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ class Statistics(TypedDict):
     """Instruction set in use, as `instruction_set` names it."""
 
 
-class Response(RackResults):
+class Response(RackResults, ResponseDocument):
     """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
 
     Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
@@ -333,6 +334,11 @@ class Response(RackResults):
     def statistics(self) -> Statistics:
         """Work done by the kernel (intervals, steps, events, regimes), what was skipped, and the instructions used."""
         return cast(Statistics, {**self._get("statistics"), "instructions": self._get("instructions")})
+
+    @property
+    def has_events(self) -> bool:
+        """Whether the event log was asked for."""
+        return self._get("event_time") is not None
 
     @property
     def has_energy(self) -> bool:

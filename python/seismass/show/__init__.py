@@ -45,6 +45,8 @@ VIEWS: Final = {
     "ScalingResult.plot": "seismass.show.motions.scaling:scaling_figure",
     "ScalingResult.text": "seismass.show.motions.scaling_text:scaling_text",
     "Scene._repr_html_": "seismass.show.cards.buildings:scene_html",
+    "Sensitivity.plot": "seismass.show.study.views:figure_of_sensitivity",
+    "Sensitivity.text": "seismass.show.study.views:text_of_sensitivity",
     "SlipDemand.plot": "seismass.show.slip.figure:slip_demand_figure",
     "SlipDemand.text": "seismass.show.slip.text:slip_demand_text",
     "StudyResult.figure_names": "seismass.show.study.views:figure_names",

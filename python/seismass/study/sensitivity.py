@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any, Final, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Final, get_args
 
 import numpy as np
 import polars as pl
 
 from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.views import view
 from seismass.design import Combination
 from seismass.matching import match_suite
+from seismass.media.result import Result, finite_values
 from seismass.records import Suite
 from seismass.scaling import ScalingResult, scale_modal_pushover
 from seismass.spectra import TargetSpectrum
@@ -21,6 +23,9 @@ from seismass.study.columns import SENSITIVITY_COLUMNS
 from seismass.study.parameters import DampingBase, StudyParameters
 from seismass.study.run import StudyResult, run_study
 from seismass.study.tables import Drifts, drifts_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 AS_IS: Final = "as it is"
 """The first choice: the study with its own parameters."""
@@ -55,7 +60,7 @@ class _Change:
 
 
 @dataclass(frozen=True, eq=False)
-class Sensitivity:
+class Sensitivity(Result):
     """Headline numbers of a study under one changed choice at a time.
 
     Attributes
@@ -66,8 +71,42 @@ class Sensitivity:
         Metadata of the study as it is.
     """
 
+    document: ClassVar[str] = "sensitivity"
+
     table: pl.DataFrame
     metadata: dict[str, Any] = field(repr=False)
+
+    @property
+    @view
+    def text(self) -> str:
+        """The table as lines, one block per occupancy and friction coefficient."""
+        raise NotImplementedError
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The table by its name: sensitivity."""
+        return {"sensitivity": self.table}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the rows, and the metadata of the study as it is, as plain values."""
+        document: dict[str, Any] = finite_values({"sensitivity": self.table.to_dicts(), "metadata": self.metadata})
+        return document
+
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """sensitivity: a dot per choice and occupancy, beside lines of the study as it is."""
+        return ("sensitivity",)
+
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return the figure: a dot per choice and occupancy, beside lines of the study as it is.
+
+        Raises
+        ------
+        InvalidOption
+            `name` is given and is not "sensitivity".
+        """
+        raise NotImplementedError
 
 
 def study_sensitivity(

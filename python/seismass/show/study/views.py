@@ -10,7 +10,9 @@ from seismass.base.errors import InvalidOption
 from seismass.base.values import as_path
 from seismass.media.result import named_figure
 from seismass.show.study.findings import findings_text
+from seismass.show.study.sensitivity import sensitivity_text
 from seismass.study.run import StudyResult
+from seismass.study.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,3 +49,16 @@ def write_result(result: StudyResult, folder: str | os.PathLike[str], *, figures
     from seismass.show.study.write import write_study
 
     return write_study(study_tables(result), as_path(folder, "study", InvalidOption), figures=figures)
+
+
+def text_of_sensitivity(result: Sensitivity) -> str:
+    """Return the table of a sensitivity as lines."""
+    return sensitivity_text(result.table)
+
+
+def figure_of_sensitivity(result: Sensitivity, name: str | None = None) -> Figure:
+    """Return the figure of a sensitivity."""
+    from seismass.show.study.sensitivity_figure import sensitivity_figure
+
+    named_figure(result, name)
+    return sensitivity_figure(result.table)
