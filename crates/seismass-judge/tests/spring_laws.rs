@@ -89,8 +89,9 @@ fn the_fast_kernel_agrees_with_the_judge() {
     println!("energy residuals {residual:.1e} and {exact_residual:.1e}");
     for (kind, count) in EventKind::ALL.iter().zip(counts) {
         println!("  {}: {count}", kind.name());
-        // A touch, which is rare, needs a graze.
-        assert!(count > 0 || found.len() < 100 || *kind == EventKind::Touch, "no event {}", kind.name());
+        // A touch, which is rare, needs a graze; these scenes have no stops.
+        let absent = matches!(kind, EventKind::Touch | EventKind::TouchStop | EventKind::LeaveStop);
+        assert!(count > 0 || found.len() < 100 || absent, "no event {}", kind.name());
     }
     apart.iter().for_each(|line| println!("{line}"));
     assert!(apart.is_empty());

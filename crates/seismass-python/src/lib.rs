@@ -5,6 +5,7 @@ mod arrays;
 mod batch;
 mod errors;
 mod general_response;
+mod general_run;
 mod general_scene;
 mod interrupt;
 mod reference;
@@ -48,7 +49,7 @@ mod _kernel {
     #[pymodule_export]
     use crate::batch::{Batch, Columns, simulate_columns, simulate_many};
     #[pymodule_export]
-    use crate::general_response::{GeneralResponse, simulate_general};
+    use crate::general_run::{GeneralResponse, simulate_general};
     #[pymodule_export]
     use crate::general_scene::{GeneralBuilding, GeneralScene, Rack};
     #[pymodule_export]

@@ -32,10 +32,12 @@
 //!
 //! ```
 //! use std::sync::Arc;
-//! use seismass::{Block, Building, Damping, GeneralBuilding, GeneralScene, Goods, Motion, Options, Stops, simulate_general};
+//! use seismass::{
+//!     Block, GeneralBuilding, GeneralScene, Goods, Motion, Options, Stops, UniformBuilding, simulate_general,
+//! };
 //!
 //! # fn main() -> seismass::Result<()> {
-//! let building = Building::uniform(3, 0.60, 1000.0, Damping::Modal { ratio: 0.05 })?;
+//! let building = UniformBuilding { storeys: 3, period: 0.60, mass: 1000.0, ..Default::default() }.build()?;
 //! let goods = Goods { block: Block::new(3, 500.0, 0.1), stops: Some(Stops::new(0.01, 1e5)) };
 //! let scene = GeneralScene::new(Some(Arc::new(GeneralBuilding::from(&building))), vec![goods], Vec::new())?;
 //! let samples: Vec<f64> = (0..1000).map(|i| 4.0 * (0.1 * f64::from(i)).sin()).collect();
