@@ -1,7 +1,7 @@
 """Read mutated input files of every kind but records, which tools/fuzz_records.py mutates: a result or one error line.
 
 Usage: tools/fuzz_inputs.py [--count 5000] [--seed 1] [--keep DIR]. Scene, building and campaign files (TOML and JSON),
-target spectra, hazard curves, and the folders of a campaign, a study and an assessment. Values are put in place of
+target spectra, hazard curves, and the folders of a campaign and an assessment. Values are put in place of
 others, keys and lines are moved, doubled or left out, and bytes are changed. A defect is an exception that is not the
 package's, or that of the system for a file; more than 5 s of processor time; or 512 MB of memory. --keep saves the file
 of each defect. `make fuzz` runs both programs, and a small run is part of the tests.

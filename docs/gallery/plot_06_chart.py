@@ -7,7 +7,7 @@ building with all goods attached.
 """
 
 # %%
-# The published chart has 4928 buildings under 42 recordings; this one has some hundred under seven synthetic motions.
+# The published chart has 4928 buildings under 36 recordings; this one has some hundred under seven synthetic motions.
 import seismass as sm
 
 parameters = sm.EffectiveMassParameters(

@@ -18,7 +18,6 @@ from seismass.media.style import BLUE, INK, SERIES, STYLE
 from seismass.plots.timeline import (
     chosen_kinds,
     event_times,
-    has_events,
     mark_events,
     mark_handles,
 )
@@ -203,7 +202,7 @@ def _histories(
         look = SERIES[position % len(SERIES)] if overlaid else {"color": BLUE}
         name = called.format(number)
         lines += axes.plot(time, values, **look, linewidth=0.9, label=name)
-        if has_events(response):
+        if response.has_events:
             for kind in kinds:
                 if mark_events(axes, event_times(response, kind, number), kind, (time, values)):
                     found.add(kind)

@@ -17,7 +17,7 @@ from seismass.media.axes import columns, grid_lines
 from seismass.media.style import BLUE, GREY, STYLE, VERMILION
 from seismass.model.building import Building
 from seismass.plots.histories import numbers
-from seismass.plots.timeline import chosen_kinds, event_times, has_events, mark_events, mark_handles
+from seismass.plots.timeline import chosen_kinds, event_times, mark_events, mark_handles
 from seismass.runs.response import Response
 
 BACKBONE_POINTS: Final = 121
@@ -75,7 +75,7 @@ def loops(
                 1e3 * way, scale * strength, color=VERMILION, linestyle=(0, (5, 2)), linewidth=1.3, gid="backbone"
             )
             axes.plot(drift, force, color=BLUE, linewidth=0.7, gid="loop")
-            if has_events(response):
+            if response.has_events:
                 for kind in kinds:
                     times = event_times(response, kind, number)
                     if mark_events(axes, times, kind, (response.time, force), (response.time, drift)):

@@ -70,11 +70,6 @@ def event_times(response: Response, kind: str, number: int) -> FloatArray:
     return times
 
 
-def has_events(response: Response) -> bool:
-    """Return whether a response has its event log."""
-    return response._get("event_time") is not None
-
-
 def mark_events(
     axes: Axes,
     times: FloatArray,
