@@ -115,11 +115,27 @@ class Answer:
         )
 
 
+@dataclass(frozen=True, eq=False)
+class DesignShare:
+    """Share that goes into the design of the strengths.
+
+    Attributes
+    ----------
+    found : EffectiveMass or None
+        The share; by the median, where few runs of a designed building collapse. None where many do.
+    reason : str
+        Why there is none; empty where there is one.
+    """
+
+    found: EffectiveMass | None
+    reason: str
+
+
 def answer_of(
     building: OwnBuilding,
     advised: float | None,
     effective: dict[str, EffectiveMass],
-    design: EffectiveMass | None,
+    design: DesignShare | None,
     storeys: pl.DataFrame,
     governing: pl.DataFrame,
     collapses: dict[str, int],
@@ -279,17 +295,18 @@ def _value(result: EffectiveMass) -> str:
     return f"{result.value:.2f} [{result.suite_interval[0]:.2f}, {result.suite_interval[1]:.2f}]"
 
 
-def _design(building: OwnBuilding, advised: float, design: EffectiveMass | None) -> str:
+def _design(building: OwnBuilding, advised: float, design: DesignShare | None) -> str:
     """Which share goes into W."""
-    if building.design is None:
+    if building.design is None or design is None:
         return "strengths are as stated: lambda is for the analysis, not for W of a design"
     here = f"W here has {building.design_fraction:g} of the design live load"
-    if design is None or not math.isfinite(design.value):
-        return f"{here}; no share for W could be found, since buildings designed with some shares collapse"
-    share = rounded_up(design.value)
+    if design.found is None:
+        return f"{here}; there is no share for W, since {design.reason}"
+    share = rounded_up(design.found.value)
+    median = "" if design.found.statistic == "mean" else ", by the median since some designs collapse"
     return (
         f"for a design of strengths {share:.2f} of the goods present ({share * building.present_share:.2f} of the "
-        f"design live load) go into W; {here}, and lambda = {advised:.2f} is for the analysis of that building"
+        f"design live load) go into W{median}; {here}, and lambda = {advised:.2f} is for the analysis of that building"
     )
 
 
