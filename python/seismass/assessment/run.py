@@ -17,8 +17,9 @@ from seismass.assessment.answer import answer_of, deciding
 from seismass.assessment.building_file import read_building
 from seismass.assessment.doubts import doubts_of
 from seismass.assessment.governing import governing_table
-from seismass.assessment.models import compared_models, friction_factors, solve_models
+from seismass.assessment.models import REAL, compared_models, friction_factors, solve_models
 from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.period import period_sentences
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.shares import DESIGN_SHARES, SHARES, advised_share, design_share, fractions_by_friction
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
@@ -141,6 +142,8 @@ def assess(
         "motions": names,
         "synthetic": sum(bool(getattr(motion, "synthetic", False)) for motion in suite),
     }
+    yields = effective[REAL].by_hand.yields if effective else None
+    period = period_sentences(chosen, spectrum, scaled, yields)
     doubts = doubts_of(chosen, real, scaled, spectrum, storeys)
     answer = answer_of(chosen, advised, effective, design, storeys, governing, collapses, about, scaling, doubts)
     return Assessment(
@@ -158,7 +161,7 @@ def assess(
         suite=about,
         advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite)),
         remarks=remarks_of(chosen, doubts, scaling, effective, about),
-        assumptions=assumptions_of(chosen, spectrum, scaling, about),
+        assumptions=assumptions_of(chosen, spectrum, scaling, about, period),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,

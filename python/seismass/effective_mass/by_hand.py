@@ -53,6 +53,12 @@ class ByHand:
 
 def by_hand(scene: Scene, motions: NamedMotions, full: Peaks) -> ByHand:
     """Return what the rule says of the building of a scene; `full` has the peaks of the fully attached model."""
+    yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building_of(scene))).any())
+    return rule_by_hand(scene, motions, yields)
+
+
+def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
+    """Return what the rule says of the building of a scene that yields, or does not, with all goods attached."""
     building, goods = building_of(scene), goods_mass(scene)
 
     def spectrum(periods: FloatArray) -> FloatArray:
@@ -62,7 +68,6 @@ def by_hand(scene: Scene, motions: NamedMotions, full: Peaks) -> ByHand:
     elastic = response_spectrum_analysis(attached, building.stiffness, spectrum)
     weight = full_weight(scene)
     corner, period = corner_period(spectrum), float(building.periods[0])
-    yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building)).any())
     heights = height_ratio(goods, building.mass, building.heights)
     power = float(exponent(period, corner, yields))
     coefficient = float(
