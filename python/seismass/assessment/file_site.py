@@ -38,8 +38,10 @@ def site_of(site: Table, folder: Path) -> TargetSpectrum | None:
     """Return the site spectrum; None where the file has none."""
     if not site.values:
         return None
-    for key in ("target", "spectrum_csv"):
-        site.excluded(key, *(other for other in SITE if other != key))
+    for whole in ("target", "spectrum_csv"):
+        for key in SITE:
+            if key != whole:
+                site.excluded(key, whole)
     if "target" in site.values:
         try:
             return target_of(site.text("target"), folder)

@@ -25,7 +25,7 @@ TARGET_HELP: Final = (
 )
 
 
-ALIASES: Final = {"nzs": "nzs1170", "asce": "asce7", "eurocode8": "ec8"}
+ALIASES: Final = {"nzs": "nzs1170", "asce": "asce7"}
 """Other names of the forms."""
 
 
