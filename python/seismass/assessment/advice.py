@@ -186,11 +186,17 @@ def remarks_of(
         label = "" if name == REAL else f"{NAMES[name]}: "
         # What storeys the share does not cover is advice, of the share that is advised.
         once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
+        once = [text for text in once if text not in doubts and not _of_friction(text)]
         found += [label + remark for remark in once if name == REAL or " motions are few" not in remark]
     found += _about_code_mass(building)
     if building.code.status not in (VERIFIED, AS_STATED):
         found.append(f"the fraction of {building.code.code} was {NOT_CHECKED} ({building.code.status})")
     return tuple(dict.fromkeys(found))
+
+
+def _of_friction(text: str) -> bool:
+    """Whether a sentence doubts the friction of a block, which at its bounds is the stated one with a factor."""
+    return text.startswith("mu_s of block")
 
 
 def _about_code_mass(building: OwnBuilding) -> list[str]:

@@ -99,9 +99,7 @@ class Answer:
     @property
     def doubt_lines(self) -> tuple[str, ...]:
         """What stands before the statement where the input is doubtful."""
-        shown = [f"DOUBTFUL INPUT: {doubt}" for doubt in self.doubts[:MOST_DOUBTS]]
-        further = len(self.doubts) - len(shown)
-        return (*shown, *([f"and {further} more doubts, among the remarks"] if further else []))
+        return doubt_lines(self.doubts)
 
     @property
     def pair(self) -> tuple[str, ...]:
@@ -113,6 +111,13 @@ class Answer:
             else "no goods"
             for one in self.analyses
         )
+
+
+def doubt_lines(doubts: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what stands before an answer whose input is doubtful, the first few of the doubts."""
+    shown = [f"DOUBTFUL INPUT: {doubt}" for doubt in doubts[:MOST_DOUBTS]]
+    further = len(doubts) - len(shown)
+    return (*shown, *([f"and {further} more doubts, among the remarks"] if further else []))
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +153,8 @@ def answer_of(
     reason = _reason(building, effective, collapses, len(suite["motions"]))
     if reason is not None or advised is None:
         why = reason or "there are no goods on the floors, and no live load could act as mass"
-        return Answer(f"no answer: {why}", why, doubts, motions=on)
+        few = "" if reason is not None else _collapsing(collapses, {}, len(suite["motions"]))
+        return Answer(f"{few}no answer: {why}", why, doubts, motions=on)
     words = friction_words(building)
     change = largest_change(storeys, (*(name for name in REALS if name in effective), ATTACHED, BARE))
     matters = change is None or change > NO_MATTER
@@ -222,15 +228,27 @@ def _reason(
 
 
 def _collapsing(collapses: dict[str, int], words: dict[str, str], motions: int) -> str:
-    """What the statement begins with where few runs collapse: the friction with most of them, and the statistic."""
+    """What the statement begins with where few runs collapse, and the statistic: the building first, then analyses.
+
+    `words` are those of the frictions; empty for a building without goods.
+    """
+    mean = "mean drifts are 1.2 times the median or the mean of the others; "
     fallen = {name: collapses[name] for name in REALS if collapses.get(name)}
-    if not fallen:
-        return ""
-    worst = max(fallen, key=lambda name: fallen[name])
-    return (
-        f"THE BUILDING COLLAPSES under {fallen[worst]} of {motions} motions ({words[worst]}): lambda is by the median, "
-        "mean drifts are 1.2 times the median or the mean of the others; "
-    )
+    if fallen:
+        worst = max(fallen, key=lambda name: fallen[name])
+        return (
+            f"THE BUILDING COLLAPSES under {fallen[worst]} of {motions} motions ({words[worst]}): lambda is by the "
+            f"median, {mean}"
+        )
+    if not words:
+        count = collapses.get(BARE, 0)
+        return f"THE BUILDING COLLAPSES under {count} of {motions} motions: {mean}" if count else ""
+    told = [
+        f"{called.upper()} COLLAPSES under {collapses[name]} of {motions} motions: its {mean}"
+        for name, called in ANALYSES.items()
+        if collapses.get(name)
+    ]
+    return "".join(told)
 
 
 def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> Analysis:

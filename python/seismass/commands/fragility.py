@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import give_answer
@@ -25,12 +24,14 @@ from seismass.commands.scene_or_building import (
     DEFAULT_LIMIT,
     add_file_argument,
     add_site_options,
+    doubts_of_input,
     read_scene_or_building,
+    with_doubts,
 )
 
 if TYPE_CHECKING:
+    from seismass.assessment.own_building import OwnBuilding
     from seismass.model.scene import Scene
-    from seismass.spectra import TargetSpectrum
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -71,8 +72,11 @@ def run(args: argparse.Namespace) -> int:
         refuse_given(args, ("highest", "tolerance"), "fragility", f"where --method is {args.method}")
     if args.method == "cloud":
         refuse_given(args, ("intensity",), "fragility", "where --method is cloud")
-    models, rule, drift_limit = models_of(args.file, args.code_share, read_site(args, "fragility"))
+    target = read_site(args, "fragility")
+    read = read_scene_or_building(args.file, target, only_site="fragility")
+    models, rule, drift_limit = models_of(*read, args.code_share)
     limits = [parse_limit(text) for text in args.limit or [drift_limit]]
+    doubts = doubts_of_input(*read, target, ((limit.quantity, limit.value) for limit in limits))
     suite = read_motions(args)
     common: dict[str, Any] = {"measure": args.measure, "period": args.measure_period, "at": args.at or ()}
     common |= {"seed": args.seed, "threads": args.jobs}
@@ -92,15 +96,16 @@ def run(args: argparse.Namespace) -> int:
                 **common,
                 progress=tell,
             )
-    head = f"suite     {suite.name}\ncode      {rule}\n"
+    result, doubtful = with_doubts(result, doubts)
+    head = f"{doubtful}suite     {suite.name}\ncode      {rule}\n"
     give_answer(args, result, suite, head=head, indent=10, answer="  where code says")
     return 0
 
 
 def models_of(
-    path: Path, code_share: float | None, target: TargetSpectrum | None = None
+    scene: Scene, building: OwnBuilding | None, code_share: float | None
 ) -> tuple[dict[str, Scene], str, str]:
-    """Return the models of a scene file or a building file, what the code's has attached, and the limit by default.
+    """Return the models of a scene or a building, what the code's has attached, and the limit by default.
 
     The code's model of a building file has its code's fraction of the design live load, whatever is present.
     """
@@ -108,7 +113,6 @@ def models_of(
     from seismass.fragility import compared_models
     from seismass.fragility.models import CODE, DEFAULT_CODE_SHARE, REAL
 
-    scene, building = read_scene_or_building(path, target, only_site="fragility")
     share = DEFAULT_CODE_SHARE if code_share is None else code_share
     rule = f"{100.0 * share:g} % of the goods attached as mass"
     models = compared_models(scene, share)

@@ -24,7 +24,9 @@ from seismass.commands.scene_or_building import (
     DEFAULT_LIMIT,
     add_file_argument,
     add_site_options,
+    doubts_of_input,
     read_scene_or_building,
+    with_doubts,
 )
 
 
@@ -77,12 +79,15 @@ def run(args: argparse.Namespace) -> int:
         check_out(args.out, "risk")
     hazard = HazardCurve.from_csv(args.hazard, period=args.hazard_period)
     drift_limit, code_share = DEFAULT_LIMIT, args.code_share
-    scene, building = read_scene_or_building(args.file, read_site(args, "risk"), only_site="risk")
+    target = read_site(args, "risk")
+    scene, building = read_scene_or_building(args.file, target, only_site="risk")
     if building is not None:
         drift_limit = f"drift_ratio={building.drift_limit:g}"
         if code_share is None and building.present_share > 0.0:
             code_share = min(1.0, building.code_share / building.present_share)
     suite = read_motions(args)
+    limit = parse_limit(args.limit or drift_limit)
+    doubts = doubts_of_input(scene, building, target, [(limit.quantity, limit.value)])
     given = {"code_share": code_share, "design_rate": args.design_rate}
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     with progress() as tell:
@@ -90,7 +95,7 @@ def run(args: argparse.Namespace) -> int:
             scene,
             suite,
             hazard,
-            parse_limit(args.limit or drift_limit),
+            limit,
             measure=args.measure,
             period=args.measure_period,
             shares=args.share,
@@ -102,7 +107,8 @@ def run(args: argparse.Namespace) -> int:
             progress=tell,
             **chosen,
         )
-    head = f"suite                {suite.name}\n"
+    result, doubtful = with_doubts(result, doubts)
+    head = f"{doubtful}suite                {suite.name}\n"
     give_answer(args, result, suite, head=head, indent=21, answer="risk-targeted share")
     return 0
 

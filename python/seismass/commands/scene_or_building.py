@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar, cast
 
 from seismass.base.input_kinds import BUILDING_FILE, kind_of
 from seismass.commands.options import add_target_options
@@ -19,6 +21,18 @@ DEFAULT_LIMIT: Final = "drift_ratio=0.02"
 or II."""
 
 
+class HasRemarks(Protocol):
+    """A result with remarks."""
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to know beside the numbers."""
+        ...
+
+
+Doubtable = TypeVar("Doubtable", bound=HasRemarks)
+
+
 def add_file_argument(parser: argparse.ArgumentParser) -> None:
     """Add the argument `file`."""
     parser.add_argument(
@@ -30,6 +44,47 @@ def add_site_options(parser: argparse.ArgumentParser) -> None:
     """Add --target, --sds, --sd1 and --tl, which `read_site` reads, for strengths that a building file designs."""
     group = parser.add_argument_group("site of a building file that designs strengths, in place of its own")
     add_target_options(group, stand_in=False)
+
+
+def doubts_of_input(
+    scene: Scene,
+    building: OwnBuilding | None,
+    target: TargetSpectrum | None,
+    limits: Iterable[tuple[str, float]],
+    motions: Any = (),
+) -> tuple[str, ...]:
+    """Return what makes the input of a study doubtful: of a scene, its limits and motions, and of a building file.
+
+    Parameters
+    ----------
+    scene, building
+        As `read_scene_or_building` returns them.
+    target : TargetSpectrum or None
+        Site spectrum in place of the file's.
+    limits, motions
+        As for `usage_remarks`.
+    """
+    from seismass.assessment.doubts import building_doubts
+    from seismass.model.plausibility import usage_remarks
+
+    own = () if building is None else building_doubts(building, scene, building.target if target is None else target)
+    return tuple(dict.fromkeys([*own, *usage_remarks(scene.remarks, motions, limits)]))
+
+
+def with_doubts(result: Doubtable, doubts: tuple[str, ...]) -> tuple[Doubtable, str]:
+    """Return a result whose remarks begin with the doubts, and the lines that stand before its text.
+
+    Parameters
+    ----------
+    result : dataclass with remarks
+        The result.
+    doubts : tuple of str
+        Of `doubts_of_input`.
+    """
+    from seismass.assessment.answer import doubt_lines
+
+    merged: Any = replace(cast("Any", result), remarks=tuple(dict.fromkeys([*doubts, *result.remarks])))
+    return merged, "".join(f"{line}\n" for line in doubt_lines(doubts)) + "\n" * bool(doubts)
 
 
 def is_building_file(path: Path) -> bool:

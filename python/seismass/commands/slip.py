@@ -18,7 +18,12 @@ from seismass.commands.options import (
     refuse_given,
 )
 from seismass.commands.progress import progress
-from seismass.commands.scene_or_building import add_file_argument, read_scene_or_building
+from seismass.commands.scene_or_building import (
+    add_file_argument,
+    doubts_of_input,
+    read_scene_or_building,
+    with_doubts,
+)
 
 if TYPE_CHECKING:
     from seismass.records import Suite
@@ -75,7 +80,10 @@ def run(args: argparse.Namespace) -> int:
             threads=args.jobs,
             progress=tell,
         )
-    give_answer(args, result, suite, head=f"suite       {suite.name}\nscaling     {scaling}\n\n", indent=12)
+    given = [side for each in clearances or [] if each is not None for side in (each.plus, each.minus)]
+    limits = [("clearance", side) for side in given if side is not None]
+    result, doubtful = with_doubts(result, doubts_of_input(scene, building, target, limits, motions))
+    give_answer(args, result, suite, head=f"{doubtful}suite       {suite.name}\nscaling     {scaling}\n\n", indent=12)
     return 0
 
 

@@ -30,6 +30,7 @@ from seismass.effective_mass.models import ModelDamping, attached, building_of, 
 from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
 from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
+from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
 from seismass.runs.simulate import instruction_set
@@ -151,7 +152,8 @@ class Search:
             storeys=storeys,
             records=record_table(self.motions, shares, real, model),
             collapses=collapses,
-            remarks=remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
+            remarks=tuple(usage_remarks(scene.remarks, self.motions.motions))
+            + remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
             metadata=self._metadata(scene, about, difference.evaluations),
         )
 
