@@ -11,7 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.errors import InvalidOption, InvalidScene, SeismassError
 from seismass.base.files import written_whole
 from seismass.base.values import as_path, refusal
 from seismass.media.folder import folder_for
@@ -114,7 +114,7 @@ def model_content(scene: Scene, name: str = "") -> dict[str, Any]:
     """
     building = scene.building
 
-    def refused(what: str) -> InvalidScene:
+    def refused(what: str) -> SeismassError:
         return refusal(InvalidScene, f"scene {name}".strip(), "OpenSees export", "a shear building with goods", what)
 
     if building is None:
