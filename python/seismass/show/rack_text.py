@@ -3,20 +3,14 @@
 from __future__ import annotations
 
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.model.places import goods_names
 from seismass.model.scene import Scene
 from seismass.runs.response import Response
 
 
 def goods_places(scene: Scene) -> list[str]:
-    """Return where each block stands: its floor, or its rack and level."""
-    floors = [str(block.floor) if block.floor else "ground" for block in scene.blocks]
-    levels = [
-        f"rack {number} level {block.level}"
-        for number, rack in enumerate(scene.racks, start=1)
-        for block in rack.blocks
-        if not block.fixed
-    ]
-    return floors + levels
+    """Return where each block stands: the number of its floor, or its rack and level."""
+    return [name.removeprefix("floor ") for name in goods_names(scene)]
 
 
 def goods_masses(scene: Scene) -> list[float]:
