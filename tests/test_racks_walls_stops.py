@@ -195,5 +195,7 @@ def test_what_takes_shear_buildings_alone_says_so() -> None:
                 call(scene)
     with pytest.raises(sm.errors.InvalidScene, match="stiffness_matrix of building must be left out in grids"):
         sm.Grid(building=walled.building, mass_ratio=0.5, mu=0.3)
-    with pytest.raises(sm.errors.InvalidScene, match="stiffness_matrix of building must be left out in pushover"):
-        sm.design.pushover(walled.building)
+    with pytest.raises(
+        sm.errors.InvalidScene, match="stiffness_matrix of building must be left out in scaling by push"
+    ):
+        sm.scaling.first_mode_oscillator(walled.building)
