@@ -117,3 +117,35 @@ def test_crossings_beyond_one() -> None:
     model = np.stack([shares, shares, shares])
     found = extended(np.array([0.4, 1.0, 1.0]), shares, model, np.array([0.9, 1.25, 2.5]))
     np.testing.assert_allclose(found, [0.4, 1.25, 2.0], rtol=1e-14)
+
+
+def test_a_matrix_that_stands_for_springs() -> None:
+    """The elastic second storey as a matrix in place of its spring: the same building, so the same fraction.
+
+    Relative to the chain engine by rounding; eta is over the base shear of spring 1, as without the matrix.
+    """
+    mass, stiffness = [1000.0, 1000.0], [4e5, 3e5]
+    strength = [2000.0, np.inf]
+    blocks = [sm.Block(floor, mass_ratio=0.8, mu=0.1) for floor in (1, 2)]
+    springs = sm.Building(mass, stiffness, yield_shear=strength)
+    matrix = [[3e5, -3e5], [-3e5, 3e5]]
+    walled = sm.Building(mass, [4e5, 0.0], yield_shear=strength, stiffness_matrix=matrix)
+    chain, general = (sm.effective_mass(sm.Scene(each, blocks), SUITE, **COARSE) for each in (springs, walled))
+    assert general.value == pytest.approx(chain.value, abs=1e-8)
+    assert general.real == pytest.approx(chain.real, rel=1e-11)
+    assert general.base_shear_coefficient == pytest.approx(chain.base_shear_coefficient, rel=1e-11)
+    assert general.by_hand.period == pytest.approx(chain.by_hand.period, rel=1e-12)
+    assert general.kind == "root"
+    assert "the rule by period knows no walls" in general.text
+
+
+def test_the_base_shear_of_a_wall_counts() -> None:
+    """A cantilever without a frame: C1 is the wall's shear at the ground, over the weight."""
+    mass = [1e5, 1e5, 1e5]
+    wall = sm.design.Wall.of_period(mass, 3.0, 0.5)
+    building = sm.Building(mass, 0.0, heights=3.0, stiffness_matrix=wall.stiffness_matrix)
+    scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.3))
+    result = sm.effective_mass(scene, SUITE, **COARSE)
+    model = sm.attached_scene(scene, 1.0)
+    shear = np.mean([sm.simulate(model, motion).peak_base_shear for motion in SUITE])
+    assert result.base_shear_coefficient == pytest.approx(shear / (5e5 * 9.80665), rel=1e-12)

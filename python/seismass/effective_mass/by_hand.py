@@ -62,7 +62,7 @@ def by_hand(scene: Scene, motions: NamedMotions, full: Peaks) -> ByHand:
     def spectrum(periods: FloatArray) -> FloatArray:
         return mean_spectrum(motions.motions, np.ones(len(motions)), periods)
 
-    elastic = response_spectrum_analysis(mass + goods, building.stiffness, spectrum)
+    elastic = response_spectrum_analysis(mass + goods, building.stiffness, spectrum, stiffness_matrix=walls)
     weight = full_weight(scene)
     corner, period = corner_period(spectrum), float(building.periods[0])
     yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building)).any())
