@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+import re
+
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
@@ -142,3 +145,31 @@ def test_the_card_of_a_notebook(response: sm.Response) -> None:
     card = response._repr_html_()
     for said in ("rack 1, floor 2", "rack 2, floor 1", "rack 1 level 2", "touch_stop"):
         assert said in card
+
+
+def test_text_and_document(response: sm.Response) -> None:
+    """Peaks of racks and slip by level, contacts with their velocity, and where everything is."""
+    text = response.text
+    velocity, force = response.peak_contact_velocity, 1e-3 * response.peak_contact_force
+    touches = response.events.filter(kind="touch_stop")["number"].to_list()
+    for number, place, clearance in ((1, "floor 1", "50 / 20"), (4, "rack 2 level 1", "30")):
+        said = f"{place} +{clearance} +{touches.count(number)} +{velocity[number - 1]:.4g} +{force[number - 1]:.4g}"
+        assert re.search(rf"^ +{number} +{said}$", text, re.MULTILINE)
+    assert f"peak base shear {1e-3 * response.peak_base_shear:.4g} kN, springs and walls together" in text
+    assert re.search(rf"^ +2 +1 +3 +{1e3 * response.peak_rack_drift[1][2]:.3f} ", text, re.MULTILINE)
+    assert re.search(r"^ +3 +rack 1 level 2 +2000 ", text, re.MULTILINE)
+    document = json.loads(response.to_json())
+    assert document["goods"] == ["floor 1", "rack 1 level 1", "rack 1 level 2", "rack 2 level 1"]
+    assert document["peak_rack_drift"] == [levels.tolist() for levels in response.peak_rack_drift]
+    assert document["peak_rack_drift_time"] == [levels.tolist() for levels in response.peak_rack_drift_time]
+    assert document["peak_slip"] == response.peak_slip.tolist()
+    events = [event for event in document["events"] if event["kind"] == "touch_stop"]
+    assert max(abs(event["velocity"]) for event in events) == pytest.approx(velocity.max(), rel=1e-12)
+    assert all("velocity" not in event for event in document["events"] if event["kind"] == "slip")
+
+
+def test_a_text_without_stops_has_no_contacts() -> None:
+    rack = sm.Rack(0, levels=2, level_mass=100.0, period=0.6)
+    response = sm.simulate(sm.Scene(None, racks=[rack]), sm.builtin_record("synthetic-1"), events=False)
+    assert response.status == "completed"
+    assert "contacts" not in response.text

@@ -11,7 +11,7 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.media.card import COLOUR, SECOND, card, history, line, rows, stroke, svg, text
 from seismass.media.result import Result
-from seismass.model.places import floor_name, goods_names
+from seismass.model.places import floor_name, goods_names, spring_names
 
 if TYPE_CHECKING:
     from seismass.effective_mass.result import EffectiveMass
@@ -27,7 +27,8 @@ def response_html(response: Response) -> str:
     """Return a card of a response: the history that drifts or slips most, where it has any, and peaks."""
     scene = response.scene
     fell = response.collapsed_storey
-    ended = f"{response.status}{f' in storey {fell}' if fell is not None else ''} at {response.end_time:g} s"
+    where = "" if fell is None else f" in {spring_names(scene)[fell - 1]}"
+    ended = f"{response.status}{where} at {response.end_time:g} s"
     motion = response.record.name if response.record is not None else repr(response.motion)
     about = ", ".join(part for part in (scene.name, motion) if part)
     facts = [(name, str(count)) for name, count in response.counts.items() if count]
