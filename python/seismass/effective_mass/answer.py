@@ -2,7 +2,8 @@
 
 Definition: the smallest share of the live load which, attached as mass to the building with its stiffness, strength,
 damping matrix and gravity load unchanged, gives a mean over the motions of the largest storey drift not below that of
-the building with sliding goods, there and at every larger share up to 1.
+the building with sliding goods, there and at every larger share up to 1. Goods on racks, or that press on stops, may
+load the building more than all of them attached: then the smallest share above 1 that gives the drift.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from collections.abc import Callable, Iterable
 from numpy.typing import ArrayLike
 
 from seismass.effective_mass.curve import Statistic
-from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_loaded
+from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_any_load
 from seismass.effective_mass.result import EffectiveMass
 from seismass.effective_mass.runs import Progress, named_motions
 from seismass.effective_mass.search import OWNER, checked_options
@@ -41,7 +42,7 @@ def effective_mass(
     Parameters
     ----------
     scene : Scene
-        The building with its goods as blocks.
+        The building with its goods as blocks, on floors and on racks; walls and stops are as in the real building.
     motions : Motion, Record or iterable of them
         The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together.
     statistic : {"mean", "median"}
@@ -77,6 +78,12 @@ def effective_mass(
     exactly at every share of the grid; each sign change is refined on the exact model. A drift falls with added mass
     where the longer period meets a valley of the spectra, so that there may be several roots: the largest counts.
 
+    With racks the live load is all goods, those on racks too, fixed or not; the frames of the racks are attached to
+    their floors in every model. Where there are racks or stops and the model drifts less even with all goods attached,
+    models go on to share 2, and the first that reaches the real drift counts (`kind` "beyond"): a rack whose period is
+    near that of the building passes on more than the inertia of its goods. The rule by period in `estimate` is of goods
+    on the floors of shear buildings, and a remark says so.
+
     Examples
     --------
     >>> import seismass as sm
@@ -86,7 +93,7 @@ def effective_mass(
     >>> result.kind
     'root'
     """
-    checked = check_loaded(scene)
+    checked = check_any_load(scene)
     named = named_motions(motions, OWNER)
     options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
     return solved_frictions([checked], named, options)[0].answer()

@@ -8,8 +8,9 @@ from typing import Any
 
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import FloatArray, brief, refusal
+from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
 from seismass.effective_mass.curve import Statistic
-from seismass.effective_mass.models import attached, check_loaded
+from seismass.effective_mass.models import attached, check_any_load
 from seismass.effective_mass.result import EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Stages, solve
 from seismass.effective_mass.search import OWNER, Options, Search
@@ -36,6 +37,8 @@ class Solved:
         Of the real building, one scene or one per share, and of the models, one scene per share.
     question : str
         What is asked, for the metadata.
+    beyond : Peaks, optional
+        Of the models at `SHARES_BEYOND`, where shares above 1 are sought.
     """
 
     motions: NamedMotions
@@ -45,11 +48,12 @@ class Solved:
     real: Peaks
     model: Peaks
     question: str
+    beyond: Peaks | None = None
 
     def answer(self, statistic: Statistic | None = None) -> EffectiveMass:
         """Return the effective fraction, by the statistic of the options where none is given."""
         options = self.options if statistic is None else replace(self.options, statistic=statistic)
-        search = Search(self.motions, options, self.at, self.scene_at)
+        search = Search(self.motions, options, self.at, self.scene_at, self.beyond)
         return search.answer(self.real, self.model, {"question": self.question})
 
 
@@ -72,16 +76,21 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
     SimulationError, KeyboardInterrupt
         As for `solve`.
     """
-    checked = [check_loaded(scene) for scene in scenes]
+    checked = [check_any_load(scene) for scene in scenes]
     first, shares, threads = checked[0], options.fractions, options.threads
     for number, scene in enumerate(checked[1:], start=2):
         if attached(scene, 1.0, options.damping) != attached(first, 1.0, options.damping):
             requirement = "the building and goods of scene 1 but for friction"
             raise refusal(InvalidScene, f"scene {number}", OWNER, requirement, "others")
-    stages = Stages(options.progress, (len(checked) + len(shares)) * len(motions))
+    larger = SHARES_BEYOND if any(goes_beyond(scene) for scene in checked) else SHARES_BEYOND[:0]
+    stages = Stages(options.progress, (len(checked) + len(shares) + len(larger)) * len(motions))
     reals = solve(checked, motions, threads=threads, progress=stages.next(len(checked) * len(motions)))
     models = [attached(first, share, options.damping) for share in shares]
     model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
+    beyond = None
+    if len(larger):
+        models = [attached(first, share, options.damping) for share in larger]
+        beyond = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
     beside: dict[float, Peaks] = {}
 
     def model_at(share: float) -> Peaks:
@@ -92,7 +101,14 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
     def of(number: int, scene: Scene) -> Solved:
         real = reals.one(number)
         return Solved(
-            motions, options, lambda share: (real, model_at(share)), lambda _: scene, real, model, "given building"
+            motions,
+            options,
+            lambda share: (real, model_at(share)),
+            lambda _: scene,
+            real,
+            model,
+            "given building",
+            beyond,
         )
 
     return [of(number, scene) for number, scene in enumerate(checked)]
@@ -132,7 +148,7 @@ def solved_designs(
         building: Any = design(share)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building", brief(building))
-        return check_loaded(Scene(building, goods, collapse_drift=collapse_drift))
+        return check_any_load(Scene(building, goods, collapse_drift=collapse_drift))
 
     shares = [float(share) for share in options.fractions]
     stages = Stages(options.progress, 2 * len(shares) * len(motions))
