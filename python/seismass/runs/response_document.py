@@ -46,7 +46,7 @@ class ResponseDocument:
             "peak_base_shear": response.peak_base_shear,
         }
         if scene.engine == "general":
-            result |= response.rack_values()
+            result |= response.rack_values() | response.base_values()
         for name in ("peak_drift_ratio", "residual_drift_ratio"):
             if getattr(response, name) is not None:
                 result[name] = getattr(response, name).tolist()

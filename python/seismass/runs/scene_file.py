@@ -23,7 +23,7 @@ from seismass.model.spring_laws import is_per_storey
 from seismass.model.springs import SPRING_FIELDS
 from seismass.records import Record, builtin_record, read_record
 from seismass.records.builtin import builtin_names, data_directory
-from seismass.runs.scene_goods import GOODS_KEYS, read_block, read_rack
+from seismass.runs.scene_goods import GOODS_KEYS, read_base, read_block, read_rack
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
@@ -34,6 +34,7 @@ KEYS: Final = {
         "building",
         "blocks",
         "racks",
+        "base",
         "motion",
         "vertical_motion",
         "duration",
@@ -180,6 +181,7 @@ def _scene(top: Table) -> Scene:
         building,
         [read_block(table, number) for number, table in enumerate(top.tables("blocks"), start=1)],
         racks=[read_rack(table, number) for number, table in enumerate(top.tables("racks"), start=1)],
+        base=read_base(top.table("base")) if "base" in top.values else None,
         initial_drift=None if initial is None else initial.per_storey("drift"),
         initial_velocity=None if initial is None else initial.per_storey("velocity"),
         collapse_drift=top.values.get("collapse_drift"),

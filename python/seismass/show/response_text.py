@@ -12,7 +12,7 @@ from seismass.model.building import Building
 from seismass.model.damping import Rayleigh
 from seismass.model.scene import Scene
 from seismass.runs.response import Response
-from seismass.show.rack_text import goods_masses, goods_places, rack_table
+from seismass.show.rack_text import base_line, goods_masses, goods_places, rack_table
 
 
 def response_text(response: Response) -> str:
@@ -55,6 +55,8 @@ def run_text(
     lines += [f"            {remark}" for remark in remarks or response.remarks]
     if scene.building is not None:
         lines += ["", *text_table(_storey_table(scene.building, response), left=0)]
+    if scene.base is not None:
+        lines += ["", base_line(scene, response)]
     if scene.racks:
         lines += ["", *text_table(rack_table(scene, response), left=0)]
     if scene.goods:
