@@ -12,6 +12,7 @@ import statistics
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -91,7 +92,7 @@ def against_opensees(motion: sm.Motion) -> dict[str, list[dict[str, Any]]]:
     for name, scene in (("rack", rack_scene()), ("wall", wall_scene())):
         run = sm.simulate(scene, motion, energy=True)
         drift, slip = np.concatenate([run.peak_drift, *run.peak_rack_drift]), run.peak_slip
-        taken = _time(lambda scene=scene: sm.simulate(scene, motion, events=False))
+        taken = _time(partial(sm.simulate, scene, motion, events=False))
         rows = [
             {
                 "setting": "general engine",
