@@ -25,6 +25,8 @@ except (ImportError, RuntimeError):
 GRAVITY: Final = 9.80665
 GROUND: Final = 5000
 BLOCKS: Final = 1000
+RETRIES: Final = ("Newton", "ModifiedNewton", "NewtonLineSearch")
+HALVINGS: Final = 8
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,22 @@ def _model(plain: Tree, friction: float, motion: sm.Motion) -> None:
     ops.analysis("Transient")
 
 
+def _step(step: float, halvings: int) -> None:
+    """One step; where it does not converge other algorithms are tried, then two steps of half the length."""
+    if ops.analyze(1, step) == 0:
+        return
+    for algorithm in RETRIES:
+        ops.algorithm(algorithm)
+        converged = ops.analyze(1, step) == 0
+        ops.algorithm("KrylovNewton")
+        if converged:
+            return
+    if halvings == 0:
+        raise RuntimeError(f"did not converge at t = {ops.getTime():.3f} s with any algorithm, nor in shorter steps")
+    for _ in range(2):
+        _step(0.5 * step, halvings - 1)
+
+
 def run(scene: sm.Scene, motion: sm.Motion, friction: float, substeps: int) -> Outcome:
     """Return the peaks at the steps, with friction springs of this stiffness over that of the stiffest spring.
 
@@ -99,9 +117,7 @@ def run(scene: sm.Scene, motion: sm.Motion, friction: float, substeps: int) -> O
     displacements = np.zeros(((motion.samples - 1) * substeps + 1, len(nodes)))
     step, displacement = motion.dt / substeps, ops.nodeDisp
     for i in range(1, len(displacements)):
-        if ops.analyze(1, step) != 0:
-            ops.wipe()
-            raise RuntimeError(f"did not converge at t = {i * step:.3f} s")
+        _step(step, HALVINGS)
         displacements[i] = [displacement(node, 1) for node in nodes]
     ops.wipe()
     count = len(plain.mass)
