@@ -56,12 +56,6 @@ _LINES: Final[tuple[tuple[re.Pattern[str], str, str], ...]] = tuple(
         ),
         (r"\s*<\?xml|\s*<q:quakeml|\s*<FDSNStationXML", "XML", _NETWORK),
         (r"\s*[{\[]\s*(?:[\"{\[]|$)", "JSON", _NETWORK),
-        (r"\* VOL[12]", "BHRC (ISMN, Iran)", _NETWORK),
-        (
-            r"\*{20,}\s+INSTITUTO DE INGENIERIA|(?s:.{0,800}?ARCHIVO ESTANDAR DE ACELERACION)",
-            "UNAM standard acceleration",
-            _NETWORK,
-        ),
         (r"(?:CORRECTED ACCELEROGRAM.*CORRESPONDING|FILE\s+\d+ OF UNCORRECTED ACCELEROGRAM)", "USC volume", _NETWORK),
         (r"\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", "CSMIP V3 (spectra)", "read its V1 or V2 file"),
         (r"\s*(?:RESPONSE|FOURIER) SPECTR\w+.*\(Format v", "COSMOS V3 (spectra)", "read its V1 or V2 file"),
