@@ -142,7 +142,7 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, str, list[Any]]:
         return suite, said, list(suite) if args.factor is None else [record.scaled(factor) for record in suite]
     refuse_given(args, ("factor",), "slip", "where a target is given")
     target = read_target(args)
-    factors = scale_asce7_10(suite, target, period=args.period or 1.0).factors
+    factors = scale_asce7_10(suite, target, period=args.period or 1.0, between=False).factors
     scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
     return suite, f"ASCE 7-10 to {target.label}, for T = {args.period or 1.0:g} s", scaled
 
