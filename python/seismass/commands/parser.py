@@ -12,6 +12,7 @@ from seismass.commands.help_text import HelpText, grouped
 
 COMMANDS: Final = {
     "building": ("building", "your own building: how much of its live load to count as mass"),
+    "new": ("new", "a building file from questions, from options, or from another program's storey table"),
     "slip": ("slip", "how far goods slide, to which edge or wall, and whether they slide or rock"),
     "fragility": ("fragility", "what a code's model makes of the probability of exceeding a limit"),
     "risk": ("risk", "the share of the live load that keeps the annual rate of exceeding a drift limit"),
@@ -33,7 +34,7 @@ COMMANDS: Final = {
 """Subcommands: the module in seismass.commands, which is imported when it is needed, and what --help says of it."""
 
 GROUPS: Final = {
-    "my building": ("building", "slip", "fragility", "risk", "explore"),
+    "my building": ("new", "building", "slip", "fragility", "risk", "explore"),
     "motions": ("records", "spectrum", "scale", "match", "pulse"),
     "research": ("map", "campaign", "run", "animate"),
     "the paper": ("study", "validate", "report"),

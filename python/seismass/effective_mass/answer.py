@@ -2,7 +2,8 @@
 
 Definition: the smallest share of the live load which, attached as mass to the building with its stiffness, strength,
 damping matrix and gravity load unchanged, gives a mean over the motions of the largest storey drift not below that of
-the building with sliding goods, there and at every larger share up to 1.
+the building with sliding goods, there and at every larger share up to 1. Goods on racks, or that press on stops, may
+load the building more than all of them attached: then the smallest share above 1 that gives the drift.
 """
 
 from __future__ import annotations
@@ -14,8 +15,9 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import as_count, as_number, brief, refusal
+from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
 from seismass.effective_mass.curve import Statistic, check_fractions, check_statistic
-from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
+from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_any_load, check_damping
 from seismass.effective_mass.result import EffectiveMass
 from seismass.effective_mass.runs import Peaks, Progress, Stages, named_motions, solve
 from seismass.effective_mass.search import Options, Search
@@ -43,7 +45,7 @@ def effective_mass(
     Parameters
     ----------
     scene : Scene
-        The building with its goods as blocks.
+        The building with its goods as blocks, on floors and on racks; walls and stops are as in the real building.
     motions : Motion, Record or iterable of them
         The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together.
     statistic : {"mean", "median"}
@@ -79,6 +81,12 @@ def effective_mass(
     exactly at every share of the grid; each sign change is refined on the exact model. A drift falls with added mass
     where the longer period meets a valley of the spectra, so that there may be several roots: the largest counts.
 
+    With racks the live load is all goods, those on racks too, fixed or not; the frames of the racks are attached to
+    their floors in every model. Where there are racks or stops and the model drifts less even with all goods attached,
+    models go on to share 2, and the first that reaches the real drift counts (`kind` "beyond"): a rack whose period is
+    near that of the building passes on more than the inertia of its goods. The rule by period in `estimate` is of goods
+    on the floors of shear buildings, and a remark says so.
+
     Examples
     --------
     >>> import seismass as sm
@@ -88,18 +96,24 @@ def effective_mass(
     >>> result.kind
     'root'
     """
-    checked = check_loaded(scene)
+    checked = check_any_load(scene)
     named = named_motions(motions, "effective mass")
     options = _options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
-    stages = Stages(options.progress, (1 + len(options.fractions)) * len(named))
+    larger = SHARES_BEYOND if goes_beyond(checked) else SHARES_BEYOND[:0]
+    stages = Stages(options.progress, (1 + len(options.fractions) + len(larger)) * len(named))
     real = solve([checked], named, threads=threads, progress=stages.next(len(named)))
     models = [attached(checked, share, options.damping) for share in options.fractions]
     model = solve(models, named, threads=threads, progress=stages.next(len(models) * len(named)))
+    beyond = None
+    if len(larger):
+        models = [attached(checked, share, options.damping) for share in larger]
+        beyond = solve(models, named, threads=threads, progress=stages.next(len(models) * len(named)))
 
     def at(share: float) -> tuple[Peaks, Peaks]:
         return real, solve([attached(checked, share, options.damping)], named, threads=threads)
 
-    return Search(named, options, at, lambda _: checked).answer(real, model, {"question": "given building"})
+    search = Search(named, options, at, lambda _: checked, beyond)
+    return search.answer(real, model, {"question": "given building"})
 
 
 def effective_mass_of_design(
@@ -163,7 +177,7 @@ def effective_mass_of_design(
         building = design(share)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", "effective mass", "a Building", brief(building))
-        return check_loaded(Scene(building, goods))
+        return check_any_load(Scene(building, goods))
 
     stages = Stages(options.progress, 2 * len(options.fractions) * len(named))
     shares = [float(share) for share in options.fractions]

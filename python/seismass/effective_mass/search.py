@@ -10,6 +10,15 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.base.values import FloatArray
+from seismass.effective_mass.beyond import (
+    FROM_ONE,
+    LARGEST_SHARE,
+    SHARES_BEYOND,
+    extended,
+    first_bracket,
+    goes_beyond,
+    joined,
+)
 from seismass.effective_mass.by_hand import by_hand
 from seismass.effective_mass.curve import (
     Kind,
@@ -26,6 +35,7 @@ from seismass.effective_mass.estimate import best_estimate, conservative_estimat
 from seismass.effective_mass.models import ModelDamping, attached, building_of, friction, full_weight
 from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
+from seismass.effective_mass.structure_remarks import remarks_of_structure
 from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
@@ -60,22 +70,29 @@ class Search:
         Takes a share, returns the peaks of the real building and of the model there, one scene each.
     scene_at : callable
         Takes a share, returns the scene with sliding goods.
+    beyond : Peaks, optional
+        Peaks of the models at `SHARES_BEYOND`; None where no share above 1 is sought.
     """
 
     motions: NamedMotions
     options: Options
     at: Callable[[float], tuple[Peaks, Peaks]]
     scene_at: Callable[[float], Scene]
+    beyond: Peaks | None = None
 
     def answer(self, real: Peaks, model: Peaks, about: dict[str, Any]) -> EffectiveMass:
         """Return the effective fraction; `real` has one scene, or one per share."""
         options, shares = self.options, self.options.fractions
         kind = self._kind(real, model)
         brackets = [] if kind in ("collapsed", "stuck") else crossings(shares, *self._statistics(model, real))
+        larger = self._larger_bracket(real, model) if kind == "one" else None
+        if larger is not None:
+            kind = "beyond"
+            brackets.append(larger)
         difference = _Difference(self, real, model)
         roots = [refined_root(difference, bracket) for bracket in brackets]
         value = {"collapsed": float("nan"), "zero": 0.0}.get(kind, 1.0)
-        if kind in ("root", "multiple"):
+        if kind in ("root", "multiple", "beyond"):
             value = roots[-1]
         place = 1.0 if np.isnan(value) else value
         real_there, model_there = self._peaks_at(place, real, model)
@@ -113,11 +130,14 @@ class Search:
             estimate=float(best_estimate(eta, rule.exponent, rule.height_ratio)),
             conservative=float(conservative_estimate(eta, rule.height_ratio)),
             by_hand=rule,
-            curve=curve_table(shares, real, model, band, options.statistic),
+            curve=curve_table(*self._with_larger(model), real, band, options.statistic),
             storeys=storeys,
             records=record_table(self.motions, shares, real, model),
             collapses=collapses,
-            remarks=remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
+            remarks=(
+                *remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
+                *remarks_of_structure(scene),
+            ),
             metadata=self._metadata(scene, about, difference.evaluations),
         )
 
@@ -126,15 +146,32 @@ class Search:
         model_drift, real_drift = (over_records(peaks.largest, self.options.statistic) for peaks in (model, real))
         return model_drift, np.broadcast_to(real_drift, model_drift.shape)
 
+    def _with_larger(self, model: Peaks) -> tuple[FloatArray, Peaks]:
+        """All shares at which models were solved, and their peaks."""
+        if self.beyond is None:
+            return self.options.fractions, model
+        return np.concatenate([self.options.fractions, SHARES_BEYOND]), joined(model, self.beyond)
+
+    def _larger_bracket(self, real: Peaks, model: Peaks) -> tuple[float, float] | None:
+        """Shares from 1 on between which the model first reaches the real drift."""
+        if self.beyond is None:
+            return None
+        drift, real_drift = self._statistics(joined(model.one(-1), self.beyond), real)
+        return first_bracket(FROM_ONE, drift, float(real_drift[0]))
+
     def _kind(self, real: Peaks, model: Peaks) -> Kind:
         model_drift, real_drift = self._statistics(model, real)
         if not np.isfinite(real_drift).all():
             return "collapsed"
-        if not real.slides[-1].any():
+        # Goods that do not slide on a rack that sways are not attached to the floor.
+        if not real.slides[-1].any() and not self._on_racks():
             return "stuck"
         if without_friction(self.scene_at(1.0)):  # the real building is the bare one, whatever the curve does
             return "zero"
         return kind_of(is_below(model_drift, real_drift))
+
+    def _on_racks(self) -> bool:
+        return any(rack.floor > 0 for rack in self.scene_at(1.0).racks)
 
     def _peaks_at(self, share: float, real: Peaks, model: Peaks) -> tuple[Peaks, Peaks]:
         """Peaks of the real building and of the model at a share, from the grid where it is one of its shares."""
@@ -155,8 +192,9 @@ class Search:
         options = self.options
         if kind == "collapsed" or self.motions.clusters < 2:
             return None, None
+        shares, every = self._with_larger(model)
         model_drift, real_drift = resampled(
-            model.largest,
+            every.largest,
             real.largest,
             statistic=options.statistic,
             cluster_of=self.motions.cluster_of,
@@ -164,9 +202,12 @@ class Search:
             seed=options.seed,
         )
         tail = 50.0 * (1.0 - options.confidence)
-        values = interpolated(options.fractions, model_drift, real_drift)
-        # Without a finite real drift no share is enough: the resample counts as 1.
-        values[np.isinf(real_drift).any(axis=1)] = 1.0
+        count = len(options.fractions)
+        values = interpolated(options.fractions, model_drift[:, :count], real_drift[:, :count])
+        if self.beyond is not None:
+            values = extended(values, FROM_ONE, model_drift[:, count - 1 :], real_drift[:, 0])
+        # Without a finite real drift no share is enough: the resample counts as the largest.
+        values[np.isinf(real_drift).any(axis=1)] = shares[-1]
         if kind == "stuck":
             values = np.ones(1)
         elif without_friction(self.scene_at(1.0)):
@@ -201,11 +242,14 @@ class Search:
             "motions": len(self.motions),
             "clusters": self.motions.clusters,
             "shares_beside_the_grid": evaluations,
+            **({} if self.beyond is None else {"largest_share": LARGEST_SHARE}),
         }
 
 
 def without_friction(scene: Scene) -> bool:
-    """Whether no goods on the floors have friction; goods with mu_s alone stick until they slide."""
+    """Whether no goods on the floors are held by friction or stops; goods with mu_s alone stick until they slide."""
+    if goes_beyond(scene):
+        return False
     coefficients = ((block.mu_s, *(mu_s for _, mu_s, _ in block.wear)) for block in scene.blocks if block.floor > 0)
     return not any(any(each) for each in coefficients)
 
