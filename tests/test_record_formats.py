@@ -432,7 +432,7 @@ NAMED: list[tuple[str, bytes, str]] = [
     (
         "a.mseed",
         b"000001D AB12 00HNZCE\x07\xe2\x00\xf1" + bytes(600),
-        r"content of a.mseed must be text; got miniSEED: con",
+        r"content of a.mseed must be text; got miniSEED: read it by seismass.records.read_counts with",
     ),
     ("a.ms", b"MS\x03\x00" + bytes(60), r"got miniSEED 3"),
     ("a.seed", b"000001V 010009402.3121970,001" + b" " * 60, r"got SEED"),

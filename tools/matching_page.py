@@ -1,7 +1,7 @@
 """Puts the tables of docs/matching.md into it: the seven records, the far-field components, other ranges and dampings;
 and draws its figure.
 
-Usage: SEISMASS_SHARED=... python tools/matching_page.py [seven] [far_field] [targets] [other] [figure]; all without a name.
+Usage: SEISMASS_SHARED=... python tools/matching_page.py [seven] [far_field] [targets] [other] [figure]; all by default.
 The recordings are not part of this project: SEISMASS_SHARED names the folder that holds them. The table of another
 program is written by benchmarks/matching.py and kept as it is.
 """

@@ -8,6 +8,7 @@ from typing import Final
 
 _CONVERT: Final = "convert it to text of one column (acceleration) or two (time, acceleration)"
 _NETWORK: Final = f"read the PEER, COSMOS, CSMIP, ESM, K-NET or SMC file of the record, or {_CONVERT}"
+_COUNTS: Final = "read it by seismass.records.read_counts with the m/s2 of one count (needs ObsPy)"
 _UNPACK: Final = "unpack it and read the files in it"
 
 _MAGIC: Final[tuple[tuple[bytes, str, str], ...]] = (
@@ -81,11 +82,11 @@ def known_binary(head: bytes) -> tuple[str, str] | None:
     if _SEED.match(head):
         return "SEED", _CONVERT
     if _MINISEED.match(head) and (b"\0" in head or not head.isascii()):
-        return "miniSEED", _CONVERT
+        return "miniSEED", _COUNTS
     if len(head) >= _SAC_HEADER_BYTES:
         versions = [struct.unpack_from(order + "i", head, _SAC_VERSION_AT)[0] for order in "<>"]
         if any(version in (6, 7) for version in versions):
-            return "SAC", _CONVERT
+            return "SAC", _COUNTS
     return None
 
 
