@@ -45,7 +45,7 @@ def environment() -> dict[str, str]:
 
 def tested(file: str) -> str:
     """Run a file of tests and return how many there are."""
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(ROOT / "tests" / file)]
+    command = [sys.executable, "-m", "pytest", "-q", "-n", "2", "-p", "no:cacheprovider", str(ROOT / "tests" / file)]
     done = subprocess.run(command, cwd=ROOT, env=environment(), capture_output=True, text=True)
     passed = re.search(r"^(\d+) passed(.*) in ", done.stdout, re.MULTILINE)
     if done.returncode or passed is None or "skipped" in passed[2]:
