@@ -36,6 +36,7 @@ RUN = [
     "animate --example",
     "records records/ --json",
     "spectrum record.AT2 --damping 0.02 0.05",
+    "target ec8:1:C:0.3",
     "scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6",
     "match record.AT2 --out matched.AT2 --plot matched.png",
     "pulse RSN1106_KOBE_KJM000.AT2 --json",

@@ -19,6 +19,7 @@ COMMANDS: Final = {
     "explore": ("explore", "the live page: a building with sliding goods, solved while sliders move"),
     "records": ("records", "what record files hold; the paper's seven records in a folder"),
     "spectrum": ("spectrum", "response spectra of records, as CSV"),
+    "target": ("target", "a target spectrum of a code, a suite or a building file, as CSV"),
     "scale": ("scale", "scale a suite to a target spectrum"),
     "match": ("match", "match records to a target spectrum"),
     "pulse": ("pulse", "velocity pulses of near-fault records"),
@@ -35,7 +36,7 @@ COMMANDS: Final = {
 
 GROUPS: Final = {
     "my building": ("new", "building", "slip", "fragility", "risk", "explore"),
-    "motions": ("records", "spectrum", "scale", "match", "pulse"),
+    "motions": ("records", "spectrum", "target", "scale", "match", "pulse"),
     "research": ("map", "campaign", "run", "animate"),
     "the paper": ("study", "validate", "report"),
     "shell": ("completion",),

@@ -140,9 +140,9 @@ def effective_mass_html(result: EffectiveMass) -> str:
         parts.append(f'<circle cx="{x:.1f}" cy="{middle:.1f}" r="6" fill="{COLOUR}"/>')
         anchor = "start" if result.value < 0.1 else "end" if result.value > 0.9 else "middle"
         parts.append(text(x, middle - 16.0, f"{result.value:.2f}", anchor=anchor, size=14.0))
-    label = f"effective fraction {result.value:.3f} on a line from 0 to 1, with its interval and both estimates"
+    label = f"effective fraction {result.value_text} on a line from 0 to 1, with its interval and both estimates"
     return card(
-        f"Effective fraction {result.value:.3f}",
+        f"Effective fraction {result.value_text}",
         f"of the live load, under {result.records.height} motions",
         svg(580.0, 84.0, label, *parts),
         line(f"filled: value and interval; triangles: estimates {RULE} and {SAFE_RULE}"),
