@@ -131,8 +131,8 @@ def each(suite: sm.Suite, results: list[sm.matching.MatchedSuite]) -> str:
 
 
 def targets(shared: Path) -> str:
-    """Return the table of the far-field components towards other targets."""
-    suite = sm.read_suite(shared / "records" / "fema_p695_far_field")
+    """Return the table of the seven records towards other targets."""
+    suite = sm.read_suite(shared / "records" / "paper_seven.csv")
     return each(suite, [sm.matching.match_suite(suite, target) for target in TARGETS])
 
 

@@ -1,4 +1,4 @@
-"""Pages whose names are scripts, handlers and addresses: in a browser nothing of them runs, and nothing is asked for."""
+"""Pages whose names are scripts, handlers and addresses: in a browser nothing runs, and nothing is asked for."""
 
 from __future__ import annotations
 
