@@ -466,9 +466,10 @@ def test_the_page_says_the_answer_first(warehouse: sm.Assessment) -> None:
     assert lines[3] == "ANSWER    two analyses; the larger drift of each storey counts"
     share, load = warehouse.advised, warehouse.advised_of_live_load
     assert lines[4] == (
-        f"          1  lambda = {share:.2f} of the goods present ({load:.2f} of the design live load) as mass"
+        f"          1  lambda = {share:.2f} of the goods present ({load:.2f} of the design live load) as mass: "
+        f"dead + {load:.2f} live"
     )
-    assert lines[5] == "          2  no goods"
+    assert lines[5] == "          2  no goods: dead load alone"
     box = " ".join(" ".join(lines[3:30]).split())
     value = max(effective.value for effective in warehouse.effective.values())
     assert f"why {share:.2f} since mu x 1.5 gives {value:.2f} [" in box

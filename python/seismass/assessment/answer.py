@@ -56,6 +56,14 @@ class Analysis:
     goods_mass: tuple[float, ...]
     multipliers: tuple[float, ...]
 
+    @property
+    def mass_source(self) -> str:
+        """What to type as mass into another program."""
+        found = sorted({round(value, 3) for value in self.multipliers if value > 0.0})
+        if not found:
+            return "dead load alone"
+        return f"dead + {found[0]:.2f} live" if len(found) == 1 else "by floor, below"
+
 
 @dataclass(frozen=True)
 class Answer:
@@ -113,9 +121,9 @@ class Answer:
         """The two analyses in words, the base of shares in the first."""
         return tuple(
             f"lambda = {one.share_of_goods_present:.2f} of the goods present ({one.share_of_design_live_load:.2f} of "
-            "the design live load) as mass"
+            f"the design live load) as mass: {one.mass_source}"
             if one.model == ADVISED
-            else "no goods"
+            else f"no {'loose ' * any(one.multipliers)}goods: {one.mass_source}"
             for one in self.analyses
         )
 
@@ -257,6 +265,9 @@ def _governs(governing: pl.DataFrame) -> tuple[str, ...]:
     for by in dict.fromkeys(governing["governed_by"].to_list()):
         of = governing.filter(pl.col("governed_by") == by).sort("governing", descending=True)
         row = of.row(0, named=True)
+        if by.startswith("goods slide"):
+            times = max(one["governing"] / max(one[ADVISED], one[BARE]) for one in of.iter_rows(named=True))
+            by = f"{by}, {times:.2f} times the larger analysis"
         limit = "" if row["limit"] is None else f" of {scale * row['limit']:g} %"
         over = "" if row["limit"] is None or row["governing_over_limit"] <= 1.0 else ", above the limit"
         where = _storeys(of["storey"].to_list())
@@ -303,7 +314,9 @@ def _design(building: OwnBuilding, advised: float, design: EffectiveMass | None)
         return "strengths are as stated: lambda is for the analysis, not for W of a design"
     here = f"W here has {building.design_fraction:.3g} of the design live load"
     if design is None or not math.isfinite(design.value):
-        return f"{here}; no share for W could be found, since buildings designed with some shares collapse"
+        return (
+            f"{here}: keep it; no better share for W could be found, since buildings designed with some shares collapse"
+        )
     share = rounded_up(design.value)
     return (
         f"for a design of strengths {share:.2f} of the goods present ({share * building.present_share:.2f} of the "

@@ -194,15 +194,20 @@ def _design_share(
     threads: int | None,
     progress: Progress | None,
 ) -> EffectiveMass:
-    """Share that goes into the design of the strengths and is attached, at one friction; no bootstrap."""
+    """Share that goes into the design of the strengths and is attached, at one friction; no bootstrap.
+
+    By the median where a building designed with some share collapses.
+    """
 
     def designed(share: float) -> Building:
         return building.structure(target, share * building.goods)
 
     blocks = building.scene(target, mu_factor=factor).blocks
-    return effective_mass_of_design(
-        designed, blocks, motions, fractions=DESIGN_SHARES, resamples=1, threads=threads, progress=progress
-    )
+    options: dict[str, Any] = {"fractions": DESIGN_SHARES, "resamples": 1, "threads": threads}
+    result = effective_mass_of_design(designed, blocks, motions, **options, progress=progress)
+    if result.kind == "collapsed":
+        return effective_mass_of_design(designed, blocks, motions, **options, statistic="median")
+    return result
 
 
 def _building(given: Any, code: CodeFraction | None, mu_factors: tuple[float, float] | None) -> OwnBuilding:
