@@ -260,7 +260,7 @@ def test_weights_typed_as_masses_are_a_doubt() -> None:
 
 
 def test_the_answer_says_what_to_type_and_what_is_taken_as_there() -> None:
-    """One storey of 3000 kN of design live load, nothing stated: all of it, with what surveys find among the remarks."""
+    """One storey with 3000 kN of design live load, nothing stated: all of it, and a remark on what surveys find."""
     result = sm.assess(given(), sm.builtin_suite("seven"), mu_factors=(1, 1), resamples=2)
     assert result.answer.goods == "1.00 of the design live load, since nothing is stated"
     one, two = result.answer.analyses
