@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
-from typing import Final
+from typing import Final, get_args
 
 import polars as pl
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import as_number, brief, known_id, refusal
+from seismass.base.values import as_number, brief, is_one_of, known_id, refusal
 from seismass.model.codes import FROM_MEMORY, VERIFIED, Use
 
 __all__ = [
@@ -181,7 +181,12 @@ def on_surveyed_goods(fraction: float, use: Use = "storage") -> float:
     fraction : float
         Fraction of the design live load.
     use : {"storage", "ordinary"}
-        Storage as `STORAGE`, anything else as `USUAL`.
+        Storage as `STORAGE`, ordinary floors as `USUAL`.
+
+    Raises
+    ------
+    InvalidOption
+        The fraction is not from 0 to 1, or the use is another.
 
     Examples
     --------
@@ -191,7 +196,12 @@ def on_surveyed_goods(fraction: float, use: Use = "storage") -> float:
     >>> round(sm.occupancy.on_surveyed_goods(0.25), 2)
     0.43
     """
-    return fraction / surveyed_load(STORAGE if use == "storage" else USUAL).share
+    counted = as_number(fraction, "fraction", "code", InvalidOption)
+    if not 0.0 <= counted <= 1.0:
+        raise refusal(InvalidOption, "fraction", "code", "from 0 to 1", f"{counted:g}")
+    if not is_one_of(use, get_args(Use)):
+        raise refusal(InvalidOption, "use", "code", f"one of {', '.join(get_args(Use))}", brief(use))
+    return counted / surveyed_load(STORAGE if use == "storage" else USUAL).share
 
 
 def occupancy_table() -> pl.DataFrame:
