@@ -198,6 +198,7 @@ def test_bolted_goods_are_in_both_analyses() -> None:
     # Multipliers of the whole design live load of the floor give those masses.
     np.testing.assert_allclose(floor + np.array(one.multipliers) * load, one.mass, rtol=1e-14)
     np.testing.assert_allclose(two.multipliers, 0.4, rtol=1e-14)
+    assert two.mass_source == "dead + 0.40 live"
     assert any(line.startswith("Bolted: machines on floor 1, 1200 kN.") for line in result.assumptions)
 
 
@@ -273,3 +274,6 @@ def test_the_answer_says_what_to_type_and_what_is_taken_as_there() -> None:
     assert any("surveys find 0.58 of the design live load in light storage" in remark for remark in result.remarks)
     stated = sm.assess(given(goods={"occupied": 1.0}), sm.builtin_suite("seven"), mu_factors=(1, 1), resamples=2)
     assert not any("surveys find" in remark for remark in stated.remarks)
+    mixed = given(storeys=[{}, {"occupied": 0.5}, {"live_load_kpa": 0.0}])
+    other = sm.assess(mixed, sm.builtin_suite("seven"), mu_factors=(1, 1), resamples=2)
+    assert other.answer.analyses[0].mass_source == "by floor, below"

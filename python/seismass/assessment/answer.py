@@ -18,6 +18,7 @@ from seismass.assessment.models import ADVISED, ATTACHED, BARE, REALS
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.tables import few_collapses
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass
 from seismass.scaling import ScalingResult
 
@@ -46,6 +47,8 @@ class Analysis:
     multipliers : tuple of float
         Goods in the analysis, bolted ones among them, over the design live load of each floor: multiplier of the live
         load in a mass source.
+    mass_source : str
+        The mass in words, where all floors with a live load have one multiplier.
     """
 
     number: int
@@ -55,14 +58,7 @@ class Analysis:
     mass: tuple[float, ...]
     goods_mass: tuple[float, ...]
     multipliers: tuple[float, ...]
-
-    @property
-    def mass_source(self) -> str:
-        """What to type as mass into another program."""
-        found = sorted({round(value, 3) for value in self.multipliers if value > 0.0})
-        if not found:
-            return "dead load alone"
-        return f"dead + {found[0]:.2f} live" if len(found) == 1 else "by floor, below"
+    mass_source: str
 
 
 @dataclass(frozen=True)
@@ -289,7 +285,17 @@ def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> A
         tuple((building.mass + goods).tolist()),
         tuple(goods.tolist()),
         tuple(multipliers.tolist()),
+        _mass_source(multipliers[load > 0.0]),
     )
+
+
+def _mass_source(multipliers: FloatArray) -> str:
+    """Mass in words, of the multipliers of floors with a live load."""
+    if not multipliers.any():
+        return "dead load alone"
+    if np.ptp(multipliers) > 1e-9:
+        return "by floor, below"
+    return f"dead + {multipliers[0]:.2f} live"
 
 
 def _governs(governing: pl.DataFrame) -> tuple[str, ...]:
