@@ -255,8 +255,8 @@ def effective_mass_map(
     if not isinstance(suite, Suite):
         raise refusal(InvalidMotion, "suite", "effective mass map", "a Suite of records", brief(suite))
     scaling = scale_asce7_10(
-            suite, target, chosen.scaling_period, damping=chosen.damping, between=False, threads=threads
-        )
+        suite, target, chosen.scaling_period, damping=chosen.damping, between=False, threads=threads
+    )
 
     def design_spectrum(periods: FloatArray) -> FloatArray:
         return mean_spectrum(suite, scaling.factors, periods, chosen.damping, threads=threads)

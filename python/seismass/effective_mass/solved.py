@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import brief, refusal
+from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
 from seismass.effective_mass.curve import Statistic
 from seismass.effective_mass.models import attached, check_any_load
@@ -115,7 +115,11 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
 
 
 def solved_designs(
-    design: Callable[[float], Building], blocks: Iterable[Block], motions: NamedMotions, options: Options
+    design: Callable[[float], Building],
+    blocks: Iterable[Block],
+    motions: NamedMotions,
+    options: Options,
+    collapse_drift: FloatArray | None = None,
 ) -> Solved:
     """Solve the building that is designed with each share, with sliding goods and with that share attached.
 
@@ -127,6 +131,8 @@ def solved_designs(
         The suite.
     options : Options
         How the fraction is sought.
+    collapse_drift : ndarray, shape (storeys,), optional
+        Drift at which a storey counts as collapsed (m), beside the limit that P-Delta sets.
 
     Raises
     ------
@@ -142,7 +148,7 @@ def solved_designs(
         building: Any = design(share)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building", brief(building))
-        return check_any_load(Scene(building, goods))
+        return check_any_load(Scene(building, goods, collapse_drift=collapse_drift))
 
     shares = [float(share) for share in options.fractions]
     stages = Stages(options.progress, 2 * len(shares) * len(motions))
