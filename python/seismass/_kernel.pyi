@@ -300,6 +300,16 @@ class GeneralResponse:
     The response of one run of the general engine.
     """
     @property
+    def base_slip(self, /) -> NDArray[float64] | None:
+        """
+        History of the slip of a sliding base (m), one value per row.
+        """
+    @property
+    def base_slip_path(self, /) -> float | None:
+        """
+        Path slipped by a sliding base in contact with the ground (m).
+        """
+    @property
     def block_velocity(self, /) -> NDArray[float64] | None:
         """
         Block velocity relative to the ground (m/s), rows x blocks.
@@ -342,7 +352,7 @@ class GeneralResponse:
     @property
     def event_number(self, /) -> NDArray[uint32] | None:
         """
-        Storey (levels of racks count on) or block of each event, counted from 1.
+        Storey (levels of racks count on) or block of each event, counted from 1; 0 for a sliding base.
         """
     @property
     def event_sign(self, /) -> NDArray[int8] | None:
@@ -380,9 +390,24 @@ class GeneralResponse:
         Name of the instruction set that the kernel uses.
         """
     @property
+    def peak_base_acceleration(self, /) -> float | None:
+        """
+        Peak absolute acceleration of the slab of a sliding base (m/s2).
+        """
+    @property
     def peak_base_shear(self, /) -> float:
         """
         Peak of the spring force of storey 1 and the matrix's share of the base shear together (N).
+        """
+    @property
+    def peak_base_slip(self, /) -> float | None:
+        """
+        Peak slip of a sliding base (m).
+        """
+    @property
+    def peak_base_slip_time(self, /) -> float | None:
+        """
+        Time of the peak slip of a sliding base (s).
         """
     @property
     def peak_contact_force(self, /) -> NDArray[float64]:
@@ -475,6 +500,11 @@ class GeneralResponse:
         Number of levels of each rack.
         """
     @property
+    def residual_base_slip(self, /) -> float | None:
+        """
+        Slip of a sliding base at the end (m).
+        """
+    @property
     def residual_drift(self, /) -> NDArray[float64]:
         """
         Drift at the end (m).
@@ -547,12 +577,20 @@ class GeneralScene:
         ],
         racks: SupportsGetItem[int, Rack],
         *,
+        base: tuple[
+            SupportsFloat | SupportsIndex,
+            SupportsFloat | SupportsIndex,
+            SupportsFloat | SupportsIndex,
+            SupportsFloat | SupportsIndex,
+        ]
+        | None = None,
         initial_drift: NDArray[float64] | None = None,
         initial_velocity: NDArray[float64] | None = None,
         collapse_drift: NDArray[float64] | None = None,
     ) -> GeneralScene:
         """
-        As `Scene`; blocks have stops or None at the end of their tuples.
+        As `Scene`; blocks have stops or None at the end of their tuples. A sliding base has the mass of its slab (kg), mu_s,
+        mu_k and the radius of its pendulum (m; infinite: flat).
         """
     @property
     def geometric_stiffness(self, /) -> NDArray[float64]:
