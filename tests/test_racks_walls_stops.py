@@ -186,7 +186,6 @@ def test_what_takes_shear_buildings_alone_says_so() -> None:
         (walled, "stiffness_matrix of building"),
     ):
         for call in (
-            lambda scene: sm.slip.slip_demand(scene, [motion], clearance=0.1),
             lambda scene: sm.fragility.incremental_dynamic_analysis(scene, [motion], 0.02),
             lambda scene: sm.animate(scene, motion),
             lambda scene: sm.simulate(scene, motion, histories=True).plot.slip(),

@@ -55,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
     if args.out is not None:
         check_out(args.out, "slip demand")
     scene, _ = read_scene_or_building(args.file)
-    blocks = len(scene.blocks)
+    blocks = len(scene.goods)
     sizes = _per_block("size", args.size, blocks, parse_size)
     clearances = _per_block("clearance", args.clearance, blocks, parse_clearance)
     suite, scaling, motions = _motions(args)
