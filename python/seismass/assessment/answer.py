@@ -12,6 +12,7 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
+from seismass.assessment.floors import by_floor
 from seismass.assessment.governing import ANALYSES, friction_words, largest_change
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, REALS
 from seismass.assessment.own_building import OwnBuilding
@@ -41,9 +42,10 @@ class Analysis:
     share_of_goods_present, share_of_design_live_load : float
         What is attached, over the goods present and over the design live load of the whole building.
     mass, goods_mass : tuple of float
-        Mass of each floor in the analysis, and what of it is goods (kg).
+        Mass of each floor in the analysis, and what of it is loose goods (kg).
     multipliers : tuple of float
-        Goods in the analysis over the design live load of each floor: multiplier of the live load in a mass source.
+        Goods in the analysis, bolted ones among them, over the design live load of each floor: multiplier of the live
+        load in a mass source.
     """
 
     number: int
@@ -71,6 +73,8 @@ class Answer:
         The pair; empty where there is no answer.
     governs : tuple of str
         Which analysis governs which storeys, and what goods that slide drift beside it.
+    goods : str
+        What of the design live load is taken as present, and how that is known.
     why : str
         The friction that decides, the fraction at it, and the rounding.
     design : str
@@ -86,6 +90,7 @@ class Answer:
     doubts: tuple[str, ...]
     analyses: tuple[Analysis, ...] = ()
     governs: tuple[str, ...] = ()
+    goods: str = ""
     why: str = ""
     design: str = ""
     motions: str = ""
@@ -149,11 +154,24 @@ def answer_of(
         doubts,
         analyses=(_analysis(building, 1, ADVISED, advised), _analysis(building, 2, BARE, 0.0)),
         governs=_governs(governing),
+        goods=presence_sentence(building),
         why=_why(advised, effective, words),
         design=_design(building, advised, design),
         motions=on,
         matters=matters,
     )
+
+
+def presence_sentence(building: OwnBuilding) -> str:
+    """Return how much of the design live load is taken as present, and how that is known, floor by floor."""
+    found: dict[str, list[str]] = {}
+    for kind in building.loose:
+        if kind.mass > 0.0:
+            found.setdefault(f"{kind.occupied:.2f} {kind.presence}", []).append(f"{kind.floor} {kind.name}".rstrip())
+    if len(found) == 1:
+        (how,) = found
+        return how
+    return "; ".join(f"floor {', '.join(floors)}: {how}" for how, floors in found.items())
 
 
 def rounded_up(value: float) -> float:
@@ -219,8 +237,8 @@ def _collapsing(collapses: dict[str, int], words: dict[str, str], motions: int) 
 
 def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> Analysis:
     goods = share * building.goods
-    load = building.live_load
-    multipliers = np.divide(goods, load, out=np.zeros(len(load)), where=load > 0.0)
+    load = by_floor(building.kinds, [kind.live_load for kind in building.kinds], building.storeys)
+    multipliers = np.divide(goods + building.bolted, load, out=np.zeros(len(load)), where=load > 0.0)
     return Analysis(
         number,
         model,
@@ -283,7 +301,7 @@ def _design(building: OwnBuilding, advised: float, design: EffectiveMass | None)
     """Which share goes into W."""
     if building.design is None:
         return "strengths are as stated: lambda is for the analysis, not for W of a design"
-    here = f"W here has {building.design_fraction:g} of the design live load"
+    here = f"W here has {building.design_fraction:.3g} of the design live load"
     if design is None or not math.isfinite(design.value):
         return f"{here}; no share for W could be found, since buildings designed with some shares collapse"
     share = rounded_up(design.value)
@@ -299,11 +317,11 @@ def floor_masses(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
     Returns
     -------
     polars.DataFrame
-        floor, name; mass_1 and mass_2 (kg) and weight_1 and weight_2 (N) of the floor in both analyses; multiplier, of
-        the live load in the mass source of analysis 1. Empty where there is no answer.
+        floor, name; mass_1 and mass_2 (kg) and weight_1 and weight_2 (N) of the floor in both analyses; multiplier_1
+        and multiplier_2, of the live load in their mass sources. Empty where there is no answer.
     """
-    columns: dict[str, Any] = {"floor": [], "name": [], "mass_1": [], "weight_1": [], "multiplier": []}
-    columns |= {"mass_2": [], "weight_2": []}
+    columns: dict[str, Any] = {"floor": [], "name": [], "mass_1": [], "weight_1": [], "multiplier_1": []}
+    columns |= {"mass_2": [], "weight_2": [], "multiplier_2": []}
     if answer.analyses:
         one, two = answer.analyses
         columns = {
@@ -311,10 +329,11 @@ def floor_masses(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
             "name": list(building.storey_names),
             "mass_1": list(one.mass),
             "weight_1": [STANDARD_GRAVITY * value for value in one.mass],
-            "multiplier": list(one.multipliers),
+            "multiplier_1": list(one.multipliers),
             "mass_2": list(two.mass),
             "weight_2": [STANDARD_GRAVITY * value for value in two.mass],
+            "multiplier_2": list(two.multipliers),
         }
     schema: dict[str, Any] = {"floor": pl.UInt32, "name": pl.String}
-    schema |= dict.fromkeys(("mass_1", "weight_1", "multiplier", "mass_2", "weight_2"), pl.Float64)
+    schema |= dict.fromkeys(list(columns)[2:], pl.Float64)
     return pl.DataFrame(columns, schema=schema)

@@ -135,11 +135,11 @@ def assess(
     scenes = compared_models(chosen, spectrum, advised)
     names = [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(suite, start=1)]
     kernel_motions = [getattr(motion, "motion", motion) for motion in scaled]
-    runs = solve_models(
+    runs, slips = solve_models(
         chosen, scenes, kernel_motions, names, threads=threads, progress=stages.next(models * len(suite))
     )
     real = chosen.scene(spectrum)
-    storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, runs), collapses_of(runs)
+    storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, slips), collapses_of(runs)
     governing = governing_table(chosen, storeys)
     about = {
         "name": suite.name if isinstance(suite, Suite) else "motions",
@@ -157,6 +157,7 @@ def assess(
         storeys=storeys,
         governing=governing,
         slip=slip,
+        slips=slips,
         runs=runs,
         collapses=collapses,
         scaling=scaling,
@@ -298,7 +299,8 @@ def _digest(
         arrays = (structure.mass, *springs, structure.damping_matrix, scene.geometric_stiffness)
         for array in (*arrays, structure.heights, scene.collapse_drift, scene.block_mass):
             digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
-        digest.update(np.array([[block.mu_s, block.mu_k] for block in scene.blocks], dtype="<f8").tobytes())
+        blocks = [[block.floor, block.mu_s, block.mu_k] for block in scene.blocks]
+        digest.update(np.array(blocks, dtype="<f8").tobytes())
     for motion in motions:
         digest.update(np.float64(motion.dt).tobytes())
         digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())
