@@ -97,6 +97,12 @@ def stops_table(rows: pl.DataFrame) -> str:
     return markdown(["R", "mu", "no stops", *names, "one record, at most"], lines)
 
 
+def between(values: pl.Series) -> str:
+    """Least and largest value, once where they are the same to two digits."""
+    low, high = (f"{value:.2f}" for value in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
+
+
 def numbers(rows: pl.DataFrame) -> dict[str, str]:
     """Numbers that stand in sentences."""
     racks, stops, walls = (rows.filter(study=name) for name in ("racks", "stops", "walls"))
@@ -115,19 +121,21 @@ def numbers(rows: pl.DataFrame) -> dict[str, str]:
         stops.filter(pl.col("clearance").is_null(), mu=0.3).select("R", free="value"), on="R"
     )
     half = walls.filter((pl.col("eta") - 0.5).abs() < 1e-6, R=4.0)
+    sliding = stiff.filter(goods="sliding")["value"]
     return {
+        "stiff_sliding": between(sliding),
         "largest_sliding": f"{largest['sliding']['value']:.2f}",
         "largest_fixed": f"{largest['fixed']['value']:.2f}",
         "drift_sliding": f"{100.0 * (drift['sliding']['over_attached'] - 1.0):.0f} %",
         "drift_fixed": f"{100.0 * (drift['fixed']['over_attached'] - 1.0):.0f} %",
-        "soft": f"{soft['value'].min():.2f} to {soft['value'].max():.2f}",
-        "floor": f"{floor['value'].min():.2f} to {floor['value'].max():.2f}",
+        "soft": between(soft["value"]),
+        "floor": between(floor["value"]),
         "stops_rise": f"{min(rise):.2f} to {max(rise):.2f}",
         "stops_rough": f"{(rough['value'] - rough['free']).abs().max():.2f}",
-        "stops_worst": f"{stops['worst_record'].max():.1f}",
-        "walls_half": f"{half['value'].min():.2f} to {half['value'].max():.2f}",
-        "walls_half_estimate": f"{half['estimate'].min():.2f} to {half['estimate'].max():.2f}",
-        "walls_half_safe": f"{half['conservative'].min():.2f} to {half['conservative'].max():.2f}",
+        "stops_worst": f"{stops['worst_record'].max():.2f}",
+        "walls_half": between(half["value"]),
+        "walls_half_estimate": between(half["estimate"]),
+        "walls_half_safe": between(half["conservative"]),
     }
 
 

@@ -475,6 +475,11 @@ class GeneralResponse:
         Number of levels of each rack.
         """
     @property
+    def rack_velocity(self, /) -> NDArray[float64] | None:
+        """
+        Velocity of rack levels relative to the ground (m/s), rows x levels.
+        """
+    @property
     def residual_drift(self, /) -> NDArray[float64]:
         """
         Drift at the end (m).

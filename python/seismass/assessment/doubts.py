@@ -79,7 +79,7 @@ def doubts_of(
         *_about_motions(motions),
         *mean_motion_remarks(motions),
         *_about_drifts(storeys),
-        *damping_doubts(real, motions),
+        *(damping_doubts(real, motions) if building.walls is None else ()),
     ]
     return tuple(dict.fromkeys(found))
 

@@ -7,6 +7,7 @@ import json
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
@@ -17,13 +18,14 @@ from seismass.assessment.answer import answer_of, deciding, rounded_up
 from seismass.assessment.building_file import read_building
 from seismass.assessment.doubts import doubts_of
 from seismass.assessment.governing import governing_table
-from seismass.assessment.models import compared_models, friction_factors, solve_models
+from seismass.assessment.models import REAL, compared_models, friction_factors, solve_models
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.tables import collapses_of, few_collapses, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
 from seismass.effective_mass import EffectiveMass, effective_mass, effective_mass_of_design
+from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
 from seismass.model.building import Building
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
@@ -37,8 +39,10 @@ FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
 DESIGN_SHARES: Final = np.linspace(0.0, 1.0, 21)
 """Shares at which that of a design of strengths is looked for before its root is refined; each takes two models."""
-SHARES: Final = 101
-"""Shares at which each effective fraction is looked for."""
+SHARES: Final = np.linspace(0.0, 1.0, 101)
+"""Shares at which each effective fraction is looked for before its root is refined."""
+WALL_SHARES: Final = np.linspace(0.0, 1.0, 21)
+"""The same for buildings with walls, whose models take several times as long."""
 
 Progress = Callable[[int, int], object]
 
@@ -121,12 +125,17 @@ def assess(
     frictions = friction_factors(chosen) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
     designs = 2 * len(DESIGN_SHARES) if loaded and chosen.design is not None else 0
-    stages = _Stages(progress, (models + len(frictions) * (1 + SHARES) + designs) * len(suite))
+    shares = WALL_SHARES if chosen.walls is not None else SHARES
+    of_fraction = 1 + len(shares) + len(SHARES_BEYOND) * (loaded and goes_beyond(chosen.scene(spectrum)))
+    stages = _Stages(progress, (models + len(frictions) * of_fraction + designs) * len(suite))
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
-    effective = {
-        name: _effective(chosen.scene(spectrum, mu_factor=factor), scaled, bootstrap, threads, stages)
-        for name, factor in frictions.items()
-    }
+    seek = partial(
+        _effective,
+        motions=scaled,
+        options={**bootstrap, "fractions": shares, "threads": threads},
+        progress=lambda: stages.next(of_fraction * len(suite)),
+    )
+    effective = {name: seek(chosen.scene(spectrum, mu_factor=factor)) for name, factor in frictions.items()}
     advised = advised_share(effective)
     design = None
     if designs and advised is not None:
@@ -162,7 +171,7 @@ def assess(
         collapses=collapses,
         scaling=scaling,
         suite=about,
-        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite)),
+        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL)),
         remarks=remarks_of(chosen, doubts, scaling, effective, about),
         assumptions=assumptions_of(chosen, spectrum, scaling, about),
         metadata={
@@ -199,9 +208,16 @@ def _design_share(
     def designed(share: float) -> Building:
         return building.structure(target, share * building.goods)
 
-    blocks = building.scene(target, mu_factor=factor).blocks
+    goods = building.scene(target, mu_factor=factor)
     return effective_mass_of_design(
-        designed, blocks, motions, fractions=DESIGN_SHARES, resamples=1, threads=threads, progress=progress
+        designed,
+        goods.blocks,
+        motions,
+        racks=goods.racks,
+        fractions=DESIGN_SHARES,
+        resamples=1,
+        threads=threads,
+        progress=progress,
     )
 
 
@@ -249,13 +265,12 @@ def _scaling(
 
 
 def _effective(
-    scene: Scene, motions: list[Any], bootstrap: dict[str, Any], threads: int | None, stages: _Stages
+    scene: Scene, motions: list[Any], options: dict[str, Any], progress: Callable[[], Progress | None]
 ) -> EffectiveMass:
     """Effective fraction by the mean; by the median, where the real building collapses under some motion."""
-    runs = (1 + SHARES) * len(motions)
-    result = effective_mass(scene, motions, **bootstrap, threads=threads, progress=stages.next(runs))
+    result = effective_mass(scene, motions, **options, progress=progress())
     if result.kind == "collapsed":
-        return effective_mass(scene, motions, **bootstrap, statistic="median", threads=threads)
+        return effective_mass(scene, motions, **options, statistic="median")
     return result
 
 
@@ -301,6 +316,11 @@ def _digest(
             digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
         blocks = [[block.floor, block.mu_s, block.mu_k] for block in scene.blocks]
         digest.update(np.array(blocks, dtype="<f8").tobytes())
+        stops = [block.stop_numbers for block in scene.blocks]
+        if scene.racks or any(stops) or structure.stiffness_matrix is not None:
+            matrix = structure.stiffness_matrix
+            digest.update(b"" if matrix is None else np.ascontiguousarray(matrix, dtype="<f8").tobytes())
+            digest.update(repr((stops, *(sorted(rack._arguments().items()) for rack in scene.racks))).encode())
     for motion in motions:
         digest.update(np.float64(motion.dt).tobytes())
         digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())

@@ -24,6 +24,7 @@ from seismass.effective_mass.search import Options, Search
 from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.motion import MotionLike
+from seismass.model.rack import Rack
 from seismass.model.scene import Scene
 
 
@@ -121,6 +122,7 @@ def effective_mass_of_design(
     blocks: Iterable[Block],
     motions: MotionLike | Iterable[MotionLike],
     *,
+    racks: Iterable[Rack] = (),
     statistic: Statistic = "mean",
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
@@ -141,6 +143,8 @@ def effective_mass_of_design(
         Takes a share from 0 to 1, returns the Building designed with it; floor masses without goods.
     blocks : iterable of Block
         The goods, the same for every design.
+    racks : iterable of Rack
+        Racks with goods, the same for every design; shares above 1 are not sought.
     motions, statistic, damping, fractions, confidence, resamples, seed, threads, progress
         As for `effective_mass`.
 
@@ -169,7 +173,7 @@ def effective_mass_of_design(
     if not callable(design):
         requirement = "a callable that takes a share and returns a Building"
         raise refusal(InvalidOption, "design", "effective mass", requirement, brief(design))
-    goods = tuple(blocks)
+    goods, standing = tuple(blocks), tuple(racks)
     named = named_motions(motions, "effective mass")
     options = _options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
 
@@ -177,7 +181,7 @@ def effective_mass_of_design(
         building = design(share)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", "effective mass", "a Building", brief(building))
-        return check_any_load(Scene(building, goods))
+        return check_any_load(Scene(building, goods, racks=standing))
 
     stages = Stages(options.progress, 2 * len(options.fractions) * len(named))
     shares = [float(share) for share in options.fractions]
