@@ -276,8 +276,8 @@ def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
     one = sm.assess(tables(), resamples=20, threads=1, progress=lambda done, total: calls.append((done, total)))
     two = sm.assess(tables(), resamples=20, threads=2)
     assert one.to_dict() == two.to_dict()
-    # Seven models, 102 for each of three frictions, and two at each of 21 shares of a design, under forty motions.
-    assert calls[-1] == ((7 + 3 * 102 + 42) * 40, (7 + 3 * 102 + 42) * 40)
+    # Seven models, three frictions, 101 shares, and two models at each of 21 shares of a design, under forty motions.
+    assert calls[-1] == ((7 + 3 + 101 + 42) * 40, (7 + 3 + 101 + 42) * 40)
     assert [done for done, _ in calls] == sorted(done for done, _ in calls)
 
 
@@ -466,9 +466,10 @@ def test_the_page_says_the_answer_first(warehouse: sm.Assessment) -> None:
     assert lines[3] == "ANSWER    two analyses; the larger drift of each storey counts"
     share, load = warehouse.advised, warehouse.advised_of_live_load
     assert lines[4] == (
-        f"          1  lambda = {share:.2f} of the goods present ({load:.2f} of the design live load) as mass"
+        f"          1  lambda = {share:.2f} of the goods present ({load:.2f} of the design live load) as mass: "
+        f"dead + {load:.2f} live"
     )
-    assert lines[5] == "          2  no goods"
+    assert lines[5] == "          2  no goods: dead load alone"
     box = " ".join(" ".join(lines[3:30]).split())
     value = max(effective.value for effective in warehouse.effective.values())
     assert f"why {share:.2f} since mu x 1.5 gives {value:.2f} [" in box

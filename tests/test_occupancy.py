@@ -257,3 +257,15 @@ def test_weights_typed_as_masses_are_a_doubt() -> None:
         changes = given(building={"dead_load_kpa": None, "mass_kg": mass, "yield_shear_kn": 1e-3 * mass})
         doubts = sm.assess(changes, sm.builtin_suite("seven"), mu_factors=(1, 1), resamples=2).answer.doubts
         assert any("weight over the area of floor 1" in doubt for doubt in doubts), mass
+
+
+def test_the_answer_says_what_to_type_and_what_is_taken_as_there() -> None:
+    """One storey with 3000 kN of design live load, nothing stated: all of it, and a remark on what surveys find."""
+    result = sm.assess(given(), sm.builtin_suite("seven"), mu_factors=(1, 1), resamples=2)
+    assert result.answer.goods == "1.00 of the design live load, since nothing is stated"
+    one, two = result.answer.analyses
+    assert one.mass_source == f"dead + {one.multipliers[0]:.2f} live"
+    assert two.mass_source == "dead load alone"
+    assert any("surveys find 0.58 of the design live load in light storage" in remark for remark in result.remarks)
+    stated = sm.assess(given(goods={"occupied": 1.0}), sm.builtin_suite("seven"), mu_factors=(1, 1), resamples=2)
+    assert not any("surveys find" in remark for remark in stated.remarks)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from seismass.assessment.answer import presence_sentence
-from seismass.assessment.floors import BY_RULE, FloorGoods
+from seismass.assessment.floors import BY_RULE, NOTHING_STATED, FloorGoods
 from seismass.assessment.own_building import OwnBuilding
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.media.text_table import numbers_text
 from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
-from seismass.model.occupancy import USUAL, surveyed_load
+from seismass.model.occupancy import STORAGE, USUAL, surveyed_load
 
 
 def about_code_mass(building: OwnBuilding) -> list[str]:
@@ -22,6 +22,12 @@ def about_code_mass(building: OwnBuilding) -> list[str]:
         if one.exception.startswith(BY_RULE)
     ]
     uses = [one.use or building.code.use for one in building.floor_codes]
+    if any(kind.presence.endswith(NOTHING_STATED) and kind.occupied == 1.0 and kind.mass for kind in building.loose):
+        found.append(
+            f"floors of storage are full, {NOTHING_STATED}: surveys find {surveyed_load(STORAGE).share:.2f} of "
+            "the design live load in light storage, and how much is there moves the answer more than the mechanics "
+            "do (occupied, or occupancy)"
+        )
     full = [
         str(kind.floor)
         for kind in building.loose

@@ -8,7 +8,7 @@ import numpy as np
 
 from seismass.assessment.file_racks import SUPPORT, rack_of, stops_of
 from seismass.assessment.file_values import held, missing, number_of, positive
-from seismass.assessment.floors import FloorGoods
+from seismass.assessment.floors import NOTHING_STATED, FloorGoods
 from seismass.base.errors import InvalidOption, SeismassError
 from seismass.base.input_table import NOT_NEGATIVE, SHARE, Need, Table
 from seismass.base.units import STANDARD_GRAVITY
@@ -87,7 +87,7 @@ def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str)
     place = held(tables, PRESENT)
     if place is None:
         if use != "ordinary":
-            return 1.0, "of the design live load, since nothing is stated"
+            return 1.0, f"of the design live load, {NOTHING_STATED}"
         usual = surveyed_load(USUAL)
         return usual.share, f"of the design live load, as {USUAL}, since the use is ordinary and nothing is stated"
     table, key = place

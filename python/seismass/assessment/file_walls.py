@@ -42,7 +42,9 @@ class Walls(NamedTuple):
     how: str
 
 
-def walls_of(walls: Table, building: Table, mass: FloatArray, stiffness: FloatArray, heights: Any) -> Walls | None:
+def walls_of(
+    walls: Table, building: Table, mass: FloatArray, stiffness: FloatArray, heights: Any, period: float | None
+) -> Walls | None:
     """Return the walls of a file; None where it has none.
 
     Parameters
@@ -55,6 +57,8 @@ def walls_of(walls: Table, building: Table, mass: FloatArray, stiffness: FloatAr
         Storey stiffnesses (N/m); where the period of the building is stated, those that alone have it.
     heights : ndarray, shape (storeys,), or None
         Storey heights (m).
+    period : float or None
+        First period that is stated for the building, by itself or by a code (s).
 
     Raises
     ------
@@ -67,9 +71,9 @@ def walls_of(walls: Table, building: Table, mass: FloatArray, stiffness: FloatAr
     walls.needed(*WALL_KEYS)
     walls.one_of(*WALL_KEYS)
     (key,) = walls.values
-    by_period = "period_s" in building.values
+    by_period = period is not None
     if by_period and key in _BY_THEMSELVES:
-        requirement = f"left out where {building.key('period_s')}, that of storeys and walls together, is given"
+        requirement = f"left out where {building.key('period_s')}, that of storeys and walls together, is known"
         walls.refuse(key, requirement, "both")
     if key != "stiffness_matrix_kn_per_m" and heights is None:
         building.refuse("height_m", f"given where {walls.key(key)} is", "nothing")

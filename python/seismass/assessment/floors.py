@@ -17,6 +17,10 @@ BY_RULE: Final = "exempt: "
 """How the exception of a rule of a code begins."""
 
 
+NOTHING_STATED: Final = "since nothing is stated"
+"""How the presence of goods ends of which the file says nothing."""
+
+
 @dataclass(frozen=True)
 class FloorGoods:
     """Goods of one kind on a floor.

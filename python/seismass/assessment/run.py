@@ -7,26 +7,25 @@ import json
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from functools import partial
 from typing import Any, Final
 
 import numpy as np
 
 from seismass import _kernel
 from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
-from seismass.assessment.answer import answer_of, deciding, rounded_up
+from seismass.assessment.answer import answer_of, deciding
 from seismass.assessment.building_file import read_building
 from seismass.assessment.doubts import doubts_of
 from seismass.assessment.governing import governing_table
 from seismass.assessment.models import REAL, compared_models, friction_factors, solve_models
 from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.period import period_sentences
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
-from seismass.assessment.tables import collapses_of, few_collapses, slip_table, storey_table
+from seismass.assessment.shares import DESIGN_SHARES, SHARES, advised_share, design_share, fractions_by_friction
+from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
-from seismass.effective_mass import EffectiveMass, effective_mass, effective_mass_of_design
 from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
-from seismass.model.building import Building
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.model.scene import Scene
@@ -37,12 +36,6 @@ from seismass.spectra import TargetSpectrum
 
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
-DESIGN_SHARES: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which that of a design of strengths is looked for before its root is refined; each takes two models."""
-SHARES: Final = np.linspace(0.0, 1.0, 101)
-"""Shares at which each effective fraction is looked for before its root is refined."""
-WALL_SHARES: Final = np.linspace(0.0, 1.0, 21)
-"""The same for buildings with walls, whose models take several times as long."""
 
 Progress = Callable[[int, int], object]
 
@@ -124,23 +117,19 @@ def assess(
     loaded = bool((chosen.goods > 0.0).any())
     frictions = friction_factors(chosen) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
+    fractions = len(frictions) + SHARES if loaded else 0
     designs = 2 * len(DESIGN_SHARES) if loaded and chosen.design is not None else 0
-    shares = WALL_SHARES if chosen.walls is not None else SHARES
-    of_fraction = 1 + len(shares) + len(SHARES_BEYOND) * (loaded and goes_beyond(chosen.scene(spectrum)))
-    stages = _Stages(progress, (models + len(frictions) * of_fraction + designs) * len(suite))
+    larger = len(SHARES_BEYOND) if loaded and goes_beyond(chosen.scene(spectrum)) else 0
+    stages = _Stages(progress, (models + fractions + larger + designs) * len(suite))
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
-    seek = partial(
-        _effective,
-        motions=scaled,
-        options={**bootstrap, "fractions": shares, "threads": threads},
-        progress=lambda: stages.next(of_fraction * len(suite)),
+    effective = fractions_by_friction(
+        chosen, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
     )
-    effective = {name: seek(chosen.scene(spectrum, mu_factor=factor)) for name, factor in frictions.items()}
     advised = advised_share(effective)
     design = None
     if designs and advised is not None:
         factor = frictions[deciding(effective)]
-        design = _design_share(chosen, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
+        design = design_share(chosen, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
     scenes = compared_models(chosen, spectrum, advised)
     names = [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(suite, start=1)]
     kernel_motions = [getattr(motion, "motion", motion) for motion in scaled]
@@ -155,6 +144,8 @@ def assess(
         "motions": names,
         "synthetic": sum(bool(getattr(motion, "synthetic", False)) for motion in suite),
     }
+    yields = effective[REAL].by_hand.yields if effective else None
+    period = period_sentences(chosen, spectrum, scaled, yields)
     doubts = doubts_of(chosen, real, scaled, spectrum, storeys)
     answer = answer_of(chosen, advised, effective, design, storeys, governing, collapses, about, scaling, doubts)
     return Assessment(
@@ -162,7 +153,7 @@ def assess(
         target=spectrum,
         answer=answer,
         effective=effective,
-        design=design,
+        design=None if design is None else design.found,
         storeys=storeys,
         governing=governing,
         slip=slip,
@@ -173,7 +164,7 @@ def assess(
         suite=about,
         advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL)),
         remarks=remarks_of(chosen, doubts, scaling, effective, about),
-        assumptions=assumptions_of(chosen, spectrum, scaling, about),
+        assumptions=assumptions_of(chosen, spectrum, scaling, about, period),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
@@ -184,40 +175,6 @@ def assess(
             "p_delta": chosen.gravity_load is not None,
             "motions": len(suite),
         },
-    )
-
-
-def advised_share(effective: dict[str, EffectiveMass]) -> float | None:
-    """Return the largest effective fraction, rounded up to 0.05; None without goods, or where many runs collapse."""
-    many = (not few_collapses(each.collapses["real"], each.records.height) for each in effective.values())
-    if not effective or any(many):
-        return None
-    return rounded_up(effective[deciding(effective)].value)
-
-
-def _design_share(
-    building: OwnBuilding,
-    target: TargetSpectrum | None,
-    factor: float,
-    motions: list[Any],
-    threads: int | None,
-    progress: Progress | None,
-) -> EffectiveMass:
-    """Share that goes into the design of the strengths and is attached, at one friction; no bootstrap."""
-
-    def designed(share: float) -> Building:
-        return building.structure(target, share * building.goods)
-
-    goods = building.scene(target, mu_factor=factor)
-    return effective_mass_of_design(
-        designed,
-        goods.blocks,
-        motions,
-        racks=goods.racks,
-        fractions=DESIGN_SHARES,
-        resamples=1,
-        threads=threads,
-        progress=progress,
     )
 
 
@@ -262,16 +219,6 @@ def _scaling(
         chosen = as_number(period, "scaling_period", "assessment", InvalidOption)
     assert target is not None
     return scale_asce7_10(suite, target, chosen, threads=threads)
-
-
-def _effective(
-    scene: Scene, motions: list[Any], options: dict[str, Any], progress: Callable[[], Progress | None]
-) -> EffectiveMass:
-    """Effective fraction by the mean; by the median, where the real building collapses under some motion."""
-    result = effective_mass(scene, motions, **options, progress=progress())
-    if result.kind == "collapsed":
-        return effective_mass(scene, motions, **options, statistic="median")
-    return result
 
 
 class _Stages:

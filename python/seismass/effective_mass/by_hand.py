@@ -56,6 +56,12 @@ def by_hand(scene: Scene, motions: NamedMotions, full: Peaks) -> ByHand:
 
     Goods on racks count as if they stood on the floor of the rack.
     """
+    yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building_of(scene))).any())
+    return rule_by_hand(scene, motions, yields)
+
+
+def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
+    """Return what the rule says of the building of a scene that yields, or does not, with all goods attached."""
     building, goods = building_of(scene), goods_mass(scene)
     mass, walls = building.mass + frame_mass(scene), building.stiffness_matrix
 
@@ -65,7 +71,6 @@ def by_hand(scene: Scene, motions: NamedMotions, full: Peaks) -> ByHand:
     elastic = response_spectrum_analysis(mass + goods, building.stiffness, spectrum, stiffness_matrix=walls)
     weight = full_weight(scene)
     corner, period = corner_period(spectrum), float(building.periods[0])
-    yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building)).any())
     heights = height_ratio(goods, mass, building.heights)
     # Elastic walls set no limit to the base shear.
     strength = building.yield_shear[0] if walls is None else np.inf

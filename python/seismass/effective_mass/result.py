@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
@@ -144,14 +145,21 @@ class EffectiveMass(Result):
             f"{self.interval[1]:.2f}, over suites too {suites[0]:.2f} to {suites[1]:.2f}"
         )
         scale, unit = (1e3, "mm") if self.unit == "m" else (1e2, "% of the height")
+        drifts = f"real {scale * self.real:.4g}, model {scale * self.model:.4g} {unit}"
+        if not math.isfinite(self.real):
+            drifts = f"none, since the real building collapses under {self.collapses['real']} of them"
         lines = [
-            f"effective fraction  {self.value:.3f} ({scatter})",
+            f"effective fraction  {self.value_text} ({scatter})",
             f"                    {self.kind}: {KIND_TEXTS[self.kind]}",
-            f"largest drift       {self.statistic} of {self.records.height} motions: real {scale * self.real:.4g}, "
-            f"model {scale * self.model:.4g} {unit}",
+            f"largest drift       {self.statistic} of {self.records.height} motions: {drifts}",
             *self.rule_lines,
         ]
         return "\n".join([*lines, *(f"remark              {remark}" for remark in self.remarks)])
+
+    @property
+    def value_text(self) -> str:
+        """The value in three decimals; "no value" where there is none."""
+        return f"{self.value:.3f}" if math.isfinite(self.value) else "no value"
 
     @property
     def suite_interval(self) -> tuple[float, float] | None:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from seismass import _kernel
-from seismass.base.values import FloatArray
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
 from seismass.effective_mass.beyond import (
     FROM_ONE,
     LARGEST_SHARE,
@@ -23,6 +24,8 @@ from seismass.effective_mass.by_hand import by_hand
 from seismass.effective_mass.curve import (
     Kind,
     Statistic,
+    check_fractions,
+    check_statistic,
     crossings,
     interpolated,
     is_below,
@@ -32,14 +35,18 @@ from seismass.effective_mass.curve import (
     resampled,
 )
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate
-from seismass.effective_mass.models import ModelDamping, attached, building_of, friction, full_weight
+from seismass.effective_mass.models import ModelDamping, attached, building_of, check_damping, friction, full_weight
 from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
 from seismass.effective_mass.structure_remarks import remarks_of_structure
 from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
+from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
 from seismass.runs.simulate import instruction_set
+
+OWNER: Final = "effective mass"
+"""What error messages call it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +61,34 @@ class Options:
     seed: int
     threads: int | None
     progress: Progress | None
+
+
+def checked_options(
+    statistic: Any,
+    damping: Any,
+    fractions: Any,
+    confidence: Any,
+    resamples: Any,
+    seed: Any,
+    threads: Any,
+    progress: Any,
+) -> Options:
+    """Return the arguments of `effective_mass`; one that is not what it must be is refused."""
+    probability = as_number(confidence, "confidence", OWNER, InvalidOption)
+    if not 0.0 < probability < 1.0:
+        raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{probability:g}")
+    if progress is not None and not callable(progress):
+        raise refusal(InvalidOption, "progress", OWNER, "a callable of two numbers", brief(progress))
+    return Options(
+        statistic=check_statistic(statistic, OWNER),
+        damping=check_damping(damping, OWNER),
+        fractions=check_fractions(fractions, OWNER),
+        confidence=probability,
+        resamples=as_count(resamples, "resamples", OWNER, InvalidOption, least=1),
+        seed=as_count(seed, "seed", OWNER, InvalidOption),
+        threads=None if threads is None else as_count(threads, "threads", OWNER, InvalidOption, least=1),
+        progress=progress,
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +170,7 @@ class Search:
             records=record_table(self.motions, shares, real, model),
             collapses=collapses,
             remarks=(
+                *usage_remarks(scene.remarks, self.motions.motions),
                 *remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
                 *remarks_of_structure(scene),
             ),

@@ -288,6 +288,11 @@ class Rack(Value):
             blocks=goods,
         )
 
+    def masses(self, building: Building | None) -> list[float]:
+        """Return the masses of its goods in their order (kg), where the rack stands on a floor of a building."""
+        floor_mass = self._floor_mass(building)
+        return [_mass(block, floor_mass) for block in self.blocks]
+
     def sliding_masses(self, building: Building | None) -> list[float]:
         """Return the masses of the blocks that may slide (kg), where the rack stands on a floor of a building."""
         floor_mass = self._floor_mass(building)

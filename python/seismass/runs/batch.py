@@ -30,6 +30,7 @@ from seismass.base.values import (
 from seismass.model.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
 from seismass.model.scene import Scene
 from seismass.runs.batch_tables import batch_table, heights_of_runs
+from seismass.runs.doubts import warn_of_doubts
 from seismass.runs.grid.columns import IndexArray
 from seismass.runs.grid.grid import Grid
 from seismass.runs.scene_runs import have_racks, scene_table
@@ -104,6 +105,11 @@ def simulate_many(
     KeyboardInterrupt
         Ctrl-C was pressed; the batch stops at once.
 
+    Warns
+    -----
+    DoubtfulInput
+        One of the first hundred scenes or motions is so unlikely that a wrong unit is the usual cause.
+
     See Also
     --------
     long_table : One row per run and storey.
@@ -118,6 +124,23 @@ def simulate_many(
     >>> table["slips"].to_list()
     [1, 0]
     """
+    warn_of_doubts(scenes, motions)
+    return solve_many(
+        scenes, motions, pairs=pairs, runs=runs, peaks_only=peaks_only, threads=threads, progress=progress
+    )
+
+
+def solve_many(
+    scenes: Scene | Sequence[Scene] | Grid,
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    pairs: ArrayLike | None = None,
+    runs: range | None = None,
+    peaks_only: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> pl.DataFrame:
+    """Return what `simulate_many` does without its warnings, for studies that say what is unlikely themselves."""
     batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
     # Objects are there already, so that all runs may look for equal ones; those of a grid exist a chunk at a time.
     stretch = _one_table(_stretch(runs, batch.total))
@@ -219,6 +242,7 @@ def write_many(
         requirement = "one with the suffix .parquet, as lists per storey fit no CSV (see long_table)"
         raise refusal(InvalidOption, "path", "batch", requirement, brief(str(target)))
     size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
+    warn_of_doubts(scenes, motions)
     batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
     report = as_progress(progress, "batch")
     stretch = _one_table(_stretch(runs, batch.total))

@@ -11,6 +11,7 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidScene, InvalidSceneFile
+from seismass.base.input_kinds import SCENE_FILE, refuse_other_kind
 from seismass.base.input_table import FINITE, POSITIVE, Table, load_table
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
@@ -147,6 +148,7 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     """
     source = as_path(path, "scene file", InvalidSceneFile)
     top = load_table(source, "scene file", InvalidSceneFile)
+    refuse_other_kind(top, SCENE_FILE)
     top.known(KEYS[""])
     top.needed("motion")
     scene = _scene(top)
@@ -167,6 +169,7 @@ def scene_without_motion(path: str | os.PathLike[str]) -> Scene:
         As for `read_scene`.
     """
     top = load_table(as_path(path, "scene file", InvalidSceneFile), "scene file", InvalidSceneFile)
+    refuse_other_kind(top, SCENE_FILE)
     top.known(KEYS[""])
     return _scene(top)
 

@@ -13,6 +13,7 @@ from seismass.base.quantiles import QUANTILES, interval_of, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.runs import NamedMotions
+from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.slip.clearance import Clearance
 from seismass.slip.estimates import log_ratio
@@ -267,12 +268,15 @@ def demand_remarks(
     fragilities: bool,
 ) -> tuple[str, ...]:
     """Return assumptions, and what a user must know beside the numbers."""
-    remarks = ["goods are rigid, slide in one direction and meet no obstacle: slip beyond a clearance is notional"]
+    given = (side for each in clearances if each is not None for side in (each.plus, each.minus) if side is not None)
+    remarks = usage_remarks(scene.remarks, motions.motions, (("clearance", side) for side in given))
+    meeting = "goods are rigid, slide in one direction and meet no obstacle: slip beyond a clearance is notional"
     if has_stops(scene):
-        remarks = [
+        meeting = (
             "goods are rigid and slide in one direction, between their stops where they have them; on the ground and "
             "in estimates they are free; slip beyond a clearance that is no stop is notional"
-        ]
+        )
+    remarks.append(meeting)
     if scene.racks:
         remarks.append(
             "goods on racks slide on their level, whose acceleration is set beside their friction; racks do not "

@@ -52,11 +52,11 @@ def _answer(result: Assessment) -> list[str]:
     lines = [line for number, doubt in doubts for line in _told("ANSWER" if number == 0 else "", doubt)]
     lines += _told("" if lines else "ANSWER", answer.statement)
     for one, words in zip(answer.analyses, answer.pair, strict=True):
-        lines.append(f"          {one.number}  {words}")
+        lines += textwrap.wrap(f"{one.number}  {words}", WIDTH, initial_indent=" " * 10, subsequent_indent=" " * 13)
     for number, sentence in enumerate(answer.governs):
         lines += _told("governs" if number == 0 else "", sentence)
     if answer.goods:
-        lines += _told("goods", f"{answer.goods} is taken as present")
+        lines += _told("goods", f"present: {answer.goods}")
     if answer.why:
         lines += _told("why", answer.why)
     if answer.design:
