@@ -40,6 +40,7 @@ from .model.damping import Rayleigh
 from .model.motion import Motion
 from .model.rack import Rack, RackBlock
 from .model.scene import Scene
+from .model.sliding_base import SlidingBase
 from .model.stops import Stops
 from .records import (
     Pair,
@@ -89,6 +90,7 @@ __all__ = [
     "Scene",
     "SceneFile",
     "SeismassError",
+    "SlidingBase",
     "Stops",
     "Suite",
     "TargetSpectrum",

@@ -81,7 +81,8 @@ mod units;
 pub use batch::{Run, simulate_each, simulate_general_each, simulate_many};
 pub use error::{Domain, Error, Result};
 pub use general::{
-    GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, simulate_general, simulate_general_until,
+    GeneralBase, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, simulate_general,
+    simulate_general_until,
 };
 pub use lanes::InstructionSet;
 pub use machines::spring_path::{SpringEvent, SpringPath, spring_path};
@@ -91,7 +92,7 @@ pub use response::{
 pub use run::{simulate, simulate_until};
 pub use scene::{
     Block, Building, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion,
-    Options, PeakOriented, Rack, Scene, SceneColumns, SpringLaw, Stops, Storey, UniformBuilding, Wear,
+    Options, PeakOriented, Rack, Scene, SceneColumns, SlidingBase, SpringLaw, Stops, Storey, UniformBuilding, Wear,
 };
 pub use threads::Control;
 pub use units::STANDARD_GRAVITY;

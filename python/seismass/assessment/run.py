@@ -218,7 +218,7 @@ def _scaling(
     elif period is not None:
         chosen = as_number(period, "scaling_period", "assessment", InvalidOption)
     assert target is not None
-    return scale_asce7_10(suite, target, chosen, threads=threads)
+    return scale_asce7_10(suite, target, chosen, between=False, threads=threads)
 
 
 class _Stages:

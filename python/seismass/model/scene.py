@@ -16,6 +16,7 @@ from seismass.model.block import Block, block_mass
 from seismass.model.building import Building
 from seismass.model.plausibility import model_remarks
 from seismass.model.rack import Rack
+from seismass.model.sliding_base import SlidingBase
 
 _ChainScene: TypeAlias = _kernel.Scene
 _GeneralScene: TypeAlias = _kernel.GeneralScene
@@ -32,7 +33,9 @@ class Scene(Value):
         Any number, in any order; several may share a floor. They are counted from 1 as listed.
     racks : iterable of Rack
         Racks on floors or on the ground. Their goods that may slide are counted on from the blocks, rack by rack.
-    initial_drift : array_like, optional
+    base : SlidingBase, optional
+        A slab that carries all of it and slides on the ground; floor 0 is the slab then. None: all stands on the
+        ground. initial_drift : array_like, optional
         Storey drifts at the start (m), within the elastic range. It and the next two need a building.
     initial_velocity : array_like, optional
         Floor velocities relative to the ground at the start (m/s).
@@ -43,7 +46,7 @@ class Scene(Value):
 
     Attributes
     ----------
-    building, blocks, racks, initial_drift, initial_velocity, collapse_drift, name, note
+    building, blocks, racks, base, initial_drift, initial_velocity, collapse_drift, name, note
         As given; `blocks` and `racks` are tuples, arrays are read-only.
 
     Raises
@@ -63,6 +66,7 @@ class Scene(Value):
     __slots__ = (
         "_chain",
         "_general",
+        "base",
         "blocks",
         "building",
         "collapse_drift",
@@ -77,6 +81,7 @@ class Scene(Value):
     building: Building | None
     blocks: tuple[Block, ...]
     racks: tuple[Rack, ...]
+    base: SlidingBase | None
     initial_drift: FloatArray | None
     initial_velocity: FloatArray | None
     collapse_drift: FloatArray | None
@@ -89,6 +94,7 @@ class Scene(Value):
         blocks: Iterable[Block] = (),
         *,
         racks: Iterable[Rack] = (),
+        base: SlidingBase | None = None,
         initial_drift: ArrayLike | None = None,
         initial_velocity: ArrayLike | None = None,
         collapse_drift: ArrayLike | None = None,
@@ -106,6 +112,8 @@ class Scene(Value):
                 raise refusal(InvalidScene, f"block {number}", "scene", "a Block", brief(block))
 
         standing = _racks(racks)
+        if base is not None and not isinstance(base, SlidingBase):
+            raise refusal(InvalidScene, "base", "scene", "a SlidingBase or None", brief(base))
 
         def per_storey(name: str, value: ArrayLike | None) -> FloatArray | None:
             if value is None:
@@ -119,6 +127,7 @@ class Scene(Value):
             building=building,
             blocks=placed,
             racks=standing,
+            base=base,
             initial_drift=per_storey("initial_drift", initial_drift),
             initial_velocity=per_storey("initial_velocity", initial_velocity),
             collapse_drift=per_storey("collapse_drift", collapse_drift),
@@ -139,17 +148,20 @@ class Scene(Value):
             return
         stopped = [(*each, block.stop_numbers) for each, block in zip(goods, placed, strict=True)]
         kernels = [rack.of_kernel(number, building) for number, rack in enumerate(standing, start=1)]
-        self._set(_general=_kernel.GeneralScene(kernel, stopped, kernels, **state))
+        sliding = None if base is None else base.of_kernel(building)
+        self._set(_general=_kernel.GeneralScene(kernel, stopped, kernels, base=sliding, **state))
 
     @property
     def engine(self) -> Literal["chain", "general"]:
-        """Which engine solves it: "chain" for shear buildings; "general" with racks, stops or a stiffness matrix."""
+        """Which engine solves it: "chain" for shear buildings; "general" with racks, stops, a matrix or a base."""
         return "general" if self._beyond_chain() is not None else "chain"
 
     def _beyond_chain(self) -> tuple[str, str, str] | None:
         """What the chain engine does not take: its parameter, whose it is, and what it is; None where it takes all."""
         if self.building is not None and self.building.stiffness_matrix is not None:
             return "stiffness_matrix", "building", "a matrix"
+        if self.base is not None:
+            return "base", "scene", repr(self.base)
         if self.racks:
             return "racks", "scene", f"{len(self.racks)}"
         stopped = [number for number, block in enumerate(self.blocks, start=1) if block.stops is not None]
@@ -166,12 +178,29 @@ class Scene(Value):
         Raises
         ------
         InvalidScene
-            It has racks, stops or a stiffness matrix.
+            It has racks, stops, a stiffness matrix or a sliding base.
         """
         beyond = self._beyond_chain()
         if beyond is not None:
             parameter, of, value = beyond
             raise refusal(InvalidScene, parameter, of, f"left out in {owner}; simulate takes it", value)
+        return self
+
+    def on_ground(self, owner: str) -> Scene:
+        """Return the scene itself, for what takes scenes that stand on the ground alone.
+
+        Parameters
+        ----------
+        owner : str
+            What takes it, as errors name it.
+
+        Raises
+        ------
+        InvalidScene
+            It has a sliding base.
+        """
+        if self.base is not None:
+            raise refusal(InvalidScene, "base", "scene", f"left out in {owner}; simulate takes it", repr(self.base))
         return self
 
     @property
@@ -227,6 +256,7 @@ class Scene(Value):
             "building": self.building,
             "blocks": self.blocks,
             "racks": self.racks,
+            "base": self.base,
             "initial_drift": self.initial_drift,
             "initial_velocity": self.initial_velocity,
             "collapse_drift": self.collapse_drift,
@@ -240,6 +270,7 @@ class Scene(Value):
             self.building,
             self.blocks,
             self.racks,
+            self.base,
             *(None if array is None else (array + 0.0).tobytes() for array in arrays),
         )
 
@@ -251,8 +282,9 @@ class Scene(Value):
         name = f"{self.name!r}, " if self.name else ""
         blocks = {0: "no block", 1: "1 block"}.get(len(self.blocks), f"{len(self.blocks)} blocks")
         racks = {0: "", 1: ", 1 rack"}.get(len(self.racks), f", {len(self.racks)} racks")
+        racks += "" if self.base is None else ", sliding base"
         if self.building is None:
-            return f"Scene({name}ground only, {blocks}{racks})"
+            return f"Scene({name}{'ground' if self.base is None else 'slab'} only, {blocks}{racks})"
         noun = "storey" if self.storeys == 1 else "storeys"
         return f"Scene({name}{self.storeys} {noun}, T1 = {self.building.periods[0]:.4g} s, {blocks}{racks})"
 

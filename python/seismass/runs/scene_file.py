@@ -24,7 +24,7 @@ from seismass.model.spring_laws import is_per_storey
 from seismass.model.springs import SPRING_FIELDS
 from seismass.records import Record, builtin_record, read_record
 from seismass.records.builtin import builtin_names, data_directory
-from seismass.runs.scene_goods import GOODS_KEYS, read_block, read_rack
+from seismass.runs.scene_goods import GOODS_KEYS, read_base, read_block, read_rack
 from seismass.runs.scene_walls import WALL_KEYS, check_walls, matrix_of_walls, with_walls
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
@@ -37,6 +37,7 @@ KEYS: Final = {
         "walls",
         "blocks",
         "racks",
+        "base",
         "motion",
         "vertical_motion",
         "duration",
@@ -189,6 +190,7 @@ def _scene(top: Table) -> Scene:
         building,
         [read_block(table, number) for number, table in enumerate(top.tables("blocks"), start=1)],
         racks=[read_rack(table, number) for number, table in enumerate(top.tables("racks"), start=1)],
+        base=read_base(top.table("base")) if "base" in top.values else None,
         initial_drift=None if initial is None else initial.per_storey("drift"),
         initial_velocity=None if initial is None else initial.per_storey("velocity"),
         collapse_drift=top.values.get("collapse_drift"),
