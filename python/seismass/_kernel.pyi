@@ -500,6 +500,11 @@ class GeneralResponse:
         Number of levels of each rack.
         """
     @property
+    def rack_velocity(self, /) -> NDArray[float64] | None:
+        """
+        Velocity of rack levels relative to the ground (m/s), rows x levels.
+        """
+    @property
     def residual_base_slip(self, /) -> float | None:
         """
         Slip of a sliding base at the end (m).

@@ -221,6 +221,12 @@ impl GeneralResponse {
         self.history(|h| &h.floor_velocity, false)
     }
 
+    /// Velocity of rack levels relative to the ground (m/s), rows x levels.
+    #[getter]
+    fn rack_velocity(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.floor_velocity, true)
+    }
+
     /// Block velocity relative to the ground (m/s), rows x blocks.
     #[getter]
     fn block_velocity(&self) -> Option<Output<f64>> {

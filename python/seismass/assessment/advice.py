@@ -13,8 +13,10 @@ from seismass.assessment.checks import drift_source
 from seismass.assessment.governing import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REALS
 from seismass.assessment.own_building import DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.assessment.structure import about_support, rule_advice
 from seismass.design import THETA_THRESHOLD
 from seismass.effective_mass import EffectiveMass
+from seismass.effective_mass.structure_remarks import RULE_UNKNOWN
 from seismass.media.text_table import numbers_text
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.scaling import ScalingResult
@@ -31,6 +33,7 @@ def advice_of(
     slip: pl.DataFrame,
     collapses: dict[str, int],
     motions: int,
+    effective: EffectiveMass | None = None,
 ) -> tuple[str, ...]:
     """Return what to use in an analysis, and what the checks say, sentence by sentence."""
     reals = [name for name in REALS if name in collapses]
@@ -55,6 +58,7 @@ def advice_of(
         )
         lines += _envelope(building, storeys, reals)
         lines.append(f"For strengths: {answer.design}.")
+        lines += rule_advice(building, effective)
     lines += _checks(building, storeys, reals)
     lines += _against_code(building, storeys, reals)
     lines += _slip_advice(slip)
@@ -183,7 +187,8 @@ def remarks_of(
         # What storeys the share does not cover is advice, of the share that is advised.
         once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
         once = [text for text in once if text not in doubts and not _of_friction(text)]
-        found += [label + remark for remark in once if name == REAL or " motions are few" not in remark]
+        everywhere = (" motions are few", RULE_UNKNOWN)
+        found += [label + remark for remark in once if name == REAL or not any(part in remark for part in everywhere)]
     found += about_code_mass(building)
     if building.code.status not in (VERIFIED, AS_STATED):
         found.append(f"the fraction of {building.code.code} was {NOT_CHECKED} ({building.code.status})")
@@ -209,6 +214,7 @@ def assumptions_of(
         *period,
         *_about_limits(building),
         *about_goods(building),
+        *about_support(building),
         about_code(building),
     )
 

@@ -201,9 +201,10 @@ def presence_sentence(building: OwnBuilding) -> str:
 
 
 def rounded_up(value: float) -> float:
-    """Return a share rounded up to `ROUNDING_STEP`, at most 1."""
+    """Return a share rounded up to `ROUNDING_STEP`; at most 1, unless it is above."""
     # Roots are located to 1e-12, so that one at a multiple is not lifted to the next.
-    return min(1.0, round(ROUNDING_STEP * math.ceil(value / ROUNDING_STEP - 1e-9), 2))
+    rounded = round(ROUNDING_STEP * math.ceil(value / ROUNDING_STEP - 1e-9), 2)
+    return rounded if value > 1.0 else min(1.0, rounded)
 
 
 def deciding(effective: dict[str, EffectiveMass]) -> str:
@@ -282,7 +283,7 @@ def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> A
         model,
         share,
         share * building.present_share,
-        tuple((building.mass + goods).tolist()),
+        tuple((building.mass + building.frames + goods).tolist()),
         tuple(goods.tolist()),
         tuple(multipliers.tolist()),
         _mass_source(multipliers[load > 0.0]),

@@ -14,6 +14,7 @@ import numpy as np
 
 from seismass.assessment.file_codes import code_of, floor_codes
 from seismass.assessment.file_goods import FRICTION, LIVE_LOAD, PRESENT, kinds_of, live_load_of, mu_factors_of
+from seismass.assessment.file_racks import SUPPORT
 from seismass.assessment.file_site import LIMIT, PERIOD, SITE, check_period, limit_of, period_of, site_of
 from seismass.assessment.file_units import (
     PLAIN_GOODS_KEYS,
@@ -33,6 +34,7 @@ from seismass.assessment.file_values import (
     positive,
     stated,
 )
+from seismass.assessment.file_walls import WALL_KEYS, walls_of
 from seismass.assessment.floors import by_floor, counted_fractions
 from seismass.assessment.own_building import (
     DEFAULT_THETA_LIMIT,
@@ -64,11 +66,11 @@ _STOREY: Final = (
     "second_slope",
     "third_slope",
 )
-_KIND: Final = (*PRESENT, *FRICTION, "mu_k")
+_KIND: Final = (*PRESENT, *FRICTION, "mu_k", *SUPPORT)
 _GOODS: Final = (*LIVE_LOAD, *_KIND)
 _DESIGN: Final = ("R", "design_fraction", "combination")
 KEYS: Final = {
-    "": ("name", "note", "units", "site", "code", "building", "goods", "storeys"),
+    "": ("name", "note", "units", "site", "code", "building", "walls", "goods", "storeys"),
     "site": SITE,
     "code": ("id", "use", "fraction"),
     "building": (
@@ -84,6 +86,7 @@ KEYS: Final = {
         "scaling_period_s",
         *_STOREY,
     ),
+    "walls": WALL_KEYS,
     "goods": ("mu_factors", *_GOODS),
     "storeys": ("name", "use", "fraction", "exempt", "goods", *_STOREY, *_GOODS),
     "storeys.goods": ("name", "share", "attached", *_KIND),
@@ -156,7 +159,9 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         _known(storey, "storeys", units)
         for kind in storey.tables("goods"):
             _known(kind, "storeys.goods", units)
-    building, goods, site, code = (_table(top, key, units) for key in ("building", "goods", "site", "code"))
+    building, goods, site, code, walls = (
+        _table(top, key, units) for key in ("building", "goods", "site", "code", "walls")
+    )
     _unique(building, goods, storeys)
     frame = np.array([_mass(storey, building) for storey in storeys])
     heights = _heights(storeys, building)
@@ -198,8 +203,11 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         counted["code share"] = fixed + np.array(shares) * live_load
     limit, limit_rule = limit_of(building, fraction)
     stiffness = _stiffness(storeys, building, frame, counted[period.mass], period.value)
+    beside = walls_of(walls, building, frame + counted[period.mass], stiffness, heights, period.value)
+    if beside is not None and "damping_from_storey" in building.values:
+        building.refuse("damping_from_storey", f"left out where {top.key('walls')} is given", "both")
     gravity = _gravity_load(storeys, building, frame) + STANDARD_GRAVITY * fixed if p_delta else None
-    if gravity is not None and heights is not None:
+    if gravity is not None and heights is not None and beside is None:
         load = np.cumsum((gravity + STANDARD_GRAVITY * present)[::-1])[::-1]
         check_period(building, period, stiffness, load / heights)
     return OwnBuilding(
@@ -207,7 +215,7 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         note=printable(top.text("note"), lines=True),
         storey_names=tuple(printable(storey.text("name")) for storey in storeys),
         mass=mass,
-        stiffness=stiffness,
+        stiffness=stiffness if beside is None else beside.stiffness,
         stated_period=period.value,
         period_mass=period.mass,
         period_rule=period.rule,
@@ -236,6 +244,8 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         collapse_drift_ratio=collapse,
         scaling_period=_optional(building, "scaling_period_s"),
         path=path,
+        walls=None if beside is None else beside.matrix,
+        walls_stated="" if beside is None else beside.how,
     )
 
 

@@ -73,7 +73,7 @@ def doubts_of(
         *building_doubts(building, real, target),
         *usage_remarks((), motions),
         *_about_drifts(storeys),
-        *damping_doubts(real, motions),
+        *(damping_doubts(real, motions) if building.walls is None else ()),
     ]
     return tuple(dict.fromkeys(found))
 

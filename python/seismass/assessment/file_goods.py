@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from seismass.assessment.file_racks import SUPPORT, rack_of, stops_of
 from seismass.assessment.file_values import held, missing, number_of, positive
 from seismass.assessment.floors import NOTHING_STATED, FloorGoods
 from seismass.base.errors import InvalidOption, SeismassError
@@ -56,8 +57,9 @@ def kinds_of(
     tables = storey.tables("goods")
     if not tables:
         share, how = _present((storey, goods), live_load, area, use)
-        contact = _friction((storey, goods)) if live_load * share > 0.0 else ("", 0.0, 0.0)
-        return (FloorGoods(floor, "", live_load, share, how, False, *contact),)
+        given = (storey, goods)
+        contact = _friction(given) if live_load * share > 0.0 else ("", 0.0, 0.0)
+        return (FloorGoods(floor, "", live_load, share, how, False, *contact, rack_of(given), stops_of(given)),)
     shares = [table.number("share", need=SHARE) if "share" in table.values else np.nan for table in tables]
     total = sum(shares)
     if not abs(total - 1.0) <= SUM_ERROR:
@@ -69,13 +71,14 @@ def kinds_of(
         name = printable(table.text("name"))
         load = part * live_load
         if attached:
-            table.left_out((*FRICTION, "mu_k"), f"{table.key('attached')} is true", "both")
+            table.left_out((*FRICTION, "mu_k", *SUPPORT), f"{table.key('attached')} is true", "both")
             share, how = _present((table,), live_load, area, "")
             found.append(FloorGoods(floor, name, load, share, how, True, "", 0.0, 0.0))
             continue
-        share, how = _present((table, storey, goods), live_load, area, use)
-        contact = _friction((table, storey, goods)) if load * share > 0.0 else ("", 0.0, 0.0)
-        found.append(FloorGoods(floor, name, load, share, how, False, *contact))
+        places = (table, storey, goods)
+        share, how = _present(places, live_load, area, use)
+        contact = _friction(places) if load * share > 0.0 else ("", 0.0, 0.0)
+        found.append(FloorGoods(floor, name, load, share, how, False, *contact, rack_of(places), stops_of(places)))
     return tuple(found)
 
 

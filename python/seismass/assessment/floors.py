@@ -7,6 +7,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from seismass.assessment.racks import GoodsRack, GoodsStops
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.design import effective_seismic_weight
@@ -42,6 +43,10 @@ class FloorGoods:
         Contact of the table of frictions; empty where friction is stated as numbers, and for bolted goods.
     mu_s, mu_k : float
         Static and kinetic friction; 0 where nothing is present, and for bolted goods.
+    rack : GoodsRack or None
+        Racks that they stand on; None: on the floor.
+    stops : GoodsStops or None
+        Stops beside them.
     """
 
     floor: int
@@ -53,6 +58,8 @@ class FloorGoods:
     contact: str
     mu_s: float
     mu_k: float
+    rack: GoodsRack | None = None
+    stops: GoodsStops | None = None
 
     @property
     def mass(self) -> float:

@@ -11,6 +11,7 @@ import polars as pl
 from seismass.assessment.own_building import OwnBuilding
 from seismass.base.errors import SimulationError
 from seismass.base.values import FloatArray
+from seismass.effective_mass.models import frame_mass
 from seismass.model.motion import Motion
 from seismass.model.scene import Scene
 from seismass.runs.batch import solve_many
@@ -51,13 +52,15 @@ def with_mass(scene: Scene, attached: FloatArray) -> Scene:
     Parameters
     ----------
     scene : Scene
-        Building and goods. Stiffness, strength, damping matrix and P/h stay those of the real building.
+        Building and goods. Stiffness, strength, walls, damping matrix and P/h stay those of the real building; frames
+        of racks are attached to their floors.
     attached : ndarray, shape (storeys,)
         Mass attached to each floor (kg).
     """
     building = scene.building
     assert building is not None
-    changes: dict[str, Any] = {"mass": building.mass + attached, "damping": building.damping_matrix}
+    mass = building.mass + frame_mass(scene) + attached
+    changes: dict[str, Any] = {"mass": mass, "damping": building.damping_matrix}
     if scene.geometric_stiffness.any():
         changes |= {"gravity_load": None, "geometric_stiffness": scene.geometric_stiffness}
     return Scene(building.replace(**changes), collapse_drift=scene.collapse_drift, name=scene.name)
@@ -109,7 +112,8 @@ def solve_models(
         (m/s2), peak_slip (m, the largest of the loose goods of the floor; null where none slide).
     slips : polars.DataFrame
         One row per model with goods that slide, motion and kind of loose goods: model, motion, kind (index in
-        `OwnBuilding.loose`), collapsed, peak_slip, residual_slip and slip_path (m).
+        `OwnBuilding.loose`), level of its rack (0: on the floor), collapsed, peak_slip, residual_slip and slip_path
+        (m).
 
     Raises
     ------
@@ -120,19 +124,21 @@ def solve_models(
     runs = table.to_dicts()
     rows: list[dict[str, Any]] = []
     slides: list[dict[str, Any]] = []
-    present = [index for index, kind in enumerate(building.loose) if kind.mass > 0.0]
     for index, run in enumerate(runs):
         model, motion = list(scenes)[index // len(motions)], index % len(motions)
         if run["status"] == "failed":
             raise SimulationError(f"run of model {model} under motion {motion + 1}, {names[motion]}: {run['reason']}")
         collapsed = run["status"] == "collapsed"
         about = {"model": model, "motion": motion + 1, "collapsed": collapsed}
-        blocks = present if scenes[model].blocks else []
+        blocks = building.sliding if scenes[model].goods else ()
         slides += [
-            {**about, "kind": kind, **{name: run[name][block] for name in _SLIPS}} for block, kind in enumerate(blocks)
+            {**about, "kind": kind, "level": level, **{name: run[name][block] for name in _SLIPS}}
+            for block, (kind, level) in enumerate(blocks)
         ]
         for storey in range(1, building.storeys + 1):
-            of_floor = [run["peak_slip"][i] for i, kind in enumerate(blocks) if building.loose[kind].floor == storey]
+            of_floor = [
+                run["peak_slip"][i] for i, (kind, _) in enumerate(blocks) if building.loose[kind].floor == storey
+            ]
             drift = run["peak_drift"][storey - 1]
             rows.append(
                 {
@@ -152,7 +158,8 @@ def solve_models(
             )
     schema: dict[str, Any] = {"motion": pl.UInt32, "storey": pl.UInt32}
     schema |= dict.fromkeys(("peak_drift_ratio", "peak_slip"), pl.Float64)
-    of_kinds: dict[str, Any] = {"model": pl.String, "motion": pl.UInt32, "collapsed": pl.Boolean, "kind": pl.UInt32}
+    of_kinds: dict[str, Any] = {"model": pl.String, "motion": pl.UInt32, "collapsed": pl.Boolean}
+    of_kinds |= dict.fromkeys(("kind", "level"), pl.UInt32)
     return (
         pl.DataFrame(rows, schema_overrides=schema),
         pl.DataFrame(slides, schema=of_kinds | dict.fromkeys(_SLIPS, pl.Float64)),

@@ -117,6 +117,10 @@ class OwnBuilding:
         Period (s) for which motions are scaled; None: first period of the building with its goods attached.
     path : Path or None
         The file.
+    walls : ndarray, shape (storeys, storeys), or None
+        Stiffness of elastic walls over the floors (N/m), beside the storeys; None without.
+    walls_stated : str
+        How they are stated, in words.
     """
 
     name: str
@@ -150,6 +154,8 @@ class OwnBuilding:
     collapse_drift_ratio: float | None
     scaling_period: float | None
     path: Path | None = None
+    walls: FloatArray | None = None
+    walls_stated: str = ""
 
     __eq__ = same_content
     __hash__ = content_hash
@@ -170,6 +176,19 @@ class OwnBuilding:
         return tuple(kind for kind in self.kinds if not kind.attached)
 
     @property
+    def present(self) -> tuple[FloorGoods, ...]:
+        """The kinds of loose goods of which some are present."""
+        return tuple(kind for kind in self.loose if kind.mass > 0.0)
+
+    @property
+    def sliding(self) -> tuple[tuple[int, int], ...]:
+        """Index in `loose` and level of the rack (0: on the floor) of each block of `scene`, in their order."""
+        there = [(number, kind) for number, kind in enumerate(self.loose) if kind.mass > 0.0]
+        on_floors = [(number, 0) for number, kind in there if kind.rack is None]
+        levels = [(number, kind.rack.levels) for number, kind in there if kind.rack is not None]
+        return (*on_floors, *((number, level) for number, count in levels for level in range(1, count + 1)))
+
+    @property
     def bolted(self) -> FloatArray:
         """Mass of the bolted goods on each floor (kg), which `mass` contains; shape (storeys,)."""
         bolted = tuple(kind for kind in self.kinds if kind.attached)
@@ -184,6 +203,12 @@ class OwnBuilding:
     def goods(self) -> FloatArray:
         """Mass of the loose goods present on each floor (kg), shape (storeys,)."""
         return by_floor(self.loose, [kind.mass for kind in self.loose], self.storeys)
+
+    @property
+    def frames(self) -> FloatArray:
+        """Mass of the frames of racks on each floor (kg), in every model; shape (storeys,)."""
+        frames = [0.0 if kind.rack is None else kind.rack.frame * kind.mass for kind in self.loose]
+        return by_floor(self.loose, frames, self.storeys)
 
     @property
     def present_share(self) -> float:
@@ -223,7 +248,8 @@ class OwnBuilding:
 
     def period(self, attached: FloatArray | float = 0.0) -> float:
         """Return the first period (s) with a mass attached to each floor (kg)."""
-        return float(vibration_modes(self.mass + attached, self.stiffness).periods[0])
+        mass = self.mass + self.frames + attached
+        return float(vibration_modes(mass, self.stiffness, stiffness_matrix=self.walls).periods[0])
 
     def analysis(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> SpectrumAnalysis:
         """Return the response spectrum analysis of the building with the mass of its design.
@@ -241,9 +267,10 @@ class OwnBuilding:
             There is no site spectrum, or it does not cover the modal periods.
         """
         return response_spectrum_analysis(
-            self.mass + (self.design_mass if attached is None else attached),
+            self.mass + self.frames + (self.design_mass if attached is None else attached),
             self.stiffness,
             self.site_spectrum(target),
+            stiffness_matrix=self.walls,
             combination="srss" if self.design is None else self.design.combination,
             damping=self.damping or DEFAULT_DAMPING,
         )
@@ -275,7 +302,8 @@ class OwnBuilding:
         """
         strength = self.yield_shear
         if strength is None and self.design is not None:
-            strength = self.analysis(target, attached).storey_shear / self.design.R
+            # Without walls the springs carry the storey shear; walls stay elastic.
+            strength = self.analysis(target, attached).spring_shear / self.design.R
         return Building(
             self.mass,
             self.stiffness,
@@ -286,6 +314,7 @@ class OwnBuilding:
             damping=self.damping if self.damping_from_storey == 1 else self._damping_above(),
             heights=self.heights,
             gravity_load=self.gravity_load,
+            stiffness_matrix=self.walls,
         )
 
     def _damping_above(self) -> FloatArray:
@@ -316,14 +345,18 @@ class OwnBuilding:
         InvalidOption, InvalidScene
             As for `structure`.
         """
-        blocks = [
-            Block(kind.floor, mass=kind.mass, mu_s=mu_factor * kind.mu_s, mu_k=mu_factor * kind.mu_k)
-            for kind in self.loose
-            if kind.mass > 0.0
-        ]
+        blocks, racks = [], []
+        for kind in self.present:
+            mu_s, mu_k = mu_factor * kind.mu_s, mu_factor * kind.mu_k
+            if kind.rack is not None:
+                racks.append(kind.rack.under(kind.floor, kind.mass, (mu_s, mu_k), kind.stops))
+                continue
+            stops = None if kind.stops is None else kind.stops.beside(kind.mass)
+            blocks.append(Block(kind.floor, mass=kind.mass, mu_s=mu_s, mu_k=mu_k, stops=stops))
         collapse = (
             None
             if self.heights is None or self.collapse_drift_ratio is None
             else (self.collapse_drift_ratio * self.heights)
         )
-        return Scene(self.structure(target), blocks, collapse_drift=collapse, name=self.name, note=self.note)
+        building = self.structure(target)
+        return Scene(building, blocks, racks=racks, collapse_drift=collapse, name=self.name, note=self.note)

@@ -25,6 +25,7 @@ from seismass.assessment.shares import DESIGN_SHARES, SHARES, advised_share, des
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
+from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.model.scene import Scene
@@ -118,10 +119,11 @@ def assess(
     models = len(frictions) + FIXED_MODELS if loaded else 1
     fractions = len(frictions) + SHARES if loaded else 0
     designs = 2 * len(DESIGN_SHARES) if loaded and chosen.design is not None else 0
-    stages = _Stages(progress, (models + fractions + designs) * len(suite))
+    larger = len(SHARES_BEYOND) if loaded and goes_beyond(chosen.scene(spectrum)) else 0
+    stages = _Stages(progress, (models + fractions + larger + designs) * len(suite))
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
     effective = fractions_by_friction(
-        chosen, spectrum, frictions, scaled, bootstrap, threads, stages.next(fractions * len(suite))
+        chosen, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
     )
     advised = advised_share(effective)
     design = None
@@ -160,7 +162,7 @@ def assess(
         collapses=collapses,
         scaling=scaling,
         suite=about,
-        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite)),
+        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL)),
         remarks=remarks_of(chosen, doubts, scaling, effective, about),
         assumptions=assumptions_of(chosen, spectrum, scaling, about, period),
         metadata={
@@ -261,6 +263,11 @@ def _digest(
             digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
         blocks = [[block.floor, block.mu_s, block.mu_k] for block in scene.blocks]
         digest.update(np.array(blocks, dtype="<f8").tobytes())
+        stops = [block.stop_numbers for block in scene.blocks]
+        if scene.racks or any(stops) or structure.stiffness_matrix is not None:
+            matrix = structure.stiffness_matrix
+            digest.update(b"" if matrix is None else np.ascontiguousarray(matrix, dtype="<f8").tobytes())
+            digest.update(repr((stops, *(sorted(rack._arguments().items()) for rack in scene.racks))).encode())
     for motion in motions:
         digest.update(np.float64(motion.dt).tobytes())
         digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())

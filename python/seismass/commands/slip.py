@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
         check_out(args.out, "slip demand")
     target = read_target(args) if _targeted(args) else None
     scene, building = read_scene_or_building(args.file, target)
-    blocks = len(scene.blocks)
+    blocks = len(scene.goods)
     sizes = _per_block("size", args.size, blocks, parse_size)
     clearances = _per_block("clearance", args.clearance, blocks, parse_clearance)
     period = 1.0 if building is None else building.scaling_period or building.period(building.goods)

@@ -16,6 +16,7 @@ from seismass.effective_mass.runs import NamedMotions, Peaks, Stages, solve
 from seismass.effective_mass.search import OWNER, Options, Search
 from seismass.model.block import Block
 from seismass.model.building import Building
+from seismass.model.rack import Rack
 from seismass.model.scene import Scene
 
 
@@ -119,13 +120,14 @@ def solved_designs(
     blocks: Iterable[Block],
     motions: NamedMotions,
     options: Options,
+    racks: Iterable[Rack] = (),
     collapse_drift: FloatArray | None = None,
 ) -> Solved:
     """Solve the building that is designed with each share, with sliding goods and with that share attached.
 
     Parameters
     ----------
-    design, blocks
+    design, blocks, racks
         As for `effective_mass_of_design`.
     motions : NamedMotions
         The suite.
@@ -142,13 +144,13 @@ def solved_designs(
     if not callable(design):
         requirement = "a callable that takes a share and returns a Building"
         raise refusal(InvalidOption, "design", OWNER, requirement, brief(design))
-    goods, threads = tuple(blocks), options.threads
+    goods, standing, threads = tuple(blocks), tuple(racks), options.threads
 
     def designed(share: float) -> Scene:
         building: Any = design(share)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building", brief(building))
-        return check_any_load(Scene(building, goods, collapse_drift=collapse_drift))
+        return check_any_load(Scene(building, goods, racks=standing, collapse_drift=collapse_drift))
 
     shares = [float(share) for share in options.fractions]
     stages = Stages(options.progress, 2 * len(shares) * len(motions))

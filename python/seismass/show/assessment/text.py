@@ -12,6 +12,7 @@ from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REAL_HI
 from seismass.assessment.result import Assessment
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
+from seismass.effective_mass.structure_remarks import RULE_UNKNOWN
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import NOT_CHECKED
 
@@ -66,6 +67,9 @@ def _answer(result: Assessment) -> list[str]:
     lines += _told("code", _code(result))
     if answer.analyses:
         real = result.effective[REAL]
+        unknown = [remark for remark in real.remarks if remark.startswith(RULE_UNKNOWN)]
+        if unknown:
+            return [*lines, *_told("rule", f"not applied: {'; '.join(unknown)}")]
         lines += _told(
             "rule",
             f"eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}, mean peak base shear of the "
