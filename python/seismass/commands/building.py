@@ -11,6 +11,7 @@ from seismass.commands.command import Command
 from seismass.commands.options import (
     add_answer_options,
     add_code_options,
+    add_opensees_option,
     add_period_option,
     add_records_options,
     add_target_options,
@@ -46,6 +47,7 @@ def options(parser: argparse.ArgumentParser) -> None:
         help="bounds of friction as factors (0.67,1.5); 1,1 leaves them out",
     )
     add_answer_options(parser, "the name of FILE")
+    add_opensees_option(parser, "the building, with goods that slide and of both analyses")
     # A folder of its own for each building, so that a second never replaces the first.
     parser.set_defaults(out=None)
 
@@ -57,6 +59,7 @@ def run(args: argparse.Namespace) -> int:
         return 0
     from seismass.assessment import assess
     from seismass.assessment.building_file import read_building
+    from seismass.assessment.opensees_models import write_models
     from seismass.media.folder import check_out
 
     args.out = args.out or Path(args.file.stem)
@@ -75,6 +78,8 @@ def run(args: argparse.Namespace) -> int:
             threads=args.jobs,
             progress=tell,
         )
+    if args.opensees is not None:
+        write_models(args.opensees, result, suite)
     give_answer(args, result, suite, answer="ANSWER")
     return 0
 
@@ -147,6 +152,7 @@ COMMAND = Command(
 building --example > warehouse.toml
 building warehouse.toml
 building warehouse.toml --records my_records/ --out warehouse
+building warehouse.toml --opensees warehouse_models
 building warehouse.toml --sds 0.8 --sd1 0.5 --code ec8
 building warehouse.toml --mu-factors 1 1 --json > answer.json
 building --codes

@@ -188,6 +188,13 @@ def left_out(suite: Suite) -> list[str]:
     return [*lines, *suite.remarks]
 
 
+def add_opensees_option(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add --opensees, a folder for models of OpenSeesPy."""
+    parser.add_argument(
+        "--opensees", type=Path, metavar="DIR", help=f"write OpenSeesPy models of {what}, with the exact peaks, to DIR"
+    )
+
+
 def read_target(args: argparse.Namespace) -> TargetSpectrum:
     """Return the target spectrum that the options describe.
 

@@ -12,8 +12,9 @@ import polars as pl
 from seismass.base.errors import InvalidOption
 from seismass.base.files import write_table, written_whole
 from seismass.commands.command import Command
-from seismass.commands.options import add_json_option, add_out_option, check_files
+from seismass.commands.options import add_json_option, add_opensees_option, add_out_option, check_files
 from seismass.commands.terminal import show
+from seismass.runs.opensees_export import write_opensees
 from seismass.runs.response import Response
 from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
 from seismass.runs.simulate import simulate
@@ -31,6 +32,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     histories = "write time, drift of every storey and slip of every block at every sample (.parquet or .csv)"
     add_out_option(parser, "FILE", histories)
     add_json_option(parser)
+    add_opensees_option(parser, "the scene")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -43,6 +45,8 @@ def run(args: argparse.Namespace) -> int:
         print(example_scene().read_text(encoding="utf-8"), end="")
         return 0
     file = read_scene(args.scene)
+    if args.opensees is not None:
+        write_opensees(args.opensees, {"scene": file.scene}, [file.motion])
     response = simulate(file.scene, file.motion, histories=args.out is not None, displacements_only=True, energy=True)
     if args.out is not None:
         _write_histories(response, args.out)
@@ -75,6 +79,7 @@ run --example > scene.toml
 run scene.toml
 run scene.json --json > response.json
 run scene.toml --out response.parquet
+run scene.toml --opensees model
 """,
     options=options,
     run=run,

@@ -56,6 +56,9 @@
     blockCount = runs[0].blocks;
     slider.max = String(END);
     if (data.alt) buildings.setAttribute("aria-label", data.alt);
+    // An enlargement that is chosen to fit is stated.
+    const fits = Array.from(factor.options).find((option) => Number(option.value) === 0);
+    if (fits) fits.textContent = `${data.factor} \u00d7, to fit`;
   }
 
   const lastUpTo = (list, row, of) => {
