@@ -43,7 +43,7 @@ impl<R: Real> Machines<'_, R> {
     /// rates tell.
     pub(super) fn settle(&mut self, node: Option<usize>, tau: R, cause: Cause) {
         let mut still = self.on_node(node);
-        let follows = matches!(cause, Cause::Breakaway(..) | Cause::Wear(_) | Cause::Jump);
+        let follows = matches!(cause, Cause::Breakaway(..) | Cause::Wear(_));
         still.retain(|&j| {
             let block = &self.state.blocks[j];
             let goes_on = follows && !block.moved && matches!(block.contact, Contact::Sliding(_));
@@ -64,10 +64,12 @@ impl<R: Real> Machines<'_, R> {
         } else {
             self.decide(node, tau, &still);
         }
+        // A force that jumps may turn what has just broken away.
+        let jumps = cause == Cause::Jump;
         for (&j, before) in still.iter().zip(before) {
             let after = self.state.blocks[j].contact;
             let event = match (before.contact, after) {
-                (Contact::Sliding(_), Contact::Sliding(_)) if !before.moved => None,
+                (Contact::Sliding(old), Contact::Sliding(new)) if !before.moved && (old == new || !jumps) => None,
                 (Contact::Sliding(old), Contact::Sliding(new)) if old == new => Some((EventKind::Touch, new)),
                 (Contact::Sliding(_), Contact::Sliding(new)) => Some((EventKind::Reverse, new)),
                 (Contact::Sliding(old), _) => Some((EventKind::Stick, old)),

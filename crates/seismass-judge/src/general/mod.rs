@@ -13,6 +13,7 @@ mod series;
 mod solve;
 mod state;
 
+pub(crate) use compare::apart_by_machine;
 pub use compare::{as_chain, compare_general, solution_of};
 pub use divide::divided;
 pub use record::GeneralSolution;

@@ -90,7 +90,7 @@ pub fn page(tally: &GeneralTally) -> String {
          move nor exceed their limit; stops that never pull, and blocks that press where they must; slips within clearance and \
          penetration; peaks that no sample beats. A fifth is solved again with every sample interval divided by four, and for \
          peaks alone, which must not change a bit. A random part is compared with a second implementation, written from the \
-         specification alone (`crates/seismass-judge/src/general`): a quarter of it in double-double, the others in double \
+         specification alone (`crates/seismass-judge/src/general`): a tenth of it in double-double, the others in double \
          precision and in double-double where that parts. The modal damping of racks is its own; that of the building is the \
          kernel's, and a test compares it. Where the two part, the judge is asked again with its input changed in the last \
          digits, as on the page of the chain engine. Random shear buildings are solved by both engines.\n\n{}",

@@ -15,7 +15,7 @@ use crate::stress::verdict::Verdict;
 /// the judge is asked.
 pub const LARGEST_DIVISION: f64 = 1e-9;
 /// One judged scene in so many is compared with the judge in double-double from the start.
-const PRECISELY: u64 = 4;
+const PRECISELY: u64 = 10;
 
 /// The distribution of a random run.
 #[derive(Debug, Clone, Default)]

@@ -1,7 +1,6 @@
 //! Where the general engine and its judge part: is it a grazing, or a sensitive scene? The judge is asked with its input
 //! changed in the last digits, as for the chain engine.
 
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use seismass::{
@@ -9,12 +8,11 @@ use seismass::{
     SpringLaw, Storey,
 };
 
-use crate::general::{GeneralSolution, compare_general, solve_general};
+use crate::general::{GeneralSolution, apart_by_machine, compare_general, solve_general};
 use crate::random_scene::Draw;
-use crate::stress::consistency::is_of_storey;
 use crate::stress::grazing::AMPLIFICATION;
 use crate::stress::verdict::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
-use crate::{Comparison, DoubleDouble, compare_events};
+use crate::{Comparison, DoubleDouble, Real};
 
 /// Compares a response with the judge in double precision; if they part, or `precisely`, in double-double; if they part
 /// still, looks for a grazing.
@@ -39,37 +37,54 @@ pub(super) fn judge(scene: &GeneralScene, motion: &Motion, response: &GeneralRes
     if same_events && plain.is_ok_and(|plain| moves_as_far(response, &exact, &plain)) {
         return Verdict::Sensitive { digits: 0.0, difference };
     }
+    // In doubles first: the judge's own rounding, some last digits too, is cheaper than its precision.
+    let changed = explain::<f64>(scene, motion, response, &exact, same_events);
+    let changed = changed.or_else(|| explain::<DoubleDouble>(scene, motion, response, &exact, same_events));
+    match changed {
+        Some((true, digits)) => Verdict::Grazing { digits, difference },
+        Some((false, digits)) => Verdict::Sensitive { digits, difference },
+        None => Verdict::Unexplained(difference),
+    }
+}
+
+/// Whether the judge with its input changed in the last digits comes to the engine's events and numbers (true), or moves as
+/// far from itself as the engine is from it (false), and the change in last digits that shows it. Where the events of the
+/// unchanged judge are others, two changed ones that have the engine's are compared with each other.
+fn explain<R: Real>(
+    scene: &GeneralScene,
+    motion: &Motion,
+    response: &GeneralResponse,
+    exact: &GeneralSolution,
+    same_events: bool,
+) -> Option<(bool, f64)> {
+    let mut alike: Vec<GeneralSolution> = Vec::new();
     for digits in LAST_DIGITS {
         for trial in 0..TRIALS {
-            let Some((scene, motion, other)) = changed_judge(scene, motion, digits, trial) else { continue };
+            let Some(other) = changed_judge::<R>(scene, motion, digits, trial) else { continue };
             let left = compare_general(response, &other);
             if left.agrees(AGREEMENT) {
-                return Verdict::Grazing { digits, difference };
+                return Some((true, digits));
             }
             let shown = match (same_events, &left.mismatch) {
-                (true, _) => moves_as_far(response, &exact, &other),
-                (false, None) => is_sensitive(&scene, &motion, response, &other),
+                (true, _) => moves_as_far(response, exact, &other),
+                (false, None) => {
+                    let shown = alike.iter().any(|one| moves_as_far(response, one, &other));
+                    alike.push(other);
+                    shown
+                }
                 (false, Some(_)) => false,
             };
             if shown {
-                return Verdict::Sensitive { digits, difference };
+                return Some((false, digits));
             }
         }
     }
-    Verdict::Unexplained(difference)
+    None
 }
 
 fn difference(parted: &Comparison) -> String {
     let numbers = || format!("relative difference {:.1e}, of event times {:.1e}", parted.worst(), parted.worst_time());
     parted.mismatch.clone().unwrap_or_else(numbers)
-}
-
-/// Whether some change of the judge's input in the last digits moves it as far as the engine is from it.
-fn is_sensitive(scene: &GeneralScene, motion: &Motion, response: &GeneralResponse, exact: &GeneralSolution) -> bool {
-    LAST_DIGITS.into_iter().any(|digits| {
-        let mut others = (0..TRIALS).filter_map(|trial| changed_judge(scene, motion, digits, trial));
-        others.any(|(.., other)| moves_as_far(response, exact, &other))
-    })
 }
 
 /// Whether every spring and block has the judge's events in the engine's and in the changed judge's run, and numbers and the
@@ -94,28 +109,10 @@ fn moves_as_far(response: &GeneralResponse, exact: &GeneralSolution, other: &Gen
         && kernel.iter().zip(changed).all(|(&kernel, changed)| as_far(AGREEMENT * exact.end_time, kernel, changed))
 }
 
-/// For each spring and block that has events, how far apart their times are (s); nothing if one has not the same events in
-/// both logs. What happens to different ones may have changed places.
-fn apart_by_machine(found: &[Event], expected: &[Event]) -> Option<Vec<f64>> {
-    let machine = |event: &Event| (is_of_storey(event.kind), event.number);
-    let machines: BTreeSet<_> = found.iter().chain(expected).map(machine).collect();
-    let apart = |one| {
-        let of_one = |log: &[Event]| log.iter().filter(|event| machine(event) == one).copied().collect::<Vec<Event>>();
-        compare_events(&of_one(found), &of_one(expected)).ok()
-    };
-    machines.into_iter().map(apart).collect()
-}
-
-/// The judge with its input changed, and that input.
-fn changed_judge(
-    scene: &GeneralScene,
-    motion: &Motion,
-    digits: f64,
-    trial: u64,
-) -> Option<(GeneralScene, Motion, GeneralSolution)> {
+/// The judge with its input changed.
+fn changed_judge<R: Real>(scene: &GeneralScene, motion: &Motion, digits: f64, trial: u64) -> Option<GeneralSolution> {
     let (scene, motion) = changed(scene, motion, digits, trial)?;
-    let other = solve_general::<DoubleDouble>(&scene, &motion, 1).ok()?;
-    Some((scene, motion, other))
+    solve_general::<R>(&scene, &motion, 1).ok()
 }
 
 /// Factors of the numbers of each kind: what is equal stays equal.
