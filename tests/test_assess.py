@@ -276,8 +276,8 @@ def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
     one = sm.assess(tables(), resamples=20, threads=1, progress=lambda done, total: calls.append((done, total)))
     two = sm.assess(tables(), resamples=20, threads=2)
     assert one.to_dict() == two.to_dict()
-    # Seven models, 102 for each of three frictions, and two at each of 21 shares of a design, under forty motions.
-    assert calls[-1] == ((7 + 3 * 102 + 42) * 40, (7 + 3 * 102 + 42) * 40)
+    # Seven models, three frictions, 101 shares, and two models at each of 21 shares of a design, under forty motions.
+    assert calls[-1] == ((7 + 3 + 101 + 42) * 40, (7 + 3 + 101 + 42) * 40)
     assert [done for done, _ in calls] == sorted(done for done, _ in calls)
 
 

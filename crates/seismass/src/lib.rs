@@ -78,7 +78,7 @@ mod threads;
 mod tolerances;
 mod units;
 
-pub use batch::{Run, simulate_each, simulate_many};
+pub use batch::{Run, simulate_each, simulate_general_each, simulate_many};
 pub use error::{Domain, Error, Result};
 pub use general::{
     GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, simulate_general, simulate_general_until,

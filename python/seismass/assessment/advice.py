@@ -9,9 +9,10 @@ import numpy as np
 import polars as pl
 
 from seismass.assessment.answer import Answer
+from seismass.assessment.checks import drift_source
 from seismass.assessment.governing import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REALS
-from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding, fractions_of
+from seismass.assessment.own_building import DEFAULT_THETA_LIMIT, OwnBuilding, fractions_of
 from seismass.design import THETA_THRESHOLD
 from seismass.design.weight import SMALL_SHARE
 from seismass.effective_mass import EffectiveMass
@@ -185,11 +186,17 @@ def remarks_of(
         label = "" if name == REAL else f"{NAMES[name]}: "
         # What storeys the share does not cover is advice, of the share that is advised.
         once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
+        once = [text for text in once if text not in doubts and not _of_friction(text)]
         found += [label + remark for remark in once if name == REAL or " motions are few" not in remark]
     found += _about_code_mass(building)
     if building.code.status not in (VERIFIED, AS_STATED):
         found.append(f"the fraction of {building.code.code} was {NOT_CHECKED} ({building.code.status})")
     return tuple(dict.fromkeys(found))
+
+
+def _of_friction(text: str) -> bool:
+    """Whether a sentence doubts the friction of a block, which at its bounds is the stated one with a factor."""
+    return text.startswith("mu_s of block")
 
 
 def _about_code_mass(building: OwnBuilding) -> list[str]:
@@ -215,12 +222,17 @@ def _about_code_mass(building: OwnBuilding) -> list[str]:
 
 
 def assumptions_of(
-    building: OwnBuilding, target: TargetSpectrum | None, scaling: ScalingResult | None, suite: dict[str, Any]
+    building: OwnBuilding,
+    target: TargetSpectrum | None,
+    scaling: ScalingResult | None,
+    suite: dict[str, Any],
+    period: tuple[str, ...],
 ) -> tuple[str, ...]:
-    """Return everything that was assumed, sentence by sentence."""
+    """Return everything that was assumed, sentence by sentence; `period` is what is said of the first period."""
     return (
         *_about_motions(building, target, scaling, suite),
         *_about_structure(building),
+        *period,
         *_about_limits(building),
         *_about_goods(building),
         _about_code(building),
@@ -269,12 +281,6 @@ def _about_structure(building: OwnBuilding) -> list[str]:
         f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods{of}; every model has "
         "that matrix."
     )
-    if building.stated_period is not None and building.period_mass != "bare":
-        acting = "the code's share of the live load" if building.period_mass == "code share" else "all goods present"
-        lines.append(
-            f"Period: {building.stated_period:.3g} s as stated, with {acting} as mass; {building.period():.3g} s "
-            "without goods."
-        )
     if building.gravity_load is not None:
         return [*lines, "P-Delta: weight of floors and of all goods present, whatever share of their mass is attached."]
     why = "heights are not known" if building.heights is None else "switched off"
@@ -284,9 +290,7 @@ def _about_structure(building: OwnBuilding) -> list[str]:
 def _about_limits(building: OwnBuilding) -> list[str]:
     if building.heights is None:
         return []
-    drift = theta = "as stated"
-    if building.drift_limit == DEFAULT_DRIFT_LIMIT:
-        drift = "ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II"
+    drift, theta = drift_source(building), "as stated"
     if building.theta_limit == DEFAULT_THETA_LIMIT:
         theta = "ASCE/SEI 7-10, 12.8.7, 0.5/(beta C_d) and at most 0.25"
     return [

@@ -99,9 +99,7 @@ class Answer:
     @property
     def doubt_lines(self) -> tuple[str, ...]:
         """What stands before the statement where the input is doubtful."""
-        shown = [f"DOUBTFUL INPUT: {doubt}" for doubt in self.doubts[:MOST_DOUBTS]]
-        further = len(self.doubts) - len(shown)
-        return (*shown, *([f"and {further} more doubts, among the remarks"] if further else []))
+        return doubt_lines(self.doubts)
 
     @property
     def pair(self) -> tuple[str, ...]:
@@ -115,11 +113,34 @@ class Answer:
         )
 
 
+def doubt_lines(doubts: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what stands before an answer whose input is doubtful, the first few of the doubts."""
+    shown = [f"DOUBTFUL INPUT: {doubt}" for doubt in doubts[:MOST_DOUBTS]]
+    further = len(doubts) - len(shown)
+    return (*shown, *([f"and {further} more doubts, among the remarks"] if further else []))
+
+
+@dataclass(frozen=True, eq=False)
+class DesignShare:
+    """Share that goes into the design of the strengths.
+
+    Attributes
+    ----------
+    found : EffectiveMass or None
+        The share; by the median, where few runs of a designed building collapse. None where many do.
+    reason : str
+        Why there is none; empty where there is one.
+    """
+
+    found: EffectiveMass | None
+    reason: str
+
+
 def answer_of(
     building: OwnBuilding,
     advised: float | None,
     effective: dict[str, EffectiveMass],
-    design: EffectiveMass | None,
+    design: DesignShare | None,
     storeys: pl.DataFrame,
     governing: pl.DataFrame,
     collapses: dict[str, int],
@@ -132,7 +153,8 @@ def answer_of(
     reason = _reason(building, effective, collapses, len(suite["motions"]))
     if reason is not None or advised is None:
         why = reason or "there are no goods on the floors, and no live load could act as mass"
-        return Answer(f"no answer: {why}", why, doubts, motions=on)
+        few = "" if reason is not None else _collapsing(collapses, {}, len(suite["motions"]))
+        return Answer(f"{few}no answer: {why}", why, doubts, motions=on)
     words = friction_words(building)
     change = largest_change(storeys, (*(name for name in REALS if name in effective), ATTACHED, BARE))
     matters = change is None or change > NO_MATTER
@@ -206,15 +228,27 @@ def _reason(
 
 
 def _collapsing(collapses: dict[str, int], words: dict[str, str], motions: int) -> str:
-    """What the statement begins with where few runs collapse: the friction with most of them, and the statistic."""
+    """What the statement begins with where few runs collapse, and the statistic: the building first, then analyses.
+
+    `words` are those of the frictions; empty for a building without goods.
+    """
+    mean = "mean drifts are 1.2 times the median or the mean of the others; "
     fallen = {name: collapses[name] for name in REALS if collapses.get(name)}
-    if not fallen:
-        return ""
-    worst = max(fallen, key=lambda name: fallen[name])
-    return (
-        f"THE BUILDING COLLAPSES under {fallen[worst]} of {motions} motions ({words[worst]}): lambda is by the median, "
-        "mean drifts are 1.2 times the median or the mean of the others; "
-    )
+    if fallen:
+        worst = max(fallen, key=lambda name: fallen[name])
+        return (
+            f"THE BUILDING COLLAPSES under {fallen[worst]} of {motions} motions ({words[worst]}): lambda is by the "
+            f"median, {mean}"
+        )
+    if not words:
+        count = collapses.get(BARE, 0)
+        return f"THE BUILDING COLLAPSES under {count} of {motions} motions: {mean}" if count else ""
+    told = [
+        f"{called.upper()} COLLAPSES under {collapses[name]} of {motions} motions: its {mean}"
+        for name, called in ANALYSES.items()
+        if collapses.get(name)
+    ]
+    return "".join(told)
 
 
 def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> Analysis:
@@ -279,17 +313,18 @@ def _value(result: EffectiveMass) -> str:
     return f"{result.value:.2f} [{result.suite_interval[0]:.2f}, {result.suite_interval[1]:.2f}]"
 
 
-def _design(building: OwnBuilding, advised: float, design: EffectiveMass | None) -> str:
+def _design(building: OwnBuilding, advised: float, design: DesignShare | None) -> str:
     """Which share goes into W."""
-    if building.design is None:
+    if building.design is None or design is None:
         return "strengths are as stated: lambda is for the analysis, not for W of a design"
     here = f"W here has {building.design_fraction:g} of the design live load"
-    if design is None or not math.isfinite(design.value):
-        return f"{here}; no share for W could be found, since buildings designed with some shares collapse"
-    share = rounded_up(design.value)
+    if design.found is None:
+        return f"{here}; there is no share for W, since {design.reason}"
+    share = rounded_up(design.found.value)
+    median = "" if design.found.statistic == "mean" else ", by the median since some designs collapse"
     return (
         f"for a design of strengths {share:.2f} of the goods present ({share * building.present_share:.2f} of the "
-        f"design live load) go into W; {here}, and lambda = {advised:.2f} is for the analysis of that building"
+        f"design live load) go into W{median}; {here}, and lambda = {advised:.2f} is for the analysis of that building"
     )
 
 

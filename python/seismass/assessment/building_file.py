@@ -21,6 +21,7 @@ from seismass.assessment.file_goods import (
     live_load_of,
     mu_factors_of,
 )
+from seismass.assessment.file_site import LIMIT, PERIOD, SITE, check_period, limit_of, period_of, site_of
 from seismass.assessment.file_values import (
     STRONG,
     US_GOODS_KEYS,
@@ -34,21 +35,20 @@ from seismass.assessment.file_values import (
     to_si,
 )
 from seismass.assessment.own_building import (
-    DEFAULT_DRIFT_LIMIT,
     DEFAULT_THETA_LIMIT,
     DesignRule,
     OwnBuilding,
     fractions_of,
 )
 from seismass.base.errors import InvalidBuildingFile
+from seismass.base.input_kinds import BUILDING_FILE, refuse_other_kind
 from seismass.base.input_table import POSITIVE, SHARE, Need, Table, load_table
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import as_path, brief, printable
+from seismass.base.values import as_path, printable
 from seismass.design import Combination, vibration_modes
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.springs import DEFAULT_THIRD_SLOPE, SHAPE_FIELDS
 from seismass.records.builtin import data_directory
-from seismass.spectra import DEFAULT_TL, TargetSpectrum
 
 _MASS: Final = ("dead_load_kpa", "mass_kg")
 _STIFFNESS: Final = ("stiffness_kn_per_m", "stiffness_n_per_m")
@@ -69,17 +69,16 @@ _GOODS: Final = (*LIVE_LOAD, "occupied", *FRICTION, "mu_k")
 _DESIGN: Final = ("R", "design_fraction", "combination")
 KEYS: Final = {
     "": ("name", "note", "site", "code", "building", "goods", "storeys"),
-    "site": ("sds_g", "sd1_g", "tl_s", "spectrum_csv"),
+    "site": SITE,
     "code": ("id", "use", "fraction"),
     "building": (
-        "period_s",
-        "period_mass",
+        *PERIOD,
         "damping",
         "damping_from_storey",
         "p_delta",
         "design",
         *_DESIGN,
-        "drift_limit",
+        *LIMIT,
         "theta_limit",
         "collapse_drift_ratio",
         "scaling_period_s",
@@ -95,8 +94,6 @@ US_KEYS: Final[dict[str, tuple[str, ...]]] = {
     "storeys": (*US_STOREY_KEYS, *US_GOODS_KEYS),
 }
 """Keys in US units, in place of those in SI units."""
-PERIOD_MASSES: Final = ("bare", "code share", "all")
-"""What `period_s` is the period of: the building without goods, with the code's share of them, or with all present."""
 
 
 def example_file() -> Path:
@@ -142,6 +139,7 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
     else:
         path = as_path(source, "building file", InvalidBuildingFile)
         top = load_table(path, "building file", InvalidBuildingFile)
+    refuse_other_kind(top, BUILDING_FILE)
     top.known(KEYS[""])
     storeys = top.tables("storeys")
     if not storeys:
@@ -171,18 +169,25 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
     def springs(name: str) -> Any:
         return np.array([_spring(storey, building, name) for storey in storeys])
 
-    period_mass = _period_mass(building)
+    period = period_of(building, heights, len(storeys), fraction)
     counted = {"bare": 0.0 * mass, "all": occupied * live_load}
-    if period_mass == "code share":
+    if period.mass == "code share":
         counted["code share"] = fractions_of(fraction, own_fractions, uses) * live_load
+    limit, limit_rule = limit_of(building, fraction)
+    stiffness = _stiffness(storeys, building, mass, counted[period.mass], period.value)
+    gravity = _gravity_load(storeys, building, mass) if p_delta else None
+    if gravity is not None and heights is not None:
+        load = np.cumsum((gravity + STANDARD_GRAVITY * counted["all"])[::-1])[::-1]
+        check_period(building, period, stiffness, load / heights)
     return OwnBuilding(
         name=printable(top.text("name")) or ("building" if path is None else printable(path.stem)),
         note=printable(top.text("note"), lines=True),
         storey_names=tuple(printable(storey.text("name")) for storey in storeys),
         mass=mass,
-        stiffness=_stiffness(storeys, building, mass, counted[period_mass]),
-        stated_period=_optional(building, "period_s"),
-        period_mass=period_mass,
+        stiffness=stiffness,
+        stated_period=period.value,
+        period_mass=period.mass,
+        period_rule=period.rule,
         heights=heights,
         yield_shear=strength,
         design=design,
@@ -193,7 +198,7 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         ),
         damping=building.number("damping", DEFAULT_DAMPING, SHARE),
         damping_from_storey=_damping_from(building, len(storeys)),
-        gravity_load=_gravity_load(storeys, building, mass) if p_delta else None,
+        gravity_load=gravity,
         area=np.array([positive(storey, building, "area_m2", np.nan) for storey in storeys]),
         dead_load_stated=np.array([key_of(storey, building, _MASS) == "dead_load_kpa" for storey in storeys]),
         live_load=live_load,
@@ -202,12 +207,13 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         mu_s=np.array([static for _, static, _ in friction]),
         mu_k=np.array([kinetic for _, _, kinetic in friction]),
         mu_factors=mu_factors_of(goods),
-        target=_target(site, Path() if path is None else path.parent),
+        target=site_of(site, Path() if path is None else path.parent),
         code=fraction,
         own_fractions=own_fractions,
         uses=uses,
         code_stated=bool(code.values),
-        drift_limit=building.number("drift_limit", DEFAULT_DRIFT_LIMIT, POSITIVE),
+        drift_limit=limit,
+        drift_limit_rule=limit_rule,
         theta_limit=building.number("theta_limit", DEFAULT_THETA_LIMIT, POSITIVE),
         collapse_drift_ratio=collapse,
         scaling_period=_optional(building, "scaling_period_s"),
@@ -235,9 +241,10 @@ def _unique(building: Table, goods: Table, storeys: list[Table]) -> None:
             table.one_of(*group)
         for key in ("mu", "friction"):
             table.excluded("mu_k", key)
-    if "period_s" in building.values:
-        for table in (building, *storeys):
-            table.left_out(_STIFFNESS, f"{building.key('period_s')} is given", "both")
+    for key in ("period_s", "system"):
+        if key in building.values:
+            for table in (building, *storeys):
+                table.left_out(_STIFFNESS, f"{building.key(key)} is given", "both")
 
 
 def _spring(storey: Table, default: Table, name: str) -> float:
@@ -278,35 +285,24 @@ def _gravity_load(storeys: list[Table], building: Table, mass: Any) -> Any:
     )
 
 
-def _stiffness(storeys: list[Table], building: Table, mass: Any, counted: Any) -> Any:
+def _stiffness(storeys: list[Table], building: Table, mass: Any, counted: Any, period: float | None) -> Any:
     """Storey stiffnesses (N/m): as stated, or as the period of the building with the mass counted on floors asks."""
-    if "period_s" not in building.values:
+    if period is None:
         values = []
         for storey in storeys:
             place = held(storey, building, _STIFFNESS)
             if place is None:
-                where = f"given, or {_STIFFNESS[1]}, or {building.key('period_s')} for the whole building"
+                whole = f"{building.key('period_s')} or {building.key('system')} for the whole building"
+                where = f"given, or {_STIFFNESS[1]}, or {whole}"
                 storey.refuse(_STIFFNESS[0], where, "nothing")
             unit = 1e3 if place[1] == "stiffness_kn_per_m" else 1.0
             values.append(unit * number_of(place, POSITIVE))
         for table in (building, *storeys):
             table.left_out(("relative_stiffness",), f"{building.key('period_s')} is", "given")
         return np.array(values)
-    period = building.number("period_s", need=POSITIVE)
     relative = np.array([positive(storey, building, "relative_stiffness", 1.0) for storey in storeys])
     trial = relative * mass.mean()
     return trial * (vibration_modes(mass + counted, trial).periods[0] / period) ** 2
-
-
-def _period_mass(building: Table) -> str:
-    """What the stated period is the period of."""
-    if "period_mass" not in building.values:
-        return "bare"
-    building.needed("period_s")
-    chosen = building.text("period_mass")
-    if chosen not in PERIOD_MASSES:
-        building.refuse("period_mass", f"one of {', '.join(PERIOD_MASSES)}", brief(chosen))
-    return chosen
 
 
 def _damping_from(building: Table, storeys: int) -> int:
@@ -337,21 +333,3 @@ def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, De
             storey.refuse(_STRENGTH[0], f"given, or {others}, or {building.key('design')} = true with R", "nothing")
         values.append(units[place[1]] * number_of(place, STRONG))
     return np.array(values), None
-
-
-def _target(site: Table, folder: Path) -> TargetSpectrum | None:
-    """Site spectrum; None where the file has none."""
-    if not site.values:
-        return None
-    if "spectrum_csv" in site.values:
-        for key in ("sds_g", "sd1_g", "tl_s"):
-            site.excluded(key, "spectrum_csv")
-        return TargetSpectrum.from_csv(folder / site.text("spectrum_csv"))
-    for key in ("sds_g", "sd1_g"):
-        if key not in site.values:
-            site.refuse(key, f"given, or {site.key('spectrum_csv')} for the whole spectrum", "nothing")
-    short, one = (site.number(key, need=POSITIVE) for key in ("sds_g", "sd1_g"))
-    tl = site.number("tl_s", DEFAULT_TL, POSITIVE)
-    if tl < one / short:
-        site.refuse("tl_s", f"at least T_S = S_D1/S_DS = {one / short:g} s", f"{tl:g}")
-    return TargetSpectrum.asce7(short, one, tl)

@@ -13,7 +13,7 @@ from seismass.base.errors import SimulationError
 from seismass.base.values import FloatArray
 from seismass.model.motion import Motion
 from seismass.model.scene import Scene
-from seismass.runs.batch import simulate_many
+from seismass.runs.batch import solve_many
 from seismass.spectra import TargetSpectrum
 
 REAL: Final = "real"
@@ -112,7 +112,7 @@ def solve_models(
     SimulationError
         A run could not be carried to its end.
     """
-    table = simulate_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
+    table = solve_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
     runs = table.to_dicts()
     rows: list[dict[str, Any]] = []
     for index, run in enumerate(runs):

@@ -15,7 +15,15 @@ from numpy.typing import NDArray
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content
-from seismass.design import THETA_CAP, Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
+from seismass.design import (
+    THETA_CAP,
+    Combination,
+    DriftLimit,
+    PeriodRule,
+    SpectrumAnalysis,
+    response_spectrum_analysis,
+    vibration_modes,
+)
 from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.codes import CodeFraction, code_fraction
@@ -82,6 +90,8 @@ class OwnBuilding:
         First period (s) from which they were found; None where they were stated.
     period_mass : {"bare", "code share", "all"}
         Which goods acted as mass in that period: none, the code's share, or all present.
+    period_rule : PeriodRule or None
+        Row of the code whose formula gave that period; None where it was stated.
     heights : ndarray, shape (storeys,), or None
         Storey heights (m); None where they are not known: then drifts are in metres and there is no limit.
     yield_shear : ndarray, shape (storeys,), or None
@@ -122,6 +132,8 @@ class OwnBuilding:
         Whether the file names the code.
     drift_limit, theta_limit : float
         Limits of drift ratio and stability coefficient.
+    drift_limit_rule : DriftLimit or None
+        Row of the code that gave the limit of the drift ratio; None where it was stated, or is the default.
     collapse_drift_ratio : float or None
         Drift ratio at which a storey counts as collapsed; None: only where P-Delta says so.
     scaling_period : float or None
@@ -137,6 +149,7 @@ class OwnBuilding:
     stiffness: FloatArray
     stated_period: float | None
     period_mass: str
+    period_rule: PeriodRule | None
     heights: FloatArray | None
     yield_shear: FloatArray | None
     design: DesignRule | None
@@ -160,6 +173,7 @@ class OwnBuilding:
     uses: tuple[str, ...]
     code_stated: bool
     drift_limit: float
+    drift_limit_rule: DriftLimit | None
     theta_limit: float
     collapse_drift_ratio: float | None
     scaling_period: float | None
@@ -246,7 +260,9 @@ class OwnBuilding:
         """Return the spectrum given, or else the building's own; a missing one is refused."""
         chosen = self.target if target is None else target
         if not isinstance(chosen, TargetSpectrum):
-            requirement = "given: [site] in the file (sds_g and sd1_g, or spectrum_csv), or a TargetSpectrum"
+            requirement = (
+                "given: [site] in the file (sds_g and sd1_g, target or spectrum_csv), --target, or an argument"
+            )
             raise refusal(InvalidOption, "target", f"building {self.name}", requirement, brief(chosen))
         return chosen
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.command import Command
@@ -18,12 +17,9 @@ from seismass.commands.options import (
     numbers_option,
     read_code,
     read_motions,
-    read_target,
+    read_site,
 )
 from seismass.commands.progress import progress
-
-if TYPE_CHECKING:
-    from seismass.spectra import TargetSpectrum
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -65,7 +61,7 @@ def run(args: argparse.Namespace) -> int:
     args.out = args.out or Path(args.file.stem)
     check_out(args.out, "assessment")
     building = read_building(args.file)
-    code, target = read_code(args, "building"), _target(args)
+    code, target = read_code(args, "building"), read_site(args, "building")
     suite = read_motions(args)
     with progress() as tell:
         result = assess(
@@ -119,29 +115,6 @@ def _listing(args: argparse.Namespace) -> str:
     return "\n".join([*lines, *([f"\n{code_legend()}"] if args.codes else [])]) + "\n"
 
 
-def _target(args: argparse.Namespace) -> TargetSpectrum | None:
-    """The site spectrum that the options describe; None where they describe none.
-
-    Raises
-    ------
-    InvalidOption
-        One of S_DS and S_D1 is given without the other, or a CSV beside them.
-    """
-    from seismass.base.errors import InvalidOption
-
-    if args.target is None:
-        if args.sds is args.sd1 is args.tl is None:
-            return None
-        if args.sds is None or args.sd1 is None:
-            given = (
-                "--sds" if args.sd1 is None and args.sds is not None else "--sd1" if args.sd1 is not None else "--tl"
-            )
-            raise InvalidOption(
-                f"site spectrum of building must be given by --sds and --sd1 together; got {given} alone"
-            )
-    return read_target(args)
-
-
 COMMAND = Command(
     description=(
         "Assess the building of a file (TOML or JSON): the share of its live load that acts as mass, with "
@@ -153,7 +126,8 @@ building --example > warehouse.toml
 building warehouse.toml
 building warehouse.toml --records my_records/ --out warehouse
 building warehouse.toml --opensees warehouse_models
-building warehouse.toml --sds 0.8 --sd1 0.5 --code ec8
+building warehouse.toml --sds 0.8 --sd1 0.5
+building warehouse.toml --target ec8:1:C:0.3 --code ec8
 building warehouse.toml --mu-factors 1 1 --json > answer.json
 building --codes
 building --frictions

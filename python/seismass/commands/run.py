@@ -29,7 +29,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("scene", type=Path, nargs="?", metavar="SCENE", help="scene file, .toml or .json")
     what.add_argument("--example", action="store_true", help="print a scene file to start from, and stop")
-    histories = "write time, drift of every storey and slip of every block at every sample (.parquet or .csv)"
+    histories = "write time, drift of storeys and rack levels, slip of blocks at every sample (.parquet or .csv)"
     add_out_option(parser, "FILE", histories)
     add_json_option(parser)
     add_opensees_option(parser, "the scene")
@@ -60,7 +60,9 @@ def run(args: argparse.Namespace) -> int:
 
 def _write_histories(response: Response, path: Path) -> None:
     columns: dict[str, Any] = {"time": response.time}
-    for name, history in (("drift", response.drift), ("slip", response.slip)):
+    histories = {"drift": response.drift, "slip": response.slip}
+    histories |= {f"rack_{number}_drift": drift for number, drift in enumerate(response.rack_drift, start=1)}
+    for name, history in histories.items():
         columns |= {f"{name}_{number}": history[:, number - 1] for number in range(1, history.shape[1] + 1)}
     frame = pl.DataFrame(columns)
     with written_whole(path) as temporary:

@@ -17,7 +17,7 @@ from seismass.base.values import FloatArray, as_array, brief, is_one_of, refusal
 
 Statistic: TypeAlias = Literal["mean", "median"]
 """What is taken of the largest drifts over the records."""
-Kind: TypeAlias = Literal["stuck", "root", "multiple", "zero", "one", "collapsed"]
+Kind: TypeAlias = Literal["stuck", "root", "multiple", "zero", "one", "beyond", "collapsed"]
 """How an effective fraction came about; see `EffectiveMass`."""
 
 ROUNDING: Final = 1e-12

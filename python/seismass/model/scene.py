@@ -200,6 +200,12 @@ class Scene(Value):
         return (*self.blocks, *of_racks)
 
     @property
+    def goods_floor(self) -> tuple[int, ...]:
+        """Floor under each of `goods`, for those of a rack the floor that it stands on; 0 is the ground."""
+        of_racks = (rack.floor for rack in self.racks for block in rack.blocks if not block.fixed)
+        return (*self.block_floor, *of_racks)
+
+    @property
     def block_floor(self) -> tuple[int, ...]:
         """Floor of each block; 0 is the ground."""
         return tuple(block.floor for block in self.blocks)

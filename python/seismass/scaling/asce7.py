@@ -11,7 +11,7 @@ import numpy as np
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, brief, frozen, refusal
 from seismass.design import vibration_modes
-from seismass.model.building import Building, of_storeys_alone
+from seismass.model.building import Building
 from seismass.model.motion import Motion
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import SuiteSpectra, positive_number, positive_period, suite_spectra
@@ -135,8 +135,6 @@ def scale_asce7_16(
     """
     if building is not None and not isinstance(building, Building):
         raise refusal(InvalidOption, "building", "scaling", "a Building", brief(building))
-    if building is not None:
-        of_storeys_alone(building, "scaling")
     if building is not None and (period is not None or lowest_period is not None):
         name = "period" if period is not None else "lowest_period"
         value = period if period is not None else lowest_period
@@ -205,6 +203,6 @@ def _of_pairs(suite: SuiteSpectra, given: list[Any], threads: int | None) -> Sui
 
 def _period_of_mass(building: Building) -> float:
     """Period (s) of the mode with which the modes together have 90 % of the mass."""
-    modes = vibration_modes(building.mass, building.stiffness)
+    modes = vibration_modes(building.mass, building.stiffness, stiffness_matrix=building.stiffness_matrix)
     total: FloatArray = np.cumsum(modes.effective_mass) / building.mass.sum()
     return float(modes.periods[int(np.searchsorted(total, MASS_7_16 * (1.0 - 1e-12)))])
