@@ -16,7 +16,7 @@ export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
-.PHONY: study explorer test bench bench-kernel count-instructions stress docs clean build lint test-rust test-python test-wheel wheels \
+.PHONY: study explorer test bench bench-kernel count-instructions stress stress-general docs clean build lint test-rust test-python test-wheel wheels \
 	test-aarch64 web-kernel fuzz audit audit-packages
 
 study: build
@@ -77,6 +77,10 @@ audit-packages: build $(AUDIT_VENV)/made
 # not, until the tally is removed.
 stress:
 	cargo run --locked --release -p seismass-judge --bin stress -- --scenes 1000000 --judged 10000 --write docs/stress.md
+
+# The same for the general engine; its tally is target/stress/general.tsv.
+stress-general:
+	cargo run --locked --release -p seismass-judge --bin stress_general -- --scenes 100000 --judged 2000 --write docs/stress_general.md
 
 lint: build
 	@cargo fmt --version >/dev/null && cargo clippy --version >/dev/null || \
