@@ -81,7 +81,9 @@ mod units;
 pub use batch::{Run, simulate_each, simulate_many};
 pub use error::{Domain, Error, Result};
 pub use general::{
-    GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, simulate_general, simulate_general_until,
+    Axis, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, PlaneEnergy, PlaneEvent,
+    PlanePeaks, PlaneResponse, VectorPeaks, simulate_general, simulate_general_until, simulate_plane,
+    simulate_plane_until,
 };
 pub use lanes::InstructionSet;
 pub use machines::spring_path::{SpringEvent, SpringPath, spring_path};
@@ -91,7 +93,8 @@ pub use response::{
 pub use run::{simulate, simulate_until};
 pub use scene::{
     Block, Building, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion,
-    Options, PeakOriented, Rack, Scene, SceneColumns, SpringLaw, Stops, Storey, UniformBuilding, Wear,
+    Options, PeakOriented, PlaneMotion, PlaneScene, Rack, Scene, SceneColumns, SpringLaw, Stops, Storey,
+    UniformBuilding, Wear,
 };
 pub use threads::Control;
 pub use units::STANDARD_GRAVITY;

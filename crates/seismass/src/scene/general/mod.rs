@@ -4,10 +4,12 @@
 mod building;
 mod goods;
 mod matrix;
+mod plane;
 mod rack;
 mod structure;
 
 pub use building::GeneralBuilding;
 pub use goods::{Goods, Stops};
+pub use plane::{PlaneMotion, PlaneScene};
 pub use rack::Rack;
 pub use structure::GeneralScene;
