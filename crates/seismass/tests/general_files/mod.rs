@@ -135,13 +135,14 @@ fn scene(file: &Value, building_table: &Value, is_y: bool) -> GeneralScene {
     let each = |key: &str| file[key].as_array().cloned().unwrap_or_default();
     let table = |table: &Value| if is_y { in_y(table, &Value::Null) } else { table.clone() };
     let on_floors = each("blocks").iter().map(|entry| goods(&table(entry), "floor")).collect();
-    let racks = each("racks").iter().map(|entry| {
+    let rack_of = |entry: &Value| {
         let mut of_rack = if is_y { with(entry, &entry["other_direction"]) } else { entry.clone() };
         let blocks: Vec<Value> = entry["blocks"].as_array().unwrap().iter().map(table).collect();
         of_rack["blocks"] = blocks.into();
         rack(&of_rack)
-    });
-    GeneralScene::new(Some(Arc::new(building(building_table))), on_floors, racks.collect()).unwrap()
+    };
+    let racks = each("racks").iter().map(rack_of).collect();
+    GeneralScene::new(Some(Arc::new(building(building_table))), on_floors, racks).unwrap()
 }
 
 /// Scene and motion of a file in one direction.
