@@ -27,8 +27,8 @@ impl PlaneScene {
     }
 }
 
-/// Solves one scene in two horizontal directions under a motion in x and the samples of one in y (m/s2); other arguments
-/// as of `simulate`.
+/// Solves one scene in two horizontal directions under a motion in x and the samples of one in y (m/s2); other
+/// arguments as of `simulate`.
 #[pyfunction]
 #[pyo3(signature = (scene, motion, other, every, displacements_only, energy, events))]
 #[allow(clippy::too_many_arguments)]

@@ -47,9 +47,29 @@
 //! # }
 //! ```
 //!
+//! # Two horizontal directions
+//!
+//! A [`PlaneScene`] is what a scene is in x and in y, a [`PlaneMotion`] the motion in both. [`simulate_plane`] solves it with
+//! friction on the circle, as exactly.
+//!
+//! ```
+//! use seismass::{Block, GeneralScene, Motion, Options, PlaneMotion, PlaneScene, simulate_plane};
+//!
+//! # fn main() -> seismass::Result<()> {
+//! let crate_on_ground = GeneralScene::new(None, vec![Block::new(0, 100.0, 0.1).into()], Vec::new())?;
+//! let scene = PlaneScene::new(crate_on_ground.clone(), crate_on_ground)?;
+//! let motion = PlaneMotion::new(Motion::new(vec![3.0; 11], 0.01, None)?, vec![4.0; 11])?;
+//! let response = simulate_plane(&scene, &motion, &Options::default())?;
+//! // Against an acceleration of 5 m/s2 along (3, 4), by (5 - mu g) t^2 / 2.
+//! let slip = 0.5 * (5.0 - 0.980665) * 0.01;
+//! assert!((response.peaks.vector.slip[0].value - slip).abs() < 1e-15);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Limitation
 //!
-//! Blocks slide and do not rock; motion is in one horizontal direction; contact is lost and regained with the sign of
+//! Blocks slide and do not rock; contact is lost and regained with the sign of
 //! g + a_v, without flight. Where two guards fall closer together than rounding, or a guard only just touches zero, the
 //! branch taken is decided by rounding, as it would be in nature by less.
 

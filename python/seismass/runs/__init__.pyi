@@ -5,6 +5,7 @@ from .grid.axes import GridAxis
 from .grid.design import StrengthDesign
 from .grid.grid import Grid
 from .long_table import long_table
+from .plane_response import PlaneResponse
 from .response import Response
 from .scene_file import SceneFile, read_scene
 from .simulate import instruction_set, simulate
@@ -13,6 +14,7 @@ from .spring_path import SpringPath, spring_forces
 __all__ = [
     "Grid",
     "GridAxis",
+    "PlaneResponse",
     "Response",
     "SceneFile",
     "SpringPath",
