@@ -113,7 +113,7 @@ def test_scene_files_and_the_command(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert main(["run", str(path), "--out", str(tmp_path / "histories.csv")]) == 0
     assert (tmp_path / "histories.csv").read_text().startswith("time,drift_1_x,drift_1_y,")
     path.write_text(FILE.replace("[other_direction]\nperiod = 0.7\n", ""))
-    with pytest.raises(sm.errors.InvalidScene, match="initial.velocity"):
+    with pytest.raises(sm.errors.InvalidScene, match=r"initial\.velocity"):
         sm.read_scene(path)
 
 
