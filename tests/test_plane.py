@@ -73,6 +73,11 @@ def test_what_belongs_to_two_directions_is_refused_in_one() -> None:
 def test_other_functions_refuse_two_directions_by_name() -> None:
     with pytest.raises(sm.errors.InvalidScene, match="other_direction of scene"):
         sm.simulate_many([crate()], [constant(1.0)])
+    scene = sm.Scene(sm.Building.uniform(1, 0.5), sm.blocks_on_floors([0.5], mu=0.2), other_direction=True)
+    with pytest.raises(sm.errors.InvalidScene, match="other_direction of scene"):
+        sm.effective_mass(scene, [constant(1.0)])
+    with pytest.raises(sm.errors.InvalidScene, match="left out where there are two directions"):
+        sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)], base=sm.SlidingBase(mu=0.1, mass=1.0), other_direction=True)
 
 
 FILE = """

@@ -29,6 +29,7 @@ __all__ = [
     "PlaneResponse",
     "PlaneScene",
     "Rack",
+    "RackColumns",
     "ReferenceRun",
     "Response",
     "Scene",
@@ -41,6 +42,7 @@ __all__ = [
     "simulate_columns",
     "simulate_general",
     "simulate_many",
+    "simulate_many_general",
     "simulate_plane",
     "uniform_stiffness",
 ]
@@ -762,6 +764,53 @@ class Rack:
         """
 
 @final
+class RackColumns:
+    """
+    Racks and stops of a batch. The list of run i is the next `levels[i]` values of a flat array over the levels of its
+    racks, one rack after the other, or as many as it has blocks; a run that failed has none.
+    """
+    @property
+    def levels(self, /) -> NDArray[uint32]:
+        """
+        Number of rack levels of each run.
+        """
+    @property
+    def peak_base_shear(self, /) -> NDArray[float64]:
+        """
+        Peak base shear, the share of an elastic matrix included (N), of each run; NaN without a building.
+        """
+    @property
+    def peak_contact_force(self, /) -> NDArray[float64]:
+        """
+        Peak force of blocks on their stops (N), flat over runs and blocks.
+        """
+    @property
+    def peak_contact_velocity(self, /) -> NDArray[float64]:
+        """
+        Peak relative velocity at which blocks come to their stops (m/s), flat over runs and blocks.
+        """
+    @property
+    def peak_rack_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak absolute acceleration of rack levels (m/s2), flat over runs and levels.
+        """
+    @property
+    def peak_rack_drift(self, /) -> NDArray[float64]:
+        """
+        Peak drift of rack levels (m), flat over runs and levels.
+        """
+    @property
+    def peak_rack_shear(self, /) -> NDArray[float64]:
+        """
+        Peak spring force of rack levels (N), flat over runs and levels.
+        """
+    @property
+    def residual_rack_drift(self, /) -> NDArray[float64]:
+        """
+        Drift of rack levels at the end (m), flat over runs and levels.
+        """
+
+@final
 class ReferenceRun:
     """
     What a reference integrator gives back.
@@ -1136,6 +1185,18 @@ def simulate_many(
     """
     Solves `runs`, rows of (index of scene, index of motion); with `peaks_only` residuals may be NaN. `progress` is
     called with runs done and runs in all.
+    """
+
+def simulate_many_general(
+    scenes: SupportsGetItem[int, GeneralScene],
+    motions: SupportsGetItem[int, Motion],
+    runs: NDArray[int64],
+    *,
+    threads: SupportsIndex | None = None,
+    progress: Any | None = None,
+) -> tuple[Batch, RackColumns]:
+    """
+    Solves `runs`, rows of (index of scene, index of motion); `progress` is called with runs done and runs in all.
     """
 
 def simulate_plane(

@@ -4,6 +4,7 @@
 mod arrays;
 mod batch;
 mod errors;
+mod general_batch;
 mod general_response;
 mod general_run;
 mod general_scene;
@@ -49,6 +50,8 @@ mod _kernel {
 
     #[pymodule_export]
     use crate::batch::{Batch, Columns, simulate_columns, simulate_many};
+    #[pymodule_export]
+    use crate::general_batch::{RackColumns, simulate_many_general};
     #[pymodule_export]
     use crate::general_run::{GeneralResponse, simulate_general};
     #[pymodule_export]

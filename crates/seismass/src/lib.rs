@@ -98,11 +98,11 @@ mod threads;
 mod tolerances;
 mod units;
 
-pub use batch::{Run, simulate_each, simulate_many};
+pub use batch::{Run, simulate_each, simulate_general_each, simulate_many};
 pub use error::{Domain, Error, Result};
 pub use general::{
-    Axis, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, PlaneEnergy, PlaneEvent,
-    PlanePeaks, PlaneResponse, VectorPeaks, simulate_general, simulate_general_until, simulate_plane,
+    Axis, GeneralBase, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, PlaneEnergy,
+    PlaneEvent, PlanePeaks, PlaneResponse, VectorPeaks, simulate_general, simulate_general_until, simulate_plane,
     simulate_plane_until,
 };
 pub use lanes::InstructionSet;
@@ -113,7 +113,7 @@ pub use response::{
 pub use run::{simulate, simulate_until};
 pub use scene::{
     Block, Building, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion,
-    Options, PeakOriented, PlaneMotion, PlaneScene, Rack, Scene, SceneColumns, SpringLaw, Stops, Storey,
+    Options, PeakOriented, PlaneMotion, PlaneScene, Rack, Scene, SceneColumns, SlidingBase, SpringLaw, Stops, Storey,
     UniformBuilding, Wear,
 };
 pub use threads::Control;

@@ -1,4 +1,4 @@
-//! What must hold for every scene in two horizontal directions, and closed forms (`numerics`, sections 8 and 9.6).
+//! What must hold for every scene in two horizontal directions, and closed forms (`numerics`, sections 8 and 9.7).
 
 #![allow(clippy::unwrap_used)]
 

@@ -121,21 +121,28 @@ def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.D
     return pl.DataFrame(rows, schema_overrides=schema)
 
 
-def slip_table(building: OwnBuilding, runs: pl.DataFrame) -> pl.DataFrame:
-    """Return one row per friction and loaded floor.
+def slip_table(building: OwnBuilding, slips: pl.DataFrame) -> pl.DataFrame:
+    """Return one row per friction and kind of loose goods that is present.
+
+    Parameters
+    ----------
+    building : OwnBuilding
+        The building.
+    slips : polars.DataFrame
+        Of `solve_models`.
 
     Returns
     -------
     polars.DataFrame
-        model; friction ("as stated", "lower bound", "upper bound"); floor, name, contact, mu_s, mu_k; motions that
-        slide; mean, p16, median, p84 and max of the peak slip, and mean, median and p84 of the absolute residual slip
-        (m); collapsed, the number of runs, whose slips are those until then.
+        model; friction ("as stated", "lower bound", "upper bound"); floor, name, goods, contact, mu_s, mu_k; motions
+        that slide; mean, p16, median, p84 and max of the peak slip, and mean, median and p84 of the absolute residual
+        slip (m); collapsed, the number of runs, whose slips are those until then.
     """
     words = dict(zip(REALS, ("as stated", "lower bound", "upper bound"), strict=True))
     rows = []
     for model, factor in friction_factors(building).items():
-        for floor in np.flatnonzero(building.goods > 0.0) + 1:
-            of = runs.filter((pl.col("model") == model) & (pl.col("storey") == floor))
+        for number, kind in enumerate(building.loose):
+            of = slips.filter((pl.col("model") == model) & (pl.col("kind") == number))
             if of.height == 0:
                 continue
             peak, residual = of["peak_slip"].to_numpy(), np.abs(of["residual_slip"].to_numpy())
@@ -144,11 +151,12 @@ def slip_table(building: OwnBuilding, runs: pl.DataFrame) -> pl.DataFrame:
                 {
                     "model": model,
                     "friction": words[model],
-                    "floor": int(floor),
-                    "name": building.storey_names[floor - 1],
-                    "contact": building.friction[floor - 1],
-                    "mu_s": factor * float(building.mu_s[floor - 1]),
-                    "mu_k": factor * float(building.mu_k[floor - 1]),
+                    "floor": kind.floor,
+                    "name": building.storey_names[kind.floor - 1],
+                    "goods": kind.name,
+                    "contact": kind.contact,
+                    "mu_s": factor * kind.mu_s,
+                    "mu_k": factor * kind.mu_k,
                     "motions_that_slide": int((peak > 0.0).sum()),
                     **{f"peak_{name}": value for name, value in statistics_of(peak).items()},
                     **{f"residual_{name}": left[name] for name in ("mean", "median", "p84")},
@@ -157,7 +165,7 @@ def slip_table(building: OwnBuilding, runs: pl.DataFrame) -> pl.DataFrame:
             )
     numbers = [f"peak_{name}" for name in ("mean", *QUANTILES, "max")]
     numbers += [f"residual_{name}" for name in ("mean", "median", "p84")]
-    texts = ("model", "friction", "name", "contact")
+    texts = ("model", "friction", "name", "goods", "contact")
     schema: dict[str, Any] = {
         **dict.fromkeys(texts[:2], pl.String),
         "floor": pl.UInt32,

@@ -12,8 +12,9 @@ import polars as pl
 from seismass.base.errors import InvalidOption
 from seismass.base.files import write_table, written_whole
 from seismass.commands.command import Command
-from seismass.commands.options import add_json_option, add_out_option, check_files
+from seismass.commands.options import add_json_option, add_opensees_option, add_out_option, check_files
 from seismass.commands.terminal import show
+from seismass.runs.opensees_export import write_opensees
 from seismass.runs.plane_response import PlaneResponse
 from seismass.runs.response import Response
 from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
@@ -30,9 +31,10 @@ def options(parser: argparse.ArgumentParser) -> None:
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("scene", type=Path, nargs="?", metavar="SCENE", help="scene file, .toml or .json")
     what.add_argument("--example", action="store_true", help="print a scene file to start from, and stop")
-    histories = "write time, drift of every storey and slip of every block at every sample (.parquet or .csv)"
+    histories = "write time, drift of storeys and rack levels, slip of blocks at every sample (.parquet or .csv)"
     add_out_option(parser, "FILE", histories)
     add_json_option(parser)
+    add_opensees_option(parser, "the scene")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -47,6 +49,8 @@ def run(args: argparse.Namespace) -> int:
     file = read_scene(args.scene)
     if file.other_motion is not None:
         return _run_plane(args, file)
+    if args.opensees is not None:
+        write_opensees(args.opensees, {"scene": file.scene}, [file.motion])
     response = simulate(file.scene, file.motion, histories=args.out is not None, displacements_only=True, energy=True)
     if args.out is not None:
         _write_histories(response, args.out)
@@ -73,7 +77,10 @@ def _run_plane(args: argparse.Namespace, file: SceneFile) -> int:
 
 def _write_histories(response: Response | PlaneResponse, path: Path) -> None:
     columns: dict[str, Any] = {"time": response.time}
-    for name, history in (("drift", response.drift), ("slip", response.slip)):
+    histories = {"drift": response.drift, "slip": response.slip}
+    if isinstance(response, Response):
+        histories |= {f"rack_{number}_drift": drift for number, drift in enumerate(response.rack_drift, start=1)}
+    for name, history in histories.items():
         for number in range(1, history.shape[1] + 1):
             values = history[:, number - 1]
             axes = {"": values} if values.ndim == 1 else {"_x": values[:, 0], "_y": values[:, 1]}
@@ -95,6 +102,7 @@ run --example > scene.toml
 run scene.toml
 run scene.json --json > response.json
 run scene.toml --out response.parquet
+run scene.toml --opensees model
 """,
     options=options,
     run=run,

@@ -18,6 +18,7 @@ from seismass.animation.shown import FACTORS
 from seismass.effective_mass.curve import bootstrap_counts
 from seismass.explore.chart import BINS, CASES
 from seismass.explore.compiled import kernel_file
+from seismass.explore.still import still_answer
 from seismass.media.page import page_html, templates
 from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
 from seismass.records.builtin import builtin_suite
@@ -27,8 +28,8 @@ from seismass.spectra import TargetSpectrum, corner_period, mean_spectrum
 
 RESAMPLES: Final = 2000
 """Bootstrap resamples: the default of `effective_mass`, and with its seed the same draws."""
-CODES: Final = ("asce7-10", "nbc", "ec8")
-"""Codes whose share for storage the page offers by name."""
+CODES: Final = {"asce7-10": "ASCE 7-10", "nbc": "NBC", "ec8": "EC 8"}
+"""Codes whose share for storage the page offers by name, and their short names."""
 ASSUMPTIONS: Final = (
     "Shear buildings of equal floor masses and storey stiffnesses, motion in one direction, no P-Delta.",
     "Trilinear springs with Masing unloading; the second yield is at the overstrength times the first, and the slope "
@@ -95,6 +96,7 @@ def explorer_html(kernel: Path | None = None) -> str:
             records=[(record.name, f"{record.name}, {record.duration:g} s") for record in suite],
             codes=_codes(),
             codes_legend=f"{MARK} {NOT_CHECKED}",
+            still=still_answer(),
             chart={"cases": f"{CASES}"},
             assumptions=ASSUMPTIONS,
             given=Markup(json.dumps(_given(), separators=(",", ":")).replace("<", "\\u003c")),
@@ -124,10 +126,16 @@ def _codes() -> list[tuple[float, str]]:
     return [(0.0, "none: 0"), *named, (1.0, "all: 1")]
 
 
+def _named_codes() -> list[tuple[str, float]]:
+    """Codes, each with the mark of those that were not checked, and their fractions for storage."""
+    rows = ((name, code_fraction(code, "storage")) for code, name in CODES.items())
+    return [(f"{name}{row.mark}", row.fraction) for name, row in rows]
+
+
 def _given() -> dict[str, Any]:
     """What the script of the page is given beside the kernel."""
     suite = builtin_suite("seven")
-    factors = scale_asce7_10(suite, TargetSpectrum.asce7()).factors
+    factors = scale_asce7_10(suite, TargetSpectrum.asce7(), between=False).factors
     files = []
     for record, factor in zip(suite, factors.tolist(), strict=True):
         if record.source is None:
@@ -136,6 +144,7 @@ def _given() -> dict[str, Any]:
     counts = bootstrap_counts(np.arange(len(suite)), RESAMPLES, seed=0)
     return {
         "version": _kernel.VERSION,
+        "codes": _named_codes(),
         "suite": [record.name for record in suite],
         "records": _packed(json.dumps(files).encode()),
         "resamples": counts.astype(int).tolist(),

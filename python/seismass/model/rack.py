@@ -314,10 +314,27 @@ class Rack(Value):
             blocks=goods,
         )
 
+    def masses(self, building: Building | None) -> list[float]:
+        """Return the masses of its goods in their order (kg), where the rack stands on a floor of a building."""
+        floor_mass = self._floor_mass(building)
+        return [_mass(block, floor_mass) for block in self.blocks]
+
     def sliding_masses(self, building: Building | None) -> list[float]:
         """Return the masses of the blocks that may slide (kg), where the rack stands on a floor of a building."""
-        floor_mass = float(building.mass[self.floor - 1]) if building is not None and self.floor else np.nan
+        floor_mass = self._floor_mass(building)
         return [_mass(block, floor_mass) for block in self.blocks if not block.fixed]
+
+    def goods_mass(self, building: Building | None) -> float:
+        """Return the mass of all its goods, fixed ones too (kg), where it stands on a floor of a building."""
+        floor_mass = self._floor_mass(building)
+        return sum(_mass(block, floor_mass) for block in self.blocks)
+
+    def frame_mass(self, building: Building | None) -> float:
+        """Return the mass of its frame (kg), where it stands on a floor of a building."""
+        return float(self._frame(self._floor_mass(building)).sum())
+
+    def _floor_mass(self, building: Building | None) -> float:
+        return float(building.mass[self.floor - 1]) if building is not None and self.floor else np.nan
 
     def _frame(self, floor_mass: float) -> FloatArray:
         """Mass of the frame at each level (kg), a new array."""

@@ -16,6 +16,7 @@ from seismass.model.block import Block, block_mass
 from seismass.model.building import Building
 from seismass.model.plausibility import model_remarks
 from seismass.model.rack import Rack
+from seismass.model.sliding_base import SlidingBase
 
 _ChainScene: TypeAlias = _kernel.Scene
 _GeneralScene: TypeAlias = _kernel.GeneralScene
@@ -36,6 +37,9 @@ class Scene(Value):
     other_direction : Building or True, optional
         There are two horizontal directions: the building in y, of the same masses; True: the same building, or the
         ground alone. Friction is of the circle. Blocks, racks and initial states may then differ in y.
+    base : SlidingBase, optional
+        A slab that carries all of it and slides on the ground; floor 0 is the slab then. None: all stands on the
+        ground.
     initial_drift : array_like, optional
         Storey drifts at the start (m), within the elastic range. It and the next two need a building.
     initial_velocity : array_like, optional
@@ -47,7 +51,7 @@ class Scene(Value):
 
     Attributes
     ----------
-    building, blocks, racks, other_direction, initial_drift, initial_velocity, collapse_drift, name, note
+    building, blocks, racks, base, other_direction, initial_drift, initial_velocity, collapse_drift, name, note
         As given; `blocks` and `racks` are tuples, arrays are read-only.
 
     Raises
@@ -68,6 +72,7 @@ class Scene(Value):
         "_chain",
         "_general",
         "_plane",
+        "base",
         "blocks",
         "building",
         "collapse_drift",
@@ -84,6 +89,7 @@ class Scene(Value):
     building: Building | None
     blocks: tuple[Block, ...]
     racks: tuple[Rack, ...]
+    base: SlidingBase | None
     other_direction: Building | bool
     initial_drift: FloatArray | None
     initial_velocity: FloatArray | None
@@ -97,6 +103,7 @@ class Scene(Value):
         blocks: Iterable[Block] = (),
         *,
         racks: Iterable[Rack] = (),
+        base: SlidingBase | None = None,
         other_direction: Building | bool = False,
         initial_drift: ArrayLike | None = None,
         initial_velocity: ArrayLike | None = None,
@@ -116,6 +123,10 @@ class Scene(Value):
 
         standing = _racks(racks)
         other = _other_direction(other_direction, building)
+        if base is not None and not isinstance(base, SlidingBase):
+            raise refusal(InvalidScene, "base", "scene", "a SlidingBase or None", brief(base))
+        if base is not None and other is not False:
+            raise refusal(InvalidScene, "base", "scene", "left out where there are two directions", brief(base))
 
         def per_storey(name: str, value: ArrayLike | None, *, pairs: bool = False) -> FloatArray | None:
             if value is None:
@@ -131,6 +142,7 @@ class Scene(Value):
             building=building,
             blocks=placed,
             racks=standing,
+            base=base,
             other_direction=other,
             initial_drift=per_storey("initial_drift", initial_drift, pairs=True),
             initial_velocity=per_storey("initial_velocity", initial_velocity, pairs=True),
@@ -164,12 +176,13 @@ class Scene(Value):
             for number, block in enumerate(self.blocks, start=1)
         ]
         racks = [rack.of_kernel(number, self.building) for number, rack in enumerate(self.racks, start=1)]
+        sliding = None if self.base is None else self.base.of_kernel(self.building)
         state: dict[str, Any] = {
             "initial_drift": self.initial_drift,
             "initial_velocity": self.initial_velocity,
             "collapse_drift": self.collapse_drift,
         }
-        return _kernel.GeneralScene(kernel, goods, racks, **state)
+        return _kernel.GeneralScene(kernel, goods, racks, base=sliding, **state)
 
     def _directions(self) -> tuple[Scene, Scene]:
         """The scene in x and in y, each in one direction."""
@@ -212,8 +225,8 @@ class Scene(Value):
 
     @property
     def engine(self) -> Literal["chain", "general", "plane"]:
-        """Which engine solves it: "chain" for shear buildings; "general" with racks, stops or a stiffness matrix;
-        "plane" in two directions.
+        """Which engine solves it: "chain" for shear buildings; "general" with racks, stops, a matrix or a
+        base; "plane" in two directions.
         """
         if self.other_direction is not False:
             return "plane"
@@ -225,6 +238,8 @@ class Scene(Value):
             return "other_direction", "scene", "two directions"
         if self.building is not None and self.building.stiffness_matrix is not None:
             return "stiffness_matrix", "building", "a matrix"
+        if self.base is not None:
+            return "base", "scene", repr(self.base)
         if self.racks:
             return "racks", "scene", f"{len(self.racks)}"
         stopped = [number for number, block in enumerate(self.blocks, start=1) if block.stops is not None]
@@ -241,12 +256,32 @@ class Scene(Value):
         Raises
         ------
         InvalidScene
-            It has racks, stops or a stiffness matrix.
+            It has racks, stops, a stiffness matrix or a sliding base.
         """
         beyond = self._beyond_chain()
         if beyond is not None:
             parameter, of, value = beyond
             raise refusal(InvalidScene, parameter, of, f"left out in {owner}; simulate takes it", value)
+        return self
+
+    def on_ground(self, owner: str) -> Scene:
+        """Return the scene itself, for what takes scenes in one direction that stand on the ground alone.
+
+        Parameters
+        ----------
+        owner : str
+            What takes it, as errors name it.
+
+        Raises
+        ------
+        InvalidScene
+            It has a sliding base, or two directions.
+        """
+        if self.other_direction is not False:
+            requirement = f"left out in {owner}; simulate takes it"
+            raise refusal(InvalidScene, "other_direction", "scene", requirement, "two directions")
+        if self.base is not None:
+            raise refusal(InvalidScene, "base", "scene", f"left out in {owner}; simulate takes it", repr(self.base))
         return self
 
     @property
@@ -275,6 +310,12 @@ class Scene(Value):
         return (*self.blocks, *of_racks)
 
     @property
+    def goods_floor(self) -> tuple[int, ...]:
+        """Floor under each of `goods`, for those of a rack the floor that it stands on; 0 is the ground."""
+        of_racks = (rack.floor for rack in self.racks for block in rack.blocks if not block.fixed)
+        return (*self.block_floor, *of_racks)
+
+    @property
     def block_floor(self) -> tuple[int, ...]:
         """Floor of each block; 0 is the ground."""
         return tuple(block.floor for block in self.blocks)
@@ -298,6 +339,7 @@ class Scene(Value):
             "building": self.building,
             "blocks": self.blocks,
             "racks": self.racks,
+            "base": self.base,
             "other_direction": self.other_direction,
             "initial_drift": self.initial_drift,
             "initial_velocity": self.initial_velocity,
@@ -312,6 +354,7 @@ class Scene(Value):
             self.building,
             self.blocks,
             self.racks,
+            self.base,
             self.other_direction,
             *(None if array is None else (array + 0.0).tobytes() for array in arrays),
         )
@@ -325,8 +368,9 @@ class Scene(Value):
         blocks = {0: "no block", 1: "1 block"}.get(len(self.blocks), f"{len(self.blocks)} blocks")
         racks = {0: "", 1: ", 1 rack"}.get(len(self.racks), f", {len(self.racks)} racks")
         racks += ", two directions" if self.other_direction is not False else ""
+        racks += "" if self.base is None else ", sliding base"
         if self.building is None:
-            return f"Scene({name}ground only, {blocks}{racks})"
+            return f"Scene({name}{'ground' if self.base is None else 'slab'} only, {blocks}{racks})"
         noun = "storey" if self.storeys == 1 else "storeys"
         return f"Scene({name}{self.storeys} {noun}, T1 = {self.building.periods[0]:.4g} s, {blocks}{racks})"
 

@@ -5,6 +5,7 @@ from .grid.axes import GridAxis
 from .grid.design import StrengthDesign
 from .grid.grid import Grid
 from .long_table import long_table
+from .opensees_export import write_opensees
 from .plane_response import PlaneResponse
 from .response import Response
 from .scene_file import SceneFile, read_scene
@@ -27,4 +28,5 @@ __all__ = [
     "spring_forces",
     "stream_many",
     "write_many",
+    "write_opensees",
 ]

@@ -11,6 +11,7 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidScene, InvalidSceneFile
+from seismass.base.input_kinds import SCENE_FILE, refuse_other_kind
 from seismass.base.input_table import FINITE, POSITIVE, Table, load_table
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
@@ -23,7 +24,8 @@ from seismass.model.spring_laws import is_per_storey
 from seismass.model.springs import SPRING_FIELDS
 from seismass.records import Record, builtin_record, read_record
 from seismass.records.builtin import builtin_names, data_directory
-from seismass.runs.scene_goods import GOODS_KEYS, read_block, read_rack
+from seismass.runs.scene_goods import GOODS_KEYS, read_base, read_block, read_rack
+from seismass.runs.scene_walls import WALL_KEYS, check_walls, matrix_of_walls, with_walls
 from seismass.runs.simulate import motions_in_plane
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
@@ -33,9 +35,11 @@ KEYS: Final = {
         "name",
         "note",
         "building",
+        "walls",
         "blocks",
         "racks",
         "other_direction",
+        "base",
         "motion",
         "other_motion",
         "vertical_motion",
@@ -57,6 +61,7 @@ KEYS: Final = {
         "stiffness_matrix",
     ),
     "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
+    "walls": WALL_KEYS,
     **GOODS_KEYS,
     "motion": ("file", "builtin", "acceleration", "dt", "unit", "scale", "dt_scale"),
     "initial": ("drift", "velocity"),
@@ -151,6 +156,7 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     """
     source = as_path(path, "scene file", InvalidSceneFile)
     top = load_table(source, "scene file", InvalidSceneFile)
+    refuse_other_kind(top, SCENE_FILE)
     top.known(KEYS[""])
     top.needed("motion")
     scene = _scene(top)
@@ -181,13 +187,17 @@ def scene_without_motion(path: str | os.PathLike[str]) -> Scene:
         As for `read_scene`.
     """
     top = load_table(as_path(path, "scene file", InvalidSceneFile), "scene file", InvalidSceneFile)
+    refuse_other_kind(top, SCENE_FILE)
     top.known(KEYS[""])
     return _scene(top)
 
 
 def _scene(top: Table) -> Scene:
     """Building, blocks and initial state of a file."""
-    building = building_of_table(top.table("building")) if "building" in top.values else None
+    walls = top.table("walls") if "walls" in top.values else None
+    building = building_of_table(top.table("building"), walls) if "building" in top.values else None
+    if building is None and walls is not None:
+        top.refuse("walls", "left out where there is no building", "a table")
     initial = top.table("initial") if "initial" in top.values else None
     if initial is not None:
         initial.known(KEYS["initial"])
@@ -206,6 +216,7 @@ def _scene(top: Table) -> Scene:
         other_direction=_other_direction(top, building),
         initial_drift=state("drift"),
         initial_velocity=state("velocity"),
+        base=read_base(top.table("base")) if "base" in top.values else None,
         collapse_drift=top.values.get("collapse_drift"),
         name=top.text("name"),
         note=top.text("note"),
@@ -239,8 +250,8 @@ def _other_direction(top: Table, building: Building | None) -> Building | bool:
     return building_of_table(Table(merged, "other_direction", top.file, InvalidSceneFile))
 
 
-def building_of_table(table: Table) -> Building:
-    """Return the building of a table with the keys that a scene file has for one.
+def building_of_table(table: Table, walls: Table | None = None) -> Building:
+    """Return the building of a table with the keys that a scene file has for one, with the walls of another table.
 
     Raises
     ------
@@ -262,6 +273,8 @@ def building_of_table(table: Table) -> Building:
         springs["damping"] = _damping(table)
     over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
     springs |= table.given("backbone", "hysteresis", "stiffness_matrix")
+    if walls is not None:
+        check_walls(walls, table)
     if isinstance(springs.get("backbone"), list):  # TOML has no null
         springs["backbone"] = [None if points == [] else points for points in springs["backbone"]]
     if "period" in table.values:
@@ -271,22 +284,27 @@ def building_of_table(table: Table) -> Building:
         table.needed("storeys")
         if isinstance(table.values.get("mass"), list):
             table.refuse("mass", f"one number where {table.key('period')} is given", brief(table.values["mass"]))
-        return Building.uniform(
+        building = Building.uniform(
             table.values["storeys"],
             table.values["period"],
             **table.given("mass"),
             yield_shear_over_weight=over_weight,
             **springs,
         )
+        return building if walls is None else with_walls(building, walls, scaled=True)
     table.needed("stiffness", "period", "backbone")
     table.needed("mass")
     mass, stiffness = table.values["mass"], table.values.get("stiffness")
     count = _storeys(table, over_weight, springs)
     if count is not None:
         mass = np.full(count, as_number(mass, "mass", "building", InvalidScene))
-    if over_weight is None:
-        return Building(mass, stiffness, **springs)
+    if walls is not None:
+        springs |= {"stiffness_matrix": matrix_of_walls(walls, table)}
     building = Building(mass, stiffness, **springs)
+    if walls is not None and building.stiffness_matrix is None:
+        building = with_walls(building, walls, scaled=False)
+    if over_weight is None:
+        return building
     return building.replace(yield_shear=as_fraction_of_weight(over_weight, building.storeys) * building.weight)
 
 

@@ -1,4 +1,4 @@
-"""Blocks, their stops and racks of a scene file: tables as values of `Block`, `Stops` and `Rack`."""
+"""Blocks, stops, racks and base of a scene file: tables as values of `Block`, `Stops`, `Rack`, `SlidingBase`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from seismass.base.input_table import Table
 from seismass.base.values import as_count, as_number, brief, refusal
 from seismass.model.block import Block
 from seismass.model.rack import Rack, RackBlock
+from seismass.model.sliding_base import SlidingBase
 from seismass.model.springs import SHAPE_FIELDS, SPRING_FIELDS
 from seismass.model.stops import Stops
 
@@ -35,8 +36,9 @@ GOODS_KEYS: Final = {
         "other_direction",
     ),
     "racks.blocks": ("level", *_FRICTION, "fixed"),
+    "base": ("mu", "mu_s", "mu_k", "radius", "mass", "mass_ratio"),
 }
-"""Keys of the tables of goods and racks; stops of racks' blocks have those of `blocks.stops`."""
+"""Keys of the tables of goods, racks and base; stops of racks' blocks have those of `blocks.stops`."""
 
 
 def read_block(table: Table, number: int) -> Block:
@@ -76,6 +78,18 @@ def _stops(table: Table) -> Stops:
     table.needed("clearance")
     table.needed("stiffness")
     return Stops(**{key: table.values[key] for key in GOODS_KEYS["blocks.stops"] if key in table.values})
+
+
+def read_base(table: Table) -> SlidingBase:
+    """Return the sliding base of a scene file."""
+    keys = GOODS_KEYS["base"]
+    table.known(keys)
+    table.needed("mu", "mu_s")
+    table.excluded("mu", "mu_s", "mu_k")
+    table.excluded("mass_ratio", "mass")
+    return SlidingBase(
+        **{key: as_number(table.values[key], key, "base", InvalidScene) for key in keys if key in table.values}
+    )
 
 
 def read_rack(table: Table, number: int) -> Rack:

@@ -126,6 +126,7 @@ def slip_demand(
     given: Any = motions
     if not isinstance(motions, Motion | HasMotion) and isinstance(motions, Iterable):
         given = list(motions)
+    scene.on_ground("slip_demand")
     named = named_motions(given, OWNER)
     count = len(scene.blocks)
     measured, limits = as_sizes(sizes, count), as_clearances(clearance, count)

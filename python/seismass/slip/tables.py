@@ -13,6 +13,7 @@ from seismass.base.quantiles import QUANTILES, interval_of, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.runs import NamedMotions
+from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.slip.clearance import Clearance
 from seismass.slip.estimates import log_ratio
@@ -241,7 +242,9 @@ def demand_remarks(
     fragilities: bool,
 ) -> tuple[str, ...]:
     """Return assumptions, and what a user must know beside the numbers."""
-    remarks = ["goods are rigid, slide in one direction and meet no obstacle: slip beyond a clearance is notional"]
+    given = (side for each in clearances if each is not None for side in (each.plus, each.minus) if side is not None)
+    remarks = usage_remarks(scene.remarks, motions.motions, (("clearance", side) for side in given))
+    remarks += ["goods are rigid, slide in one direction and meet no obstacle: slip beyond a clearance is notional"]
     if not (runs.peak > 0.0).any() and not runs.collapsed.any():
         remarks.append("stuck: no block slides under any motion")
     for row in squat.filter(pl.col("rocks_first")).iter_rows(named=True):

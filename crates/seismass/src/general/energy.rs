@@ -5,6 +5,7 @@ use crate::general::series::{Quantity, Series};
 use crate::general::state::GeneralState;
 use crate::lanes::Plain;
 use crate::polynomial::quadrature::GAUSS;
+use crate::units::STANDARD_GRAVITY;
 
 /// Running energy integrals.
 #[derive(Default)]
@@ -38,6 +39,12 @@ impl Balance {
                 }
             }
             let nodes = state.node_velocities(&rates);
+            if let Some(base) = &system.base {
+                let contact = state.contact_at(tau);
+                self.energy.friction += weight * state.base_friction() * base.carried * contact * rates[0];
+                let slip = series.values(Quantity::Drift, s)[0];
+                self.energy.input -= weight * base.restoring * (contact - STANDARD_GRAVITY) * slip * rates[0];
+            }
             let mut momentum: f64 = system.mass.iter().zip(&nodes).map(|(m, v)| m * v).sum();
             momentum += system.blocks.iter().map(|law| law.mass * nodes[law.floor]).sum::<f64>();
             for ((velocity, friction), &j) in blocks.iter().zip(&state.moving) {
@@ -94,5 +101,7 @@ fn elastic(state: &GeneralState) -> f64 {
         0.5 * part.elastic.chunks_exact(part.count).zip(&drifts).map(|(column, d)| of_column(column) * d).sum::<f64>()
     });
     let of_stops = state.stops.iter().zip(&system.stops).map(|(stop, stops)| stop.stored(stops.as_ref()));
-    of_springs + of_matrix.sum::<f64>() + of_stops.sum::<f64>()
+    let of_base =
+        system.base.as_ref().map_or(0.0, |base| 0.5 * base.restoring * STANDARD_GRAVITY * state.x[0] * state.x[0]);
+    of_springs + of_base + of_matrix.sum::<f64>() + of_stops.sum::<f64>()
 }

@@ -25,6 +25,10 @@ pub(super) enum Guard {
     Breakaway { node: usize, sign: Sign },
     /// A block stuck at its stop breaks away, with this sign of what drives it back.
     BreakawayAtStop { block: usize, sign: Sign },
+    /// The base breaks away, with this sign of the force that holds it.
+    BaseBreakaway { sign: Sign },
+    /// The sliding base comes to rest.
+    BaseArrival,
     /// A sliding block comes to rest.
     Arrival { block: usize },
     /// The friction coefficients of a sliding block change.
@@ -66,13 +70,14 @@ impl<'a, 'b> Search<'a, 'b> {
     pub(super) fn first(state: &'b GeneralState<'a>, series: &'b Series) -> (Option<(f64, Guard)>, usize) {
         let mut search = Self::new(state, series);
         search.springs();
-        if !state.motions.is_empty() {
+        if state.base.is_some() || !state.motions.is_empty() {
             if state.vertical || state.airborne {
                 search.contact();
             }
             if !state.airborne {
                 search.breakaways();
             }
+            search.base();
             search.moving_blocks();
             search.lift_before_breakaway();
         }
@@ -154,7 +159,8 @@ impl<'a, 'b> Search<'a, 'b> {
     /// A block whose node's acceleration is below rounding lifts off stuck.
     fn lift_before_breakaway(&mut self) {
         if self.state.vertical
-            && let Some((place, Guard::Breakaway { .. } | Guard::BreakawayAtStop { .. })) = self.first
+            && let Some((place, guard)) = self.first
+            && matches!(guard, Guard::Breakaway { .. } | Guard::BreakawayAtStop { .. } | Guard::BaseBreakaway { .. })
             && let Some(lift) = self.contact_polynomial().first_fall::<Plain>(NO_CONTACT)
             && self.state.interval.contact_at(self.series.tau + place * self.series.h) <= NO_CONTACT
         {

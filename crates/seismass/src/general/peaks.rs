@@ -8,7 +8,7 @@ use crate::machines::block::BlockState;
 use crate::polynomial::power::Polynomial;
 use crate::response::Peak;
 
-/// Peaks so far. Lists by node have an entry for the ground.
+/// Peaks so far. Lists by node have an entry for the ground, or for the slab of a sliding base.
 pub(super) struct Observer {
     drift: Vec<Peak>,
     shear: Vec<Peak>,
@@ -17,6 +17,8 @@ pub(super) struct Observer {
     slip: Vec<Peak>,
     contact_force: Vec<Peak>,
     contact_velocity: Vec<Peak>,
+    /// The first node that moves: the slab of a sliding base, or floor 1.
+    first: usize,
 }
 
 /// Places in (0, `end`) where a polynomial changes sign.
@@ -37,7 +39,13 @@ impl Observer {
             slip: none(goods),
             contact_force: none(goods),
             contact_velocity: none(goods),
+            first: usize::from(state.base.is_none()),
         }
+    }
+
+    /// Peaks of slip and acceleration of the slab.
+    pub(super) fn of_base(&self) -> (Peak, Peak) {
+        (self.drift[0], self.acceleration[0])
     }
 
     pub(super) fn finish(self) -> GeneralPeaks {
@@ -59,6 +67,7 @@ impl Observer {
             self.drift[p].take(state.drift(p), time);
             self.shear[p].take(state.spring_force(p), time);
         }
+        self.drift[0].take(state.x[0], time);
         self.base_shear.take(base_shear(state, &state.x), time);
         for (j, motion) in state.motions.iter().enumerate() {
             self.slip[j].take(motion.slip, time);
@@ -68,7 +77,7 @@ impl Observer {
 
     /// Takes accelerations of all nodes, that of the ground first.
     pub(super) fn take_accelerations(&mut self, accelerations: &[f64], time: f64) {
-        for (peak, &a) in self.acceleration.iter_mut().zip(accelerations).skip(1) {
+        for (peak, &a) in self.acceleration.iter_mut().zip(accelerations).skip(self.first) {
             peak.take(a, time);
         }
     }
@@ -96,6 +105,16 @@ impl Observer {
                     self.shear[p].take(state.springs[p - 1].segment().force(x), time(s));
                 }
             }
+        }
+        if state.base.is_some_and(|motion| motion.state == BlockState::Airborne) {
+            isolated += 1;
+            let (rate, _) = series.polynomial(Quantity::Rate, 0, 1.0, 0.0);
+            let (slip, _) = series.polynomial(Quantity::Drift, 0, 1.0, 0.0);
+            for s in turns(&rate, end) {
+                self.drift[0].take(slip.at::<Plain>(s), time(s));
+            }
+        }
+        for p in self.first..=state.system.nodes {
             let (low, high) = series.range(Quantity::Acceleration, p);
             if low.abs().max(high.abs()) > self.acceleration[p].value {
                 isolated += 1;

@@ -1,6 +1,7 @@
 //! The Taylor series of the solution over a step: dense output of all that guards and peaks are formed of
 //! (`numerics`, sections 4.3 and 9.2).
 
+use crate::general::base_law::Base;
 use crate::general::state::GeneralState;
 use crate::lanes::Plain;
 use crate::polynomial::orders::{INVERSE, terms};
@@ -35,6 +36,8 @@ pub(super) struct Series {
     pub(super) drift_change: Vec<f64>,
     /// Of the blocks that move, in their order.
     pub(super) blocks: Vec<BlockSeries>,
+    /// Force of the ground that holds a stuck slab (N).
+    pub(super) holding: [f64; MAX_DEGREE + 1],
     shear: Vec<f64>,
 }
 
@@ -121,12 +124,25 @@ impl Series {
             force[p] = (force[p] - shear) * state.regime.inverse_mass[p];
             force[system.parent[p]] += shear;
         }
-        force[0] = match k {
+        let ground = match k {
             0 => state.interval.ground_at(self.tau),
             1 => state.interval.ground_slope * h,
             _ => 0.0,
         };
         let (of_rate, of_drift) = (h * INVERSE[k + 1], h * INVERSE[k + 2]);
+        let mut of_slab = ground;
+        if let Some(base) = &system.base {
+            let pushed = force[0] - base_term(state, base, &self.drift, (width, self.tau, h), k);
+            if state.base_moves() {
+                of_slab = pushed * state.regime.inverse_mass[0];
+                self.rate[row + width] = of_rate * (of_slab - ground);
+                self.drift[row + 2 * width] = of_drift * self.rate[row + width];
+            } else {
+                self.holding[k] = state.regime.slab_mass * ground - pushed;
+                (self.rate[row + width], self.drift[row + 2 * width]) = (0.0, 0.0);
+            }
+        }
+        force[0] = of_slab;
         let rates = &mut self.rate[row + width..row + 2 * width];
         let drifts = &mut self.drift[row + 2 * width..row + 3 * width];
         for p in 1..width {
@@ -141,6 +157,14 @@ impl Series {
             block.velocity[k + 1] = velocity;
             block.slip[k + 2] = of_drift * velocity;
         }
+    }
+
+    /// The force that holds a stuck slab, as a polynomial with this factor and constant, and the size of its terms.
+    pub(super) fn holding_polynomial(&self, factor: f64, constant: f64) -> (Polynomial, f64) {
+        let mut polynomial = Polynomial::new(self.holding[..=self.order].iter().map(|c| factor * c));
+        let size = polynomial.coefficients().iter().map(|c| c.abs()).sum();
+        polynomial.coefficients[0] += constant;
+        (polynomial, size)
     }
 
     /// Term of order k of the force of its stop on a block (N).
@@ -260,4 +284,20 @@ impl Series {
         let sum = |terms: &[f64]| terms.iter().skip(1).rev().fold(0.0, |sum, term| (sum + term) * s);
         (sum(&block.velocity[..=self.order + 1]), sum(&block.slip[..=self.order + 2]))
     }
+}
+
+/// Term of order k of the restoring force and friction against the slab of a sliding base (N). The contact force is linear in
+/// time, so the restoring force has products of two terms.
+fn base_term(state: &GeneralState, base: &Base, drift: &[f64], (width, tau, h): (usize, f64, f64), k: usize) -> f64 {
+    if state.airborne {
+        return 0.0;
+    }
+    let (contact, change) = (state.interval.contact_at(tau), state.interval.contact_slope * h);
+    let before = if k > 0 { change * drift[(k - 1) * width] } else { 0.0 };
+    let friction = match k {
+        0 => contact,
+        1 => change,
+        _ => 0.0,
+    };
+    base.restoring * (contact * drift[k * width] + before) + state.base_friction() * base.carried * friction
 }

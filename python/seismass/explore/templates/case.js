@@ -20,6 +20,7 @@ const LISTS = ["strength", "massRatio", "muS", "muK"];
 // Kinds of events, in the order of the kernel.
 const EVENT_NAMES = ["yield", "unload", "reload", "close", "open", "slip", "stick", "reverse", "touch", "lift", "land", "wear"];
 const STRENGTHS = ["design", "hand", "elastic"];
+const BESIDE = ["code", "full", "none"];
 
 // Goods as heavy as the floors on floors 1 and 2, a bare roof, strengths by design: where lambda is not at an end.
 function defaultCase() {
@@ -27,12 +28,12 @@ function defaultCase() {
     storeys: 3, period: 0.47, damping: 0.05, overstrength: 2, secondSlope: 0.05, height: 3.5,
     by: "design", R: 4, strength: [0.34, 0.27, 0.13, 0.1],
     massRatio: [1, 1, 0, 0], muS: [0.2, 0.2, 0.2, 0.2], muK: [0.2, 0.2, 0.2, 0.2],
-    record: "synthetic-1", intensity: 1, counted: 0.25,
+    record: "synthetic-1", intensity: 1, counted: 0.25, beside: "code",
   };
 }
 
 function addressOf(state) {
-  const parts = ["v=1", `by=${state.by}`, `m=${encodeURIComponent(state.record)}`];
+  const parts = ["v=1", `by=${state.by}`, `m=${encodeURIComponent(state.record)}`, `d=${state.beside}`];
   for (const [key, [, , letters]] of Object.entries(LIMITS)) {
     const value = LISTS.includes(key) ? state[key].slice(0, state.storeys).join(",") : state[key];
     parts.push(`${letters}=${value}`);
@@ -56,13 +57,23 @@ function caseOf(address) {
     if (!fits || !counts || (key === "storeys" && !Number.isInteger(numbers[0]))) {
       remarks.push(`${words} in the address must be from ${low} to ${high}; got ${written.join(",").slice(0, 40)}`);
     } else if (isList) {
-      numbers.forEach((number, i) => (state[key][i] = number));
+      // One number of friction stands for all floors.
+      const isForAll = numbers.length === 1 && (key === "muS" || key === "muK");
+      if (isForAll) state[key].fill(numbers[0]);
+      else numbers.forEach((number, i) => (state[key][i] = number));
     } else {
       [state[key]] = numbers;
     }
   }
   if (STRENGTHS.includes(said.get("by"))) state.by = said.get("by");
-  if (said.has("m")) state.record = decodeURIComponent(said.get("m")).slice(0, 200);
+  if (BESIDE.includes(said.get("d"))) state.beside = said.get("d");
+  if (said.has("m")) {
+    try {
+      state.record = decodeURIComponent(said.get("m")).slice(0, 200);
+    } catch {
+      remarks.push(`the record in the address cannot be read: ${said.get("m").slice(0, 40)}`);
+    }
+  }
   state.muK = state.muK.map((mu, i) => Math.min(mu, state.muS[i]));
   return { state, remarks };
 }

@@ -1,12 +1,15 @@
 "use strict";
 (() => {
   const root = document.currentScript.parentElement;
+  root.classList.add("live");
   const one = (selector) => root.querySelector(selector);
   const all = (selector) => Array.from(root.querySelectorAll(selector));
   const given = JSON.parse(one("script.given").textContent);
   const player = one("figure.animation");
   const dark = matchMedia("(prefers-color-scheme: dark)");
   const PAUSE = 150; // ms without a change before the effective fraction is sought, and the address and the words follow
+  const TYPED = 700; // ms without a key stroke after which a typed number counts; Enter and leaving the field count at once
+  const STEP = 1000; // ms between two cases that Back and Undo return to
   const SHARES = 101;
 
   let kernel = null;
@@ -17,6 +20,11 @@
   let solved = null; // what is shown of the motion
   let found = null; // what is known of the effective fraction
   let number = 0; // of the case that the worker seeks
+  let goods = new Set(); // floors that carry goods, as the slider of the goods has them
+  let kinetic = []; // mu_k/mu_s of each floor, which stays while mu_s is moved
+  let story = ""; // the address of the story that is told
+  const past = []; // addresses of the cases before, for Undo
+  let stepped = -Infinity; // when the last of them was kept
   let inKernel = ""; // the motion that the kernel holds
 
   // ---- what the page carries --------------------------------------------------------------------------------------
@@ -43,8 +51,10 @@
   const suite = () => given.suite.map((name) => records.get(name));
   const scaledBy = ({ samples }, scale) => samples.map((sample) => sample * scale);
   const suiteAt = (intensity) => suite().map((record) => ({ dt: record.dt, samples: scaledBy(record, record.factor * intensity) }));
+  const nameOf = (key) => key.replace(/^file:/, "");
   const recordInUse = () => records.get(state.record) || records.get(given.suite[0]);
 
+  const says = messagesOf(root);
   function complain(words) {
     const place = one(".problem");
     place.hidden = words === "";
@@ -60,17 +70,20 @@
       state.record = given.suite[0];
     }
     complain(remarks.map((remark) => remark.replace(/\.?$/, ".")).join(" "));
+    goods = new Set(state.massRatio.flatMap((ratio, i) => (ratio > 0 ? [i] : [])));
+    kinetic = state.muS.map((mu, i) => (mu > 0 ? state.muK[i] / mu : 1));
+    one("#x-beside").value = state.beside;
     fill();
     changed();
   }
-  const loaded = () => state.massRatio.slice(0, state.storeys).flatMap((ratio, i) => (ratio > 0 ? [i] : []));
+  const loaded = () => Array.from(goods).filter((i) => i < state.storeys).sort((a, b) => a - b);
   // The value of a slider: of a list that of all loaded floors, null where they differ.
   function shownOf(key) {
     if (!LISTS.includes(key)) return state[key];
-    const floors = loaded();
-    const values = new Set((floors.length ? floors : [0]).map((i) => state[key][i]));
+    const values = new Set(floorsOf().map((i) => state[key][i]));
     return values.size === 1 ? [...values][0] : null;
   }
+  const floorsOf = () => (loaded().length ? loaded() : [0]);
   const isEdited = (field) => document.activeElement === field;
   function fill() {
     for (const row of all(".row")) {
@@ -112,42 +125,72 @@
       (record.factor === 1 ? "." : `: scaled by ${general(record.factor, 4)} to the target${state.intensity === 1 ? "" : `, times ${general(state.intensity, 4)}`}.`);
   }
 
-  // A number that a field gives; what is out of its range is marked and not taken.
-  function taken(field, key) {
+  // A number that a field gives; what is out of its range is said beside it and not taken.
+  function taken(field, key, floors) {
     const [low, high, , words] = LIMITS[key];
     const value = field.value.trim() === "" ? NaN : Number(field.value);
-    const fits = value >= low && value <= high;
-    field.toggleAttribute("aria-invalid", false);
-    if (!fits) field.setAttribute("aria-invalid", "true");
-    complain(fits ? "" : `${words} must be from ${low} to ${high}; got ${field.value || "nothing"}`);
-    return fits ? value : null;
+    const most = key === "muK" ? Math.min(...floors.map((i) => state.muS[i])) : high;
+    let problem = "";
+    if (!(value >= low && value <= high)) problem = `${words} must be from ${low} to ${high}; got ${field.value || "nothing"}`;
+    else if (value > most && field.type !== "range") problem = `${words} must be at most static friction, ${most}; got ${field.value}`;
+    field.removeAttribute("aria-invalid");
+    if (problem) field.setAttribute("aria-invalid", "true");
+    says(field, problem);
+    return problem ? null : value;
   }
-  function setValue(key, value, floor) {
-    const floors = floor === undefined ? (LISTS.includes(key) ? loaded() : null) : [floor];
-    if (floors === null) state[key] = value;
-    else for (const i of floors.length ? floors : [0]) state[key][i] = value;
-    // Kinetic friction is at most static friction: the one that was not touched follows.
-    state.muS.forEach((mu, i) => {
-      if (key === "muS") state.muK[i] = Math.min(state.muK[i], mu);
-      if (key === "muK") state.muS[i] = Math.max(state.muS[i], state.muK[i]);
-    });
+  const rounded = (value) => Number(value.toPrecision(6));
+  function setValue(key, value, floors) {
+    if (!LISTS.includes(key)) state[key] = value;
+    else for (const i of floors) state[key][i] = value;
+    for (const i of floors) {
+      if (key === "muS") state.muK[i] = rounded(value * kinetic[i]);
+      if (key === "muK") {
+        state.muK[i] = Math.min(value, state.muS[i]);
+        kinetic[i] = state.muS[i] > 0 ? state.muK[i] / state.muS[i] : 1;
+      }
+    }
     changed();
   }
+  const choose = (key, value) => setValue(key, value, floorsOf());
+  // A typed number counts when it is complete: on Enter, when the field is left, or after a pause.
+  function takeTyped(field, take) {
+    let typing = 0;
+    const now = () => {
+      clearTimeout(typing);
+      typing = 0;
+      take();
+    };
+    field.addEventListener("input", () => {
+      clearTimeout(typing);
+      typing = setTimeout(now, TYPED);
+    });
+    field.addEventListener("change", now);
+    field.addEventListener("blur", () => {
+      if (typing) now();
+      says(field, "");
+      fill();
+    });
+  }
   for (const row of all(".row")) {
-    for (const field of row.querySelectorAll("input")) {
-      field.addEventListener("input", () => {
-        const value = taken(field, row.dataset.key);
-        if (value !== null) setValue(row.dataset.key, value);
-      });
-      field.addEventListener("blur", () => fill());
-    }
+    const [range, field] = row.querySelectorAll("input");
+    const take = (input) => {
+      const value = taken(input, row.dataset.key, floorsOf());
+      if (value === null) return;
+      if (input === range) says(field, "");
+      choose(row.dataset.key, value);
+    };
+    range.addEventListener("input", () => take(range));
+    takeTyped(field, () => take(field));
   }
   for (const field of all(".floors input")) {
-    field.addEventListener("input", () => {
-      const value = taken(field, field.dataset.list);
-      if (value !== null) setValue(field.dataset.list, value, Number(field.closest("tr").dataset.floor));
+    takeTyped(field, () => {
+      const [key, floor] = [field.dataset.list, Number(field.closest("tr").dataset.floor)];
+      const value = taken(field, key, [floor]);
+      if (value === null) return;
+      if (key === "massRatio" && value > 0) goods.add(floor);
+      else if (key === "massRatio" && loaded().length > 1) goods.delete(floor);
+      setValue(key, value, [floor]);
     });
-    field.addEventListener("blur", () => fill());
   }
   for (const radio of all('.choice input[type="radio"]')) {
     radio.addEventListener("change", () => {
@@ -162,37 +205,53 @@
   }
   one("#x-record").addEventListener("change", (event) => {
     state.record = event.target.value;
+    says(one("#x-file"), "");
+    one(".unstated").hidden = true;
     changed();
   });
   one("#x-code").addEventListener("change", (event) => {
-    if (event.target.value !== "") setValue("counted", Number(event.target.value));
+    if (event.target.value !== "") choose("counted", Number(event.target.value));
   });
-  one("#x-beside").addEventListener("change", () => changed());
+  one("#x-beside").addEventListener("change", (event) => {
+    state.beside = event.target.value;
+    changed();
+  });
   one("form.controls").addEventListener("submit", (event) => event.preventDefault());
 
   // ---- records that are given ---------------------------------------------------------------------------------------
   let pending = null; // a file whose unit or step has to be said
-  function takeRecord(text, name) {
-    const stated = { unit: one("#x-unit").value || undefined, dt: Number(one("#x-dt").value) || undefined };
+  function takeRecord(text, name, stated) {
+    const file = one("#x-file");
     try {
       const record = readRecord(text, name, stated);
       pending = null;
       one(".unstated").hidden = true;
-      complain("");
+      says(file, "");
       const key = `file:${name}`;
       records.set(key, { ...record, factor: 1 });
+      inKernel = "";
       state.record = key;
       changed();
     } catch (error) {
       pending = { text, name };
       one(".unstated").hidden = !/^(?:unit|step) of/.test(error.message);
-      complain(error.message);
+      says(file, error.message);
+      file.value = "";
     }
   }
-  const readFile = async (file) => takeRecord(await file.text(), file.name);
+  // What is stated belongs to one file: it is asked for again with another.
+  const readFile = async (file) => {
+    const text = await file.text();
+    one("#x-unit").value = "";
+    one("#x-dt").value = "";
+    takeRecord(text, file.name, {});
+  };
   one("#x-file").addEventListener("change", (event) => event.target.files.length && readFile(event.target.files[0]));
   for (const field of [one("#x-unit"), one("#x-dt")]) {
-    field.addEventListener("change", () => pending !== null && takeRecord(pending.text, pending.name));
+    field.addEventListener("change", () => {
+      if (pending === null) return;
+      takeRecord(pending.text, pending.name, { unit: one("#x-unit").value || undefined, dt: Number(one("#x-dt").value) || undefined });
+    });
   }
   document.addEventListener("dragover", (event) => {
     event.preventDefault();
@@ -224,7 +283,7 @@
     };
     const real = run(null);
     const [code, full] = blocks.length ? [run(state.counted), run(1)] : [real, real];
-    const chosen = blocks.length ? one("#x-beside").value : "none";
+    const chosen = blocks.length ? state.beside : "none";
     const beside = {
       none: null,
       code: { run: code, share: state.counted, words: "model of the code" },
@@ -259,7 +318,7 @@
         drift: { peak: spread(run.drift), values: run.drift }, slip: { peak: spread(run.slip), values: run.slip },
       };
     };
-    const runs = [shown(real, "real building", real.blocks.length ? "goods slide" : "no goods", null)];
+    const runs = [shown(real, real.blocks.length ? "goods slide" : "no goods", state.record, null)];
     if (beside) runs.push(shown(beside.run, beside.words, `${fixed(100 * beside.share, 0)} % of the goods attached`, beside.share));
     // Displacements are enlarged as far as nothing leaves the picture.
     const n = scene.storeys;
@@ -278,7 +337,7 @@
       heights: Array.from({ length: n }, () => state.height), kinds: EVENT_NAMES,
       ground: { peak: spread(high) > spread(low) ? spread(high) : spread(low), low, high },
       blocks: real.blocks.map((block) => ({ floor: block.floor, size: Math.sqrt(block.ratio / mass) })),
-      runs, alt: runWords({ state, real, code, full }),
+      runs, alt: runWords({ state, real, code, full }, nameOf(state.record)),
     };
   }
 
@@ -317,7 +376,11 @@
       list.append(...fractionRemarks(found).map((words) => Object.assign(document.createElement("li"), { textContent: words })));
     }
     fractionTables(root, done ? found : null, given.suite);
+    sayHeadline();
     sayBar();
+  }
+  function sayHeadline() {
+    showHeadline(one(".headline"), { found, real: solved.real, state: solved.state, codes: given.codes, motions: given.suite.length });
   }
   function sayBar() {
     const { state, real, code } = solved;
@@ -332,7 +395,7 @@
   // Said once the reader pauses, so that a screen reader is not flooded.
   function say() {
     const fraction = found !== null && found.shares ? ` ${fractionWords(found, given.corner).short}` : "";
-    const words = runWords(solved) + fraction;
+    const words = runWords(solved, nameOf(state.record)) + fraction;
     if (one(".answer").textContent !== words) one(".answer").textContent = words;
   }
 
@@ -354,11 +417,16 @@
       if (error instanceof WebAssembly.RuntimeError) restart();
       return;
     }
+    const drift = largest(solved.real.peakDrift) / state.height;
+    one(".belief").hidden = !(drift > 0.05);
+    one(".belief").textContent = `A drift of ${fixed(100 * drift, 0)} % of the storey height is beyond what buildings survive: the run goes on as if it stood.`;
     found = null;
     number += 1;
     if (worker !== null) worker.postMessage({ number });
     fill();
-    player.show(animated(solved));
+    showSentence();
+    const shown = animated(solved);
+    player.show(shown);
     drawRun();
     runTables(root, solved);
     drawFraction();
@@ -374,6 +442,7 @@
     inKernel = "";
   }
   function settle() {
+    if (addressOf(state) !== story) one(".story").textContent = "";
     say();
     followAddress();
     if (solved.real.blocks.length) seek();
@@ -433,14 +502,52 @@
       one(".done").textContent = "The address of this page is the link.";
     }
   });
+  // A case that stays for a while is a step: Back and Undo return to the one before.
   function followAddress() {
     const address = addressOf(state);
-    if (location.hash.slice(1) !== address) history.replaceState(null, "", `#${address}`);
+    const before = location.hash.slice(1);
+    if (before === address) return;
+    const isStep = performance.now() - stepped > STEP;
+    if (before !== "" && isStep) {
+      past.push(before);
+      history.pushState(null, "", `#${address}`);
+    } else {
+      history.replaceState(null, "", `#${address}`);
+    }
+    stepped = performance.now();
+    one(".undo").disabled = past.length === 0;
   }
+  one(".undo").addEventListener("click", () => {
+    const now = addressOf(state);
+    let before = past.pop();
+    while (before === now) before = past.pop(); // Back has been there
+    one(".undo").disabled = past.length === 0;
+    if (before === undefined) return;
+    history.replaceState(null, "", `#${before}`);
+    open(before);
+  });
   one(".reset").addEventListener("click", () => {
     one(".done").textContent = "";
     open("");
   });
+  const sliderOf = (key) => one(`.row[data-key="${key}"] input`);
+  const showNumbers = openSentence(one(".sentence"), { shownOf, choose, sliderOf });
+  function showSentence() {
+    showNumbers();
+    for (const part of all(".sentence [data-by]")) part.hidden = part.dataset.by !== state.by;
+    one(".storeys-said").textContent = state.storeys === 1 ? "one storey" : `${state.storeys} storeys`;
+    one(".sentence .record").textContent = nameOf(state.record);
+  }
+  one(".stories").replaceChildren(...STORIES.map(([name, address, words]) => {
+    const button = Object.assign(document.createElement("button"), { type: "button", textContent: name, title: words });
+    button.addEventListener("click", () => {
+      stepped = -Infinity;
+      open(address);
+      story = addressOf(state);
+      one(".story").textContent = words;
+    });
+    return button;
+  }));
 
   start().catch((error) => {
     complain(`The kernel could not be started: ${error.message}. The page needs a newer browser: Chromium 120, Firefox 117, Safari 17.2 or later.`);

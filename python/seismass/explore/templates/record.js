@@ -64,6 +64,17 @@ function readRecord(text, name, stated = {}) {
     if (points === 0) refuse("points", "at least 1", 0);
     return finished(values.slice(0, points), step / perSecond, unit, (lines[1] || "").trim());
   }
+  // Formats that `seismass.read_record` reads and this page does not, by words of their first lines.
+  const top = lines.slice(0, 14).join("\n");
+  const kind = [
+    ["CSMIP, volume 1 to 3", /(?:un)?corrected accelerogram data|processed data, chan|CSMIP/i],
+    ["COSMOS", /COSMOS|Format v\d+\.\d+/i],
+    ["K-NET or KiK-net", /^Origin Time\b[\s\S]*^Scale Factor|^Station Code/m],
+    ["SMC", /^\s*[12]?\s*(?:UN)?CORRECTED ACCELEROGRAM/],
+    ["ESM (Engineering Strong-Motion)", /^EVENT_NAME\s*:/m],
+    ["GeoNet", /GeoNet|^Accelerogram\b/m],
+  ].find(([, words]) => words.test(top));
+
   for (const [index, line] of lines.slice(0, 10).entries()) {
     const found =
       /NPTS\s*[=:]?\s*(\d{1,9})[.,;\s]*DT\s*[=:]?\s*([\d.]+(?:E[+-]?\d+)?)\s*([A-Z/][^\s,;]*)?/i.exec(line) ||
@@ -71,6 +82,12 @@ function readRecord(text, name, stated = {}) {
     if (found !== null && NUMBER.test(found[2])) return at2(index, Number(found[1]), Number(found[2]), found[3]);
   }
 
+  if (kind !== undefined) {
+    throw new Error(
+      `${name} seems to be a file of ${kind[0]}; this page reads PEER .AT2 and one or two columns of numbers. ` +
+        "\u201cseismass records FILE\u201d reads it, and seismass.read_record in Python.",
+    );
+  }
   // One column of accelerations, or time and acceleration; header lines and comments are not numbers.
   const rows = [];
   const header = [];
@@ -88,10 +105,10 @@ function readRecord(text, name, stated = {}) {
   if (columns > 2 || rows.some((row) => row.length !== columns)) {
     refuse("content", "lines of one or of two numbers", `lines of ${[...new Set(rows.map((row) => row.length))].join(" and ")}`);
   }
-  const unit = stated.unit || unitOf(headed);
+  const unit = unitOf(headed) || stated.unit; // what the file says goes before what is stated
   if (unit === undefined) refuse("unit", "given (g, m/s2, cm/s2), the file states none", "none");
   const step = /\b(?:dt|delta[ \t]*t|time[ \t]*step)\b[^=:\n]{0,30}[=:][ \t]*([\d.]+(?:E[+-]?\d+)?)/i.exec(headed);
-  let dt = stated.dt || (step === null ? undefined : Number(step[1]));
+  let dt = step === null ? stated.dt : Number(step[1]);
   if (columns === 2) {
     const times = rows.map((row) => valueOf(row[0]));
     const span = times.at(-1) - times[0];

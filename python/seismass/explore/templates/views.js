@@ -15,21 +15,21 @@ const place = (list) => list.reduce((best, value, i) => (value > list[best] ? i 
 const listed = (words) => (words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`);
 const KIND_WORDS = {
   stuck: "no goods slide under any motion of the suite, so that all of them act as mass",
-  root: "one share gives the drift of the real building",
-  multiple: "several shares give the drift of the real building, the largest counts",
-  zero: "no share drifts less than the real building, so that none needs to be attached",
-  one: "even with all goods attached the model drifts less than the real building",
+  root: "one share gives the drift of the building whose goods slide",
+  multiple: "several shares give the drift of the building whose goods slide, the largest counts",
+  zero: "no share drifts less than the building whose goods slide, so that none needs to be attached",
+  one: "even with all goods attached the model drifts less than the building whose goods slide",
 };
 
 // The run in words, for the live region.
-function runWords({ state, real, code, full }) {
+function runWords({ state, real, code, full }, name) {
   const per = 100 / state.height;
   const storey = place(real.peakDrift);
   const drift = (run) => largest(run.peakDrift);
   const yielding = new Set();
   for (let i = 0; i < real.events.length; i += 4) if (real.events[i + 1] === 0) yielding.add(real.events[i + 2]);
   const parts = [
-    `Largest drift ${fixed(1000 * drift(real), 1)} mm (${fixed(per * drift(real), 2)} % of the height) in storey ${storey + 1}.`,
+    `Under ${name} at intensity ${general(state.intensity, 4)}: largest drift ${fixed(1000 * drift(real), 1)} mm (${fixed(per * drift(real), 2)} % of the height) in storey ${storey + 1}.`,
     yielding.size ? `Storeys that yield: ${listed([...yielding].sort().map(String))}.` : "No storey yields.",
   ];
   if (real.blocks.length) {
@@ -58,9 +58,9 @@ function fractionWords(found, corner) {
   const { power, best, safe } = ruleBy(found, corner);
   const rule = `eta = ${fixed(found.eta, 3)} (C1 = ${fixed(found.coefficient, 4)}): min(1, eta_h^p) = ${fixed(best(found.eta), 3)} at best, min(1, eta_h) = ${fixed(safe(found.eta), 3)} to be safe; p = ${fixed(power, 2)} (${found.yields ? "yields" : "stays elastic"}), h_g/h_m = ${fixed(found.heightRatio, 2)}`;
   return {
-    short: `Effective fraction of the goods ${fixed(found.value, 2)}, 90 % interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}.`,
+    short: `Over the built-in motions: effective fraction of the goods ${fixed(found.value, 2)}, 90 % interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}.`,
     long:
-      `Effective fraction ${fixed(found.value, 3)} (90 % interval over the motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
+      `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
       `${found.kind}: ${KIND_WORDS[found.kind]}. By the rule, ${rule}.`,
   };
 }
@@ -72,7 +72,7 @@ function fractionRemarks(found) {
     remarks.push(`${found.roots.length} shares give the same drift (${Array.from(found.roots, (root) => fixed(root, 3)).join(", ")}).`);
   }
   if (found.kind === "one") {
-    remarks.push(`The real building drifts ${general(100 * (found.realMean / found.modelMean - 1), 2)} % more than the model with all goods attached.`);
+    remarks.push(`With sliding goods the building drifts ${general(100 * (found.realMean / found.modelMean - 1), 2)} % more than the model with all goods attached.`);
   }
   found.realByStorey.forEach((real, i) => {
     const ratio = real / found.modelByStorey[i];
@@ -108,7 +108,7 @@ function runTables(root, { state, scene, real, code, full }) {
     ...(hasGoods ? [mm(code.peakDrift[i]), mm(full.peakDrift[i])] : []),
   ]);
   fillTable(
-    root.querySelector("table.storeys"), "This motion: the real building, and peak drifts of the models",
+    root.querySelector("table.storeys"), "This motion: goods slide, and peak drifts of the models",
     ["storey", "peak drift mm", "of height %", "at s", "residual mm", "peak shear / W", "floor acceleration g",
       ...(hasGoods ? ["code\u2019s model mm", "all attached mm"] : [])],
     storeyRows,
@@ -123,7 +123,7 @@ function runTables(root, { state, scene, real, code, full }) {
     ["floor", "of floor mass", "mu", "peak slip mm", "at s", "residual mm", "slip path mm"], goodsRows,
   );
   const counts = EVENT_NAMES.map((name, i) => [real.counts[i], name]).filter(([count]) => count > 0);
-  root.querySelector(".events").textContent = `Events of the real building: ${counts.map(([count, name]) => `${count} ${name}`).join(", ") || "none"}.`;
+  root.querySelector(".events").textContent = `Events where goods slide: ${counts.map(([count, name]) => `${count} ${name}`).join(", ") || "none"}.`;
 }
 
 function fractionTables(root, found, names) {
@@ -132,8 +132,8 @@ function fractionTables(root, found, names) {
   for (const table of tables) table.hidden = found === null;
   if (found === null) return;
   fillTable(
-    tables[0], "Mean peak drift over the suite by storey (mm), and the real one over that of the models",
-    ["storey", "real", "model at the fraction", "none attached", "all attached", "real / model", "real / none", "real / all", "real / larger of model and none"],
+    tables[0], "Mean peak drift over the built-in motions by storey (mm), and that of sliding goods over those of the models",
+    ["storey", "goods slide", "model at the fraction", "none attached", "all attached", "slide / model", "slide / none", "slide / all", "slide / larger of model and none"],
     Array.from(found.realByStorey, (real, i) => {
       const [model, bare, full] = [found.modelByStorey[i], found.bareByStorey[i], found.fullByStorey[i]];
       return [String(i + 1), mm(real), mm(model), mm(bare), mm(full), ...[model, bare, full, Math.max(model, bare)].map((one) => fixed(real / one, 3))];
@@ -238,8 +238,8 @@ function drawCurve(canvas, colours, found, state) {
   if (chart.width === 0) return;
   const box = { left: 52, top: 12, right: chart.width - 14, bottom: chart.height - 40 };
   if (found === null || !found.shares) {
-    chart.panel(box, [0, 1], [0.5, 1.5], { xTitle: "share of the goods attached as mass", yTitle: "real / model" });
-    canvas.setAttribute("aria-label", "Real over model drift against the share attached: not solved yet.");
+    chart.panel(box, [0, 1], [0.5, 1.5], { xTitle: "share of the goods attached as mass", yTitle: "slide / model" });
+    canvas.setAttribute("aria-label", "Drift with sliding goods over that of the model, against the share attached: not solved yet.");
     return;
   }
   const ratios = Array.from(found.model, (model) => found.realMean / model);
@@ -254,7 +254,7 @@ function drawCurve(canvas, colours, found, state) {
     { words: "code", colour: colours.model, dash: [4, 3] },
   ], 52, 14, chart.width);
   box.top = keyEnd + 4;
-  const panel = chart.panel(box, [0, 1], [least - margin, most + margin], { xTitle: "share of the goods attached as mass", yTitle: "real / model" });
+  const panel = chart.panel(box, [0, 1], [least - margin, most + margin], { xTitle: "share of the goods attached as mass", yTitle: "slide / model" });
   const points = (values) => Array.from(found.shares, (share, i) => [share, values[i]]);
   panel.area(points(low), points(high), colours.real, 0.22);
   panel.line([[0, 1], [1, 1]], { colour: colours.ink, width: 1 });
@@ -263,7 +263,7 @@ function drawCurve(canvas, colours, found, state) {
   panel.line(points(ratios), { colour: colours.real, width: 2 });
   panel.dot(found.value, found.realMean / found.modelMean, colours.yield);
   const at = (share) => fixed(ratios[Math.round(100 * share)], 2);
-  canvas.setAttribute("aria-label", `Real over model drift is ${at(0)} with nothing attached, ${at(state.counted)} with the share of the code and ${at(1)} with all; it is 1 at the effective fraction ${fixed(found.value, 3)}.`);
+  canvas.setAttribute("aria-label", `Drift with sliding goods over that of the model is ${at(0)} with nothing attached, ${at(state.counted)} with the share of the code and ${at(1)} with all; it is 1 at the effective fraction ${fixed(found.value, 3)}.`);
 }
 
 function drawRule(canvas, colours, found, bins, corner, state) {

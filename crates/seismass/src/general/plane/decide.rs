@@ -1,4 +1,4 @@
-//! Which blocks of a node stick (`numerics`, section 9.6).
+//! Which blocks of a node stick (`numerics`, section 9.7).
 
 use crate::general::plane::huber::{Carried, acceleration};
 use crate::general::plane::state::PlaneState;

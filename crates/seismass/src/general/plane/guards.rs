@@ -1,4 +1,4 @@
-//! Guards in the plane: those of each direction, and those of vectors (`numerics`, section 9.6).
+//! Guards in the plane: those of each direction, and those of vectors (`numerics`, section 9.7).
 
 use crate::general::guards::{Guard, Search};
 use crate::general::plane::products::{add_product, constant, reach};

@@ -1,4 +1,4 @@
-//! The acceleration of a node whose blocks press on stops: the minimum of a convex function (`numerics`, section 9.6).
+//! The acceleration of a node whose blocks press on stops: the minimum of a convex function (`numerics`, section 9.7).
 
 use crate::general::plane::vector::{Vector2, dot, length, minus, plus, times};
 

@@ -1,4 +1,4 @@
-//! The general engine in two horizontal directions, with friction on the circle (`numerics`, section 9.6).
+//! The general engine in two horizontal directions, with friction on the circle (`numerics`, section 9.7).
 //!
 //! Each direction is a state of the general engine: its springs, dampers, stops and guards are those. What joins them is the
 //! friction of blocks: decisions, starts, stops and breakaways are of vectors.

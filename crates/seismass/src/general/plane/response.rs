@@ -104,6 +104,7 @@ impl PlaneResponse {
             residual_slip: self.residual_slip.iter().map(|pair| pair[a]).collect(),
             slip_path: self.slip_path.clone(),
             events: self.events.as_ref().map(of_axis),
+            base: None,
             histories: self.histories.as_ref().map(|histories| histories[a].clone()),
             energy: self.energy.map(|energy| energy.directions[a]),
             statistics: self.statistics,

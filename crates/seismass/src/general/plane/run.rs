@@ -56,14 +56,13 @@ pub fn simulate_plane_until(
     options: &Options,
     stop: &AtomicBool,
 ) -> Result<PlaneResponse> {
-    let [x, y] = scene.directions();
-    let mut systems = [System::new(x)?, System::new(y)?];
+    let ([x, y], [of_x, of_y]) = (scene.directions(), motion.directions());
+    let mut systems = [System::new(x, of_x)?, System::new(y, of_y)?];
     // The vector of drifts decides on collapse, not its parts.
     let limit = |p: usize| systems.each_ref().map(|system| system.laws[p - 1].collapse_drift);
     let limits = (1..=systems[0].nodes).map(limit);
     let collapse: Vec<[f64; 2]> = std::iter::once([f64::INFINITY; 2]).chain(limits).collect();
     systems.iter_mut().flat_map(|system| &mut system.laws).for_each(|law| law.collapse_drift = f64::INFINITY);
-    let [of_x, of_y] = motion.directions();
     let vertical = of_x.vertical().is_some() && !systems[0].blocks.is_empty();
     let state = PlaneState::new(scene, systems.each_ref(), collapse, vertical);
     let samples = of_x.acceleration().len();
@@ -354,7 +353,7 @@ impl<'a> Run<'a> {
         let on_node = &state.system().on_node;
         self.statistics.skipped.bare_floors = on_node.iter().skip(1).filter(|blocks| blocks.is_empty()).count();
         let histories = match self.recorders.map(|recorder| recorder.map(Recorder::finish)) {
-            [Some(x), Some(y)] => Some([x, y]),
+            [Some((x, _)), Some((y, _))] => Some([x, y]),
             _ => None,
         };
         PlaneResponse {

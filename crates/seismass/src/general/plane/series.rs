@@ -1,4 +1,4 @@
-//! The Taylor series of both directions over a step, coupled by friction on the circle (`numerics`, section 9.6).
+//! The Taylor series of both directions over a step, coupled by friction on the circle (`numerics`, section 9.7).
 
 use crate::general::plane::slide_series::{Beginning, ORDER, SlideSeries};
 use crate::general::plane::state::PlaneState;

@@ -1,4 +1,4 @@
-//! The series of a block that slides on the circle: direction and length of its relative velocity (`numerics`, section 9.6).
+//! The series of a block that slides on the circle: direction and length of its relative velocity (`numerics`, section 9.7).
 
 use crate::general::plane::vector::{Vector2, across, dot, length, minus, plus, times};
 use crate::polynomial::power::{MAX_DEGREE, Polynomial};

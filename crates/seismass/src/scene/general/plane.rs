@@ -18,8 +18,12 @@ impl PlaneScene {
     /// A scene from what it is in x and in y; stops of a block in y stand across y.
     ///
     /// # Errors
-    /// [`Error::Invalid`] when masses, racks or goods of the two differ.
+    /// [`Error::Invalid`] when masses, racks or goods of the two differ, or there is a sliding base.
     pub fn new(x: GeneralScene, y: GeneralScene) -> Result<Self> {
+        if x.base().is_some() || y.base().is_some() {
+            let requirement = "absent where there are two directions";
+            return Err(Error::invalid(Domain::Scene, "base", "scene", requirement, "one"));
+        }
         let masses = |scene: &GeneralScene| scene.building().map_or(Vec::new(), |b| b.mass().to_vec());
         same_masses(&masses(&x), &masses(&y), "scene in y", "floor")?;
         check_length("racks", "scene in y", x.racks().len(), "rack", y.racks().len())?;

@@ -1,0 +1,42 @@
+"""A building with its goods, and the two analyses of its answer, as models of OpenSeesPy."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from seismass.assessment.models import ADVISED, BARE, REAL, compared_models
+from seismass.assessment.result import Assessment
+from seismass.records import Suite
+from seismass.runs.opensees_export import write_opensees
+
+TITLES: Final = {REAL: "goods slide", ADVISED: "analysis 1", BARE: "analysis 2"}
+"""Models that are written, and what the program calls them."""
+
+
+def write_models(folder: str | os.PathLike[str], result: Assessment, suite: Suite) -> list[Path]:
+    """Write OpenSeesPy models of an assessed building: with goods that slide, and of both analyses.
+
+    Parameters
+    ----------
+    folder : path-like
+        As for `seismass.runs.write_opensees`.
+    result : Assessment
+        The assessment.
+    suite : Suite
+        Its motions, unscaled.
+
+    Raises
+    ------
+    InvalidScene, InvalidOption, OSError
+        As for `seismass.runs.write_opensees`.
+    """
+    share = next((one.share_of_goods_present for one in result.answer.analyses if one.model == ADVISED), None)
+    scenes = compared_models(result.building, result.target, share)
+    factors = np.ones(len(suite)) if result.scaling is None else result.scaling.factors
+    motions = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+    chosen = {title: scenes[name] for name, title in TITLES.items() if name in scenes}
+    return write_opensees(folder, chosen, motions)

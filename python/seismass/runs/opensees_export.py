@@ -1,0 +1,169 @@
+"""Models for OpenSeesPy: a folder with the buildings, their goods and motions, and a program that runs them."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from seismass.base.errors import InvalidOption, InvalidScene, SeismassError
+from seismass.base.files import written_whole
+from seismass.base.values import as_path, refusal
+from seismass.media.folder import folder_for
+from seismass.model.building import Building
+from seismass.model.motion import Motion, MotionLike, as_motion
+from seismass.model.scene import Scene
+from seismass.records.builtin import data_directory
+from seismass.runs.simulate import simulate
+
+PROGRAM: Final = "model.py"
+CONTENT: Final = "model.json"
+README: Final = "README.md"
+
+
+def write_opensees(
+    folder: str | os.PathLike[str], scenes: Mapping[str, Scene], motions: Iterable[MotionLike]
+) -> list[Path]:
+    """Write models for OpenSeesPy, with the exact peaks beside them.
+
+    Parameters
+    ----------
+    folder : path-like
+        Folder for model.py, model.json, README.md and a file per motion; it is made if it is missing.
+    scenes : mapping of str to Scene
+        Models by name: shear buildings with trilinear springs, blocks without wear and stops.
+    motions : iterable of Motion or Record
+        Horizontal ground motions.
+
+    Returns
+    -------
+    list of Path
+        The files, in the order written.
+
+    Raises
+    ------
+    InvalidScene
+        A scene has what the models do not have: another spring law, racks, walls, stops, wear, an initial state.
+    InvalidOption
+        There is no scene or no motion, or the folder is a file.
+    InvalidMotion
+        A motion has a vertical component.
+    OSError
+        A file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import seismass as sm
+    >>> from seismass.runs import write_opensees
+    >>> building = sm.Building.uniform(2, 0.4, mass=1e5, yield_shear_over_weight=[0.3, 0.2])
+    >>> scene = sm.Scene(building, sm.blocks_on_floors([1.0, 0.0], mu=0.2))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     files = write_opensees(folder, {"goods slide": scene}, sm.builtin_suite("seven")[:1])
+    >>> [file.name for file in files]
+    ['model.py', 'README.md', 'motion-01.txt', 'model.json']
+    """
+    out = as_path(folder, "folder of OpenSees models", InvalidOption)
+    given = [as_motion(motion, f"motion {number}", "OpenSees export") for number, motion in enumerate(motions, start=1)]
+    if not scenes or not given:
+        got = "no motion" if scenes else "no scene"
+        raise refusal(InvalidOption, "models", "OpenSees export", "scenes and motions, at least one of each", got)
+    if out.exists() and not out.is_dir():
+        raise refusal(InvalidOption, "folder", "OpenSees export", "a folder", str(out))
+    for motion in given:
+        if motion.vertical is not None:
+            raise refusal(InvalidScene, "motions", "OpenSees export", "horizontal", "one with a vertical component")
+    models = {name: model_content(scene, name) for name, scene in scenes.items()}
+    for name, scene in scenes.items():
+        models[name]["exact"] = [_exact(scene, motion) for motion in given]
+    files = [f"motion-{number:02d}.txt" for number in range(1, len(given) + 1)]
+    listed = [
+        {"file": file, "dt": motion.dt, "samples": motion.samples} for file, motion in zip(files, given, strict=True)
+    ]
+    source = data_directory() / "opensees"
+    texts = {name: (source / name).read_text(encoding="utf-8") for name in (PROGRAM, README)}
+    for file, motion in zip(files, given, strict=True):
+        texts[file] = "".join(f"{value!r}\n" for value in motion.acceleration.tolist())
+    texts[CONTENT] = json.dumps({"units": "kg, N, m, s", "models": models, "motions": listed}, indent=1) + "\n"
+    with folder_for(out):
+        for name, text in texts.items():
+            with written_whole(out / name) as place:
+                partial(Path.write_text, data=text, encoding="utf-8")(place)
+    return [out / name for name in texts]
+
+
+def model_content(scene: Scene, name: str = "") -> dict[str, Any]:
+    """Return a scene as model.json has it.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    name : str
+        What errors call it.
+
+    Raises
+    ------
+    InvalidScene
+        As for `write_opensees`.
+    """
+    building = scene.building
+
+    def refused(what: str) -> SeismassError:
+        return refusal(InvalidScene, f"scene {name}".strip(), "OpenSees export", "a shear building with goods", what)
+
+    if building is None:
+        raise refused("blocks on the ground alone")
+    for what, is_there in (
+        ("racks", bool(scene.racks)),
+        ("a sliding base", scene.base is not None),
+        ("two directions", scene.engine == "plane"),
+        ("a stiffness matrix", building.stiffness_matrix is not None),
+        ("backbones of several branches", building.backbone is not None),
+        ("stops of springs", bool(np.isfinite(building.clearance).any())),
+        ("stops of goods", any(block.stops is not None for block in scene.blocks)),
+        ("friction that wears", any(block.wear for block in scene.blocks)),
+        ("an initial state", scene.initial_drift is not None or scene.initial_velocity is not None),
+        ("a velocity of goods", any(block.velocity for block in scene.blocks)),
+    ):
+        if is_there:
+            raise refused(what)
+    laws = sorted(set(building.hysteresis) - {"masing"})
+    if laws:
+        raise refused(f"springs of the law {laws[0]}")
+    return {
+        "mass": building.mass.tolist(),
+        "springs": [_parallel(building, storey) for storey in range(len(building.mass))],
+        "p_over_h": scene.geometric_stiffness.tolist(),
+        "damping": building.damping_matrix.tolist(),
+        "blocks": [
+            {"floor": block.floor, "mass": float(mass), "mu_s": block.mu_s, "mu_k": block.mu_k}
+            for block, mass in zip(scene.blocks, scene.block_mass, strict=True)
+        ],
+    }
+
+
+def _parallel(building: Building, storey: int) -> list[tuple[float, float | None]]:
+    """Stiffness (N/m) and strength (N; None: elastic) of springs in parallel that make the trilinear backbone."""
+    stiffness, strength = float(building.stiffness[storey]), float(building.yield_shear[storey])
+    if not np.isfinite(strength):
+        return [(stiffness, None)]
+    second, third = float(building.second_slope[storey]), float(building.third_slope[storey])
+    first_yield = strength / stiffness
+    parts: list[tuple[float, float | None]] = [(stiffness * (1.0 - second), strength * (1.0 - second))]
+    if second > third:
+        second_yield = first_yield + (float(building.overstrength[storey]) - 1.0) * first_yield / second
+        parts.append((stiffness * (second - third), stiffness * (second - third) * second_yield))
+    if third > 0.0:
+        parts.append((stiffness * third, None))
+    return [(part, limit) for part, limit in parts if part > 0.0]
+
+
+def _exact(scene: Scene, motion: Motion) -> dict[str, list[float]]:
+    response = simulate(scene, motion, events=False)
+    return {"drift": response.peak_drift.tolist(), "slip": response.peak_slip.tolist()}
