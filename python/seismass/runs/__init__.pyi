@@ -9,6 +9,7 @@ from .opensees_export import write_opensees
 from .plane_response import PlaneResponse
 from .response import Response
 from .scene_file import SceneFile, read_scene
+from .scene_product import SceneProduct
 from .simulate import instruction_set, simulate
 from .spring_path import SpringPath, spring_forces
 
@@ -18,6 +19,7 @@ __all__ = [
     "PlaneResponse",
     "Response",
     "SceneFile",
+    "SceneProduct",
     "SpringPath",
     "StrengthDesign",
     "instruction_set",
