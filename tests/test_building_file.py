@@ -52,7 +52,8 @@ def test_units_are_those_of_the_keys() -> None:
     np.testing.assert_array_equal(building.yield_shear, [9.0e5, 9.0e5])
     assert building.gravity_load is not None
     np.testing.assert_allclose(building.gravity_load, [2.5e6, 2.5e6], rtol=1e-15)
-    assert (building.mu_s.tolist(), building.mu_k.tolist()) == ([0.4, 0.0], [0.3, 0.0])  # the contact of the table
+    # The contact of the table; none on the bare roof.
+    assert [(kind.mu_s, kind.mu_k) for kind in building.kinds] == [(0.4, 0.3), (0.0, 0.0)]
     scene = building.scene()
     # P of storey 1: both floors and the goods present; of storey 2: the roof.
     np.testing.assert_allclose(scene.geometric_stiffness * 4.0, [5.0e6 + 2.1e6, 2.5e6], rtol=1e-12)
@@ -87,8 +88,7 @@ def test_a_storey_replaces_the_default_in_any_of_its_units() -> None:
     assert building.yield_shear is not None
     assert building.yield_shear.tolist() == [5.0, 9.0e5]
     assert building.goods[1] == 3.5
-    assert building.mu_s.tolist() == [0.4, 0.9]
-    assert building.friction == ("timber-on-steel", "")
+    assert [(kind.contact, kind.mu_s) for kind in building.kinds] == [("timber-on-steel", 0.4), ("", 0.9)]
 
 
 def test_a_period_scales_relative_stiffnesses() -> None:

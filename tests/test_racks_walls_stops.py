@@ -185,10 +185,7 @@ def test_what_takes_shear_buildings_alone_says_so() -> None:
         (stopped, "stops of block 1"),
         (walled, "stiffness_matrix of building"),
     ):
-        for call in (
-            lambda scene: sm.slip.slip_demand(scene, [motion], clearance=0.1),
-            lambda scene: sm.fragility.incremental_dynamic_analysis(scene, [motion], 0.02),
-        ):
+        for call in (lambda scene: sm.fragility.incremental_dynamic_analysis(scene, [motion], 0.02),):
             with pytest.raises(sm.errors.InvalidScene, match=f"{named} must be left out in .*; simulate takes it"):
                 call(scene)
     with pytest.raises(sm.errors.InvalidScene, match="stiffness_matrix of building must be left out in grids"):

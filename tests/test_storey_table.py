@@ -199,5 +199,5 @@ def test_questions_are_asked_on_a_terminal(
     assert "a positive number, please" in capsys.readouterr().out
     building = read_building(out)
     assert building.name == "my building"
-    assert building.friction[0] == "timber-on-steel"
-    assert building.occupied.tolist() == [0.8, 0.8]
+    assert building.kinds[0].contact == "timber-on-steel"
+    assert [kind.occupied for kind in building.kinds] == [0.8, 0.8]

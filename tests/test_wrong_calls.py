@@ -58,6 +58,7 @@ PARTS = """
 """
 LEFT_OUT: dict[str, str] = {
     **dict.fromkeys(("Rack", "RackBlock", "Stops"), SEE),
+    "SlidingBase": "see tests/test_sliding_base.py",
     **dict.fromkeys(TYPES.split(), "a type or a part of a result"),
     **dict.fromkeys(PARTS.split(), "a step of a public call, which has checked what it is given"),
     **dict.fromkeys(("HuntAndFill", "IntensityMeasure", "multiple_stripes", "cloud_analysis"), "see its own tests"),
@@ -196,6 +197,9 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
     "code_fraction": (sm.codes.code_fraction, {"code_id": "asce7-10"}),
     "friction_pair": (sm.friction.friction_pair, {"pair_id": "timber-on-steel"}),
     "friction_table": (sm.friction.friction_table, {}),
+    "surveyed_load": (sm.occupancy.surveyed_load, {"occupancy_id": "office, sustained"}),
+    "SurveyedLoad.deviation": (sm.occupancy.surveyed_load("office, sustained").deviation, {"area": 100.0}),
+    "on_surveyed_goods": (sm.occupancy.on_surveyed_goods, {"fraction": 0.25, "use": "storage"}),
     "lognormal": (sm.distributions.lognormal, {"median": 0.3, "sigma": 0.2}),
     "beta": (sm.distributions.beta, {"mean": 0.3, "deviation": 0.1}),
     "effective_mass": (sm.effective_mass, {"scene": SCENE, "motions": SUITE, **SMALL}),

@@ -33,13 +33,14 @@ from .effective_mass import (
     effective_mass_of_design,
     live_load_uncertainty,
 )
-from .model import codes, friction
+from .model import codes, friction, occupancy
 from .model.block import Block, blocks_on_floors
 from .model.building import Building
 from .model.damping import Rayleigh
 from .model.motion import Motion
 from .model.rack import Rack, RackBlock
 from .model.scene import Scene
+from .model.sliding_base import SlidingBase
 from .model.stops import Stops
 from .records import (
     Pair,
@@ -89,6 +90,7 @@ __all__ = [
     "Scene",
     "SceneFile",
     "SeismassError",
+    "SlidingBase",
     "Stops",
     "Suite",
     "TargetSpectrum",
@@ -113,6 +115,7 @@ __all__ = [
     "live_load_uncertainty",
     "long_table",
     "matching",
+    "occupancy",
     "plots",
     "pulses",
     "read_building",

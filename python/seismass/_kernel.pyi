@@ -26,6 +26,8 @@ __all__ = [
     "GeneralResponse",
     "GeneralScene",
     "Motion",
+    "PlaneResponse",
+    "PlaneScene",
     "Rack",
     "RackColumns",
     "ReferenceRun",
@@ -41,6 +43,7 @@ __all__ = [
     "simulate_general",
     "simulate_many",
     "simulate_many_general",
+    "simulate_plane",
     "uniform_stiffness",
 ]
 
@@ -300,6 +303,16 @@ class GeneralResponse:
     The response of one run of the general engine.
     """
     @property
+    def base_slip(self, /) -> NDArray[float64] | None:
+        """
+        History of the slip of a sliding base (m), one value per row.
+        """
+    @property
+    def base_slip_path(self, /) -> float | None:
+        """
+        Path slipped by a sliding base in contact with the ground (m).
+        """
+    @property
     def block_velocity(self, /) -> NDArray[float64] | None:
         """
         Block velocity relative to the ground (m/s), rows x blocks.
@@ -342,7 +355,7 @@ class GeneralResponse:
     @property
     def event_number(self, /) -> NDArray[uint32] | None:
         """
-        Storey (levels of racks count on) or block of each event, counted from 1.
+        Storey (levels of racks count on) or block of each event, counted from 1; 0 for a sliding base.
         """
     @property
     def event_sign(self, /) -> NDArray[int8] | None:
@@ -380,9 +393,24 @@ class GeneralResponse:
         Name of the instruction set that the kernel uses.
         """
     @property
+    def peak_base_acceleration(self, /) -> float | None:
+        """
+        Peak absolute acceleration of the slab of a sliding base (m/s2).
+        """
+    @property
     def peak_base_shear(self, /) -> float:
         """
         Peak of the spring force of storey 1 and the matrix's share of the base shear together (N).
+        """
+    @property
+    def peak_base_slip(self, /) -> float | None:
+        """
+        Peak slip of a sliding base (m).
+        """
+    @property
+    def peak_base_slip_time(self, /) -> float | None:
+        """
+        Time of the peak slip of a sliding base (s).
         """
     @property
     def peak_contact_force(self, /) -> NDArray[float64]:
@@ -475,6 +503,16 @@ class GeneralResponse:
         Number of levels of each rack.
         """
     @property
+    def rack_velocity(self, /) -> NDArray[float64] | None:
+        """
+        Velocity of rack levels relative to the ground (m/s), rows x levels.
+        """
+    @property
+    def residual_base_slip(self, /) -> float | None:
+        """
+        Slip of a sliding base at the end (m).
+        """
+    @property
     def residual_drift(self, /) -> NDArray[float64]:
         """
         Drift at the end (m).
@@ -547,12 +585,20 @@ class GeneralScene:
         ],
         racks: SupportsGetItem[int, Rack],
         *,
+        base: tuple[
+            SupportsFloat | SupportsIndex,
+            SupportsFloat | SupportsIndex,
+            SupportsFloat | SupportsIndex,
+            SupportsFloat | SupportsIndex,
+        ]
+        | None = None,
         initial_drift: NDArray[float64] | None = None,
         initial_velocity: NDArray[float64] | None = None,
         collapse_drift: NDArray[float64] | None = None,
     ) -> GeneralScene:
         """
-        As `Scene`; blocks have stops or None at the end of their tuples.
+        As `Scene`; blocks have stops or None at the end of their tuples. A sliding base has the mass of its slab (kg), mu_s,
+        mu_k and the radius of its pendulum (m; infinite: flat).
         """
     @property
     def geometric_stiffness(self, /) -> NDArray[float64]:
@@ -597,6 +643,117 @@ class Motion:
     def with_duration(self, /, duration: SupportsFloat | SupportsIndex) -> Motion:
         """
         The motion up to the sample nearest to `duration` (s): cut, or continued at zero.
+        """
+
+@final
+class PlaneResponse:
+    """
+    The response of one run in two horizontal directions: what is of vectors, and the response in each direction.
+    """
+    @property
+    def directions(self, /) -> tuple[GeneralResponse, GeneralResponse]:
+        """
+        The responses in x and in y; path and statistics are of the run.
+        """
+    @property
+    def energy(self, /) -> dict[str, float] | None:
+        """
+        Energies of both directions together (J) and their relative residual, if asked for.
+        """
+    @property
+    def event_angle(self, /) -> NDArray[float64] | None:
+        """
+        Angle of each event of a vector, from x towards y (rad); NaN for others.
+        """
+    @property
+    def event_direction(self, /) -> NDArray[uint8] | None:
+        """
+        Direction of each event: 1 in x, 2 in y; 0: it is of a vector.
+        """
+    @property
+    def event_element(self, /) -> NDArray[uint8] | None:
+        """
+        Segments of the backbone left at each yield, 1 at the first; stage of wear that begins; otherwise 0.
+        """
+    @property
+    def event_kind(self, /) -> NDArray[uint8] | None:
+        """
+        Kinds of the events, as indices of `Response.event_kinds`.
+        """
+    @property
+    def event_number(self, /) -> NDArray[uint32] | None:
+        """
+        Storey (levels of racks count on) or block of each event, counted from 1.
+        """
+    @property
+    def event_sign(self, /) -> NDArray[int8] | None:
+        """
+        Sign of each event of a direction; 0 for one of a vector.
+        """
+    @property
+    def event_time(self, /) -> NDArray[float64] | None:
+        """
+        Times of the events (s).
+        """
+    @property
+    def peak_base_shear(self, /) -> float:
+        """
+        Peak length of the base shear vector, with the share of matrices (N); NaN without a building.
+        """
+    @property
+    def peak_drift(self, /) -> NDArray[float64]:
+        """
+        Peak length of the drift vector of each storey (m).
+        """
+    @property
+    def peak_floor_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak length of the absolute acceleration of each floor (m/s2).
+        """
+    @property
+    def peak_rack_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak length of the absolute acceleration of rack levels (m/s2).
+        """
+    @property
+    def peak_rack_drift(self, /) -> NDArray[float64]:
+        """
+        Peak length of the drift vector of rack levels (m).
+        """
+    @property
+    def peak_rack_shear(self, /) -> NDArray[float64]:
+        """
+        Peak length of the shear vector of rack levels, the spring force alone (N).
+        """
+    @property
+    def peak_slip(self, /) -> NDArray[float64]:
+        """
+        Peak length of the slip of each block (m).
+        """
+    @property
+    def peak_storey_shear(self, /) -> NDArray[float64]:
+        """
+        Peak length of the shear vector of each storey, the spring force alone (N).
+        """
+    @property
+    def slip_path(self, /) -> NDArray[float64]:
+        """
+        Path slipped in contact with what carries the block (m).
+        """
+    @property
+    def status(self, /) -> str:
+        """
+        "completed" or "collapsed".
+        """
+
+@final
+class PlaneScene:
+    """
+    Scene in two horizontal directions held by the kernel.
+    """
+    def __new__(cls, /, x: GeneralScene, y: GeneralScene) -> PlaneScene:
+        """
+        What a scene is in x and in y: equal masses and goods; stops in y stand across y.
         """
 
 @final
@@ -1083,6 +1240,20 @@ def simulate_many_general(
 ) -> tuple[Batch, RackColumns]:
     """
     Solves `runs`, rows of (index of scene, index of motion); `progress` is called with runs done and runs in all.
+    """
+
+def simulate_plane(
+    scene: PlaneScene,
+    motion: Motion,
+    other: NDArray[float64],
+    every: SupportsIndex,
+    displacements_only: bool,
+    energy: bool,
+    events: bool,
+) -> PlaneResponse:
+    """
+    Solves one scene in two horizontal directions under a motion in x and the samples of one in y (m/s2); other
+    arguments as of `simulate`.
     """
 
 def uniform_stiffness(

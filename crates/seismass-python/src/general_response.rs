@@ -154,6 +154,43 @@ impl GeneralResponse {
         Output::new(self.0.slip_path.iter().copied())
     }
 
+    /// Peak slip of a sliding base (m).
+    #[getter]
+    fn peak_base_slip(&self) -> Option<f64> {
+        self.0.base.as_ref().map(|base| base.slip.value)
+    }
+
+    /// Time of the peak slip of a sliding base (s).
+    #[getter]
+    fn peak_base_slip_time(&self) -> Option<f64> {
+        self.0.base.as_ref().map(|base| base.slip.time)
+    }
+
+    /// Peak absolute acceleration of the slab of a sliding base (m/s2).
+    #[getter]
+    fn peak_base_acceleration(&self) -> Option<f64> {
+        self.0.base.as_ref().map(|base| base.acceleration.value)
+    }
+
+    /// Slip of a sliding base at the end (m).
+    #[getter]
+    fn residual_base_slip(&self) -> Option<f64> {
+        self.0.base.as_ref().map(|base| base.residual_slip)
+    }
+
+    /// Path slipped by a sliding base in contact with the ground (m).
+    #[getter]
+    fn base_slip_path(&self) -> Option<f64> {
+        self.0.base.as_ref().map(|base| base.slip_path)
+    }
+
+    /// History of the slip of a sliding base (m), one value per row.
+    #[getter]
+    fn base_slip(&self) -> Option<Output<f64>> {
+        let base = self.0.base.as_ref().filter(|_| self.0.histories.is_some())?;
+        Some(Output::new(base.history.iter().copied()))
+    }
+
     /// Samples per row of the histories; None without histories.
     #[getter]
     fn every(&self) -> Option<usize> {
@@ -182,6 +219,12 @@ impl GeneralResponse {
     #[getter]
     fn floor_velocity(&self) -> Option<Output<f64>> {
         self.history(|h| &h.floor_velocity, false)
+    }
+
+    /// Velocity of rack levels relative to the ground (m/s), rows x levels.
+    #[getter]
+    fn rack_velocity(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.floor_velocity, true)
     }
 
     /// Block velocity relative to the ground (m/s), rows x blocks.
@@ -226,7 +269,7 @@ impl GeneralResponse {
         self.event_column(|entry| entry.event.kind as u8)
     }
 
-    /// Storey (levels of racks count on) or block of each event, counted from 1.
+    /// Storey (levels of racks count on) or block of each event, counted from 1; 0 for a sliding base.
     #[getter]
     fn event_number(&self) -> Option<Output<u32>> {
         self.event_column(|entry| u32::try_from(entry.event.number).unwrap_or(u32::MAX))
@@ -259,19 +302,7 @@ impl GeneralResponse {
     /// Energies (J) and their relative residual, if asked for.
     #[getter]
     fn energy(&self) -> Option<Named<f64, 9>> {
-        self.0.energy.map(|energy| {
-            Named([
-                ("initial", energy.initial),
-                ("input", energy.input),
-                ("kinetic", energy.kinetic),
-                ("viscous", energy.viscous),
-                ("elastic", energy.elastic),
-                ("hysteretic", energy.hysteretic),
-                ("friction", energy.friction),
-                ("contact", energy.contact),
-                ("relative_residual", energy.relative_residual),
-            ])
-        })
+        self.0.energy.as_ref().map(energies)
     }
 
     /// Name of the instruction set that the kernel uses.
@@ -285,4 +316,19 @@ impl GeneralResponse {
     fn statistics(&self) -> Named<usize, 12> {
         statistics(&self.0.statistics)
     }
+}
+
+/// Energies by name (J), and their relative residual.
+pub(crate) fn energies(energy: &seismass::GeneralEnergy) -> Named<f64, 9> {
+    Named([
+        ("initial", energy.initial),
+        ("input", energy.input),
+        ("kinetic", energy.kinetic),
+        ("viscous", energy.viscous),
+        ("elastic", energy.elastic),
+        ("hysteretic", energy.hysteretic),
+        ("friction", energy.friction),
+        ("contact", energy.contact),
+        ("relative_residual", energy.relative_residual),
+    ])
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use seismass::{Block, Stops, Wear};
+use seismass::{Block, SlidingBase, Stops, Wear};
 
 use crate::arrays::{Output, Table, Values};
 use crate::errors::from_kernel;
@@ -139,14 +139,17 @@ pub(crate) struct GeneralScene(pub(crate) seismass::GeneralScene);
 
 #[pymethods]
 impl GeneralScene {
-    /// As `Scene`; blocks have stops or None at the end of their tuples.
+    /// As `Scene`; blocks have stops or None at the end of their tuples. A sliding base has the mass of its slab (kg),
+    /// mu_s, mu_k and the radius of its pendulum (m; infinite: flat).
     #[new]
-    #[pyo3(signature = (building, blocks, racks, *, initial_drift=None, initial_velocity=None, collapse_drift=None))]
+    #[pyo3(signature = (building, blocks, racks, *, base=None, initial_drift=None, initial_velocity=None, collapse_drift=None))]
+    #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python<'_>,
         building: Option<AnyBuilding<'_>>,
         blocks: Vec<GoodsTuple>,
         racks: Vec<PyRef<'_, Rack>>,
+        base: Option<(f64, f64, f64, f64)>,
         initial_drift: Option<Values<f64>>,
         initial_velocity: Option<Values<f64>>,
         collapse_drift: Option<Values<f64>>,
@@ -158,7 +161,8 @@ impl GeneralScene {
         let blocks = blocks.into_iter().map(goods).collect();
         let racks: Vec<seismass::Rack> = racks.iter().map(|rack| rack.0.clone()).collect();
         let build = || {
-            let mut scene = seismass::GeneralScene::new(building, blocks, racks)?;
+            let base = base.map(|(mass, mu_s, mu_k, radius)| SlidingBase { mass, mu_s, mu_k, radius });
+            let mut scene = seismass::GeneralScene::on_base(building, blocks, racks, base)?;
             let at_rest = vec![0.0; scene.storeys()];
             if initial_drift.is_some() || initial_velocity.is_some() {
                 let drift = initial_drift.map_or_else(|| at_rest.clone(), |values| values.0);

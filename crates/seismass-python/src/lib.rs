@@ -9,6 +9,7 @@ mod general_response;
 mod general_run;
 mod general_scene;
 mod interrupt;
+mod plane;
 mod reference;
 mod response;
 mod scene;
@@ -55,6 +56,8 @@ mod _kernel {
     use crate::general_run::{GeneralResponse, simulate_general};
     #[pymodule_export]
     use crate::general_scene::{GeneralBuilding, GeneralScene, Rack};
+    #[pymodule_export]
+    use crate::plane::{PlaneResponse, PlaneScene, simulate_plane};
     #[pymodule_export]
     use crate::reference::{ReferenceRun, integrate_reference};
     #[pymodule_export]

@@ -12,33 +12,34 @@ from typing import Any, Final, cast, get_args
 
 import numpy as np
 
-from seismass.assessment.file_goods import (
-    FRICTION,
-    LIVE_LOAD,
-    code_of,
-    floor_codes,
-    friction_of,
-    live_load_of,
-    mu_factors_of,
-)
+from seismass.assessment.file_codes import code_of, floor_codes
+from seismass.assessment.file_goods import FRICTION, LIVE_LOAD, PRESENT, kinds_of, live_load_of, mu_factors_of
+from seismass.assessment.file_racks import SUPPORT
 from seismass.assessment.file_site import LIMIT, PERIOD, SITE, check_period, limit_of, period_of, site_of
-from seismass.assessment.file_values import (
-    STRONG,
+from seismass.assessment.file_units import (
+    PLAIN_GOODS_KEYS,
+    PLAIN_STOREY_KEYS,
+    SYSTEMS,
     US_GOODS_KEYS,
     US_STOREY_KEYS,
+    plain_keys,
+    to_si,
+)
+from seismass.assessment.file_values import (
+    STRONG,
     held,
     key_of,
     missing,
     number_of,
     positive,
     stated,
-    to_si,
 )
+from seismass.assessment.file_walls import WALL_KEYS, walls_of
+from seismass.assessment.floors import by_floor, counted_fractions
 from seismass.assessment.own_building import (
     DEFAULT_THETA_LIMIT,
     DesignRule,
     OwnBuilding,
-    fractions_of,
 )
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.input_kinds import BUILDING_FILE, refuse_other_kind
@@ -65,10 +66,11 @@ _STOREY: Final = (
     "second_slope",
     "third_slope",
 )
-_GOODS: Final = (*LIVE_LOAD, "occupied", *FRICTION, "mu_k")
+_KIND: Final = (*PRESENT, *FRICTION, "mu_k", *SUPPORT)
+_GOODS: Final = (*LIVE_LOAD, *_KIND)
 _DESIGN: Final = ("R", "design_fraction", "combination")
 KEYS: Final = {
-    "": ("name", "note", "site", "code", "building", "goods", "storeys"),
+    "": ("name", "note", "units", "site", "code", "building", "walls", "goods", "storeys"),
     "site": SITE,
     "code": ("id", "use", "fraction"),
     "building": (
@@ -84,8 +86,10 @@ KEYS: Final = {
         "scaling_period_s",
         *_STOREY,
     ),
+    "walls": WALL_KEYS,
     "goods": ("mu_factors", *_GOODS),
-    "storeys": ("name", "use", "fraction", "exempt", *_STOREY, *_GOODS),
+    "storeys": ("name", "use", "fraction", "exempt", "goods", *_STOREY, *_GOODS),
+    "storeys.goods": ("name", "share", "attached", *_KIND),
 }
 """Keys of each table of a building file, the file itself first."""
 US_KEYS: Final[dict[str, tuple[str, ...]]] = {
@@ -94,6 +98,12 @@ US_KEYS: Final[dict[str, tuple[str, ...]]] = {
     "storeys": (*US_STOREY_KEYS, *US_GOODS_KEYS),
 }
 """Keys in US units, in place of those in SI units."""
+PLAIN_KEYS: Final[dict[str, dict[str, dict[str, str]]]] = {
+    "building": PLAIN_STOREY_KEYS,
+    "goods": PLAIN_GOODS_KEYS,
+    "storeys": PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS,
+}
+"""Keys without a unit, in a file that states its system of units."""
 
 
 def example_file() -> Path:
@@ -141,24 +151,40 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         top = load_table(path, "building file", InvalidBuildingFile)
     refuse_other_kind(top, BUILDING_FILE)
     top.known(KEYS[""])
+    units = top.choice("units", SYSTEMS) if "units" in top.values else ""
     storeys = top.tables("storeys")
     if not storeys:
         top.refuse("storeys", "a table per storey, storey 1 first", "none")
     for storey in storeys:
-        _known(storey, "storeys")
-    building, goods, site, code = (_table(top, key) for key in ("building", "goods", "site", "code"))
+        _known(storey, "storeys", units)
+        for kind in storey.tables("goods"):
+            _known(kind, "storeys.goods", units)
+    building, goods, site, code, walls = (
+        _table(top, key, units) for key in ("building", "goods", "site", "code", "walls")
+    )
     _unique(building, goods, storeys)
-    mass = np.array([_mass(storey, building) for storey in storeys])
+    frame = np.array([_mass(storey, building) for storey in storeys])
     heights = _heights(storeys, building)
     fraction = code_of(code)
-    own_fractions, uses = floor_codes(storeys, fraction)
-    strength, design = _strength(storeys, building, mass)
-    live_load = np.array([live_load_of(storey, goods, building) for storey in storeys])
-    occupied = np.array([stated(storey, goods, "occupied", SHARE, 1.0) for storey in storeys])
-    friction = [
-        friction_of(storey, goods) if load * share > 0.0 else ("", 0.0, 0.0)
-        for storey, load, share in zip(storeys, live_load, occupied, strict=True)
-    ]
+    of_floors = floor_codes(storeys, fraction)
+    strength, design = _strength(storeys, building, frame)
+    area = np.array([positive(storey, building, "area_m2", np.nan) for storey in storeys])
+    kinds = tuple(
+        kind
+        for number, storey in enumerate(storeys, start=1)
+        for kind in kinds_of(
+            number,
+            storey,
+            goods,
+            live_load_of(storey, goods, building),
+            float(area[number - 1]),
+            of_floors[number - 1].use or fraction.use,
+        )
+    )
+    loose, bolted = (tuple(kind for kind in kinds if kind.attached == fixed) for fixed in (False, True))
+    present = by_floor(loose, [kind.mass for kind in loose], len(storeys))
+    fixed = by_floor(bolted, [kind.mass for kind in bolted], len(storeys))
+    mass = frame + fixed
     p_delta = building.flag("p_delta", heights is not None)
     if p_delta and heights is None:
         storeys[0].refuse("height_m", f"given where {building.key('p_delta')} is true", "nothing")
@@ -170,21 +196,26 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         return np.array([_spring(storey, building, name) for storey in storeys])
 
     period = period_of(building, heights, len(storeys), fraction)
-    counted = {"bare": 0.0 * mass, "all": occupied * live_load}
+    counted = {"bare": 0.0 * mass, "all": fixed + present}
     if period.mass == "code share":
-        counted["code share"] = fractions_of(fraction, own_fractions, uses) * live_load
+        live_load = by_floor(loose, [kind.live_load for kind in loose], len(storeys))
+        shares = [one.fraction for one in counted_fractions(fraction, of_floors, mass, live_load)]
+        counted["code share"] = fixed + np.array(shares) * live_load
     limit, limit_rule = limit_of(building, fraction)
-    stiffness = _stiffness(storeys, building, mass, counted[period.mass], period.value)
-    gravity = _gravity_load(storeys, building, mass) if p_delta else None
-    if gravity is not None and heights is not None:
-        load = np.cumsum((gravity + STANDARD_GRAVITY * counted["all"])[::-1])[::-1]
+    stiffness = _stiffness(storeys, building, frame, counted[period.mass], period.value)
+    beside = walls_of(walls, building, frame + counted[period.mass], stiffness, heights, period.value)
+    if beside is not None and "damping_from_storey" in building.values:
+        building.refuse("damping_from_storey", f"left out where {top.key('walls')} is given", "both")
+    gravity = _gravity_load(storeys, building, frame) + STANDARD_GRAVITY * fixed if p_delta else None
+    if gravity is not None and heights is not None and beside is None:
+        load = np.cumsum((gravity + STANDARD_GRAVITY * present)[::-1])[::-1]
         check_period(building, period, stiffness, load / heights)
     return OwnBuilding(
         name=printable(top.text("name")) or ("building" if path is None else printable(path.stem)),
         note=printable(top.text("note"), lines=True),
         storey_names=tuple(printable(storey.text("name")) for storey in storeys),
         mass=mass,
-        stiffness=stiffness,
+        stiffness=stiffness if beside is None else beside.stiffness,
         stated_period=period.value,
         period_mass=period.mass,
         period_rule=period.rule,
@@ -199,18 +230,13 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         damping=building.number("damping", DEFAULT_DAMPING, SHARE),
         damping_from_storey=_damping_from(building, len(storeys)),
         gravity_load=gravity,
-        area=np.array([positive(storey, building, "area_m2", np.nan) for storey in storeys]),
+        area=area,
         dead_load_stated=np.array([key_of(storey, building, _MASS) == "dead_load_kpa" for storey in storeys]),
-        live_load=live_load,
-        occupied=occupied,
-        friction=tuple(name for name, _, _ in friction),
-        mu_s=np.array([static for _, static, _ in friction]),
-        mu_k=np.array([kinetic for _, _, kinetic in friction]),
+        kinds=kinds,
         mu_factors=mu_factors_of(goods),
         target=site_of(site, Path() if path is None else path.parent),
         code=fraction,
-        own_fractions=own_fractions,
-        uses=uses,
+        floor_codes=of_floors,
         code_stated=bool(code.values),
         drift_limit=limit,
         drift_limit_rule=limit_rule,
@@ -218,26 +244,31 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         collapse_drift_ratio=collapse,
         scaling_period=_optional(building, "scaling_period_s"),
         path=path,
+        walls=None if beside is None else beside.matrix,
+        walls_stated="" if beside is None else beside.how,
     )
 
 
-def _table(top: Table, key: str) -> Table:
+def _table(top: Table, key: str, units: str) -> Table:
     """Return a table, empty where the file has none."""
     table = top.table(key) if key in top.values else Table({}, key, top.file, InvalidBuildingFile)
-    _known(table, key)
+    _known(table, key, units)
     return table
 
 
-def _known(table: Table, kind: str) -> None:
-    """Refuse keys that are not known, and put those in US units into SI units."""
-    table.known(KEYS[kind], also=US_KEYS.get(kind, ()))
-    to_si(table)
+def _known(table: Table, kind: str, units: str) -> None:
+    """Refuse keys that are not known, and put those without a unit and in US units into SI units."""
+    table.known(KEYS[kind], also=(*US_KEYS.get(kind, ()), *plain_keys(PLAIN_KEYS.get(kind, {}), units)))
+    to_si(table, units)
 
 
 def _unique(building: Table, goods: Table, storeys: list[Table]) -> None:
     """Refuse two keys of one table that say the same."""
     for table in (building, goods, *storeys):
-        for group in (_MASS, _STIFFNESS, _STRENGTH, LIVE_LOAD, FRICTION):
+        for group in (_MASS, _STIFFNESS, _STRENGTH, LIVE_LOAD):
+            table.one_of(*group)
+    for table in (goods, *storeys, *(kind for storey in storeys for kind in storey.tables("goods"))):
+        for group in (PRESENT, FRICTION):
             table.one_of(*group)
         for key in ("mu", "friction"):
             table.excluded("mu_k", key)
@@ -260,7 +291,7 @@ def _optional(table: Table, key: str) -> float | None:
 
 def _mass(storey: Table, building: Table) -> float:
     """Mass of a floor without goods (kg)."""
-    place = held(storey, building, _MASS)
+    place = held((storey, building), _MASS)
     if place is None:
         missing(storey, building, _MASS)
     table, key = place
@@ -270,7 +301,7 @@ def _mass(storey: Table, building: Table) -> float:
 
 def _heights(storeys: list[Table], building: Table) -> Any:
     """Heights (m), or None where none is known."""
-    if not any(held(storey, building, ("height_m",)) for storey in storeys):
+    if not any(held((storey, building), ("height_m",)) for storey in storeys):
         return None
     return np.array([positive(storey, building, "height_m") for storey in storeys])
 
@@ -290,7 +321,7 @@ def _stiffness(storeys: list[Table], building: Table, mass: Any, counted: Any, p
     if period is None:
         values = []
         for storey in storeys:
-            place = held(storey, building, _STIFFNESS)
+            place = held((storey, building), _STIFFNESS)
             if place is None:
                 whole = f"{building.key('period_s')} or {building.key('system')} for the whole building"
                 where = f"given, or {_STIFFNESS[1]}, or {whole}"
@@ -327,7 +358,7 @@ def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, De
     units = {"yield_shear_kn": 1e3, "yield_shear_n": 1.0, "yield_shear_over_weight": weight}
     values = []
     for storey in storeys:
-        place = held(storey, building, _STRENGTH)
+        place = held((storey, building), _STRENGTH)
         if place is None:
             others = ", or ".join(("", *_STRENGTH[1:])).removeprefix(", or ")
             storey.refuse(_STRENGTH[0], f"given, or {others}, or {building.key('design')} = true with R", "nothing")

@@ -116,15 +116,17 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "second_slope": building.second_slope.tolist(),
         "third_slope": building.third_slope.tolist(),
         "live_load": building.live_load.tolist(),
-        "occupied": building.occupied.tolist(),
-        "contact": list(building.friction),
-        "mu_s": building.mu_s.tolist(),
-        "mu_k": building.mu_k.tolist(),
+        "bolted": building.bolted.tolist(),
+        "goods": building.goods.tolist(),
+        "use": [one.use or building.code.use for one in building.floor_codes],
+        "code_fraction": [one.fraction for one in building.counted],
+        "code_exception": [one.exception for one in building.counted],
     }
     names = list(columns)
     rule = building.design
     return {
         "storeys": [dict(zip(names, row, strict=True)) for row in zip(*columns.values(), strict=True)],
+        "goods": [asdict(kind) | {"mass": kind.mass} for kind in building.kinds if kind.live_load > 0.0],
         "goods_present_over_design_live_load": building.present_share,
         "weight": building.weight,
         "weight_of_goods": STANDARD_GRAVITY * float(building.goods.sum()),

@@ -73,7 +73,7 @@ def doubts_of(
         *building_doubts(building, real, target),
         *usage_remarks((), motions),
         *_about_drifts(storeys),
-        *damping_doubts(real, motions),
+        *(damping_doubts(real, motions) if building.walls is None else ()),
     ]
     return tuple(dict.fromkeys(found))
 
@@ -101,7 +101,8 @@ def _about_loads(building: OwnBuilding) -> list[str]:
     """Loads over their areas, and goods over the building."""
     heaviest = MAX_LIVE_LOAD_OF_PIERS if building.code.code_id in PIER_CODES else MAX_LIVE_LOAD
     low, high = FLOOR_WEIGHT_RANGE
-    live, floor = (1e-3 * STANDARD_GRAVITY * mass / building.area for mass in (building.live_load, building.mass))
+    frame = building.mass - building.bolted
+    live, floor = (1e-3 * STANDARD_GRAVITY * mass / building.area for mass in (building.live_load, frame))
     dead = np.where(building.dead_load_stated, floor, np.nan)
     psf = "are loads in kPa (1 psf is 0.0479 kPa)?"
     found = [
@@ -109,7 +110,10 @@ def _about_loads(building: OwnBuilding) -> list[str]:
         *_outside(building, "dead load", dead, 0.0, MAX_DEAD_LOAD, f"above {MAX_DEAD_LOAD:g} kPa{{others}}: {psf}"),
     ]
     if not any(text.startswith("dead load") for text in found):
-        asked = f"outside {low:g} to {high:g} kPa{{others}}: are area and mass or load in the units of their keys?"
+        asked = (
+            f"outside {low:g} to {high:g} kPa{{others}}: are area and mass or load in the units of their keys, and is "
+            "the mass no weight?"
+        )
         found += _outside(building, "weight over the area", floor, low, high, asked)
     heavy = float(building.goods.sum() / building.mass.sum())
     if heavy > MOST_GOODS:

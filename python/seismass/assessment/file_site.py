@@ -21,6 +21,7 @@ from seismass.design import (
     drift_limit_table,
 )
 from seismass.model.codes import CodeFraction
+from seismass.model.plausibility import PERIOD_RANGE
 from seismass.scaling.target_text import target_of
 from seismass.spectra import DEFAULT_TL, TargetSpectrum
 
@@ -136,6 +137,8 @@ def check_period(building: Table, period: StatedPeriod, stiffness: FloatArray, g
     if period.value is None or ratio[storey] < 1.0:
         return
     longest = period.value / np.sqrt(ratio[storey])
+    if longest < PERIOD_RANGE[0]:  # no building has one so short: the loads are wrong, which the scene says
+        return
     told = (
         f"below {longest:.3g} s, where the gravity load P/h of storey {storey + 1} takes its whole stiffness (are "
         "loads and heights in the units of their keys?)"

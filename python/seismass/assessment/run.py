@@ -25,6 +25,7 @@ from seismass.assessment.shares import DESIGN_SHARES, SHARES, advised_share, des
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
+from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.model.scene import Scene
@@ -118,10 +119,11 @@ def assess(
     models = len(frictions) + FIXED_MODELS if loaded else 1
     fractions = len(frictions) + SHARES if loaded else 0
     designs = 2 * len(DESIGN_SHARES) if loaded and chosen.design is not None else 0
-    stages = _Stages(progress, (models + fractions + designs) * len(suite))
+    larger = len(SHARES_BEYOND) if loaded and goes_beyond(chosen.scene(spectrum)) else 0
+    stages = _Stages(progress, (models + fractions + larger + designs) * len(suite))
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
     effective = fractions_by_friction(
-        chosen, spectrum, frictions, scaled, bootstrap, threads, stages.next(fractions * len(suite))
+        chosen, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
     )
     advised = advised_share(effective)
     design = None
@@ -131,11 +133,11 @@ def assess(
     scenes = compared_models(chosen, spectrum, advised)
     names = [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(suite, start=1)]
     kernel_motions = [getattr(motion, "motion", motion) for motion in scaled]
-    runs = solve_models(
+    runs, slips = solve_models(
         chosen, scenes, kernel_motions, names, threads=threads, progress=stages.next(models * len(suite))
     )
     real = chosen.scene(spectrum)
-    storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, runs), collapses_of(runs)
+    storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, slips), collapses_of(runs)
     governing = governing_table(chosen, storeys)
     about = {
         "name": suite.name if isinstance(suite, Suite) else "motions",
@@ -155,11 +157,12 @@ def assess(
         storeys=storeys,
         governing=governing,
         slip=slip,
+        slips=slips,
         runs=runs,
         collapses=collapses,
         scaling=scaling,
         suite=about,
-        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite)),
+        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL)),
         remarks=remarks_of(chosen, doubts, scaling, effective, about),
         assumptions=assumptions_of(chosen, spectrum, scaling, about, period),
         metadata={
@@ -215,7 +218,7 @@ def _scaling(
     elif period is not None:
         chosen = as_number(period, "scaling_period", "assessment", InvalidOption)
     assert target is not None
-    return scale_asce7_10(suite, target, chosen, threads=threads)
+    return scale_asce7_10(suite, target, chosen, between=False, threads=threads)
 
 
 class _Stages:
@@ -258,7 +261,13 @@ def _digest(
         arrays = (structure.mass, *springs, structure.damping_matrix, scene.geometric_stiffness)
         for array in (*arrays, structure.heights, scene.collapse_drift, scene.block_mass):
             digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
-        digest.update(np.array([[block.mu_s, block.mu_k] for block in scene.blocks], dtype="<f8").tobytes())
+        blocks = [[block.floor, block.mu_s, block.mu_k] for block in scene.blocks]
+        digest.update(np.array(blocks, dtype="<f8").tobytes())
+        stops = [block.stop_numbers for block in scene.blocks]
+        if scene.racks or any(stops) or structure.stiffness_matrix is not None:
+            matrix = structure.stiffness_matrix
+            digest.update(b"" if matrix is None else np.ascontiguousarray(matrix, dtype="<f8").tobytes())
+            digest.update(repr((stops, *(sorted(rack._arguments().items()) for rack in scene.racks))).encode())
     for motion in motions:
         digest.update(np.float64(motion.dt).tobytes())
         digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())

@@ -93,9 +93,10 @@ def design_share(
     def designed(share: float) -> Building:
         return building.structure(target, share * building.goods)
 
-    blocks = building.scene(target, mu_factor=factor).blocks
+    scene = building.scene(target, mu_factor=factor)
     options = checked_options("mean", SAME_DAMPING, DESIGN_SHARES, 0.9, 1, 0, threads, progress)
-    solved = solved_designs(designed, blocks, named_motions(motions, OWNER), options)
+    named = named_motions(motions, OWNER)
+    solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift)
     fallen = solved.real.collapsed.sum(axis=1)
     if not few_collapses(int(fallen.max()), len(motions)):
         return DesignShare(None, _collapsing(fallen, len(motions)))

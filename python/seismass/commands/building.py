@@ -29,6 +29,9 @@ def options(parser: argparse.ArgumentParser) -> None:
     what.add_argument("--example", action="store_true", help="print a building file to start from, and stop")
     what.add_argument("--codes", action="store_true", help="print the codes and their fractions, and stop")
     what.add_argument("--frictions", action="store_true", help="print the contacts and their friction, and stop")
+    what.add_argument(
+        "--occupancies", action="store_true", help="print what surveys find on floors, over design loads, and stop"
+    )
     motions = parser.add_argument_group("motions and site, in place of the file's")
     add_records_options(motions)
     add_target_options(motions, stand_in=False)
@@ -50,7 +53,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Assess the building, write its files and print the page; return the exit code."""
-    if args.example or args.codes or args.frictions:
+    if args.example or args.codes or args.frictions or args.occupancies:
         print(_listing(args), end="")
         return 0
     from seismass.assessment import assess
@@ -82,37 +85,15 @@ def run(args: argparse.Namespace) -> int:
 
 def _listing(args: argparse.Namespace) -> str:
     """Return the example file, or the requested table."""
-    from seismass.media.text_table import text_table
-
     if args.example:
         from seismass.assessment.building_file import example_file
 
         return example_file().read_text(encoding="utf-8")
+    from seismass.commands.listings import codes_listing, frictions_listing, occupancies_listing
+
     if args.codes:
-        from seismass.model.codes import MARK, code_legend, code_table
-
-        rows = [["id", "use", "fraction", "clause", "status", "code"]]
-        for row in code_table().iter_rows(named=True):
-            fraction = f"{row['low']:g} to {row['high']:g}" if row["low"] < row["high"] else f"{row['fraction']:g}"
-            rows.append(
-                [
-                    row["code_id"],
-                    row["use"],
-                    fraction,
-                    row["clause"],
-                    row["status"],
-                    row["code"] + MARK * (not row["checked"]),
-                ]
-            )
-    else:
-        from seismass.model.friction import friction_table
-
-        rows = [["id", "mu_s", "mu_k", "contact", "source"]]
-        for row in friction_table().iter_rows(named=True):
-            source = f"{row['source']} ({row['kind']})"
-            rows.append([row["pair_id"], f"{row['mu_s']:g}", f"{row['mu_k']:.4g}", row["contact"], source])
-    lines = text_table(rows, left=len(rows[0]), indent=0)
-    return "\n".join([*lines, *([f"\n{code_legend()}"] if args.codes else [])]) + "\n"
+        return codes_listing()
+    return occupancies_listing() if args.occupancies else frictions_listing()
 
 
 COMMAND = Command(
@@ -131,6 +112,7 @@ building warehouse.toml --target ec8:1:C:0.3 --code ec8
 building warehouse.toml --mu-factors 1 1 --json > answer.json
 building --codes
 building --frictions
+building --occupancies
 """,
     options=options,
     run=run,

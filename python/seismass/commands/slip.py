@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
         check_out(args.out, "slip demand")
     target = read_target(args) if _targeted(args) else None
     scene, building = read_scene_or_building(args.file, target)
-    blocks = len(scene.blocks)
+    blocks = len(scene.goods)
     sizes = _per_block("size", args.size, blocks, parse_size)
     clearances = _per_block("clearance", args.clearance, blocks, parse_clearance)
     period = 1.0 if building is None else building.scaling_period or building.period(building.goods)
@@ -158,7 +158,7 @@ def _motions(args: argparse.Namespace, target: TargetSpectrum | None, default: f
         return suite, said, list(suite) if args.factor is None else [record.scaled(factor) for record in suite]
     refuse_given(args, ("factor",), "slip", "where a target is given")
     period = args.period or default
-    factors = scale_asce7_10(suite, target, period=period).factors
+    factors = scale_asce7_10(suite, target, period=period, between=False).factors
     scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
     return suite, f"ASCE 7-10 to {target.label}, for T = {period:.3g} s", scaled
 

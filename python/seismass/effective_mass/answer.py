@@ -21,6 +21,7 @@ from seismass.effective_mass.solved import solved_designs, solved_frictions
 from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.motion import MotionLike
+from seismass.model.rack import Rack
 from seismass.model.scene import Scene
 
 
@@ -104,6 +105,7 @@ def effective_mass_of_design(
     blocks: Iterable[Block],
     motions: MotionLike | Iterable[MotionLike],
     *,
+    racks: Iterable[Rack] = (),
     statistic: Statistic = "mean",
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
@@ -124,6 +126,8 @@ def effective_mass_of_design(
         Takes a share from 0 to 1, returns the Building designed with it; floor masses without goods.
     blocks : iterable of Block
         The goods, the same for every design.
+    racks : iterable of Rack
+        Racks with goods, the same for every design; shares above 1 are not sought.
     motions, statistic, damping, fractions, confidence, resamples, seed, threads, progress
         As for `effective_mass`.
 
@@ -151,4 +155,4 @@ def effective_mass_of_design(
     """
     named = named_motions(motions, OWNER)
     options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
-    return solved_designs(design, blocks, named, options).answer()
+    return solved_designs(design, blocks, named, options, racks).answer()

@@ -76,9 +76,10 @@ def attached(scene: Scene, fraction: float, damping: ModelDamping) -> Scene:
 
 def building_of(scene: Scene) -> Building:
     """Return the building of a scene that has one."""
-    if scene.building is None:
+    building = scene.on_ground("effective mass").building
+    if building is None:
         raise refusal(InvalidScene, "building", "effective mass", "given", "None")
-    return scene.building
+    return building
 
 
 def goods_mass(scene: Scene) -> FloatArray:

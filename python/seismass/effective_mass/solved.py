@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import brief, refusal
+from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
 from seismass.effective_mass.curve import Statistic
 from seismass.effective_mass.models import attached, check_any_load
@@ -16,6 +16,7 @@ from seismass.effective_mass.runs import NamedMotions, Peaks, Stages, solve
 from seismass.effective_mass.search import OWNER, Options, Search
 from seismass.model.block import Block
 from seismass.model.building import Building
+from seismass.model.rack import Rack
 from seismass.model.scene import Scene
 
 
@@ -115,18 +116,25 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
 
 
 def solved_designs(
-    design: Callable[[float], Building], blocks: Iterable[Block], motions: NamedMotions, options: Options
+    design: Callable[[float], Building],
+    blocks: Iterable[Block],
+    motions: NamedMotions,
+    options: Options,
+    racks: Iterable[Rack] = (),
+    collapse_drift: FloatArray | None = None,
 ) -> Solved:
     """Solve the building that is designed with each share, with sliding goods and with that share attached.
 
     Parameters
     ----------
-    design, blocks
+    design, blocks, racks
         As for `effective_mass_of_design`.
     motions : NamedMotions
         The suite.
     options : Options
         How the fraction is sought.
+    collapse_drift : ndarray, shape (storeys,), optional
+        Drift at which a storey counts as collapsed (m), beside the limit that P-Delta sets.
 
     Raises
     ------
@@ -136,13 +144,13 @@ def solved_designs(
     if not callable(design):
         requirement = "a callable that takes a share and returns a Building"
         raise refusal(InvalidOption, "design", OWNER, requirement, brief(design))
-    goods, threads = tuple(blocks), options.threads
+    goods, standing, threads = tuple(blocks), tuple(racks), options.threads
 
     def designed(share: float) -> Scene:
         building: Any = design(share)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building", brief(building))
-        return check_any_load(Scene(building, goods))
+        return check_any_load(Scene(building, goods, racks=standing, collapse_drift=collapse_drift))
 
     shares = [float(share) for share in options.fractions]
     stages = Stages(options.progress, 2 * len(shares) * len(motions))

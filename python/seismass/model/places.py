@@ -24,7 +24,8 @@ def rack_levels(scene: Scene) -> tuple[tuple[int, int], ...]:
 
 def goods_names(scene: Scene) -> tuple[str, ...]:
     """Return where each block that may slide stands, in the order of results."""
-    floors = (floor_name(block.floor) for block in scene.blocks)
+    ground = floor_name(0) if scene.base is None else "slab"
+    floors = (floor_name(block.floor) if block.floor else ground for block in scene.blocks)
     racks = enumerate(scene.racks, start=1)
     levels = (
         f"rack {number} level {block.level}" for number, rack in racks for block in rack.blocks if not block.fixed

@@ -6,16 +6,20 @@ from .grid.design import StrengthDesign
 from .grid.grid import Grid
 from .long_table import long_table
 from .opensees_export import write_opensees
+from .plane_response import PlaneResponse
 from .response import Response
 from .scene_file import SceneFile, read_scene
+from .scene_product import SceneProduct
 from .simulate import instruction_set, simulate
 from .spring_path import SpringPath, spring_forces
 
 __all__ = [
     "Grid",
     "GridAxis",
+    "PlaneResponse",
     "Response",
     "SceneFile",
+    "SceneProduct",
     "SpringPath",
     "StrengthDesign",
     "instruction_set",

@@ -121,6 +121,8 @@ def model_content(scene: Scene, name: str = "") -> dict[str, Any]:
         raise refused("blocks on the ground alone")
     for what, is_there in (
         ("racks", bool(scene.racks)),
+        ("a sliding base", scene.base is not None),
+        ("two directions", scene.engine == "plane"),
         ("a stiffness matrix", building.stiffness_matrix is not None),
         ("backbones of several branches", building.backbone is not None),
         ("stops of springs", bool(np.isfinite(building.clearance).any())),

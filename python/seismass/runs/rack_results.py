@@ -56,6 +56,11 @@ class RackResults:
         return self._histories_of_racks("rack_drift")
 
     @property
+    def rack_velocity(self) -> tuple[FloatArray, ...]:
+        """Histories of the velocities of each rack's levels relative to the ground (m/s), each (rows, levels)."""
+        return self._histories_of_racks("rack_velocity")
+
+    @property
     def rack_acceleration(self) -> tuple[FloatArray, ...]:
         """Histories of the absolute accelerations of each rack's levels (m/s2), each of shape (rows, levels)."""
         return self._histories_of_racks("rack_acceleration")

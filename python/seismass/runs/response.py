@@ -16,6 +16,7 @@ from seismass.base.views import view
 from seismass.model.motion import Motion
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
+from seismass.runs.base_results import BaseResults
 from seismass.runs.rack_results import RackResults
 from seismass.runs.response_document import ResponseDocument
 from seismass.runs.response_views import ResponseAnimation, ResponsePlots
@@ -72,7 +73,7 @@ class Statistics(TypedDict):
     """Instruction set in use, as `instruction_set` names it."""
 
 
-class Response(RackResults, ResponseDocument):
+class Response(RackResults, BaseResults, ResponseDocument):
     """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
 
     Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
@@ -274,7 +275,7 @@ class Response(RackResults, ResponseDocument):
 
         Levels of racks are counted on from the storeys, rack by rack, and their blocks on from those of the floors. In
         scenes of the general engine there is also `velocity`, the relative velocity (m/s) at which a block comes to its
-        stop or leaves it, wears, lifts or lands; otherwise null.
+        stop or leaves it, wears, lifts or lands; otherwise null. A sliding base has number 0 where blocks have theirs.
 
         In a process that was forked from one in which Polars had been used, it is a SimulationError: `event_log` is the
         same without Polars.
@@ -374,7 +375,7 @@ class Response(RackResults, ResponseDocument):
         return array
 
     def _history(self, name: str) -> FloatArray:
-        displacement = name in ("drift", "slip", "rack_drift")
+        displacement = name in ("drift", "slip", "rack_drift", "base_slip")
         if not displacement and self._get(name) is None and self._get("drift") is not None:
             raise refusal(InvalidOption, "displacements_only", "simulate", f"False, if {name} is wanted", "True")
         array: FloatArray = self._asked(name, "histories")

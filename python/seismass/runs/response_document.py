@@ -50,7 +50,7 @@ class ResponseDocument:
         }
         if scene.engine == "general":
             result["goods"] = list(goods_names(scene))
-            result |= response.rack_values()
+            result |= response.rack_values() | response.base_values()
         for name in ("peak_drift_ratio", "residual_drift_ratio"):
             if getattr(response, name) is not None:
                 result[name] = getattr(response, name).tolist()

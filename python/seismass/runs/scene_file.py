@@ -24,8 +24,9 @@ from seismass.model.spring_laws import is_per_storey
 from seismass.model.springs import SPRING_FIELDS
 from seismass.records import Record, builtin_record, read_record
 from seismass.records.builtin import builtin_names, data_directory
-from seismass.runs.scene_goods import GOODS_KEYS, read_block, read_rack
+from seismass.runs.scene_goods import GOODS_KEYS, read_base, read_block, read_rack
 from seismass.runs.scene_walls import WALL_KEYS, check_walls, matrix_of_walls, with_walls
+from seismass.runs.simulate import motions_in_plane
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
@@ -37,7 +38,10 @@ KEYS: Final = {
         "walls",
         "blocks",
         "racks",
+        "other_direction",
+        "base",
         "motion",
+        "other_motion",
         "vertical_motion",
         "duration",
         "initial",
@@ -62,7 +66,8 @@ KEYS: Final = {
     "motion": ("file", "builtin", "acceleration", "dt", "unit", "scale", "dt_scale"),
     "initial": ("drift", "velocity"),
 }
-"""Keys of each table of a scene file, the file itself first; `vertical_motion` has those of `motion`."""
+"""Keys of each table of a scene file, the file itself first; `vertical_motion` and `other_motion` have those of
+`motion`, and `other_direction` those of `building` that may differ in y."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +88,8 @@ class SceneFile:
         The file.
     records : tuple of Record
         Records that the motion was read from, as their files have them; empty where the samples stand in the file.
+    other_motion : Motion or None
+        The motion in y, where there are two directions.
     """
 
     scene: Scene
@@ -92,6 +99,7 @@ class SceneFile:
     note: str
     path: Path
     records: tuple[Record, ...] = ()
+    other_motion: Motion | None = None
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -153,11 +161,21 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     top.needed("motion")
     scene = _scene(top)
     motion, records = _motions(top, source.parent)
+    other_motion = None
+    if "other_motion" in top.values:
+        if scene.engine != "plane":
+            top.refuse("other_motion", "left out where there is no other_direction", "a motion")
+        samples, dt, record = _samples(top.table("other_motion"), source.parent)
+        records = records if record is None else (*records, record)
+        motion, other_motion = motions_in_plane((motion, Motion(samples, dt)))
+    elif scene.engine == "plane":
+        top.needed("other_motion")
     duration = top.values.get("duration")
     if duration is not None:
         duration = as_number(duration, "duration", source.name, InvalidSceneFile)
         motion = motion.with_duration(duration)
-    return SceneFile(scene, motion, duration, scene.name, scene.note, source, records)
+        other_motion = None if other_motion is None else other_motion.with_duration(duration)
+    return SceneFile(scene, motion, duration, scene.name, scene.note, source, records, other_motion)
 
 
 def scene_without_motion(path: str | os.PathLike[str]) -> Scene:
@@ -185,16 +203,51 @@ def _scene(top: Table) -> Scene:
         initial.known(KEYS["initial"])
         if building is None:
             initial.empty("there is no building")
+
+    def state(key: str) -> Any:
+        if initial is None:
+            return None
+        return initial.values.get(key) if "other_direction" in top.values else initial.per_storey(key)
+
     return Scene(
         building,
         [read_block(table, number) for number, table in enumerate(top.tables("blocks"), start=1)],
         racks=[read_rack(table, number) for number, table in enumerate(top.tables("racks"), start=1)],
-        initial_drift=None if initial is None else initial.per_storey("drift"),
-        initial_velocity=None if initial is None else initial.per_storey("velocity"),
+        other_direction=_other_direction(top, building),
+        initial_drift=state("drift"),
+        initial_velocity=state("velocity"),
+        base=read_base(top.table("base")) if "base" in top.values else None,
         collapse_drift=top.values.get("collapse_drift"),
         name=top.text("name"),
         note=top.text("note"),
     )
+
+
+_SAME_IN_Y: Final = ("mass", "storeys", "heights", "gravity_load", "geometric_stiffness")
+"""Keys of a building that hold in both directions."""
+
+
+def _other_direction(top: Table, building: Building | None) -> Building | bool:
+    """The building in y: that in x with the keys that differ."""
+    if "other_direction" not in top.values:
+        return False
+    other = top.table("other_direction")
+    other.known(tuple(key for key in KEYS["building"] if key not in _SAME_IN_Y))
+    if building is None or not other.values:
+        if building is None:
+            other.empty("there is no building")
+        return True
+    merged = {**top.values["building"]}
+    for one, replaced in (("period", "stiffness"), ("yield_shear", "yield_shear_over_weight")):
+        for key, dropped in ((one, replaced), (replaced, one)):
+            if key in other.values:
+                merged.pop(dropped, None)
+    merged |= other.values
+    if "period" in merged and isinstance(merged.get("mass"), list):
+        period = other.number("period", np.nan, POSITIVE)
+        merged["stiffness"] = [_kernel.Rack.uniform_stiffness(building.mass, period)] * building.storeys
+        del merged["period"]
+    return building_of_table(Table(merged, "other_direction", top.file, InvalidSceneFile))
 
 
 def building_of_table(table: Table, walls: Table | None = None) -> Building:

@@ -1,4 +1,4 @@
-"""Blocks, their stops and racks of a scene file: tables as values of `Block`, `Stops` and `Rack`."""
+"""Blocks, stops, racks and base of a scene file: tables as values of `Block`, `Stops`, `Rack`, `SlidingBase`."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ from seismass.base.input_table import Table
 from seismass.base.values import as_count, as_number, brief, refusal
 from seismass.model.block import Block
 from seismass.model.rack import Rack, RackBlock
+from seismass.model.sliding_base import SlidingBase
 from seismass.model.springs import SHAPE_FIELDS, SPRING_FIELDS
 from seismass.model.stops import Stops
 
-_FRICTION: Final = ("mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear", "stops")
+_FRICTION: Final = ("mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear", "stops", "stops_y")
 GOODS_KEYS: Final = {
     "blocks": ("floor", *_FRICTION),
+    "blocks.stops_y": ("clearance", "stiffness", "damping"),
     "blocks.stops": ("clearance", "stiffness", "damping"),
     "racks": (
         "floor",
@@ -31,10 +33,12 @@ GOODS_KEYS: Final = {
         "damping",
         "geometric_stiffness",
         "blocks",
+        "other_direction",
     ),
     "racks.blocks": ("level", *_FRICTION, "fixed"),
+    "base": ("mu", "mu_s", "mu_k", "radius", "mass", "mass_ratio"),
 }
-"""Keys of the tables of goods and racks; stops of racks' blocks have those of `blocks.stops`."""
+"""Keys of the tables of goods, racks and base; stops of racks' blocks have those of `blocks.stops`."""
 
 
 def read_block(table: Table, number: int) -> Block:
@@ -51,7 +55,7 @@ def _friction(table: Table, owner: str) -> dict[str, Any]:
     table.needed("mu", "mu_s")
     table.excluded("mass_ratio", "mass")
     table.excluded("mu", "mu_s", "mu_k")
-    names = ("mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity")
+    names = ("mass", "mass_ratio", "mu", "mu_s", "mu_k")
     values: dict[str, Any] = {
         key: as_number(table.values[key], key, owner, InvalidScene) for key in names if key in table.values
     }
@@ -59,8 +63,13 @@ def _friction(table: Table, owner: str) -> dict[str, Any]:
         raise refusal(InvalidScene, "mu", owner, "finite and not negative", f"{values['mu']:g}")
     if "wear" in table.values:
         values["wear"] = table.values["wear"]
-    if "stops" in table.values:
-        values["stops"] = _stops(table.table("stops"))
+    if "velocity" in table.values:
+        velocity = table.values["velocity"]
+        is_pair = isinstance(velocity, list)
+        values["velocity"] = velocity if is_pair else as_number(velocity, "velocity", owner, InvalidScene)
+    for key in ("stops", "stops_y"):
+        if key in table.values:
+            values[key] = _stops(table.table(key))
     return values
 
 
@@ -69,6 +78,18 @@ def _stops(table: Table) -> Stops:
     table.needed("clearance")
     table.needed("stiffness")
     return Stops(**{key: table.values[key] for key in GOODS_KEYS["blocks.stops"] if key in table.values})
+
+
+def read_base(table: Table) -> SlidingBase:
+    """Return the sliding base of a scene file."""
+    keys = GOODS_KEYS["base"]
+    table.known(keys)
+    table.needed("mu", "mu_s")
+    table.excluded("mu", "mu_s", "mu_k")
+    table.excluded("mass_ratio", "mass")
+    return SlidingBase(
+        **{key: as_number(table.values[key], key, "base", InvalidScene) for key in keys if key in table.values}
+    )
 
 
 def read_rack(table: Table, number: int) -> Rack:
@@ -100,7 +121,7 @@ def _rack_block(table: Table, number: int, rack: int) -> RackBlock:
         table.refuse("fixed", "true or false", brief(fixed))
     if not fixed:
         return RackBlock(level, **_friction(table, owner))
-    for key in ("mu", "mu_s", "mu_k", "velocity", "wear", "stops"):
+    for key in ("mu", "mu_s", "mu_k", "velocity", "wear", "stops", "stops_y"):
         table.excluded(key, "fixed")
     table.needed("mass", "mass_ratio")
     table.excluded("mass_ratio", "mass")

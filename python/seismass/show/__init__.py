@@ -27,6 +27,7 @@ VIEWS: Final = {
     "Pushover.plot": "seismass.plots.pushover:pushover",
     "Record._repr_html_": "seismass.show.cards.records:record_html",
     "Record.plot": "seismass.show.motions.record:record_figure",
+    "PlaneResponse.text": "seismass.show.plane_text:plane_text",
     "Response._repr_html_": "seismass.show.cards.results:response_html",
     "Response.animate": "seismass.animation.animation:animation_of",
     "Response.text": "seismass.show.response_text:response_text",

@@ -1,13 +1,26 @@
-"""Racks and their goods in the text of a run."""
+"""Racks with their goods, and a sliding base, in the text of a run."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.model.places import goods_names
 from seismass.model.scene import Scene
 from seismass.runs.response import Response
+
+
+def base_line(scene: Scene, response: Response) -> str:
+    """Return what a sliding base is and did, as a line."""
+    base: Any = scene.base
+    friction = f"mu {base.mu_s:g}" if base.mu_s == base.mu_k else f"mu {base.mu_s:g}/{base.mu_k:g}"
+    surface = "flat" if base.radius is None else f"radius {base.radius:g} m"
+    return (
+        f"base      {friction}, {surface}: peak slip {1000.0 * response.peak_base_slip:.3f} mm at "
+        f"{response.peak_base_slip_time:.3f} s, residual {1000.0 * response.residual_base_slip:.3f} mm, "
+        f"path {1000.0 * response.base_slip_path:.3f} mm"
+    )
 
 
 def goods_places(scene: Scene) -> list[str]:
@@ -30,7 +43,7 @@ def rack_table(scene: Scene, response: Response) -> list[list[str]]:
     rows = [
         [
             str(number + 1),
-            str(rack.floor) if rack.floor else "ground",
+            str(rack.floor) if rack.floor else ("ground" if scene.base is None else "slab"),
             str(level + 1),
             f"{1000.0 * response.peak_rack_drift[number][level]:.3f}",
             f"{1000.0 * response.residual_rack_drift[number][level]:.3f}",

@@ -13,7 +13,7 @@ from seismass.model.damping import Rayleigh
 from seismass.model.places import spring_names
 from seismass.model.scene import Scene
 from seismass.runs.response import Response
-from seismass.show.rack_text import goods_masses, goods_places, rack_table, stop_table
+from seismass.show.rack_text import base_line, goods_masses, goods_places, rack_table, stop_table
 
 
 def response_text(response: Response) -> str:
@@ -60,6 +60,8 @@ def run_text(
             lines.append(
                 f"  peak base shear {_force(response.peak_base_shear, scene.building)}, springs and walls together"
             )
+    if scene.base is not None:
+        lines += ["", base_line(scene, response)]
     if scene.racks:
         lines += ["", *text_table(rack_table(scene, response), left=0)]
     if scene.goods:

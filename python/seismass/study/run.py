@@ -185,7 +185,9 @@ def run_study(
         raise refusal(InvalidMotion, "suite", "study", "a Suite of records", brief(suite))
     given = scaling is not None
     if scaling is None:
-        scaling = scale_asce7_10(suite, target, chosen.scaling_period, damping=chosen.damping, threads=threads)
+        scaling = scale_asce7_10(
+            suite, target, chosen.scaling_period, damping=chosen.damping, between=False, threads=threads
+        )
     else:
         _check_scaling(scaling, len(suite))
     factors = scaling.factors

@@ -135,7 +135,15 @@ impl GeneralState<'_> {
     /// Lets a node decide which of its blocks with zero relative velocity stick. `fired` are those that have just reached
     /// their limits, by the sign of what drives them back. False where there is no consistent state.
     pub(super) fn decide(&mut self, node: usize, tau: f64, cause: SettleCause, log: &mut Vec<Event>) -> bool {
-        let follows = matches!(cause, SettleCause::Breakaway(..));
+        if node == 0 && self.base_decides(cause) {
+            return self.decide_base(tau, cause, None, log);
+        }
+        self.decide_goods(node, tau, cause, log)
+    }
+
+    /// Lets the goods of a node decide.
+    pub(super) fn decide_goods(&mut self, node: usize, tau: f64, cause: SettleCause, log: &mut Vec<Event>) -> bool {
+        let follows = cause != SettleCause::Other;
         let decides = |state: &Self, j: usize| {
             let motion = &state.motions[j];
             motion.velocity == 0.0 && motion.state != BlockState::Airborne && (motion.is_stuck() || !follows)
@@ -192,7 +200,7 @@ impl GeneralState<'_> {
                     && self.motions[j].mu_s == self.motions[fired].mu_s;
                 (j == fired || alike).then_some(sign)
             }
-            SettleCause::Other => None,
+            SettleCause::Together | SettleCause::Other => None,
         };
         let candidates = blocks.iter().map(|&j| Candidate {
             block: j,
@@ -207,10 +215,11 @@ impl GeneralState<'_> {
         let of_others =
             others.map(|&j| self.friction_coefficient(j) * self.system.blocks[j].mass * contact - self.stop_force(j));
         let weakest = candidates.iter().map(|c| self.motions[c.block].mu_s).fold(f64::INFINITY, f64::min);
+        let of_base = if node == 0 { self.base_forces(tau).0 } else { 0.0 };
         Decision {
-            force: self.node_forces().force[node] + of_others.sum::<f64>(),
+            force: self.node_forces().force[node] + of_others.sum::<f64>() + of_base,
             mass: self.system.mass[node],
-            ground: (node == 0).then(|| self.interval.ground_at(tau)),
+            ground: (node == 0 && !self.base_moves()).then(|| self.interval.ground_at(tau)),
             least_size: weakest * STANDARD_GRAVITY,
             candidates,
         }

@@ -76,29 +76,37 @@ impl GeneralState<'_> {
     /// Absolute accelerations of the nodes, that of the ground first (m/s2).
     pub(super) fn accelerations(&self, tau: f64) -> Vec<f64> {
         let NodeForces { mut force, .. } = self.node_forces();
+        force[0] += self.base_forces(tau).0;
         for (p, value) in force.iter_mut().enumerate() {
             *value = (*value + self.block_forces(p, tau).0) * self.regime.inverse_mass[p];
         }
-        force[0] = self.interval.ground_at(tau);
+        if !self.base_moves() {
+            force[0] = self.interval.ground_at(tau);
+        }
         force
     }
 
     /// Sums of the sizes of the terms of the nodes' absolute accelerations: times rounding, their errors.
     pub(super) fn acceleration_sizes(&self, tau: f64) -> Vec<f64> {
         let NodeForces { mut size, .. } = self.node_forces();
+        size[0] += self.base_forces(tau).1;
         for (p, value) in size.iter_mut().enumerate() {
             *value = (*value + self.block_forces(p, tau).1) * self.regime.inverse_mass[p];
         }
-        size[0] = self.interval.ground_at(tau).abs();
+        if !self.base_moves() {
+            size[0] = self.interval.ground_at(tau).abs();
+        }
         size
     }
 
     /// What a node asks of its blocks, with the forces of stops that touch blocks in motion.
     pub(super) fn demand(&self, node: usize, tau: f64) -> Demand {
-        if node == 0 {
+        if node == 0 && !self.base_moves() {
             return Demand::Ground { acceleration: self.interval.ground_at(tau) };
         }
-        let NodeForces { force, size } = self.node_forces();
+        let NodeForces { mut force, mut size } = self.node_forces();
+        let (of_base, base_size) = self.base_forces(tau);
+        (force[0], size[0]) = (force[0] + of_base, size[0] + base_size);
         let moving = self.system.on_node[node].iter().filter(|&&j| self.motions[j].velocity != 0.0);
         let of_stops: Vec<f64> = moving.map(|&j| -self.stop_force(j)).collect();
         Demand::Floor {

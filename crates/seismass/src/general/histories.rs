@@ -12,6 +12,7 @@ use crate::scene::Options;
 /// Writes histories.
 pub(super) struct Recorder {
     histories: Histories,
+    base_slip: Option<Vec<f64>>,
     displacements_only: bool,
     nodes: usize,
     goods: usize,
@@ -30,17 +31,21 @@ impl Recorder {
             return Err(Error::invalid(Domain::Options, "histories", "run", requirement, value));
         }
         let histories = Histories { every: every.get(), rows, ..Histories::default() };
-        Ok(Self { histories, displacements_only: options.displacements_only, nodes, goods })
+        let base_slip = system.base.is_some().then(Vec::new);
+        Ok(Self { histories, base_slip, displacements_only: options.displacements_only, nodes, goods })
     }
 
-    /// Appends the state at `tau` of the present interval, if there is a row at the sample.
-    pub(super) fn append(&mut self, state: &GeneralState, sample: usize, tau: f64) {
+    /// Appends the state, with accelerations of all nodes, if there is a row at the sample.
+    pub(super) fn append(&mut self, state: &GeneralState, sample: usize, accelerations: impl FnOnce() -> Vec<f64>) {
         let histories = &mut self.histories;
         if !sample.is_multiple_of(histories.every) {
             return;
         }
         histories.drift.extend((1..=self.nodes).map(|p| state.drift(p)));
         histories.slip.extend(state.motions.iter().map(|motion| motion.slip));
+        if let Some(slip) = &mut self.base_slip {
+            slip.push(state.x[0]);
+        }
         if self.displacements_only {
             return;
         }
@@ -48,12 +53,12 @@ impl Recorder {
         histories.floor_velocity.extend(&velocities[1..]);
         let of_goods = state.motions.iter().zip(&state.system.blocks);
         histories.block_velocity.extend(of_goods.map(|(motion, law)| motion.velocity + velocities[law.floor]));
-        histories.floor_acceleration.extend(&state.accelerations(tau)[1..]);
+        histories.floor_acceleration.extend(&accelerations()[1..]);
         histories.storey_force.extend((1..=self.nodes).map(|p| state.spring_force(p)));
     }
 
-    /// The histories, with NaN in rows that were not reached.
-    pub(super) fn finish(mut self) -> Histories {
+    /// The histories, and that of the slip of a sliding base, with NaN in rows that were not reached.
+    pub(super) fn finish(mut self) -> (Histories, Vec<f64>) {
         let (rows, histories) = (self.histories.rows, &mut self.histories);
         let complete = |values: &mut Vec<f64>, width: usize| values.resize(rows * width, f64::NAN);
         complete(&mut histories.drift, self.nodes);
@@ -64,6 +69,9 @@ impl Recorder {
             complete(&mut histories.floor_acceleration, self.nodes);
             complete(&mut histories.storey_force, self.nodes);
         }
-        self.histories
+        if let Some(slip) = &mut self.base_slip {
+            slip.resize(rows, f64::NAN);
+        }
+        (self.histories, self.base_slip.unwrap_or_default())
     }
 }

@@ -60,6 +60,14 @@ impl Happening<'_, '_> {
             Guard::BreakawayAtStop { block, sign } => {
                 outcome = self.decide(self.state.system.blocks[block].floor, SettleCause::Breakaway(block, sign));
             }
+            Guard::BaseBreakaway { sign } => outcome = self.release_base(sign),
+            Guard::BaseArrival => {
+                self.state.v[0] = 0.0;
+                if let Some(base) = &mut self.state.base {
+                    base.velocity = 0.0;
+                }
+                outcome = self.decide(0, SettleCause::Other);
+            }
             Guard::Arrival { block } => {
                 self.arrive_with(block);
                 outcome = self.decide(self.state.system.blocks[block].floor, SettleCause::Other);
@@ -95,8 +103,19 @@ impl Happening<'_, '_> {
     fn decide(&mut self, node: usize, cause: SettleCause) -> Outcome {
         let mut events = Vec::new();
         let is_found = self.state.decide(node, self.tau, cause, &mut events);
+        self.note_decision(node, is_found, events)
+    }
+
+    fn note_decision(&mut self, node: usize, is_found: bool, events: Vec<Event>) -> Outcome {
         self.log.extend(events.into_iter().map(|event| GeneralEvent { event, velocity: 0.0 }));
         if is_found { Outcome::Continue } else { Outcome::Undecided(node) }
+    }
+
+    /// The base breaks away, with this sign of the force that held it.
+    fn release_base(&mut self, sign: Sign) -> Outcome {
+        let mut events = Vec::new();
+        let is_found = self.state.decide_base(self.tau, SettleCause::Together, Some(sign), &mut events);
+        self.note_decision(0, is_found, events)
     }
 
     /// Brings a block to rest, and those on its node that arrive at the same instant: within rounding, or because they have
@@ -156,6 +175,7 @@ impl Happening<'_, '_> {
             let sign = motion.velocity_sign();
             self.note_block(j, if lands { EventKind::Land } else { EventKind::Lift }, sign, 0);
         }
+        self.change_contact_of_base(lands);
         self.state.airborne = !lands;
         if !lands {
             return Outcome::Continue;
@@ -164,10 +184,27 @@ impl Happening<'_, '_> {
         self.decide_all()
     }
 
+    fn change_contact_of_base(&mut self, lands: bool) {
+        let Some(base) = &mut self.state.base else { return };
+        if base.sliding().is_some_and(|sign| sign.factor() * base.velocity < 0.0) {
+            (base.velocity, self.state.v[0]) = (0.0, 0.0);
+        }
+        base.end_stretch();
+        if lands {
+            base.land()
+        } else {
+            base.lift()
+        }
+        let (kind, sign) = (if lands { EventKind::Land } else { EventKind::Lift }, base.velocity_sign());
+        let (event, velocity) = (Event { time: self.time(), kind, number: 0, sign, element: 0 }, self.state.v[0]);
+        self.log.push(GeneralEvent { event, velocity });
+    }
+
     /// Lets every node decide, at the start of a run or at a landing.
     pub(super) fn decide_all(&mut self) -> Outcome {
         for node in 0..self.state.system.on_node.len() {
-            if self.state.system.on_node[node].iter().any(|&j| self.state.motions[j].is_stuck()) {
+            let base_decides = node == 0 && self.state.base_decides(SettleCause::Other);
+            if base_decides || self.state.system.on_node[node].iter().any(|&j| self.state.motions[j].is_stuck()) {
                 let outcome = self.decide(node, SettleCause::Other);
                 if outcome != Outcome::Continue {
                     return outcome;

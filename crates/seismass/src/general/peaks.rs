@@ -8,7 +8,7 @@ use crate::machines::block::BlockState;
 use crate::polynomial::power::Polynomial;
 use crate::response::Peak;
 
-/// Peaks so far. Lists by node have an entry for the ground.
+/// Peaks so far. Lists by node have an entry for the ground, or for the slab of a sliding base.
 pub(super) struct Observer {
     drift: Vec<Peak>,
     shear: Vec<Peak>,
@@ -17,10 +17,12 @@ pub(super) struct Observer {
     slip: Vec<Peak>,
     contact_force: Vec<Peak>,
     contact_velocity: Vec<Peak>,
+    /// The first node that moves: the slab of a sliding base, or floor 1.
+    first: usize,
 }
 
 /// Places in (0, `end`) where a polynomial changes sign.
-fn turns(polynomial: &Polynomial, end: f64) -> impl Iterator<Item = f64> {
+pub(super) fn turns(polynomial: &Polynomial, end: f64) -> impl Iterator<Item = f64> {
     let (first, others) = polynomial.sign_changes::<Plain>();
     first.into_iter().chain(others).filter(move |&s| s < end)
 }
@@ -37,7 +39,13 @@ impl Observer {
             slip: none(goods),
             contact_force: none(goods),
             contact_velocity: none(goods),
+            first: usize::from(state.base.is_none()),
         }
+    }
+
+    /// Peaks of slip and acceleration of the slab.
+    pub(super) fn of_base(&self) -> (Peak, Peak) {
+        (self.drift[0], self.acceleration[0])
     }
 
     pub(super) fn finish(self) -> GeneralPeaks {
@@ -59,6 +67,7 @@ impl Observer {
             self.drift[p].take(state.drift(p), time);
             self.shear[p].take(state.spring_force(p), time);
         }
+        self.drift[0].take(state.x[0], time);
         self.base_shear.take(base_shear(state, &state.x), time);
         for (j, motion) in state.motions.iter().enumerate() {
             self.slip[j].take(motion.slip, time);
@@ -68,7 +77,7 @@ impl Observer {
 
     /// Takes accelerations of all nodes, that of the ground first.
     pub(super) fn take_accelerations(&mut self, accelerations: &[f64], time: f64) {
-        for (peak, &a) in self.acceleration.iter_mut().zip(accelerations).skip(1) {
+        for (peak, &a) in self.acceleration.iter_mut().zip(accelerations).skip(self.first) {
             peak.take(a, time);
         }
     }
@@ -96,6 +105,16 @@ impl Observer {
                     self.shear[p].take(state.springs[p - 1].segment().force(x), time(s));
                 }
             }
+        }
+        if state.base.is_some_and(|motion| motion.state == BlockState::Airborne) {
+            isolated += 1;
+            let (rate, _) = series.polynomial(Quantity::Rate, 0, 1.0, 0.0);
+            let (slip, _) = series.polynomial(Quantity::Drift, 0, 1.0, 0.0);
+            for s in turns(&rate, end) {
+                self.drift[0].take(slip.at::<Plain>(s), time(s));
+            }
+        }
+        for p in self.first..=state.system.nodes {
             let (low, high) = series.range(Quantity::Acceleration, p);
             if low.abs().max(high.abs()) > self.acceleration[p].value {
                 isolated += 1;
@@ -128,23 +147,14 @@ impl Observer {
             }
             return 0;
         };
-        let stiffness = base_stiffness(state, part.count);
-        let sum = |quantity: Quantity| {
-            let mut total = Polynomial::new([0.0]);
-            for (i, k) in stiffness.iter().enumerate() {
-                let (p, _) = series.polynomial(quantity, i + 1, *k, 0.0);
-                total.length = p.length;
-                total.coefficients.iter_mut().zip(p.coefficients()).for_each(|(sum, c)| *sum += c);
-            }
-            total
-        };
-        let shear = sum(Quantity::Drift);
+        let count = part.count;
+        let shear = base_shear_terms(state, series, Quantity::Drift, count);
         let base = base_shear(state, &vec![0.0; state.x.len()]);
         let reach: f64 = shear.coefficients().iter().map(|c| c.abs()).sum();
         if base.abs() + reach <= self.base_shear.value {
             return 0;
         }
-        for s in turns(&sum(Quantity::Rate), end) {
+        for s in turns(&base_shear_terms(state, series, Quantity::Rate, count), end) {
             self.base_shear.take(base + shear.at::<Plain>(s), state.interval.start + series.tau + s * series.h);
         }
         1
@@ -182,16 +192,36 @@ impl Observer {
     }
 }
 
+/// The base shear over a step as a polynomial, or its rate, without what it is at the bases of the segments.
+fn base_shear_terms(state: &GeneralState, series: &Series, quantity: Quantity, count: usize) -> Polynomial {
+    let mut total = Polynomial::new([0.0]);
+    for (i, k) in base_stiffness(state, count).iter().enumerate() {
+        let (p, _) = series.polynomial(quantity, i + 1, *k, 0.0);
+        total.length = p.length;
+        total.coefficients.iter_mut().zip(p.coefficients()).for_each(|(sum, c)| *sum += c);
+    }
+    total
+}
+
+/// The base shear over a step as a polynomial.
+pub(super) fn base_shear_series(state: &GeneralState, series: &Series) -> Polynomial {
+    let count = if state.system.parts[0].elastic.is_empty() { 1 } else { state.system.parts[0].count };
+    let mut shear = base_shear_terms(state, series, Quantity::Drift, count);
+    shear.coefficients[0] += base_shear(state, &vec![0.0; state.x.len()]);
+    shear
+}
+
 /// Stiffnesses by which drifts from the bases of their segments enter the base shear.
 fn base_stiffness(state: &GeneralState, count: usize) -> Vec<f64> {
     // The first column of the symmetric matrix is its first row.
-    let mut stiffness = state.system.parts[0].elastic[..count].to_vec();
+    let mut stiffness = state.system.parts[0].elastic.iter().copied().take(count).collect::<Vec<f64>>();
+    stiffness.resize(count, 0.0);
     stiffness[0] += state.springs[0].segment().tangent;
     stiffness
 }
 
 /// Spring force of storey 1 and the share of the elastic matrix at drifts from the bases of the segments.
-fn base_shear(state: &GeneralState, x: &[f64]) -> f64 {
+pub(super) fn base_shear(state: &GeneralState, x: &[f64]) -> f64 {
     if state.system.storeys == 0 {
         return 0.0;
     }

@@ -14,11 +14,14 @@ const MOST_REGIMES: usize = 4096;
 pub(super) struct Key(pub(super) Vec<u64>);
 
 /// A regime. Lists are by node.
+#[derive(Default)]
 pub(super) struct Regime {
     /// Tangents of the springs less P/h (N/m).
     pub(super) tangent: Vec<f64>,
-    /// 1 / (mass with the goods that are stuck) (1/kg); 0 for the ground.
+    /// 1 / (mass with the goods that are stuck) (1/kg); 0 for the ground, and for a slab that is stuck to it.
     pub(super) inverse_mass: Vec<f64>,
+    /// Mass of a slab with the goods that are stuck to it (kg).
+    pub(super) slab_mass: f64,
     /// No frequency of the system, damped as it is, is above this (rad/s).
     pub(super) frequency: f64,
 }
@@ -37,16 +40,21 @@ impl Regime {
         tangent: Vec<f64>,
         is_stuck: impl Fn(usize) -> bool,
         contacts: &[MovingContact],
+        base_moves: bool,
     ) -> Self {
         let mut mass = system.mass.clone();
         for (j, block) in system.blocks.iter().enumerate() {
-            if block.floor > 0 && is_stuck(j) {
+            if is_stuck(j) {
                 mass[block.floor] += block.mass;
             }
         }
+        let slab_mass = mass[0];
+        if !base_moves {
+            mass[0] = 0.0;
+        }
         let inverse_mass: Vec<f64> = mass.iter().map(|&m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
         let frequency = frequency(system, &tangent, &inverse_mass, contacts);
-        Self { tangent, inverse_mass, frequency }
+        Self { tangent, inverse_mass, slab_mass, frequency }
     }
 }
 
@@ -56,7 +64,10 @@ fn frequency(system: &System, tangent: &[f64], inverse_mass: &[f64], contacts: &
     let width = system.nodes + 1;
     let root: Vec<f64> = inverse_mass.iter().map(|inverse| inverse.sqrt()).collect();
     let (mut kappa, mut sigma) = (vec![0.0; width], vec![0.0; width]);
-    for p in 1..width {
+    if let Some(base) = &system.base {
+        sigma[0] += base.most_stiffness * inverse_mass[0];
+    }
+    for p in 0..width {
         let row = p * width..(p + 1) * width;
         let of =
             |sizes: &[f64]| -> f64 { root[p] * sizes.iter().zip(&root).map(|(size, root)| size * root).sum::<f64>() };

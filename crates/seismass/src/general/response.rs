@@ -36,13 +36,28 @@ pub struct GeneralPeaks {
     pub contact_velocity: Vec<Peak>,
 }
 
+/// What the sliding base did.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GeneralBase {
+    /// Peak slip of the slab on the ground (m).
+    pub slip: Peak,
+    /// Peak absolute acceleration of the slab; where it jumps both one-sided limits count (m/s2).
+    pub acceleration: Peak,
+    /// Slip at the end (m).
+    pub residual_slip: f64,
+    /// Path slipped in contact with the ground (m).
+    pub slip_path: f64,
+    /// History of the slip (m), if histories were asked for.
+    pub history: Vec<f64>,
+}
+
 /// An event with the relative velocity of its block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GeneralEvent {
     /// The event. Numbers of springs count storeys, then rack levels; numbers of blocks the goods on floors, then those of
-    /// racks.
+    /// racks; the sliding base has number 0 where blocks have theirs.
     pub event: Event,
-    /// Relative velocity of the block where it comes to its stop or leaves it, wears, lifts or lands (m/s); otherwise zero.
+    /// Relative velocity of the block, or of the base, where it comes to its stop or leaves it, wears, lifts or lands (m/s); otherwise zero.
     pub velocity: f64,
 }
 
@@ -51,11 +66,12 @@ pub struct GeneralEvent {
 pub struct GeneralEnergy {
     /// Kinetic plus elastic energy at the start.
     pub initial: f64,
-    /// Input, -int (sum m v) a_g dt over floors, levels and goods.
+    /// Input, -int (sum m v) a_g dt over floors, levels and goods; with a pendulum that which a vertical motion does along
+    /// its slope, too.
     pub input: f64,
     /// Kinetic energy.
     pub kinetic: f64,
-    /// Stored in springs, matrix and stops, less the work of P-Delta.
+    /// Stored in springs, matrix and stops, and in the height of a pendulum, less the work of P-Delta.
     pub elastic: f64,
     /// Dissipated by viscous damping of building and racks.
     pub viscous: f64,
@@ -88,6 +104,8 @@ pub struct GeneralResponse {
     pub residual_slip: Vec<f64>,
     /// Path slipped by each block in contact with its node (m).
     pub slip_path: Vec<f64>,
+    /// What the sliding base did, if there is one.
+    pub base: Option<GeneralBase>,
     /// Event log, if asked for.
     pub events: Option<Vec<GeneralEvent>>,
     /// Histories, if asked for: columns of storeys and floors have the rack levels after them.

@@ -8,7 +8,7 @@ use crate::general::guards::{Guard, Search};
 use crate::general::histories::Recorder;
 use crate::general::outcome::{Happening, Outcome};
 use crate::general::peaks::Observer;
-use crate::general::response::{GeneralEvent, GeneralResponse, GeneralStatus};
+use crate::general::response::{GeneralBase, GeneralEvent, GeneralResponse, GeneralStatus};
 use crate::general::series::{Quantity, Series};
 use crate::general::state::GeneralState;
 use crate::general::system::System;
@@ -43,8 +43,8 @@ pub fn simulate_general_until(
     options: &Options,
     stop: &AtomicBool,
 ) -> Result<GeneralResponse> {
-    let system = System::new(scene)?;
-    let vertical = motion.vertical().is_some() && !system.blocks.is_empty();
+    let system = System::new(scene, motion)?;
+    let vertical = motion.vertical().is_some() && (system.base.is_some() || !system.blocks.is_empty());
     let mut state = GeneralState::new(scene, &system, vertical);
     let samples = motion.acceleration().len();
     let recorder = options.histories.map(|every| Recorder::new(&system, options, samples, every)).transpose()?;
@@ -101,7 +101,7 @@ impl Run<'_> {
         let contact = (state.interval.contact, state.interval.contact_change);
         if state.vertical && (contact.0 < 0.0 || contact.0 == 0.0 && contact.1 <= 0.0) {
             state.airborne = true;
-            state.motions.iter_mut().for_each(|motion| motion.state = BlockState::Airborne);
+            state.motions.iter_mut().chain(&mut state.base).for_each(|motion| motion.state = BlockState::Airborne);
         }
         state.follow();
         if !state.airborne {
@@ -173,9 +173,12 @@ impl Run<'_> {
             balance.add(state, series, place);
         }
         let (drifts, rates) = (series.changes(Quantity::Drift, place), series.changes(Quantity::Rate, place));
-        for p in 1..drifts.len() {
+        for p in 0..drifts.len() {
             state.x[p] += drifts[p];
             state.v[p] += rates[p];
+        }
+        if let Some(base) = &mut state.base {
+            base.move_by((rates[0], drifts[0]));
         }
         for position in 0..state.moving.len() {
             let block = state.moving[position];
@@ -221,7 +224,7 @@ impl Run<'_> {
 
     fn record(&mut self, sample: usize, tau: f64) {
         if let Some(recorder) = &mut self.recorder {
-            recorder.append(&self.state, sample, tau);
+            recorder.append(&self.state, sample, || self.state.accelerations(tau));
         }
     }
 
@@ -245,7 +248,7 @@ impl Run<'_> {
     }
 
     fn event_limit(&self, h: f64) -> usize {
-        let machines = self.state.system.nodes + self.state.motions.len();
+        let machines = self.state.system.nodes + 1 + self.state.motions.len();
         EVENTS_PER_INTERVAL + EVENTS_PER_MACHINE * machines * (1 + (self.state.regime.frequency * h) as usize)
     }
 
@@ -254,6 +257,7 @@ impl Run<'_> {
         let state = &self.state;
         let spring = |node: usize| (state.system.element_name(node), state.springs[node - 1].state_name());
         let block = |j: usize| (format!("block {}", j + 1), state.motions[j].state_name());
+        let base = || ("base".to_string(), state.base.map_or("", |motion| motion.state_name()));
         let on = |node: usize| state.system.on_node[node].first().copied().unwrap_or(0);
         let (event, (element, name)) = match guard {
             Guard::SegmentEnd { node, .. } => ("end of a spring's segment", spring(node)),
@@ -261,8 +265,11 @@ impl Run<'_> {
             Guard::Turn { node } => ("unload", spring(node)),
             Guard::Breakaway { node, .. } => ("slip", block(on(node))),
             Guard::BreakawayAtStop { block: j, .. } => ("slip", block(j)),
+            Guard::BaseBreakaway { .. } => ("slip", base()),
+            Guard::BaseArrival => ("stick", base()),
             Guard::Arrival { block: j } => ("stick", block(j)),
             Guard::Wear { block: j } => ("wear", block(j)),
+            Guard::Contact if state.motions.is_empty() => ("lift or land", base()),
             Guard::Contact => ("lift or land", block(0)),
             Guard::Touch { block: j, .. } | Guard::TouchAgain { block: j } => ("touch of a stop", block(j)),
             Guard::Leave { block: j } | Guard::Clear { block: j } => ("leave of a stop", block(j)),
@@ -277,6 +284,12 @@ impl Run<'_> {
         self.statistics.skipped.elastic_storeys = laws.iter().filter(|law| !law.spring.law().can_yield()).count();
         let on_node = &state.system.on_node;
         self.statistics.skipped.bare_floors = on_node.iter().skip(1).filter(|blocks| blocks.is_empty()).count();
+        let (histories, history) = self.recorder.map(Recorder::finish).unzip();
+        let base = state.base.map(|motion| {
+            let (slip, acceleration) = self.observer.of_base();
+            let (residual_slip, slip_path) = (motion.slip, motion.path_in_contact());
+            GeneralBase { slip, acceleration, residual_slip, slip_path, history: history.unwrap_or_default() }
+        });
         GeneralResponse {
             storeys: state.system.storeys,
             levels: state.system.levels.clone(),
@@ -286,7 +299,8 @@ impl Run<'_> {
             residual_slip: state.motions.iter().map(|motion| motion.slip).collect(),
             slip_path: state.motions.iter().map(BlockMotion::path_in_contact).collect(),
             events: self.keep_log.then_some(self.log),
-            histories: self.recorder.map(Recorder::finish),
+            base,
+            histories,
             energy: self.balance.map(|balance| balance.finish(state, self.lost_at_stops)),
             peaks: self.observer.finish(),
             statistics: self.statistics,

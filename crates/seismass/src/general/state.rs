@@ -10,7 +10,8 @@ use crate::machines::storey::StoreySpring;
 use crate::scene::GeneralScene;
 use crate::state::interval::Interval;
 
-/// The state. Lists by node have an entry for the ground, which stays zero.
+/// The state. Lists by node have an entry for the ground, which stays zero, or for the slab of a sliding base: its
+/// displacement and velocity relative to the ground.
 pub(super) struct GeneralState<'a> {
     pub(super) system: &'a System,
     /// Drift of each spring from the base of its segment (m), and drift rate (m/s).
@@ -24,6 +25,8 @@ pub(super) struct GeneralState<'a> {
     pub(super) base_load: Vec<f64>,
     pub(super) motions: Vec<BlockMotion>,
     pub(super) stops: Vec<StopMotion>,
+    /// The sliding base, with the slip and velocity that node 0 has.
+    pub(super) base: Option<BlockMotion>,
     /// All blocks have lost contact with their nodes.
     pub(super) airborne: bool,
     /// Whether the contact force changes in time.
@@ -64,10 +67,11 @@ impl<'a> GeneralState<'a> {
             base_load: vec![0.0; width],
             stops: vec![StopMotion::free(); motions.len()],
             motions,
+            base: system.base.as_ref().map(|base| BlockMotion::new(&base.law, 0.0)),
             airborne: false,
             vertical,
             interval: Interval::default(),
-            regime: Rc::new(Regime { tangent: Vec::new(), inverse_mass: Vec::new(), frequency: 0.0 }),
+            regime: Rc::new(Regime::default()),
             regimes: Regimes::default(),
             key: Key::default(),
             moving: Vec::new(),
@@ -83,7 +87,7 @@ impl<'a> GeneralState<'a> {
 
     /// Velocities of all nodes relative to the ground.
     pub(super) fn node_velocities(&self, rates: &[f64]) -> Vec<f64> {
-        let mut velocity = vec![0.0; rates.len()];
+        let mut velocity = vec![rates[0]; rates.len()];
         for p in 1..rates.len() {
             velocity[p] = velocity[self.system.parent[p]] + rates[p];
         }
@@ -126,12 +130,13 @@ impl<'a> GeneralState<'a> {
             |p: usize, springs: &[StoreySpring]| springs[p - 1].segment().tangent - system.laws[p - 1].geometric;
         self.moving.clear();
         self.moving_contacts.clear();
+        let base_moves = self.base_moves();
         let words = &mut self.key.0;
         words.clear();
         words.extend((1..=system.nodes).map(|p| tangent(p, &self.springs).to_bits()));
-        let mut bits = 0u64;
+        let mut bits = u64::from(base_moves);
         for (j, motion) in self.motions.iter().enumerate() {
-            if j > 0 && j % 32 == 0 {
+            if j % 32 == 31 {
                 words.push(std::mem::take(&mut bits));
             }
             bits <<= 2;
@@ -150,7 +155,7 @@ impl<'a> GeneralState<'a> {
         let (springs, motions, contacts) = (&self.springs, &self.motions, &self.moving_contacts);
         self.regime = self.regimes.enter(&self.key, || {
             let tangents = std::iter::once(0.0).chain((1..=system.nodes).map(|p| tangent(p, springs))).collect();
-            Regime::new(system, tangents, |j| motions[j].is_stuck(), contacts)
+            Regime::new(system, tangents, |j| motions[j].is_stuck(), contacts, base_moves)
         });
     }
 }

@@ -3,9 +3,10 @@
 use nalgebra::DMatrix;
 
 use crate::error::Result;
+use crate::general::base_law::Base;
 use crate::machines::block::BlockLaw;
 use crate::machines::storey::StoreyLaw;
-use crate::scene::{GeneralScene, Goods, Rack, Stops, StoreyDamping};
+use crate::scene::{GeneralScene, Goods, Motion, Rack, Stops, StoreyDamping};
 
 /// Nodes that follow each other, with damping and perhaps an elastic matrix between their drifts: the building, or a rack.
 pub(super) struct Part {
@@ -19,7 +20,7 @@ pub(super) struct Part {
     pub(super) elastic: Vec<f64>,
 }
 
-/// A scene as the engine sees it. Node 0 is the ground; floors follow from 1, then the levels of each rack. Each node has a
+/// A scene as the engine sees it. Node 0 is the ground, or the slab of a sliding base; floors follow from 1, then the levels of each rack. Each node has a
 /// spring to its parent, which has a lower number. Lists by node have an entry for the ground.
 pub(super) struct System {
     /// Number of nodes without the ground.
@@ -42,19 +43,21 @@ pub(super) struct System {
     pub(super) on_node: Vec<Vec<usize>>,
     /// Whether friction coefficients change with the path slipped.
     pub(super) wears: bool,
+    /// The sliding base, whose slab node 0 is then.
+    pub(super) base: Option<Base>,
 }
 
 impl System {
     /// # Errors
     /// As for a damping matrix: none for a valid scene.
-    pub(super) fn new(scene: &GeneralScene) -> Result<Self> {
+    pub(super) fn new(scene: &GeneralScene, motion: &Motion) -> Result<Self> {
         let (nodes, storeys) = (scene.nodes(), scene.storeys());
         let mut system = Self {
             nodes,
             storeys,
             levels: scene.racks().iter().map(|rack| rack.mass.len()).collect(),
             parent: vec![0],
-            mass: vec![0.0],
+            mass: vec![scene.base().map_or(0.0, |base| base.mass)],
             laws: Vec::with_capacity(nodes),
             parts: Vec::new(),
             damping_sizes: Vec::new(),
@@ -63,6 +66,7 @@ impl System {
             stops: Vec::new(),
             on_node: vec![Vec::new(); nodes + 1],
             wears: false,
+            base: Base::new(scene, motion),
         };
         system.add_building(scene);
         for goods in scene.goods() {

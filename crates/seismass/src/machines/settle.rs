@@ -40,6 +40,8 @@ pub(crate) struct Transition {
 pub(crate) enum SettleCause {
     /// This stuck block has reached its limit, with this sign of the floor acceleration.
     Breakaway(usize, Sign),
+    /// What the floor stands on has reached its limit: blocks that have broken away at this instant go on.
+    Together,
     /// Something else: a block has arrived or landed, or the run starts.
     Other,
 }
@@ -63,7 +65,7 @@ pub(crate) fn settle(
     log: &mut Vec<Transition>,
 ) {
     let first_logged = log.len();
-    let follows = matches!(cause, SettleCause::Breakaway(..));
+    let follows = cause != SettleCause::Other;
     for &j in blocks {
         if motions[j].velocity == 0.0 && (motions[j].is_stuck() || !follows) {
             // The sign field holds the state before until the decision is made.
@@ -107,7 +109,7 @@ pub(crate) fn settle(
             let exceeds = match breakaway {
                 // Equal blocks break away together; near N = 0 every limit is within rounding of every other.
                 SettleCause::Breakaway(fired, _) => motions[j].mu_s == motions[fired].mu_s,
-                SettleCause::Other => acceleration.abs() > limit + rounding,
+                SettleCause::Together | SettleCause::Other => acceleration.abs() > limit + rounding,
             };
             if exceeds {
                 motions[j].state = BlockState::Sliding(direction);

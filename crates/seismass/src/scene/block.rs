@@ -58,7 +58,7 @@ impl Block {
     }
 }
 
-fn check_friction(mu_s: f64, mu_k: f64, owner: impl Display + Copy) -> Result<()> {
+pub(super) fn check_friction(mu_s: f64, mu_k: f64, owner: impl Display + Copy) -> Result<()> {
     check(mu_s.is_finite() && mu_s >= 0.0, "mu_s", owner, "finite and not negative", mu_s)?;
     check(mu_k >= 0.0, "mu_k", owner, "finite and not negative", mu_k)?;
     check(mu_k <= mu_s, "mu_k", owner, format_args!("at most mu_s = {mu_s}"), mu_k)

@@ -6,6 +6,7 @@ use crate::error::{Domain, Error, Result};
 use crate::scene::building::{GravityEffect, MAX_STOREYS};
 use crate::scene::building_and_blocks::Scene;
 use crate::scene::check::{Nth, check, check_length};
+use crate::scene::general::base::SlidingBase;
 use crate::scene::general::building::GeneralBuilding;
 use crate::scene::general::goods::Goods;
 use crate::scene::general::rack::Rack;
@@ -17,6 +18,7 @@ pub struct GeneralScene {
     building: Option<Arc<GeneralBuilding>>,
     goods: Vec<Goods>,
     racks: Vec<Rack>,
+    base: Option<SlidingBase>,
     initial_drift: Vec<f64>,
     initial_velocity: Vec<f64>,
     geometric_stiffness: Vec<f64>,
@@ -29,8 +31,22 @@ impl GeneralScene {
     /// # Errors
     /// [`Error::Invalid`] when there is nothing in the scene, something in it is invalid, or P/h takes all stiffness.
     pub fn new(building: Option<Arc<GeneralBuilding>>, goods: Vec<Goods>, racks: Vec<Rack>) -> Result<Self> {
+        Self::on_base(building, goods, racks, None)
+    }
+
+    /// A scene at rest on a sliding base, which may carry nothing but itself; None: on the ground.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and when the base is invalid.
+    pub fn on_base(
+        building: Option<Arc<GeneralBuilding>>,
+        goods: Vec<Goods>,
+        racks: Vec<Rack>,
+        base: Option<SlidingBase>,
+    ) -> Result<Self> {
         let n = building.as_ref().map_or(0, |building| building.len());
-        if n == 0 && goods.is_empty() && racks.is_empty() {
+        base.map_or(Ok(()), |base| base.validate())?;
+        if n == 0 && goods.is_empty() && racks.is_empty() && base.is_none() {
             let requirement = "at least one where there is no building and no rack";
             return Err(Error::invalid(Domain::Scene, "blocks", "scene", requirement, "none"));
         }
@@ -52,6 +68,7 @@ impl GeneralScene {
             building,
             goods,
             racks,
+            base,
             initial_drift: at_rest.clone(),
             initial_velocity: at_rest,
             geometric_stiffness,
@@ -125,6 +142,11 @@ impl GeneralScene {
         &self.racks
     }
 
+    /// The sliding base, if any.
+    pub fn base(&self) -> Option<&SlidingBase> {
+        self.base.as_ref()
+    }
+
     /// All goods that may slide: those on floors, then those of each rack.
     pub fn all_goods(&self) -> impl Iterator<Item = &Goods> {
         self.goods.iter().chain(self.racks.iter().flat_map(|rack| &rack.goods))
@@ -158,6 +180,7 @@ impl From<&Scene> for GeneralScene {
             building: scene.building().map(|building| Arc::new(GeneralBuilding::from(&**building))),
             goods: scene.blocks().iter().cloned().map(Goods::from).collect(),
             racks: Vec::new(),
+            base: None,
             initial_drift: scene.initial_drift().to_vec(),
             initial_velocity: scene.initial_velocity().to_vec(),
             geometric_stiffness: scene.geometric_stiffness().to_vec(),
