@@ -4,6 +4,7 @@
 
 VENV := .venv
 BENCH_VENV := .venv-bench
+AUDIT_VENV := .venv-audit
 PYTHON := $(VENV)/bin/python
 RUST_SOURCES := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
 DATA := $(shell find data -type f)
@@ -15,8 +16,8 @@ export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
-.PHONY: study explorer test bench bench-kernel count-instructions stress docs clean build lint test-rust test-python test-wheel wheels \
-	test-aarch64 web-kernel fuzz
+.PHONY: study explorer test bench bench-kernel count-instructions stress stress-general docs clean build lint test-rust test-python test-wheel wheels \
+	test-aarch64 web-kernel fuzz audit audit-packages
 
 study: build
 	$(VENV)/bin/seismass study --effective --sensitivity --out out/study
@@ -61,10 +62,25 @@ fuzz: build
 	$(PYTHON) tools/fuzz_records.py --count $(FUZZ_COUNT) --seed $(FUZZ_SEED) --keep target/fuzz/records
 	$(PYTHON) tools/fuzz_inputs.py --count $(FUZZ_COUNT) --seed $(FUZZ_SEED) --keep target/fuzz/inputs
 
+# Crates and packages against the advisories that are published, their licences and where they come from (deny.toml). Asks the
+# services that publish them: RustSec's repository, and PyPI's for packages. Needs cargo-deny, and says so.
+audit: audit-packages
+	@cargo deny --version >/dev/null || { echo "make audit needs cargo-deny: cargo install --locked cargo-deny" >&2; exit 1; }
+	cargo deny --locked check
+
+# Every package of .venv, pinned as it is there; one of which nothing is known is an error.
+audit-packages: build $(AUDIT_VENV)/made
+	$(PYTHON) -m pip list --format=freeze --exclude-editable --exclude seismass > $(AUDIT_VENV)/packages.txt
+	$(AUDIT_VENV)/bin/pip-audit --strict --no-deps --disable-pip --requirement $(AUDIT_VENV)/packages.txt
+
 # A run that was stopped goes on from target/stress/tally.tsv, where failing seeds are kept; a changed kernel or judge does
 # not, until the tally is removed.
 stress:
 	cargo run --locked --release -p seismass-judge --bin stress -- --scenes 1000000 --judged 10000 --write docs/stress.md
+
+# The same for the general engine; its tally is target/stress/general.tsv.
+stress-general:
+	cargo run --locked --release -p seismass-judge --bin stress_general -- --scenes 100000 --judged 2000 --write docs/stress_general.md
 
 lint: build
 	@cargo fmt --version >/dev/null && cargo clippy --version >/dev/null || \
@@ -107,7 +123,7 @@ docs: build web-kernel $(VENV)/site
 
 clean:
 	cargo clean
-	rm -rf $(VENV) $(BENCH_VENV) out dist python/seismass/data .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(BENCH_VENV) $(AUDIT_VENV) out dist python/seismass/data .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	rm -f python/seismass/_kernel*.so python/seismass/_kernel*.pyd $(WEB_KERNEL)
 	find python tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
@@ -140,6 +156,12 @@ $(VENV)/site: $(VENV)/installed pyproject.toml
 
 $(BENCH_VENV)/made: tools/find-python tools/make-bench-env benchmarks/requirements.txt
 	sh tools/make-bench-env $(BENCH_VENV)
+	@touch $@
+
+$(AUDIT_VENV)/made: $(VENV)/installed
+	$(PYTHON) -m venv --clear $(AUDIT_VENV)
+	$(AUDIT_VENV)/bin/python -m pip install --quiet --upgrade 'pip>=25.1'
+	$(AUDIT_VENV)/bin/python -m pip install --quiet --group audit
 	@touch $@
 
 # Python sources are used in place (an editable install), so that only Rust, the metadata or the data need a new build.

@@ -29,11 +29,11 @@ def records() -> tuple[str, list[sm.Record]]:
     if shared:
         page = runpy.run_path(str(Path(__file__).parents[1] / "tools" / "effective_mass_page.py"))
         suite = page["far_field_components"](Path(shared))
-        factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7()).factors
+        factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7(), between=False).factors
     else:
         seven = list(sm.builtin_suite("seven"))
         suite = sm.Suite("built-in suite at six intensities", tuple(seven * 6))
-        once = sm.scaling.scale_asce7_10(seven, sm.TargetSpectrum.asce7()).factors
+        once = sm.scaling.scale_asce7_10(seven, sm.TargetSpectrum.asce7(), between=False).factors
         factors = np.concatenate([once * intensity for intensity in np.linspace(0.8, 1.2, 6)])
     return suite.name, [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
 

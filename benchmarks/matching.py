@@ -138,7 +138,7 @@ def main() -> None:
         return
     tool = runpy.run_path(str(PAGE_TOOL))
     page: Path = tool["PAGE"]
-    page.write_text(tool["with_table"](page.read_text(encoding="utf-8"), "peer", section), encoding="utf-8")
+    page.write_text(tool["PARTS"]["with_text"](page.read_text(encoding="utf-8"), "peer", section), encoding="utf-8")
 
 
 if __name__ == "__main__":

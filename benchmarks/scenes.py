@@ -137,7 +137,7 @@ def at_half_step(bench: BenchmarkScene) -> BenchmarkScene:
 
 
 def _study_scenes(motions: sm.records.Suite) -> Iterator[BenchmarkScene]:
-    scaling = sm.scaling.scale_asce7_10(motions, sm.TargetSpectrum.asce7(1.07, 0.61, 8.0), 1.0)
+    scaling = sm.scaling.scale_asce7_10(motions, sm.TargetSpectrum.asce7(1.07, 0.61, 8.0), 1.0, between=False)
 
     def spectrum(periods: FloatArray) -> FloatArray:
         spectra = sm.response_spectrum([record.scaled(f) for record, f in pairs], periods)

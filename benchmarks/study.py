@@ -45,7 +45,7 @@ def timed(work: Callable[[], T], repeats: int = REPEATS) -> tuple[float, T]:
 
 def distinct_runs(motions: sm.records.Suite) -> list[Run]:
     """Return the distinct runs of the study."""
-    scaling = sm.scaling.scale_asce7_10(motions, TARGET, 1.0)
+    scaling = sm.scaling.scale_asce7_10(motions, TARGET, 1.0, between=False)
     scaled = [record.scaled(factor).motion for record, factor in zip(motions, scaling.factors, strict=True)]
 
     def spectrum(periods: Any) -> Any:
@@ -62,7 +62,7 @@ def phases(
     """Return the wall time of the study by phase (s), their sum, and the figures apart where they are wanted."""
     threads = 2
     reading, _ = timed(suite, repeats)
-    scaling, _ = timed(lambda: sm.scaling.scale_asce7_10(motions, TARGET, 1.0, threads=threads), repeats)
+    scaling, _ = timed(lambda: sm.scaling.scale_asce7_10(motions, TARGET, 1.0, between=False, threads=threads), repeats)
     whole, result = timed(lambda: run_study(motions, TARGET, threads=threads), repeats)
     batch, _ = timed(lambda: simulate_all(runs, threads), repeats)
     with tempfile.TemporaryDirectory() as folder:

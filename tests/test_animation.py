@@ -277,3 +277,80 @@ def test_command_takes_a_scene_file_and_refuses_contradictions(
     assert main(["animate", "one.json", "--code", "nbc", "--code-share", "0.5"]) == 2
     assert main(["animate", "one.json", "--out", "none/one.html"]) == 2
     assert sorted(file.name for file in tmp_path.iterdir()) == ["one.gif", "one.json"]
+
+
+def racked() -> sm.Scene:
+    """Two racks, one on the ground; a wall; stops on a floor and on a level; fixed goods."""
+    frame = sm.Building([2e4] * 2, 2e7, yield_shear=[1e5, 6e4], heights=3.5)
+    building = sm.design.Wall([3.5, 3.5], 2e8).beside(frame)
+    rail = sm.Stops([0.03, np.inf], stiffness=2e6)
+    goods = [
+        sm.RackBlock(1, mass=2000.0, mu=0.2),
+        sm.RackBlock(2, mass=500.0, fixed=True),
+        sm.RackBlock(2, mass=500.0, mu=0.1, stops=rail),
+    ]
+    racks = [sm.Rack(floor, levels=2, level_mass=300.0, period=0.5, yield_shear=8e3, blocks=goods) for floor in (2, 0)]
+    return sm.Scene(building, [sm.Block(1, mass=8000.0, mu=0.1, stops=rail)], racks=racks, name="racks")
+
+
+def test_racks_levels_and_stops_are_on_the_page() -> None:
+    """Each level's drift to half a step of 16 bits, goods by rack and level, stops, and the wall."""
+    scene = racked()
+    animation = sm.animate(scene, RECORD)
+    data = data_of(animation)
+    real, model = data["runs"]
+    response = sm.simulate(scene, RECORD, histories=round(data["step"] / RECORD.dt))
+    given = values_of(real["racks"]["values"], real["racks"]["peak"], 4)
+    true = np.hstack(response.rack_drift)
+    assert np.abs(given - true).max() <= 0.5001 * np.abs(true).max() / 32767.0
+    assert values_of(model["racks"]["values"], model["racks"]["peak"], 1).size == 0
+    size = pytest.approx(0.5)  # the root of 2000 over 8000 kg
+    quarter = pytest.approx(0.25)
+    assert data["blocks"] == [
+        {"floor": 1, "size": 1.0, "stops": [0.03, None]},
+        {"rack": 1, "level": 1, "size": size},
+        {"rack": 1, "level": 2, "size": quarter, "stops": [0.03, None]},
+        {"rack": 2, "level": 1, "size": size},
+        {"rack": 2, "level": 2, "size": quarter, "stops": [0.03, None]},
+    ]
+    fixed = [{"level": 2, "size": quarter}]
+    assert data["racks"] == [{"floor": 2, "levels": 2, "fixed": fixed}, {"floor": 0, "levels": 2, "fixed": fixed}]
+    assert data["walls"]
+    page = animation.html()
+    for said in ("storey or level yields", "goods fixed to racks", "walls, elastic", "</svg>stops</li>"):
+        assert said in page
+    peak = max(levels.max() for levels in response.peak_rack_drift)
+    assert f"largest rack drift {1e3 * peak:.3g} mm" in animation.shown.sentences[0]
+    assert f"stops hit at up to {response.peak_contact_velocity.max():.3g} m/s" in animation.shown.sentences[0]
+    assert not any(said in sm.animate(SCENE, RECORD).html() for said in ("level yields", "</svg>stops</li>"))
+    # The model has the racks lumped on their floor, so its floor 2 has their frame and a quarter of their goods.
+    attached = animation.shown.runs[1].response.scene
+    assert not attached.racks
+    assert attached.building.mass[1] == pytest.approx(2e4 + 600.0 + 0.25 * 3000.0)
+
+
+def test_racks_enlarged_stay_in_the_picture() -> None:
+    """No level goes farther than a floor may: 0.15 of the height of the building, with the factor of the page."""
+    shown = sm.animate(racked(), RECORD).shown
+    real = shown.runs[0]
+    floors = np.hstack([np.zeros((real.rows, 1)), real.floor_displacement])
+    over_ground = floors[:, [2]] + np.cumsum(real.response.rack_drift[0], axis=1)
+    np.testing.assert_allclose(real.rack_displacement[:, :2], over_ground, rtol=1e-14)
+    assert shown.factor * np.abs(real.rack_displacement).max() <= 0.15 * 7.0
+
+
+def test_frames_show_racks_that_sway_and_yield() -> None:
+    """A level that yields is drawn in the colour of yielding; here nothing else yields."""
+    scene = racked()
+    animation = sm.animate(scene.replace(building=scene.building.replace(yield_shear=np.inf)), RECORD)
+    picture = Picture(animation)
+    assert picture.size == (720, 330 + 4 * 84 + 26)  # ground, storeys, racks, blocks
+    log = animation.shown.runs[0].response.event_log
+    first = float(log["time"][(log["kind"] == "yield") & (log["number"] > 2)][0])
+    quiet, moved = (np.asarray(picture.frame(at))[60:330, :360].astype(int) for at in (0.0, first + 1e-6))
+    purple = (np.abs(moved - np.array([0xA4, 0x27, 0x6F])).max(axis=2) < 40).sum()
+    assert purple > 20
+    assert not (np.abs(quiet - np.array([0xA4, 0x27, 0x6F])).max(axis=2) < 40).any()
+    alone = Picture(sm.animate(sm.Scene(None, racks=racked().racks[1:]), RECORD))
+    assert alone.size == (720, 330 + 3 * 84 + 26)
+    assert np.asarray(alone.frame(6.0)).std() > 0.0

@@ -109,7 +109,7 @@ def test_attached_models_are_those_of_the_effective_fraction() -> None:
 def test_motions_are_scaled_for_the_period_with_goods(small: sm.Assessment) -> None:
     building = sm.read_building(tables())
     scaling = sm.scaling.scale_asce7_10(
-        sm.builtin_suite("forty"), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods)
+        sm.builtin_suite("forty"), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods), between=False
     )
     assert small.scaling is not None
     np.testing.assert_array_equal(small.scaling.factors, scaling.factors)
@@ -276,8 +276,8 @@ def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
     one = sm.assess(tables(), resamples=20, threads=1, progress=lambda done, total: calls.append((done, total)))
     two = sm.assess(tables(), resamples=20, threads=2)
     assert one.to_dict() == two.to_dict()
-    # Seven models, 102 for each of three frictions, and two at each of 21 shares of a design, under forty motions.
-    assert calls[-1] == ((7 + 3 * 102 + 42) * 40, (7 + 3 * 102 + 42) * 40)
+    # Seven models, three frictions, 101 shares, and two models at each of 21 shares of a design, under forty motions.
+    assert calls[-1] == ((7 + 3 + 101 + 42) * 40, (7 + 3 + 101 + 42) * 40)
     assert [done for done, _ in calls] == sorted(done for done, _ in calls)
 
 
@@ -378,12 +378,21 @@ def test_inertia_over_the_spring_force_is_that_of_the_run() -> None:
 def test_mixed_use_counts_floor_by_floor() -> None:
     """The code's model has the mass of each floor; floors that a code exempts and full offices are remarked on."""
     given = tables(goods={"occupied": None})
-    given["storeys"] = [{"use": "ordinary"}, {}, {"live_load_kpa": 0.3}]
+    given["storeys"] = [{"use": "ordinary", "occupied": 1.0}, {}, {"live_load_kpa": 0.3}]
     result = sm.assess(given, mu_factors=(1, 1), resamples=2)
-    assert result.building.code_share == pytest.approx((0.25 * 6.0 + 0.25 * 0.3) / 12.3, rel=1e-12)
-    assert any(remark.startswith("storage adds at most 5 % to the weight of floor 3") for remark in result.remarks)
+    # 0.25 of 0.3 kPa is below 5 % of the dead load of the floor: 12.7.2, exception a.
+    assert result.building.code_share == pytest.approx(0.25 * 6.0 / 12.3, rel=1e-12)
+    assert any(remark.startswith("floor 3 is exempt: at most 5 % of the weight") for remark in result.remarks)
     assert any("ordinary live load of floor 1 is taken as rigid goods" in remark for remark in result.remarks)
-    assert any("by floor 0 0.25 0.25, together 0.128" in line for line in result.assumptions)
+    by_floor = (
+        "by floor 1: 0 (ordinary), 2: 0.25, 3: 0 (exempt: at most 5 % of the weight of the level), together 0.122"
+    )
+    assert any(by_floor in line for line in result.assumptions)
+    storeys = json.loads(result.to_json())["input"]["storeys"]
+    assert [row["code_fraction"] for row in storeys] == [0.0, 0.25, 0.0]
+    given["storeys"][2]["exempt"] = False
+    counted = sm.read_building(given)
+    assert counted.code_share == pytest.approx((0.25 * 6.0 + 0.25 * 0.3) / 12.3, rel=1e-12)
     assert json.loads(result.to_json())["code"]["share_of_design_live_load"] == result.building.code_share
 
 
@@ -457,9 +466,10 @@ def test_the_page_says_the_answer_first(warehouse: sm.Assessment) -> None:
     assert lines[3] == "ANSWER    two analyses; the larger drift of each storey counts"
     share, load = warehouse.advised, warehouse.advised_of_live_load
     assert lines[4] == (
-        f"          1  lambda = {share:.2f} of the goods present ({load:.2f} of the design live load) as mass"
+        f"          1  lambda = {share:.2f} of the goods present ({load:.2f} of the design live load) as mass: "
+        f"dead + {load:.2f} live"
     )
-    assert lines[5] == "          2  no goods"
+    assert lines[5] == "          2  no goods: dead load alone"
     box = " ".join(" ".join(lines[3:30]).split())
     value = max(effective.value for effective in warehouse.effective.values())
     assert f"why {share:.2f} since mu x 1.5 gives {value:.2f} [" in box
@@ -495,7 +505,7 @@ def test_masses_of_both_analyses_are_those_of_the_models(warehouse: sm.Assessmen
     np.testing.assert_array_equal(masses["mass_2"], building.mass)
     np.testing.assert_allclose(masses["weight_1"], G * masses["mass_1"].to_numpy(), rtol=1e-14)
     # Goods are 0.8 of the live load on floors 1 to 3, and the roof has none.
-    np.testing.assert_allclose(masses["multiplier"], [*3 * [0.8 * warehouse.advised], 0.0], rtol=1e-14)
+    np.testing.assert_allclose(masses["multiplier_1"], [*3 * [0.8 * warehouse.advised], 0.0], rtol=1e-14)
 
 
 def test_the_share_for_strengths_is_that_of_the_design(small: sm.Assessment) -> None:
@@ -533,7 +543,7 @@ def test_command_prints_page_and_json(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["building", str(file), "--out", out, "--no-figures", "--mu-factors", "1", "1"]) == 0
     page = capsys.readouterr().out
     assert "ANSWER    two analyses" in page
-    assert page.rstrip().splitlines()[-1].startswith("19 files in ")
+    assert page.rstrip().splitlines()[-1].startswith("21 files in ")
     options = ["--json", "--no-figures", "--sds", "0.8", "--sd1", "0.5", "--code", "nbc", "--period", "0.6"]
     assert main(["building", str(file), "--out", out, *options]) == 0
     document = json.loads(capsys.readouterr().out)

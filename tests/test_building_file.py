@@ -52,7 +52,8 @@ def test_units_are_those_of_the_keys() -> None:
     np.testing.assert_array_equal(building.yield_shear, [9.0e5, 9.0e5])
     assert building.gravity_load is not None
     np.testing.assert_allclose(building.gravity_load, [2.5e6, 2.5e6], rtol=1e-15)
-    assert (building.mu_s.tolist(), building.mu_k.tolist()) == ([0.4, 0.0], [0.3, 0.0])  # the contact of the table
+    # The contact of the table; none on the bare roof.
+    assert [(kind.mu_s, kind.mu_k) for kind in building.kinds] == [(0.4, 0.3), (0.0, 0.0)]
     scene = building.scene()
     # P of storey 1: both floors and the goods present; of storey 2: the roof.
     np.testing.assert_allclose(scene.geometric_stiffness * 4.0, [5.0e6 + 2.1e6, 2.5e6], rtol=1e-12)
@@ -87,8 +88,7 @@ def test_a_storey_replaces_the_default_in_any_of_its_units() -> None:
     assert building.yield_shear is not None
     assert building.yield_shear.tolist() == [5.0, 9.0e5]
     assert building.goods[1] == 3.5
-    assert building.mu_s.tolist() == [0.4, 0.9]
-    assert building.friction == ("timber-on-steel", "")
+    assert [(kind.contact, kind.mu_s) for kind in building.kinds] == [("timber-on-steel", 0.4), ("", 0.9)]
 
 
 def test_a_period_scales_relative_stiffnesses() -> None:
@@ -200,7 +200,10 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"building": {"height_m": None, "p_delta": True}}, "height_m of building must be given where building.p_delta is"),
     ({"building": {"p_delta": "yes"}}, "building.p_delta of building must be true or false; got 'yes'"),
     ({"building": {"period_s": 0.5}}, "stiffness_kn_per_m of building must be left out where building.period_s is"),
-    ({"building": {"stiffness_kn_per_m": None}}, "given, or stiffness_n_per_m, or building.period_s for the whole"),
+    (
+        {"building": {"stiffness_kn_per_m": None}},
+        "stiffness_n_per_m, or building.period_s or building.system for the",
+    ),
     (
         {"building": {"relative_stiffness": 2}},
         "relative_stiffness of building must be left out where building.period_s",
@@ -243,7 +246,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
         {"goods": {"mu_factors": [1.5, 0.67]}},
         r"goods.mu_factors of building must be two factors, .*; got \[1.5, 0.67\]",
     ),
-    ({"site": {"sd1_g": None}}, "site.sd1_g of building must be given, or site.spectrum_csv for the whole spectrum"),
+    ({"site": {"sd1_g": None}}, "site.sd1_g of building must be given, or site.spectrum_csv or site.target for the"),
     ({"site": {"sds_g": -1}}, "site.sds_g of building must be a positive number; got -1"),
     ({"site": {"tl_s": 0.1}}, "site.tl_s of building must be at least T_S = S_D1/S_DS = 0.6 s; got 0.1"),
     ({"site": {"spectrum_csv": "a.csv"}}, "site.sds_g of building must be left out where site.spectrum_csv is given"),
@@ -382,7 +385,10 @@ MORE_WRONG: list[tuple[dict[str, Any], str]] = [
         "building.height_ft of building must be a positive number; got",
     ),
     ({"goods": {"height_ft": 13.0}}, "goods.height_ft of building must be one of the keys"),
-    ({"building": {"period_mass": "all"}}, "building.period_s of building must be given; got nothing"),
+    (
+        {"building": {"period_mass": "all"}},
+        "period_s of building must be given, or building.system; got nothing",
+    ),
     (
         {"building": {"stiffness_kn_per_m": None, "period_s": 0.5, "period_mass": "half"}},
         "building.period_mass of building must be one of bare, code share, all; got 'half'",

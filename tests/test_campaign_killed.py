@@ -82,7 +82,7 @@ def test_a_killed_worker_loses_no_part(undisturbed: Path, tmp_path: Path) -> Non
     distributed = pytest.importorskip("distributed", reason="needs seismass[cluster]")
     place = tmp_path / "a"
     with (
-        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0") as cluster,
         distributed.Client(cluster) as client,
     ):
         pids = list(client.run(os.getpid).values())

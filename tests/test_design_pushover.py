@@ -284,3 +284,83 @@ def test_bad_arguments_are_refused(arguments: dict, message: str) -> None:
         design.pushover(sm.Building([1.0, 1.0], 100.0), **({"drift_limit": 1.0} | arguments))
     with pytest.raises(sm.errors.InvalidOption, match="building of pushover must be a Building; got"):
         design.pushover(sm.Scene(sm.Building([1.0, 1.0], 100.0)))  # type: ignore[arg-type]
+
+
+def storeys_as_matrix(stiffness: list[float]) -> np.ndarray:
+    """Stiffness of a chain of storeys over its floors."""
+    down = np.eye(len(stiffness)) - np.eye(len(stiffness), k=-1)
+    return down.T @ np.diag(stiffness) @ down
+
+
+def test_one_storey_beside_a_wall_by_hand() -> None:
+    """k = 100, V_y = 5, flat; a wall of 20 beside it: slope 120 up to d = 0.05, V = 6; then 20 up to 0.3, V = 11."""
+    building = sm.Building([1.0], 100.0, yield_shear=5.0, overstrength=1.0, stiffness_matrix=[[20.0]])
+    path = design.pushover(building, "uniform", drift_limit=0.3)
+    np.testing.assert_allclose(path.base_shear, [0.0, 6.0, 11.0], rtol=1e-14)
+    np.testing.assert_allclose(path.roof_displacement, [0.0, 0.05, 0.3], rtol=1e-14)
+    np.testing.assert_allclose(path.wall_shear[:, 0], [0.0, 1.0, 6.0], rtol=1e-13)
+    np.testing.assert_allclose(path.spring_force[:, 0], [0.0, 5.0, 5.0], rtol=1e-14)
+    assert (path.mechanism, path.end) == (None, "drift limit")
+
+
+@pytest.mark.parametrize("third", [0.1, -0.05])
+def test_storeys_as_springs_and_as_a_matrix_give_one_path(third: float) -> None:
+    """A bilinear spring is an elastic one of 0.1 k, here in the matrix, beside one of 0.9 k with a lower last slope."""
+    stiffness, strength = np.array([400.0, 300.0, 200.0]), np.array([8.0, 5.0, 4.0])
+    given: dict[str, object] = {"overstrength": 1.0, "damping": 0.0}
+    if third < 0.0:
+        given["hysteresis"] = "peak-oriented"
+    springs = sm.Building(np.ones(3), stiffness, yield_shear=strength, second_slope=0.1, third_slope=third, **given)
+    mixed = sm.Building(
+        np.ones(3),
+        0.9 * stiffness,
+        yield_shear=0.9 * strength,
+        third_slope=(third - 0.1) / 0.9,
+        stiffness_matrix=storeys_as_matrix((0.1 * stiffness).tolist()),
+        **given,
+    )
+    force = [1.0, 1.0, 1.0]
+    series = design.pushover(springs, force, drift_limit=0.1)
+    walls = design.pushover(mixed, force, drift_limit=0.1)
+    np.testing.assert_allclose(walls.base_shear, series.base_shear, rtol=1e-12)
+    np.testing.assert_allclose(walls.drift, series.drift, rtol=1e-11, atol=1e-14)
+    np.testing.assert_allclose(walls.spring_force + walls.wall_shear, series.spring_force, rtol=1e-11)
+    assert (walls.end, walls.mechanism) == (series.end, series.mechanism)
+    assert walls.events["kind"].to_list() == series.events["kind"].to_list()
+
+
+def test_a_flat_storey_that_no_wall_holds_drifts_alone() -> None:
+    """A brace of 50 beside storey 1 alone; storey 2 is flat at V_2 = V/2 = 3: the base shear ends at 6."""
+    brace = [[50.0, 0.0], [0.0, 0.0]]
+    building = sm.Building([1.0, 1.0], 100.0, yield_shear=[50.0, 3.0], overstrength=1.0, stiffness_matrix=brace)
+    path = design.pushover(building, "uniform", drift_limit=0.5)
+    np.testing.assert_allclose(path.base_shear, [0.0, 6.0, 6.0], rtol=1e-13)
+    np.testing.assert_allclose(path.drift, [[0, 0], [0.04, 0.03], [0.04, 0.5]], rtol=1e-12)
+    assert (path.capacity, path.mechanism, path.end) == (pytest.approx(6.0), 2, "drift limit")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_walls_are_in_equilibrium_along_the_path(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 9))
+    soft = bool(rng.integers(2))
+    frame = sm.Building(
+        rng.uniform(0.5, 2.0, n),
+        rng.uniform(50.0, 200.0, n),
+        yield_shear=rng.uniform(1.0, 6.0, n),
+        overstrength=rng.uniform(1.0, 2.0, n),
+        third_slope=rng.uniform(-0.4, 0.0, n) if soft else 0.0,
+        hysteresis="peak-oriented" if soft else "masing",
+        heights=rng.uniform(2.0, 4.0, n),
+        gravity_load=rng.uniform(0.0, 5.0, n),
+    )
+    building = design.Wall.of_alpha_h(frame, float(rng.uniform(1.0, 8.0))).beside(frame)
+    path = design.pushover(building, "code")
+    share = np.cumsum(path.force[::-1])[::-1]
+    left = path.spring_force + path.wall_shear - p_delta(building) * path.drift
+    np.testing.assert_allclose(left, share * path.base_shear[:, None], rtol=0.0, atol=1e-9 * path.capacity)
+    along_the_kernel(frame, path)
+    # The walls' shear is what the matrix gives at the displacements of the floors.
+    forces = np.cumsum(path.drift, axis=1) @ building.stiffness_matrix
+    expected = np.cumsum(forces[:, ::-1], axis=1)[:, ::-1]
+    np.testing.assert_allclose(path.wall_shear, expected, rtol=0.0, atol=1e-9 * path.capacity)

@@ -19,7 +19,7 @@ from seismass.effective_mass.curve import interpolated
 from seismass.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
-FACTORS = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7()).factors
+FACTORS = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7(), between=False).factors
 MOTIONS = [record.scaled(factor) for record, factor in zip(SUITE, FACTORS, strict=True)]
 
 

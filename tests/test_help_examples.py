@@ -19,6 +19,7 @@ from seismass.explore import compiled
 from seismass.records.builtin import data_directory
 
 RUN = [
+    "new own.toml --from storeys.csv --area 1200 --sds 1.0 --sd1 0.6 --live-load 7.2 --friction 0.3",
     "building --example > warehouse.toml",
     "building warehouse.toml",
     "explore",
@@ -35,6 +36,7 @@ RUN = [
     "animate --example",
     "records records/ --json",
     "spectrum record.AT2 --damping 0.02 0.05",
+    "target ec8:1:C:0.3",
     "scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6",
     "match record.AT2 --out matched.AT2 --plot matched.png",
     "pulse RSN1106_KOBE_KJM000.AT2 --json",
@@ -63,6 +65,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (made / "suite.csv").write_text("file\n" + "".join(f"records/{motion.name}\n" for motion in motions))
     intensity = np.array([0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 8.0])
     rows = [f"{level:g},{rate:.6g}" for level, rate in zip(intensity, 0.01 * (intensity / 0.1) ** -2.5, strict=True)]
+    storeys = "Story,Height (m),Mass (t),Stiffness (kN/m)\nRoof,4,600,5e5\nStory1,4.5,700,7e5\n"
+    (made / "storeys.csv").write_text(storeys)
     (made / "hazard.csv").write_text("\n".join(["Sa,rate", *rows, ""]))
     assert main(["building", str(made / "warehouse.toml"), "--out", str(made / "assessment"), "--no-figures"]) == 0
     return made

@@ -16,7 +16,7 @@ PER_BLOCK = ("peak_slip", "peak_slip_time", "residual_slip", "slip_path")
 
 def test_motions_of_batches_join_with_their_factors() -> None:
     """One convention, from 1: the factor beside a row is that by which its motion was scaled."""
-    scaling = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7())
+    scaling = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7(), between=False)
     motions = [record.scaled(factor) for record, factor in zip(SUITE, scaling.factors, strict=True)]
     table = sm.simulate_many(sm.Scene(BASE), motions)
     joined = table.join(scaling.table(), on="motion", suffix="_of_scaling", maintain_order="left")

@@ -75,6 +75,18 @@ READ: list[tuple[str, str, float, list[tuple[str, float | None, str, str]]]] = [
     ),
     ("made.V2A", "mm/s2", 6e-5, [("S14E", 166.0, "GeoNet", "NOWS, Nowhere"), ("Up", None, "GeoNet", "NOWS, Nowhere")]),
     ("made.V1A", "mm/s2", 6e-5, [("S14E", 166.0, "GeoNet", "NOWS, Nowhere"), ("Up", None, "GeoNet", "NOWS, Nowhere")]),
+    (
+        "made_unam.191",
+        "cm/s2",
+        1e-6,
+        [(name, at, "UNAM", "NOWS, NOWHERE") for name, at in (("V", None), ("N00E", 0.0), ("N90E", 90.0))],
+    ),
+    (
+        "made_bhrc.V1",
+        "g",
+        1e-5,
+        [(name, at, "BHRC", "Nowhere") for name, at in (("L", 316.0), ("V", None), ("T", 46.0))],
+    ),
 ]
 
 
@@ -260,6 +272,30 @@ WRONG: list[tuple[str, Callable[[str], str], str]] = [
     ),
     ("made.smc", with_last_line(" 1.0000E+0\n"), r"points of made.smc must be 203, as its header says; got more"),
     ("made_pairs.smc", swapped(" 2.0000E-2", " 2.5000E-2"), r"times of made_pairs.smc must be uniform.*volume 2"),
+    (
+        "made_unam.191",
+        swapped(": /203/203/203", ": /202/202/202"),
+        r"points of .* must be 202, .*; got 203",
+    ),
+    (
+        "made_unam.191",
+        swapped(": /203/203/203", ": /204/204/204"),
+        r"points of .* must be 204, .*; got 203",
+    ),
+    ("made_unam.191", swapped(": /203/203", ": /203/302"), r"MUESTRAS, C1-C6 of .* must be one for each of 3 channels"),
+    ("made_unam.191", swapped("/0.02/0.02", "/0.02/0.01"), r"MUESTREO, C1-C6 .* must be one for each of 3 channels"),
+    ("made_unam.191", swapped("/0.02/0.02/0.02", "/0.04/0.04/0.04"), r"record length of .* must be 4.06 s"),
+    ("made_unam.191", swapped("3F10.4", "4F10.4"), r"format of the numbers of .* must be 3 a line; got 4F10.4"),
+    ("made_unam.191", swapped(": /-169.2039", ": /-168.2039"), r"peak of .* must be -168.2039 at 2.22 s"),
+    ("made_unam.191", swapped("Gal (cm/s/s)", "cuentas"), r"unit of .* must be one of g, .*; got 'cuentas'"),
+    ("made_bhrc.V1", swapped("POINTS =  203", "POINTS =  302"), r"points of made_bhrc.V1 must be stated alike twice"),
+    (
+        "made_bhrc.V1",
+        swapped("=  4.060", "=  8.120"),
+        r"record length of .* must be 8.120 s, .*; got 203 points of 0.02",
+    ),
+    ("made_bhrc.V1", swapped("AND G/10", "AND COUNTS"), r"line 12 of made_bhrc.V1 must be UNITS ARE SECONDS AND G/10"),
+    ("made_bhrc.V1", swapped("/&", "1.0"), r"line \d+ of made_bhrc.V1 must begin a component, as '\* VOL1DS'"),
     ("made.txt", swapped("npts: 203", "npts: 205"), r"points of made.txt must be 205, as its header says; got 203"),
 ]
 
@@ -271,6 +307,31 @@ def test_a_file_that_contradicts_itself_is_refused(
     file = put(tmp_path, name, change(FILES[name].decode()))
     with pytest.raises(RecordFormatError, match=message):
         read_records(file)
+
+
+def test_numbers_of_unam_and_bhrc_by_hand(tmp_path: Path) -> None:
+    """Four values written by hand: gal are 0.01 m/s2, and g/10 are 0.980665 m/s2; 200 samples a second."""
+    unam = without_line("ACEL. MAX.(Gal)")(FILES["made_unam.191"].decode()).partition("N90E\n---")[0]
+    unam = unam.replace("/203/203/203", "/4/4/4").replace("/0.02/0.02/0.02", "/0.005/0.005/0.005")
+    unam = unam.replace("/4.06/4.06/4.06", "/0.02/0.02/0.02") + "N90E\n---------+---\n"
+    unam += "   -0.0083   -0.0214    0.0000\n   25.6114   58.7394  -42.3377\n" * 2
+    records = read_records(put(tmp_path, "hand.191", unam))
+    assert [record.acceleration.tolist() for record in records] == [
+        pytest.approx([-0.000083, 0.256114] * 2, rel=1e-12),
+        pytest.approx([-0.000214, 0.587394] * 2, rel=1e-12),
+        pytest.approx([0.0, -0.423377] * 2, rel=1e-12),
+    ]
+    assert {record.dt for record in records} == {0.005}
+
+    lines = FILES["made_bhrc.V1"].decode().splitlines()[:27]
+    lines[10] = "NO. OF POINTS =      4      DURATION =   .020"
+    lines[14] = "    0" * 11 + "    4    0    0"
+    lines[21] = "  .200000E+03" + "  .000000E+00" * 5
+    hand = "\n".join([*lines, "  .648367E-03 -.496995E-02  .104140E-01  .100000E+01", "/&"])
+    (record,) = read_records(put(tmp_path, "hand.V1", hand))
+    expected = [0.0006358308, -0.0048738560, 0.0102126453, 0.980665]
+    assert record.acceleration.tolist() == pytest.approx(expected, rel=1e-7)
+    assert (record.dt, record.azimuth, record.event) == (0.005, 316.0, "2000/01/01 00:00:00")
 
 
 def test_arguments_must_agree_with_a_header(tmp_path: Path) -> None:
@@ -371,7 +432,7 @@ NAMED: list[tuple[str, bytes, str]] = [
     (
         "a.mseed",
         b"000001D AB12 00HNZCE\x07\xe2\x00\xf1" + bytes(600),
-        r"content of a.mseed must be text; got miniSEED: con",
+        r"content of a.mseed must be text; got miniSEED: read it by seismass.records.read_counts with",
     ),
     ("a.ms", b"MS\x03\x00" + bytes(60), r"got miniSEED 3"),
     ("a.seed", b"000001V 010009402.3121970,001" + b" " * 60, r"got SEED"),
@@ -391,8 +452,7 @@ NAMED: list[tuple[str, bytes, str]] = [
     ),
     ("a.xml", b'<?xml version="1.0"?>\n<a/>', r"got XML"),
     ("a.json", b'{\n "a": 1}', r"got JSON"),
-    ("a.V1", b"* VOL1DS FILE:  5520/01\nInst Type = SSA-2\n", r"got BHRC"),
-    ("a.012", b"*" * 80 + b"\n            INSTITUTO DE INGENIERIA, UNAM\n", r"got UNAM"),
+    ("b.V1", FILES["made_bhrc.V1"].replace(b"VOL1DS", b"VOL2DS"), r"volume of b.V1 must be 1, uncorrected"),
     ("a.s0a", b"CORRECTED ACCELEROGRAM  IIBB127  94.610.0 COMP N08W   FILE   0  CORRESPONDING T\n", r"got USC volume"),
     ("a.y0a", b"FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\n", r"got USC volume"),
     (
@@ -556,6 +616,7 @@ def test_a_folder_takes_every_format_and_says_what_it_leaves_out(tmp_path: Path)
         "made_components channel 2", "made_components channel 3", "made_block", "made.cor", "made_csmnc",
         "made_jma channel 1", "made_jma channel 2", "made_nied channel 1", "made_nied channel 2",
         "made_cwa channel 2", "made_cwa channel 3", "made_afad channel 1", "made_afad channel 2",
+        "made_unam channel 2", "made_unam channel 3", "made_bhrc channel 1", "made_bhrc channel 3",
     }  # fmt: skip
     left = {item.file.name: item.reason for item in suite.excluded}
     assert left["made_cwa.txt"] == "made_cwa channel 1: vertical component by its header: U"

@@ -354,10 +354,10 @@ def test_a_study_takes_factors_of_another_scaling() -> None:
     """The same factors give the same drifts; other factors, another digest; a wrong number of them is refused."""
     suite = sm.builtin_suite("seven")
     own = run_study(suite, TARGET, SMALL)
-    scaling = sm.scaling.scale_asce7_10(suite, TARGET, SMALL.scaling_period)
+    scaling = sm.scaling.scale_asce7_10(suite, TARGET, SMALL.scaling_period, between=False)
     given = run_study(suite, TARGET, SMALL, scaling=scaling)
     assert given.responses.equals(own.responses)
-    other = run_study(suite, TARGET, SMALL, scaling=sm.scaling.scale_asce7_10(suite, TARGET, 0.5))
+    other = run_study(suite, TARGET, SMALL, scaling=sm.scaling.scale_asce7_10(suite, TARGET, 0.5, between=False))
     assert other.responses.equals(run_study(suite, TARGET, replace(SMALL, scaling_period=0.5)).responses)
     assert other.metadata["inputs_sha256"] != given.metadata["inputs_sha256"]
     with pytest.raises(

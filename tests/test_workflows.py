@@ -20,7 +20,7 @@ def test_workflows_are_valid() -> None:
     command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", "vendor.github-workflows"]
     checked = subprocess.run([*command, *map(str, WORKFLOWS)], capture_output=True, text=True, timeout=120)
     assert checked.returncode == 0, checked.stdout + checked.stderr
-    assert len(WORKFLOWS) == 2
+    assert len(WORKFLOWS) == 3
 
 
 def test_actionlint_finds_nothing() -> None:
@@ -47,6 +47,36 @@ def test_every_linked_crate_has_its_licence_in_the_file() -> None:
     for name, version in sorted(linked):
         assert f"\n{name} {version}: " in text, "run tools/third_party_licences.py"
         assert re.search(rf"^{re.escape(name)} {re.escape(version)} \(", text, re.MULTILINE), (name, version)
+
+
+def test_audit_allows_the_licences_that_are_linked_and_the_index_alone() -> None:
+    """Linked crates are in the file of texts; where cargo-deny is, it judges the whole lock file."""
+    deny = tomllib.loads((ROOT / "deny.toml").read_text(encoding="utf-8"))
+    assert deny["sources"] == {"unknown-registry": "deny", "unknown-git": "deny"}
+    assert deny["advisories"]["ignore"] == []
+    names, _, _ = (ROOT / "THIRD-PARTY-LICENCES.txt").read_text(encoding="utf-8").partition("\nBoth contain code")
+    stated = re.findall(r"^\S+ \d\S*: (.*)$", names, re.MULTILINE)
+    assert len(stated) > 20
+    allowed = {name.partition(" WITH ")[0] for name in deny["licenses"]["allow"]}
+    for expression in stated:
+        needed = re.sub(r" WITH \S+", "", expression.replace("/", " OR ")).replace("(", "").replace(")", "")
+        for part in needed.split(" AND "):
+            assert allowed & set(part.split(" OR ")), expression
+    if shutil.which("cargo-deny") is None:
+        pytest.skip("no cargo-deny: the configuration is held against the licences of linked crates alone")
+    command = ["cargo-deny", "--locked", "--offline", "check", "bans", "licenses", "sources"]
+    checked = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
+def test_workflow_of_the_audit_does_what_make_audit_does() -> None:
+    workflow = (ROOT / ".github" / "workflows" / "audit.yml").read_text(encoding="utf-8")
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    assert "make audit-packages" in workflow
+    assert "cargo deny --locked check" in makefile
+    assert re.search(r"command: check\n\s+arguments: --locked", workflow)
+    groups = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["dependency-groups"]
+    assert [name.partition("==")[0] for name in groups["audit"]] == ["pip-audit"]
 
 
 def test_rusts_standard_library_has_its_licences_in_the_file() -> None:

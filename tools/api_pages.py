@@ -30,6 +30,7 @@ MODULES: Final = {
     "explore": "The live page.",
     "codes": "Live load fractions of codes.",
     "friction": "Friction of contacts.",
+    "occupancy": "Goods that are present, as surveys find them.",
     "distributions": "Distributions of what is not known.",
     "errors": "The exceptions of the package.",
 }

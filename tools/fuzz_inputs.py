@@ -1,7 +1,7 @@
 """Read mutated input files of every kind but records, which tools/fuzz_records.py mutates: a result or one error line.
 
 Usage: tools/fuzz_inputs.py [--count 5000] [--seed 1] [--keep DIR]. Scene, building and campaign files (TOML and JSON),
-target spectra, hazard curves, and the folders of a campaign and an assessment. Values are put in place of
+target spectra, hazard curves, and the folders of a campaign, an assessment and a study. Values are put in place of
 others, keys and lines are moved, doubled or left out, and bytes are changed. A defect is an exception that is not the
 package's, or that of the system for a file; more than 5 s of processor time; or 512 MB of memory. --keep saves the file
 of each defect. `make fuzz` runs both programs, and a small run is part of the tests.
@@ -31,6 +31,8 @@ from seismass.base.errors import InvalidOption
 from seismass.campaign.description import example_description
 from seismass.runs.scene_file import example_scene
 from seismass.show.assessment.tables import read_assessment_tables
+from seismass.show.study.tables import read_study_tables
+from seismass.study import StudyParameters, run_study
 
 SECONDS_PER_FILE = 5.0
 MEMORY_GROWTH_KB = 512 * 1024
@@ -103,6 +105,12 @@ def kinds(place: Path) -> list[Kind]:
     for file in ("assessment.json", "storeys.parquet"):
         read = _assessment
         found.append(Kind(f"assessment's {file}", file, (assessed / file).read_bytes(), read, assessed))
+    studied = place / "study"
+    small = StudyParameters(buildings=((2, 0.38),), response_modification=(4.0,), mass_ratios=(1.0,))
+    run_study(sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(), small).write(studied, figures=False)
+    for path in sorted(studied.iterdir()):
+        if path.suffix in (".parquet", ".json"):
+            found.append(Kind(f"study's {path.name}", path.name, path.read_bytes(), read_study_tables, studied))
     return found
 
 

@@ -28,7 +28,7 @@ from seismass.records import Record, read_records
 from seismass.records.formats import Format, recognise
 from seismass.records.formats.headers import NO_COUNT
 
-NETWORKS = ("resorce", "csmnc", "jma", "nied_csv", "cwa", "afad", "geonet")
+NETWORKS = ("resorce", "csmnc", "jma", "nied_csv", "cwa", "afad", "geonet", "unam", "bhrc")
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "records.md"

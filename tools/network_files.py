@@ -148,6 +148,65 @@ def geonet(motion: Motion, dt: float, *, corrected: bool = True) -> str:
     return found
 
 
+def unam(motion: Motion, dt: float) -> str:
+    """Return a standard file of UNAM of three channels: 109 lines, then 3F10.4 in gal."""
+    channels = [[round(value, 4) for value in motion(number)] for number in range(3)]
+    peaks = [largest(values) for values in channels]
+    points, rule = len(channels[0]), "---------+" * 8 + "\n"
+    entries = [
+        ("NOMBRE DE LA ESTACION", "NOWHERE"),
+        ("CLAVE DE LA ESTACION", "NOWS"),
+        ("NUMERO DE CANALES", "3"),
+        ("ORIENTACION C1-C6 (rumbo;orientacion)", "/V/N00E/N90E"),
+        ("ORIENTACION C7-C12 (rumbo;orientacion)", ""),
+        ("INTERVALO DE MUESTREO, C1-C6 (s)", f"/{dt:g}/{dt:g}/{dt:g}"),
+        ("FECHA DEL SISMO [GMT]", "2000/01/01"),
+        ("DURACION DEL REGISTRO (s), C1-C6", "".join(f"/{points * dt:.2f}" for _ in range(3))),
+        ("NUM. TOTAL DE MUESTRAS, C1-C6", f"/{points}/{points}/{points}"),
+        ("ACEL. MAX.(Gal), C1-C6", "".join(f"/{value:.4f}" for value, _ in peaks)),
+        ("ACEL. MAX., C1-C6, EN LA MUESTRA", "".join(f"/{at + 1}" for _, at in peaks)),
+        ("UNIDADES DE LOS DATOS", "Gal (cm/s/s)"),
+        ("FACTOR DE DECIMACION", "1"),
+        ("FORMATO DATOS (FORTRAN,10 campos/dato)", "3F10.4"),
+    ]
+    return (
+        f"{'*' * 86}\n                       INSTITUTO DE INGENIERIA, UNAM\n{'*' * 86}\n"
+        "ARCHIVO ESTANDAR DE ACELERACION:\n"
+        + "".join(f"{key:39s}: {value}\n" for key, value in entries)
+        + f"{'=' * 80}\nDATOS DE ACELERACION:\n{rule}   CANAL-1   CANAL-2   CANAL-3\n"
+        f"         V      N00E      N90E\n{rule}"
+        + "".join(f"{v:10.4f}{n:10.4f}{e:10.4f}\n" for v, n, e in zip(*channels, strict=True))
+    )
+
+
+def bhrc(motion: Motion, dt: float) -> str:
+    """Return a volume 1 of BHRC of three components: 13 lines, 7 of integers, 7 of reals, 10E13.6 in g/10."""
+    found = ""
+    for number, component in enumerate("LVT"):
+        values = [value / 98.0665 for value in motion(number)]
+        whole, reals = [0] * 88, [0.0] * 38
+        whole[25], reals[2], reals[6] = len(values), len(values) * dt, 1.0 / dt
+        text = [
+            "* VOL1DS FILE:  0001/01",
+            "Inst Type = X",
+            "Origin Time : 2000/01/01   00:00:00",
+            "",
+            component,
+            "",
+            f"COMP {component}{number + 1}",
+            "Nowhere                   Station    0.000 N  0.000 E   Altitude    0m   Azimuth L 316   T 46",
+            "Epicenter  0.000 N  0.000 E   FD 10 Km mb      Ms      Mw6.0   M        ML   (X      )",
+            "INSTR PERIOD =  .019 SEC   DAMPING =  .640",
+            f"NO. OF POINTS =  {len(values)}      DURATION =  {len(values) * dt:.3f}",
+            "UNITS ARE SECONDS AND G/10",
+            "",
+        ]
+        found += "\n".join(text) + "\n" + in_lines([f"{value:5d}" for value in whole], 14)
+        found += in_lines([f"{value:13.6E}" for value in reals], 6)
+        found += in_lines([f"{value:13.6E}" for value in values], 10) + "/&\n"
+    return found
+
+
 def files(motion: Motion, dt: float) -> dict[str, str]:
     """Return name and text of one file of each kind."""
     return {
@@ -159,4 +218,6 @@ def files(motion: Motion, dt: float) -> dict[str, str]:
         "made_afad.txt": afad(motion, dt),
         "made.V2A": geonet(motion, dt),
         "made.V1A": geonet(motion, dt, corrected=False),
+        "made_unam.191": unam(motion, dt),
+        "made_bhrc.V1": bhrc(motion, dt),
     }

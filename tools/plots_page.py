@@ -18,6 +18,8 @@ FIGURES: Final = {
     "profile": "plot_profile",
     "energy": "plot_energy",
     "events": "plot_events",
+    "levels": "plot_rack_profile",
+    "contacts": "plot_contacts",
     "ida": "plot_ida",
     "fragility": "plot_fragility",
 }

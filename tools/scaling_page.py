@@ -199,7 +199,7 @@ def write(shared: Path) -> None:
     """Write page and figure."""
     PAGE.write_text(page(shared), encoding="utf-8")
     seven = sm.read_suite(shared / "records" / "paper_seven.csv")
-    save_figure(sm.scaling.scale_asce7_10(seven, TARGET).plot(seven, TARGET), "png", FIGURE)
+    save_figure(sm.scaling.scale_asce7_10(seven, TARGET).plot(records=seven, target=TARGET), "png", FIGURE)
 
 
 if __name__ == "__main__":

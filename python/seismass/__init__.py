@@ -2,7 +2,7 @@
 
 At the top stands what a first hour needs. The rest is in modules: `records`, `spectra`, `scaling`, `matching`,
 `pulses`, `design`, `runs`, `fragility`, `slip`, `risk`, `campaign`, `study`, `validation`, `plots`, `explore`, `codes`,
-`friction`, `distributions` and `errors`.
+`friction`, `occupancy`, `distributions` and `errors`.
 """
 
 import lazy_loader

@@ -33,7 +33,7 @@ from .effective_mass import (
     effective_mass_of_design,
     live_load_uncertainty,
 )
-from .model import codes, friction
+from .model import codes, friction, occupancy
 from .model.block import Block, blocks_on_floors
 from .model.building import Building
 from .model.damping import Rayleigh
@@ -115,6 +115,7 @@ __all__ = [
     "live_load_uncertainty",
     "long_table",
     "matching",
+    "occupancy",
     "plots",
     "pulses",
     "read_building",

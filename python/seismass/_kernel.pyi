@@ -26,7 +26,10 @@ __all__ = [
     "GeneralResponse",
     "GeneralScene",
     "Motion",
+    "PlaneResponse",
+    "PlaneScene",
     "Rack",
+    "RackColumns",
     "ReferenceRun",
     "Response",
     "Scene",
@@ -39,6 +42,8 @@ __all__ = [
     "simulate_columns",
     "simulate_general",
     "simulate_many",
+    "simulate_many_general",
+    "simulate_plane",
     "uniform_stiffness",
 ]
 
@@ -498,6 +503,11 @@ class GeneralResponse:
         Number of levels of each rack.
         """
     @property
+    def rack_velocity(self, /) -> NDArray[float64] | None:
+        """
+        Velocity of rack levels relative to the ground (m/s), rows x levels.
+        """
+    @property
     def residual_base_slip(self, /) -> float | None:
         """
         Slip of a sliding base at the end (m).
@@ -636,6 +646,117 @@ class Motion:
         """
 
 @final
+class PlaneResponse:
+    """
+    The response of one run in two horizontal directions: what is of vectors, and the response in each direction.
+    """
+    @property
+    def directions(self, /) -> tuple[GeneralResponse, GeneralResponse]:
+        """
+        The responses in x and in y; path and statistics are of the run.
+        """
+    @property
+    def energy(self, /) -> dict[str, float] | None:
+        """
+        Energies of both directions together (J) and their relative residual, if asked for.
+        """
+    @property
+    def event_angle(self, /) -> NDArray[float64] | None:
+        """
+        Angle of each event of a vector, from x towards y (rad); NaN for others.
+        """
+    @property
+    def event_direction(self, /) -> NDArray[uint8] | None:
+        """
+        Direction of each event: 1 in x, 2 in y; 0: it is of a vector.
+        """
+    @property
+    def event_element(self, /) -> NDArray[uint8] | None:
+        """
+        Segments of the backbone left at each yield, 1 at the first; stage of wear that begins; otherwise 0.
+        """
+    @property
+    def event_kind(self, /) -> NDArray[uint8] | None:
+        """
+        Kinds of the events, as indices of `Response.event_kinds`.
+        """
+    @property
+    def event_number(self, /) -> NDArray[uint32] | None:
+        """
+        Storey (levels of racks count on) or block of each event, counted from 1.
+        """
+    @property
+    def event_sign(self, /) -> NDArray[int8] | None:
+        """
+        Sign of each event of a direction; 0 for one of a vector.
+        """
+    @property
+    def event_time(self, /) -> NDArray[float64] | None:
+        """
+        Times of the events (s).
+        """
+    @property
+    def peak_base_shear(self, /) -> float:
+        """
+        Peak length of the base shear vector, with the share of matrices (N); NaN without a building.
+        """
+    @property
+    def peak_drift(self, /) -> NDArray[float64]:
+        """
+        Peak length of the drift vector of each storey (m).
+        """
+    @property
+    def peak_floor_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak length of the absolute acceleration of each floor (m/s2).
+        """
+    @property
+    def peak_rack_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak length of the absolute acceleration of rack levels (m/s2).
+        """
+    @property
+    def peak_rack_drift(self, /) -> NDArray[float64]:
+        """
+        Peak length of the drift vector of rack levels (m).
+        """
+    @property
+    def peak_rack_shear(self, /) -> NDArray[float64]:
+        """
+        Peak length of the shear vector of rack levels, the spring force alone (N).
+        """
+    @property
+    def peak_slip(self, /) -> NDArray[float64]:
+        """
+        Peak length of the slip of each block (m).
+        """
+    @property
+    def peak_storey_shear(self, /) -> NDArray[float64]:
+        """
+        Peak length of the shear vector of each storey, the spring force alone (N).
+        """
+    @property
+    def slip_path(self, /) -> NDArray[float64]:
+        """
+        Path slipped in contact with what carries the block (m).
+        """
+    @property
+    def status(self, /) -> str:
+        """
+        "completed" or "collapsed".
+        """
+
+@final
+class PlaneScene:
+    """
+    Scene in two horizontal directions held by the kernel.
+    """
+    def __new__(cls, /, x: GeneralScene, y: GeneralScene) -> PlaneScene:
+        """
+        What a scene is in x and in y: equal masses and goods; stops in y stand across y.
+        """
+
+@final
 class Rack:
     """
     Rack held by the kernel.
@@ -683,6 +804,53 @@ class Rack:
         """
         Stiffness of equally stiff levels (N/m) that gives the first period (s) to levels of these masses (kg), the
         goods included.
+        """
+
+@final
+class RackColumns:
+    """
+    Racks and stops of a batch. The list of run i is the next `levels[i]` values of a flat array over the levels of its
+    racks, one rack after the other, or as many as it has blocks; a run that failed has none.
+    """
+    @property
+    def levels(self, /) -> NDArray[uint32]:
+        """
+        Number of rack levels of each run.
+        """
+    @property
+    def peak_base_shear(self, /) -> NDArray[float64]:
+        """
+        Peak base shear, the share of an elastic matrix included (N), of each run; NaN without a building.
+        """
+    @property
+    def peak_contact_force(self, /) -> NDArray[float64]:
+        """
+        Peak force of blocks on their stops (N), flat over runs and blocks.
+        """
+    @property
+    def peak_contact_velocity(self, /) -> NDArray[float64]:
+        """
+        Peak relative velocity at which blocks come to their stops (m/s), flat over runs and blocks.
+        """
+    @property
+    def peak_rack_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak absolute acceleration of rack levels (m/s2), flat over runs and levels.
+        """
+    @property
+    def peak_rack_drift(self, /) -> NDArray[float64]:
+        """
+        Peak drift of rack levels (m), flat over runs and levels.
+        """
+    @property
+    def peak_rack_shear(self, /) -> NDArray[float64]:
+        """
+        Peak spring force of rack levels (N), flat over runs and levels.
+        """
+    @property
+    def residual_rack_drift(self, /) -> NDArray[float64]:
+        """
+        Drift of rack levels at the end (m), flat over runs and levels.
         """
 
 @final
@@ -1060,6 +1228,32 @@ def simulate_many(
     """
     Solves `runs`, rows of (index of scene, index of motion); with `peaks_only` residuals may be NaN. `progress` is
     called with runs done and runs in all.
+    """
+
+def simulate_many_general(
+    scenes: SupportsGetItem[int, GeneralScene],
+    motions: SupportsGetItem[int, Motion],
+    runs: NDArray[int64],
+    *,
+    threads: SupportsIndex | None = None,
+    progress: Any | None = None,
+) -> tuple[Batch, RackColumns]:
+    """
+    Solves `runs`, rows of (index of scene, index of motion); `progress` is called with runs done and runs in all.
+    """
+
+def simulate_plane(
+    scene: PlaneScene,
+    motion: Motion,
+    other: NDArray[float64],
+    every: SupportsIndex,
+    displacements_only: bool,
+    energy: bool,
+    events: bool,
+) -> PlaneResponse:
+    """
+    Solves one scene in two horizontal directions under a motion in x and the samples of one in y (m/s2); other
+    arguments as of `simulate`.
     """
 
 def uniform_stiffness(

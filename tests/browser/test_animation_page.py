@@ -23,6 +23,27 @@ END = 36.0
 YIELD = [0xA4, 0x27, 0x6F]
 """Colour of what yields, in light mode."""
 
+RACKED = sm.Scene(
+    sm.design.Wall([3.5, 3.5], 2e8).beside(sm.Building([2e4] * 2, 2e7, yield_shear=[1e5, 6e4], heights=3.5)),
+    [sm.Block(1, mass=8000.0, mu=0.1, stops=sm.Stops(0.03, stiffness=5e6)), sm.Block(2, mass=4000.0, mu=0.2)],
+    racks=[
+        sm.Rack(
+            floor,
+            levels=3,
+            level_mass=300.0,
+            period=0.5,
+            yield_shear=8e3,
+            blocks=[
+                sm.RackBlock(1, mass=2000.0, mu=0.2, stops=sm.Stops(0.02, stiffness=2e6)),
+                sm.RackBlock(2, mass=2000.0, mu=0.2),
+                sm.RackBlock(3, mass=1000.0, fixed=True),
+            ],
+        )
+        for floor in (0, 1, 2)
+    ],
+    name="Racks, walls and stops",
+)
+
 CLOCK = "parseFloat(document.querySelector('.clock').textContent)"
 
 COUNT_COLOUR = """(canvas, colour) => {
@@ -77,6 +98,8 @@ def test_animation_is_as_every_page_must_be(animation: sm.Animation, look: Any) 
                 [block for block in sm.blocks_on_floors([1.0] * 12, mu=0.12) for _ in range(2)],
             ),
         ),
+        ("animation-racks", RACKED),
+        ("animation-racks-alone", sm.Scene(None, racks=RACKED.racks[:1])),
         (
             "animation-collapse",
             sm.Scene(SCENE.building, sm.blocks_on_floors([1.0, 1.0, 1.0], mu=0.2), collapse_drift=0.05),

@@ -58,7 +58,7 @@ pub fn larger(a: f64, b: f64) -> f64 {
 }
 
 /// Largest difference of values in rows as wide as `scales`, each relative to its column's scale.
-fn difference(found: &[f64], expected: &[f64], scales: &[f64]) -> f64 {
+pub(crate) fn difference(found: &[f64], expected: &[f64], scales: &[f64]) -> f64 {
     if found.len() != expected.len() {
         return f64::NAN;
     }
@@ -69,11 +69,11 @@ fn difference(found: &[f64], expected: &[f64], scales: &[f64]) -> f64 {
     })
 }
 
-fn values(peaks: &[Peak]) -> Vec<f64> {
+pub(crate) fn values(peaks: &[Peak]) -> Vec<f64> {
     peaks.iter().map(|p| p.value).collect()
 }
 
-fn scales(peaks: &[f64]) -> Vec<f64> {
+pub(crate) fn scales(peaks: &[f64]) -> Vec<f64> {
     let largest = peaks.iter().copied().fold(0.0, f64::max);
     peaks.iter().map(|&p| p.max(1e-3 * largest)).collect()
 }

@@ -62,7 +62,7 @@ pub(crate) fn draw_laws(seed: u64, storeys: &mut [Storey], blocks: &mut [Block])
 }
 
 /// Up to three changes of friction, by paths of the order of those that blocks slip.
-fn wear(draw: &mut Draw, block: &Block) -> Vec<Wear> {
+pub(crate) fn wear(draw: &mut Draw, block: &Block) -> Vec<Wear> {
     let mut path = 0.0;
     let stages = draw.one_of(&[0, 1, 1, 2, 3]);
     (0..stages)
@@ -114,7 +114,7 @@ fn storey(draw: &mut Draw, law: u64, stiffness: f64, yield_shear: f64) -> Storey
 }
 
 /// What one of the laws, by a random number, makes of a trilinear storey.
-fn of_law(draw: &mut Draw, law: u64, trilinear: Storey) -> Storey {
+pub(crate) fn of_law(draw: &mut Draw, law: u64, trilinear: Storey) -> Storey {
     LAWS[(law % LAWS.len() as u64) as usize](draw, trilinear)
 }
 

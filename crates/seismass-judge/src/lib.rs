@@ -19,6 +19,8 @@
 
 mod compare;
 mod events;
+pub mod general;
+pub mod general_scene;
 pub mod law_scene;
 mod model;
 mod polynomial;

@@ -41,7 +41,7 @@ pub(crate) enum Terms {
 }
 
 impl Terms {
-    fn of<R: Real>(self, value: R) -> R {
+    pub(crate) fn of<R: Real>(self, value: R) -> R {
         if self == Self::Sizes { value.abs() } else { value }
     }
 }
@@ -173,7 +173,8 @@ pub(crate) fn floor_velocities<R: Real>(rate: &[R]) -> Vec<R> {
     rate.iter().map(sum).collect()
 }
 
-fn storey_data<R: Real>(storey: &Storey, geometric: f64, collapse: Option<f64>) -> StoreyData<R> {
+/// A storey with P/h, which collapses at the drift that is given, or where its backbone meets P/h.
+pub(crate) fn storey_data<R: Real>(storey: &Storey, geometric: f64, collapse: Option<f64>) -> StoreyData<R> {
     let (spring, geometric) = (springs::spring::<R>(storey), R::of(geometric));
     let collapse_drift = match collapse {
         Some(drift) => drift.is_finite().then(|| R::of(drift)),

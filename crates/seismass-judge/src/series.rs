@@ -26,19 +26,19 @@ pub(crate) struct Series<R> {
     pub(crate) slip: Vec<Polynomial<R>>,
 }
 
-/// The order K from which MAX_PHASE^K / K! is below the rounding of the number type.
-fn orders<R: Real>() -> usize {
+/// The order K from which `phase`^K / K! is below the rounding of the number type.
+pub(crate) fn orders<R: Real>(phase: f64) -> usize {
     let mut term = 1.0;
     let mut order = 0;
     while term > 0.01 * R::EPSILON {
         order += 1;
-        term *= MAX_PHASE / order as f64;
+        term *= phase / order as f64;
     }
     order
 }
 
 /// Appends the coefficients of the integral of `rate` over a stretch of `length`, as far as those of `rate` are known.
-fn integrate<R: Real>(rate: &Polynomial<R>, factor: R, length: R, integral: &mut Polynomial<R>) {
+pub(crate) fn integrate<R: Real>(rate: &Polynomial<R>, factor: R, length: R, integral: &mut Polynomial<R>) {
     for order in integral.0.len()..=rate.0.len() {
         integral.0.push(factor * rate.0[order - 1] * length / R::of(order as f64));
     }
@@ -75,7 +75,7 @@ impl<R: Real> Series<R> {
             contact,
         };
         let one = R::of(1.0);
-        for order in 0..orders::<R>() {
+        for order in 0..orders::<R>(MAX_PHASE) {
             let term = |p: &Polynomial<R>| p.0.get(order).copied().unwrap_or(R::zero());
             let spring = |i: usize| {
                 let parts = series.force[i].iter().fold(R::zero(), |sum, part| sum + term(part));

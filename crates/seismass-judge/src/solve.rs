@@ -11,9 +11,9 @@ use crate::series::{MAX_PHASE, Series};
 use crate::state::{Contact, Drive, State};
 
 /// More events than this within one piece mean that the state machines chatter.
-const MAX_EVENTS: usize = 2000;
+pub(crate) const MAX_EVENTS: usize = 2000;
 /// Pieces of one sample interval.
-const MAX_PIECES: f64 = 1e8;
+pub(crate) const MAX_PIECES: f64 = 1e8;
 
 /// Why a scene was not solved.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -48,7 +48,7 @@ pub enum JudgeError {
 }
 
 /// Linear course of the motion over the interval that follows sample `i` (a single sample: constant).
-fn drive<R: Real>(motion: &Motion, i: usize) -> Drive<R> {
+pub(crate) fn drive<R: Real>(motion: &Motion, i: usize) -> Drive<R> {
     let dt = R::of(motion.dt());
     let linear = |samples: &[f64], offset: f64| {
         let from = R::of(samples[i]);

@@ -1,97 +1,137 @@
-//! The general engine beside the chain engine and the judge on random shear buildings.
+//! The general engine beside the chain engine and its judge.
 
 #![allow(clippy::unwrap_used)]
 
+#[allow(dead_code)] // Its readers are those of the kernel's tests.
+#[path = "../../seismass/tests/common/mod.rs"]
+mod common;
+#[path = "../../seismass/tests/general_files/mod.rs"]
+mod general_files;
+
 use std::num::NonZeroUsize;
+use std::path::Path;
 
-use seismass::{GeneralResponse, GeneralScene, GeneralStatus, Options, Peaks, Response, Status};
-use seismass::{simulate, simulate_general};
+use general_files::read_general;
+use seismass::{GeneralScene, Options, simulate_general};
+use seismass_judge::general::{as_chain, compare_general, solve_general};
+use seismass_judge::general_scene::general_scene;
+use seismass_judge::law_scene::law_scene;
 use seismass_judge::random_scene::random_scene;
-use seismass_judge::{DoubleDouble, compare, compare_events, larger, solve};
+use seismass_judge::stress::general::{GeneralTally, compare_engines, distribution};
+use seismass_judge::stress::program;
+use seismass_judge::{DoubleDouble, compare, compare_events, solve};
 
-/// Seeds of a run of the tests; `SEISMASS_JUDGE_SCENES` sets another number.
-fn seeds(usual: u64) -> std::ops::Range<u64> {
-    0..std::env::var("SEISMASS_JUDGE_SCENES").map_or(usual, |n| n.parse().unwrap())
+const OPTIONS: Options = Options {
+    histories: NonZeroUsize::new(1),
+    displacements_only: false,
+    energy: true,
+    events: true,
+    peaks_only: false,
+};
+
+/// `SEISMASS_JUDGE_SCENES` sets another number of random scenes.
+fn scenes(usual: u64) -> u64 {
+    std::env::var("SEISMASS_JUDGE_SCENES").map_or(usual, |n| n.parse().unwrap())
 }
 
-/// Rounding grows along a motion, and more in a collapse: where the engines part by more, the judge decides.
-const PEAK: f64 = 1e-12;
-const AGREEMENT: f64 = 1e-9;
-
-/// The response of the general engine as one of the chain engine.
-fn as_chain(general: GeneralResponse) -> Response {
-    let status = match general.status {
-        GeneralStatus::Completed => Status::Completed,
-        GeneralStatus::Collapsed { number, time } => Status::Collapsed { storey: number, time },
-    };
-    let peaks = general.peaks;
-    Response {
-        status,
-        end_time: general.end_time,
-        peaks: Peaks {
-            drift: peaks.drift,
-            slip: peaks.slip,
-            floor_acceleration: peaks.acceleration,
-            storey_shear: peaks.shear,
-        },
-        residual_drift: general.residual_drift,
-        residual_slip: general.residual_slip,
-        slip_path: general.slip_path,
-        events: general.events.map(|events| events.into_iter().map(|entry| entry.event).collect()),
-        histories: general.histories,
-        energy: None,
-        statistics: general.statistics,
-    }
-}
-
-/// Largest difference of lists over the largest value of the second.
-fn deviation(found: &[f64], expected: &[f64]) -> f64 {
-    let scale = expected.iter().fold(0.0, |scale, value| larger(scale, value.abs()));
-    let worst = found.iter().zip(expected).fold(0.0, |worst, (f, e)| larger(worst, (f - e).abs()));
-    if worst == 0.0 { 0.0 } else { worst / scale }
-}
-
-/// Largest difference of peaks and residuals, or the first mismatch of events or endings.
-fn apart(one: &Response, other: &Response) -> Result<f64, String> {
-    let lists = |r: &Response| {
-        let peaks = [&r.peaks.drift, &r.peaks.slip, &r.peaks.floor_acceleration, &r.peaks.storey_shear];
-        let values = peaks.map(|peaks| peaks.iter().map(|peak| peak.value).collect::<Vec<f64>>());
-        values.into_iter().chain([r.residual_drift.clone(), r.residual_slip.clone()]).collect::<Vec<_>>()
-    };
-    compare_events(one.events.as_ref().unwrap(), other.events.as_ref().unwrap())?;
-    if std::mem::discriminant(&one.status) != std::mem::discriminant(&other.status) {
-        return Err(format!("{:?} and {:?}", one.status, other.status));
-    }
-    Ok(lists(one).iter().zip(&lists(other)).fold(0.0, |worst, (f, e)| larger(worst, deviation(f, e))))
-}
-
-/// Where the engines differ, be it by the rounding of a sensitive scene or at a graze, the general one agrees with the
-/// judge in double-double, or the chain engine does not either.
+/// Where the engines differ by more than 1e-12 of a peak, be it by the rounding of a sensitive scene or at a graze, the
+/// general one agrees with the judge in double-double, or the chain engine does not either. `stress_general` does 1000.
 #[test]
 fn the_engines_agree_on_random_shear_buildings() {
-    let options = Options { histories: NonZeroUsize::new(3), events: true, ..Options::default() };
-    let (mut worst, mut events, mut sensitive, mut apart_from_both) = (0.0, 0, Vec::new(), Vec::new());
-    for seed in seeds(1000) {
-        let (scene, motion) = random_scene(seed).unwrap();
-        let chain = simulate(&scene, &motion, &options).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
-        let general = simulate_general(&GeneralScene::from(&scene), &motion, &options);
-        let mut general = as_chain(general.unwrap_or_else(|e| panic!("seed {seed}: {e}")));
-        events += general.statistics.events.total();
-        match apart(&general, &chain) {
-            Ok(difference) if difference <= PEAK => worst = larger(worst, difference),
-            _ => {
-                // The general engine counts paths in contact alone.
-                general.slip_path.clone_from(&chain.slip_path);
-                let exact = solve::<DoubleDouble>(&scene, &motion, 3).unwrap();
-                let [own, of_chain] = [&general, &chain].map(|response| compare(response, &exact));
-                sensitive.push(seed);
-                if !own.agrees(AGREEMENT) && of_chain.agrees(AGREEMENT) {
-                    apart_from_both.push(format!("seed {seed}: {own:?}"));
-                }
-            }
-        }
+    let chains = compare_engines(0..scenes(60));
+    println!("{chains:?}");
+    assert!(chains.defects.is_empty(), "{:#?}", chains.defects);
+    assert!(50 * chains.judged.len() as u64 <= chains.scenes);
+}
+
+/// Two implementations of the same equations in double-double. What they differ by is the rounding of a damping matrix, which
+/// the kernel forms in another way for each engine: 1e-13, growing along the motion.
+#[test]
+fn both_judges_agree_on_shear_buildings() {
+    for (scene, motion) in [random_scene(6), random_scene(11), law_scene(4)].map(Result::unwrap) {
+        let of_chain = solve::<DoubleDouble>(&scene, &motion, 1).unwrap();
+        let general = GeneralScene::from(&scene);
+        let own = solve_general::<DoubleDouble>(&general, &motion, 1).unwrap();
+        let log: Vec<_> = own.events.iter().map(|entry| entry.event).collect();
+        assert!(!log.is_empty());
+        assert!(compare_events(&log, &of_chain.events).unwrap() < 1e-12);
+        let mut response = as_chain(simulate_general(&general, &motion, &OPTIONS).unwrap());
+        (response.peaks.drift, response.peaks.slip) = (own.peaks.drift, own.peaks.slip);
+        (response.residual_drift, response.residual_slip) = (own.residual_drift, own.residual_slip);
+        response.slip_path.clone_from(&of_chain.slip_path);
+        let comparison = compare(&response, &of_chain);
+        assert!(comparison.residuals < 1e-12, "{comparison:?}");
+        assert!(own.energy.relative_residual.abs() < 1e-28, "{:?}", own.energy);
     }
-    println!("worst difference {worst:.1e}, {events} events, judged: {sensitive:?}");
-    assert!(apart_from_both.is_empty(), "{}", apart_from_both.join("\n"));
-    assert!(sensitive.len() <= 20);
+}
+
+#[test]
+fn random_scenes_keep_their_invariants_and_agree_with_the_judge() {
+    let mut tally = GeneralTally::from_seed(1_000_000_000);
+    tally.run(scenes(40), 0.1);
+    println!("{}", distribution(&tally));
+    assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
+    assert!(tally.judged > 0 && tally.divided > 0);
+}
+
+/// Seeds that once failed. 1637: at t = 0 a block breaks away while another comes to a stop with a damper, whose force jumps;
+/// that the first goes on was logged as a touch.
+#[test]
+fn seeds_that_once_failed_hold() {
+    let mut tally = GeneralTally::from_seed(1637);
+    tally.run(1, 1.0);
+    assert!(tally.defects.is_empty() && tally.failed.is_empty(), "{:#?} {:#?}", tally.defects, tally.failed);
+}
+
+/// Racks, a wall and stops of the reference scenes, which an independent program with a 64-bit mantissa has solved: the
+/// kernel agrees with it to 1e-14 (`general_reference.rs` of the kernel), and with the judge.
+#[test]
+fn the_judge_agrees_on_reference_scenes() {
+    let Some(shared) = std::env::var_os("SEISMASS_SHARED") else { return };
+    for name in ["01_rack", "11_wall", "18_stop", "21_stop"] {
+        let path = Path::new(&shared).join(format!("reference/general/{name}.json"));
+        let (scene, motion) = read_general(&path);
+        let exact = solve_general::<f64>(&scene, &motion, 1).unwrap();
+        let response = simulate_general(&scene, &motion, &OPTIONS).unwrap();
+        let comparison = compare_general(&response, &exact);
+        assert!(comparison.agrees(1e-11), "{name}: {comparison:?}");
+    }
+}
+
+/// What is changed in a response is seen by the comparison.
+#[test]
+fn what_is_changed_is_seen() {
+    let (scene, motion) = general_scene(3).unwrap();
+    let exact = solve_general::<f64>(&scene, &motion, 1).unwrap();
+    let response = simulate_general(&scene, &motion, &OPTIONS).unwrap();
+    assert!(compare_general(&response, &exact).agrees(1e-9));
+    let seen = |change: fn(&mut seismass::GeneralResponse)| {
+        let mut response = response.clone();
+        change(&mut response);
+        !compare_general(&response, &exact).agrees(1e-9)
+    };
+    assert!(seen(|r| r.peaks.base_shear.value *= 1.0 + 1e-8));
+    assert!(seen(|r| r.peaks.drift[0].value = f64::NAN));
+    assert!(seen(|r| r.events.as_mut().unwrap().last_mut().unwrap().event.time += 1e-7));
+    assert!(seen(|r| r.residual_slip[0] += 1e-6));
+    assert!(seen(|r| r.histories.as_mut().unwrap().drift[1] += 1e-6));
+}
+
+#[test]
+fn a_tally_goes_on_where_it_stopped() {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("general.tsv");
+    let mut tally = GeneralTally::from_seed(0);
+    tally.run(20, 0.0);
+    tally.grazing.push((1, 1.0, "a graze".into()));
+    tally.sensitive.push((2, 4.0, "a sensitive scene".into()));
+    tally.failed.push((5, "a failure".into()));
+    tally.defects.push((6, "a defect".into()));
+    tally.chains.defects.push((7, "a defect".into()));
+    let program = program().unwrap();
+    tally.save(&path, &program).unwrap();
+    let again = GeneralTally::load(&path, &program, 0).unwrap();
+    assert_eq!(distribution(&again), distribution(&tally));
+    let refused = |program: &str, first: u64| GeneralTally::load(&path, program, first).unwrap_err().to_string();
+    assert!(refused("another", 0).contains("remove the tally to begin again"));
+    assert!(refused(&program, 60).contains("from seed 60"));
 }

@@ -91,7 +91,7 @@ fn solve(
     })
 }
 
-fn pairs(runs: &Table<i64>) -> seismass::Result<Vec<(usize, usize)>> {
+pub(crate) fn pairs(runs: &Table<i64>) -> seismass::Result<Vec<(usize, usize)>> {
     let refuse = |value: String| {
         let requirement = "pairs of (index of scene, index of motion)";
         Error::invalid(Domain::Options, "pairs", "batch", requirement, value)
@@ -184,19 +184,19 @@ pub(crate) struct Batch {
 
 /// What a batch keeps of a run, in little memory: lists one after the other.
 #[derive(Clone)]
-struct Row {
-    status: u8,
-    collapsed_storey: u32,
-    storeys: usize,
-    blocks: usize,
-    events: u32,
-    yields: u32,
-    slips: u32,
-    end_time: f64,
+pub(crate) struct Row {
+    pub(crate) status: u8,
+    pub(crate) collapsed_storey: u32,
+    pub(crate) storeys: usize,
+    pub(crate) blocks: usize,
+    pub(crate) events: u32,
+    pub(crate) yields: u32,
+    pub(crate) slips: u32,
+    pub(crate) end_time: f64,
     /// Of drift by storey, then of slip by block.
-    peaks: Box<[Peak]>,
+    pub(crate) peaks: Box<[Peak]>,
     /// Peak floor acceleration, peak storey shear and residual drift by storey, then residual slip and path slipped by block.
-    values: Box<[f64]>,
+    pub(crate) values: Box<[f64]>,
 }
 
 impl Row {
@@ -230,17 +230,18 @@ impl Row {
 }
 
 /// A count as it is stored; no run has 2^32 storeys, blocks or events.
-fn count(value: usize) -> u32 {
+pub(crate) fn count(value: usize) -> u32 {
     u32::try_from(value).unwrap_or(u32::MAX)
 }
 
 /// Index of a status in `Batch.status_names`.
 const FAILED: u8 = 2;
+pub(crate) const COLLAPSED: u8 = 1;
 const STATUS_NAMES: [&str; 3] = ["completed", "collapsed", "failed"];
 
 impl Batch {
     /// No results yet, with room for those of so many runs.
-    fn with_room_for(rows: &[seismass::Result<Row>]) -> Self {
+    pub(crate) fn with_room_for(rows: &[seismass::Result<Row>]) -> Self {
         let (runs, solved) = (rows.len(), rows.iter().flatten());
         let (storeys, blocks) = solved.fold((0, 0), |(n, m), row| (n + row.storeys, m + row.blocks));
         Self {
@@ -263,7 +264,7 @@ impl Batch {
         }
     }
 
-    fn push(&mut self, run: usize, result: seismass::Result<Row>) {
+    pub(crate) fn push(&mut self, run: usize, result: seismass::Result<Row>) {
         let row = match result {
             Ok(row) => row,
             Err(error) => {

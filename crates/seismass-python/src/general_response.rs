@@ -221,6 +221,12 @@ impl GeneralResponse {
         self.history(|h| &h.floor_velocity, false)
     }
 
+    /// Velocity of rack levels relative to the ground (m/s), rows x levels.
+    #[getter]
+    fn rack_velocity(&self) -> Option<Output<f64>> {
+        self.history(|h| &h.floor_velocity, true)
+    }
+
     /// Block velocity relative to the ground (m/s), rows x blocks.
     #[getter]
     fn block_velocity(&self) -> Option<Output<f64>> {
@@ -296,19 +302,7 @@ impl GeneralResponse {
     /// Energies (J) and their relative residual, if asked for.
     #[getter]
     fn energy(&self) -> Option<Named<f64, 9>> {
-        self.0.energy.map(|energy| {
-            Named([
-                ("initial", energy.initial),
-                ("input", energy.input),
-                ("kinetic", energy.kinetic),
-                ("viscous", energy.viscous),
-                ("elastic", energy.elastic),
-                ("hysteretic", energy.hysteretic),
-                ("friction", energy.friction),
-                ("contact", energy.contact),
-                ("relative_residual", energy.relative_residual),
-            ])
-        })
+        self.0.energy.as_ref().map(energies)
     }
 
     /// Name of the instruction set that the kernel uses.
@@ -322,4 +316,19 @@ impl GeneralResponse {
     fn statistics(&self) -> Named<usize, 12> {
         statistics(&self.0.statistics)
     }
+}
+
+/// Energies by name (J), and their relative residual.
+pub(crate) fn energies(energy: &seismass::GeneralEnergy) -> Named<f64, 9> {
+    Named([
+        ("initial", energy.initial),
+        ("input", energy.input),
+        ("kinetic", energy.kinetic),
+        ("viscous", energy.viscous),
+        ("elastic", energy.elastic),
+        ("hysteretic", energy.hysteretic),
+        ("friction", energy.friction),
+        ("contact", energy.contact),
+        ("relative_residual", energy.relative_residual),
+    ])
 }

@@ -139,8 +139,8 @@ pub(crate) struct GeneralScene(pub(crate) seismass::GeneralScene);
 
 #[pymethods]
 impl GeneralScene {
-    /// As `Scene`; blocks have stops or None at the end of their tuples. A sliding base has the mass of its slab (kg), mu_s,
-    /// mu_k and the radius of its pendulum (m; infinite: flat).
+    /// As `Scene`; blocks have stops or None at the end of their tuples. A sliding base has the mass of its slab (kg),
+    /// mu_s, mu_k and the radius of its pendulum (m; infinite: flat).
     #[new]
     #[pyo3(signature = (building, blocks, racks, *, base=None, initial_drift=None, initial_velocity=None, collapse_drift=None))]
     #[allow(clippy::too_many_arguments)]

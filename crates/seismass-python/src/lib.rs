@@ -4,10 +4,12 @@
 mod arrays;
 mod batch;
 mod errors;
+mod general_batch;
 mod general_response;
 mod general_run;
 mod general_scene;
 mod interrupt;
+mod plane;
 mod reference;
 mod response;
 mod scene;
@@ -49,9 +51,13 @@ mod _kernel {
     #[pymodule_export]
     use crate::batch::{Batch, Columns, simulate_columns, simulate_many};
     #[pymodule_export]
+    use crate::general_batch::{RackColumns, simulate_many_general};
+    #[pymodule_export]
     use crate::general_run::{GeneralResponse, simulate_general};
     #[pymodule_export]
     use crate::general_scene::{GeneralBuilding, GeneralScene, Rack};
+    #[pymodule_export]
+    use crate::plane::{PlaneResponse, PlaneScene, simulate_plane};
     #[pymodule_export]
     use crate::reference::{ReferenceRun, integrate_reference};
     #[pymodule_export]

@@ -47,9 +47,29 @@
 //! # }
 //! ```
 //!
+//! # Two horizontal directions
+//!
+//! A [`PlaneScene`] is what a scene is in x and in y, a [`PlaneMotion`] the motion in both. [`simulate_plane`] solves it with
+//! friction on the circle, as exactly.
+//!
+//! ```
+//! use seismass::{Block, GeneralScene, Motion, Options, PlaneMotion, PlaneScene, simulate_plane};
+//!
+//! # fn main() -> seismass::Result<()> {
+//! let crate_on_ground = GeneralScene::new(None, vec![Block::new(0, 100.0, 0.1).into()], Vec::new())?;
+//! let scene = PlaneScene::new(crate_on_ground.clone(), crate_on_ground)?;
+//! let motion = PlaneMotion::new(Motion::new(vec![3.0; 11], 0.01, None)?, vec![4.0; 11])?;
+//! let response = simulate_plane(&scene, &motion, &Options::default())?;
+//! // Against an acceleration of 5 m/s2 along (3, 4), by (5 - mu g) t^2 / 2.
+//! let slip = 0.5 * (5.0 - 0.980665) * 0.01;
+//! assert!((response.peaks.vector.slip[0].value - slip).abs() < 1e-15);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Limitation
 //!
-//! Blocks slide and do not rock; motion is in one horizontal direction; contact is lost and regained with the sign of
+//! Blocks slide and do not rock; contact is lost and regained with the sign of
 //! g + a_v, without flight. Where two guards fall closer together than rounding, or a guard only just touches zero, the
 //! branch taken is decided by rounding, as it would be in nature by less.
 
@@ -78,11 +98,12 @@ mod threads;
 mod tolerances;
 mod units;
 
-pub use batch::{Run, simulate_each, simulate_many};
+pub use batch::{Run, simulate_each, simulate_general_each, simulate_many};
 pub use error::{Domain, Error, Result};
 pub use general::{
-    GeneralBase, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, simulate_general,
-    simulate_general_until,
+    Axis, GeneralBase, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, PlaneEnergy,
+    PlaneEvent, PlanePeaks, PlaneResponse, VectorPeaks, simulate_general, simulate_general_until, simulate_plane,
+    simulate_plane_until,
 };
 pub use lanes::InstructionSet;
 pub use machines::spring_path::{SpringEvent, SpringPath, spring_path};
@@ -92,7 +113,8 @@ pub use response::{
 pub use run::{simulate, simulate_until};
 pub use scene::{
     Block, Building, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, MAX_SAMPLES, MAX_STOREYS, Motion,
-    Options, PeakOriented, Rack, Scene, SceneColumns, SlidingBase, SpringLaw, Stops, Storey, UniformBuilding, Wear,
+    Options, PeakOriented, PlaneMotion, PlaneScene, Rack, Scene, SceneColumns, SlidingBase, SpringLaw, Stops, Storey,
+    UniformBuilding, Wear,
 };
 pub use threads::Control;
 pub use units::STANDARD_GRAVITY;

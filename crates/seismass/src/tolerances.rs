@@ -33,6 +33,10 @@ pub(crate) const NO_CONTACT: f64 = FALL_ROUNDING * STANDARD_GRAVITY;
 /// Relative velocities below this fraction of their terms, which nothing but rounding drives on, have arrived.
 pub(crate) const ARRIVED: f64 = 64.0 * f64::EPSILON;
 
+/// A block on the circle has come to rest where its relative velocity is below this fraction of the largest velocity so far
+/// and falls: the rest of slip and time is below rounding.
+pub(crate) const ARRIVED_ON_CIRCLE: f64 = 40.0 * f64::EPSILON;
+
 /// A relative velocity below this fraction of the change of its floor's in a step has lost too many digits: at 1e-6, slips
 /// of blocks that hardly move were known to 1e-9.
 pub(crate) const SMALL_DIFFERENCE: f64 = 1e-4;

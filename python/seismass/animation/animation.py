@@ -107,8 +107,8 @@ def animate(
     """Solve a scene, and the model of a code beside it, and return their animation.
 
     The model has a share of the goods attached to the floors as mass and nothing that slides; stiffness, strength,
-    damping and gravity load are those of the real building (`attached_scene`). A scene without goods on a floor is
-    shown alone.
+    damping and gravity load are those of the real building (`attached_scene`); racks are lumped on their floors. A
+    scene without goods on a floor is shown alone.
 
     Parameters
     ----------
@@ -143,12 +143,11 @@ def animate(
     """
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "animation", "a Scene", brief(scene))
-    scene.of_chain("animations")
     chosen = as_motion(motion, "motion", "animation")
     scenes: list[tuple[str, float | None, Scene]] = [
-        ("real building" if scene.building else "blocks on the ground", None, scene)
+        ("real building" if scene.building else f"{'racks' if scene.racks else 'blocks'} on the ground", None, scene)
     ]
-    if any(floor > 0 for floor in scene.block_floor):
+    if any(floor > 0 for floor in (*scene.block_floor, *(rack.floor for rack in scene.racks if rack.blocks))):
         if fraction is None:
             row = code_fraction(code, use)
             share, label = row.fraction, f"{row.code} model"

@@ -11,6 +11,7 @@ import numpy as np
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.model.motion import Motion
+from seismass.model.places import rack_levels, spring_names
 from seismass.model.scene import Scene
 from seismass.runs.response import Response
 from seismass.runs.simulate import simulate
@@ -57,12 +58,28 @@ class Run:
         """What becomes of its goods; empty where there are none."""
         if self.attached is not None:
             return f"{100.0 * self.attached:g} % of the goods attached"
-        return "goods slide" if self.response.scene.blocks else ""
+        return "goods slide" if self.response.scene.goods else ""
 
     @property
     def floor_displacement(self) -> FloatArray:
         """Displacement of each floor over the ground (m), shape (rows, storeys)."""
         return np.cumsum(self.response.drift[: self.rows], axis=1)
+
+    @property
+    def level_drift(self) -> FloatArray:
+        """Drift of the levels of all racks (m), rack by rack, shape (rows, levels)."""
+        racks = [drift[: self.rows] for drift in self.response.rack_drift]
+        return np.hstack(racks) if racks else np.zeros((self.rows, 0))
+
+    @property
+    def rack_displacement(self) -> FloatArray:
+        """Displacement of each level of each rack over the ground (m), shape (rows, levels)."""
+        floors = np.hstack([np.zeros((self.rows, 1)), self.floor_displacement])
+        moved = [
+            floors[:, [rack.floor]] + np.cumsum(drift[: self.rows], axis=1)
+            for rack, drift in zip(self.response.scene.racks, self.response.rack_drift, strict=True)
+        ]
+        return np.hstack(moved) if moved else np.zeros((self.rows, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,9 +125,16 @@ class Shown:
         if len(response.peak_drift):
             storey = int(np.argmax(response.peak_drift / self.heights))
             parts.append(f"largest drift {1e3 * response.peak_drift[storey]:.3g} mm in storey {storey + 1}")
+        if response.peak_rack_drift:
+            names, drifts = rack_levels(response.scene), np.concatenate(response.peak_rack_drift)
+            rack, level = names[int(np.argmax(drifts))]
+            parts.append(f"largest rack drift {1e3 * drifts.max():.3g} mm in level {level} of rack {rack}")
         if len(response.peak_slip):
             block = int(np.argmax(response.peak_slip))
             parts.append(f"largest slip {1e3 * response.peak_slip[block]:.3g} mm of block {block + 1}")
+        fastest = float(response.peak_contact_velocity.max(initial=0.0))
+        if fastest > 0.0:
+            parts.append(f"stops hit at up to {fastest:.3g} m/s")
         if response.collapsed_storey is not None:
             parts.append(f"storey {response.collapsed_storey} collapses at {response.end_time:.2f} s")
         return f"{name}: {', '.join(parts) or 'nothing moves'}."
@@ -118,13 +142,14 @@ class Shown:
 
 def shown(scenes: list[tuple[str, float | None, Scene]], motion: Motion) -> Shown:
     """Solve scenes under one motion and return what an animation shows of them; the first is the real building."""
-    values = max(scene.storeys + len(scene.blocks) for _, _, scene in scenes) or 1
+    values = max(len(spring_names(scene)) + len(scene.goods) for _, _, scene in scenes) or 1
     every = max(1, round(1.0 / (ROWS_PER_SECOND * motion.dt)), math.ceil(motion.samples * values / MOST_VALUES))
     runs = []
     for label, attached, scene in scenes:
         response = simulate(scene, motion, histories=every, displacements_only=True)
         # Rows after a collapse are NaN.
-        rows = int(np.isfinite(np.hstack([response.drift, response.slip])).all(axis=1).sum())
+        moved = np.hstack([response.drift, response.slip, *response.rack_drift])
+        rows = int(np.isfinite(moved).all(axis=1).sum())
         runs.append(Run(label, attached, response, max(rows, 1)))
     real, building = runs[0].response, scenes[0][2].building
     rows = len(real.drift)
@@ -147,10 +172,10 @@ def _ranges(values: FloatArray, every: int, rows: int) -> tuple[FloatArray, Floa
 
 
 def _factor(runs: list[Run], room: float) -> float:
-    """The largest factor with which no floor or block goes farther than there is room in the picture (m)."""
+    """The largest factor with which no floor, level or block goes farther than there is room in the picture (m)."""
     largest = 0.0
     for run in runs:
-        for moved in (run.floor_displacement, run.response.slip[: run.rows]):
+        for moved in (run.floor_displacement, run.rack_displacement, run.response.slip[: run.rows]):
             if moved.size:
                 largest = max(largest, float(np.abs(moved).max()))
     if largest == 0.0:

@@ -4,5 +4,6 @@ from seismass.assessment.building_file import read_building
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.result import Assessment
 from seismass.assessment.run import assess
+from seismass.assessment.storey_table import StoreyTable, read_storey_table
 
-__all__ = ["Assessment", "OwnBuilding", "assess", "read_building"]
+__all__ = ["Assessment", "OwnBuilding", "StoreyTable", "assess", "read_building", "read_storey_table"]

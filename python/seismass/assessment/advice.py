@@ -5,24 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Final
 
-import numpy as np
 import polars as pl
 
+from seismass.assessment.about_goods import about_code, about_code_mass, about_goods
 from seismass.assessment.answer import Answer
+from seismass.assessment.checks import drift_source
 from seismass.assessment.governing import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REALS
-from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding, fractions_of
+from seismass.assessment.own_building import DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.assessment.structure import about_support, rule_advice
 from seismass.design import THETA_THRESHOLD
-from seismass.design.weight import SMALL_SHARE
 from seismass.effective_mass import EffectiveMass
+from seismass.effective_mass.structure_remarks import RULE_UNKNOWN
 from seismass.media.text_table import numbers_text
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
-from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
 from seismass.scaling import ScalingResult
 from seismass.spectra import TargetSpectrum
 
-ASCE_CODES: Final = ("asce7-10", "asce7-16", "asce7-22")
-"""Codes that exempt storage of little weight."""
 SHORT: Final = 1.05
 """A storey whose goods-slide drift is more than so many times the model's is not covered by it."""
 
@@ -34,6 +33,7 @@ def advice_of(
     slip: pl.DataFrame,
     collapses: dict[str, int],
     motions: int,
+    effective: EffectiveMass | None = None,
 ) -> tuple[str, ...]:
     """Return what to use in an analysis, and what the checks say, sentence by sentence."""
     reals = [name for name in REALS if name in collapses]
@@ -58,6 +58,7 @@ def advice_of(
         )
         lines += _envelope(building, storeys, reals)
         lines.append(f"For strengths: {answer.design}.")
+        lines += rule_advice(building, effective)
     lines += _checks(building, storeys, reals)
     lines += _against_code(building, storeys, reals)
     lines += _slip_advice(slip)
@@ -185,45 +186,36 @@ def remarks_of(
         label = "" if name == REAL else f"{NAMES[name]}: "
         # What storeys the share does not cover is advice, of the share that is advised.
         once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
-        found += [label + remark for remark in once if name == REAL or " motions are few" not in remark]
-    found += _about_code_mass(building)
+        once = [text for text in once if text not in doubts and not _of_friction(text)]
+        everywhere = (" motions are few", RULE_UNKNOWN)
+        found += [label + remark for remark in once if name == REAL or not any(part in remark for part in everywhere)]
+    found += about_code_mass(building)
     if building.code.status not in (VERIFIED, AS_STATED):
         found.append(f"the fraction of {building.code.code} was {NOT_CHECKED} ({building.code.status})")
     return tuple(dict.fromkeys(found))
 
 
-def _about_code_mass(building: OwnBuilding) -> list[str]:
-    """Floors that a code exempts and the file does not, and ordinary live load that is all taken as there."""
-    found = []
-    share = np.divide(building.code_mass, building.mass)
-    small = np.flatnonzero((share > 0.0) & (share <= SMALL_SHARE))
-    if building.code.code_id in ASCE_CODES and len(small):
-        listed = ", ".join(str(floor + 1) for floor in small)
-        found.append(
-            f"storage adds at most {100.0 * SMALL_SHARE:g} % to the weight of floor {listed}, which ASCE 7 exempts: "
-            "exempt = true in its table leaves it out of the code's mass"
-        )
-    ordinary = [(use or building.code.use) == "ordinary" for use in building.uses]
-    full = np.flatnonzero(np.array(ordinary) & (building.occupied == 1.0) & (building.live_load > 0.0))
-    if len(full):
-        listed = ", ".join(str(floor + 1) for floor in full)
-        found.append(
-            f"all of the ordinary live load of floor {listed} is taken as rigid goods that are there: state "
-            "what is there (occupied)"
-        )
-    return found
+def _of_friction(text: str) -> bool:
+    """Whether a sentence doubts the friction of a block, which at its bounds is the stated one with a factor."""
+    return text.startswith("mu_s of block")
 
 
 def assumptions_of(
-    building: OwnBuilding, target: TargetSpectrum | None, scaling: ScalingResult | None, suite: dict[str, Any]
+    building: OwnBuilding,
+    target: TargetSpectrum | None,
+    scaling: ScalingResult | None,
+    suite: dict[str, Any],
+    period: tuple[str, ...],
 ) -> tuple[str, ...]:
-    """Return everything that was assumed, sentence by sentence."""
+    """Return everything that was assumed, sentence by sentence; `period` is what is said of the first period."""
     return (
         *_about_motions(building, target, scaling, suite),
         *_about_structure(building),
+        *period,
         *_about_limits(building),
-        *_about_goods(building),
-        _about_code(building),
+        *about_goods(building),
+        *about_support(building),
+        about_code(building),
     )
 
 
@@ -269,12 +261,6 @@ def _about_structure(building: OwnBuilding) -> list[str]:
         f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods{of}; every model has "
         "that matrix."
     )
-    if building.stated_period is not None and building.period_mass != "bare":
-        acting = "the code's share of the live load" if building.period_mass == "code share" else "all goods present"
-        lines.append(
-            f"Period: {building.stated_period:.3g} s as stated, with {acting} as mass; {building.period():.3g} s "
-            "without goods."
-        )
     if building.gravity_load is not None:
         return [*lines, "P-Delta: weight of floors and of all goods present, whatever share of their mass is attached."]
     why = "heights are not known" if building.heights is None else "switched off"
@@ -284,50 +270,10 @@ def _about_structure(building: OwnBuilding) -> list[str]:
 def _about_limits(building: OwnBuilding) -> list[str]:
     if building.heights is None:
         return []
-    drift = theta = "as stated"
-    if building.drift_limit == DEFAULT_DRIFT_LIMIT:
-        drift = "ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II"
+    drift, theta = drift_source(building), "as stated"
     if building.theta_limit == DEFAULT_THETA_LIMIT:
         theta = "ASCE/SEI 7-10, 12.8.7, 0.5/(beta C_d) and at most 0.25"
     return [
         f"Limits: drift ratio {building.drift_limit:g} ({drift}), stability coefficient {building.theta_limit:g} "
         f"({theta}). Drifts are nonlinear: no C_d is applied; V is the spring force."
     ]
-
-
-def _about_goods(building: OwnBuilding) -> list[str]:
-    loaded = building.goods > 0.0
-    if not loaded.any():
-        return []
-    low, high = building.mu_factors
-    pairs = [friction_pair(name) for name in dict.fromkeys(building.friction) if name]
-    contacts = ", ".join(f"{pair.pair_id} ({pair.source}; {pair.kind})" for pair in pairs) or "as stated"
-    lines = [
-        "Goods: rigid blocks that slide by Coulomb friction, one per floor; they do not rock, topple or strike.",
-        f"Friction: {contacts}; mu {numbers_text(building.mu_s[loaded])} static, "
-        f"{numbers_text(building.mu_k[loaded])} kinetic.",
-    ]
-    if (low, high) != (1.0, 1.0):
-        source = BOUNDS_SOURCE if (low, high) == BOUND_FACTORS else "as stated"
-        lines.append(f"Bounds of friction: {low:g} and {high:g} times mu ({source}); high for mass, low for slip.")
-    return [
-        *lines,
-        f"Goods present: {building.present_share:.3g} of the design live load of the whole building.",
-        "Effective fraction: smallest share with a mean largest drift not below that with sliding goods, there and at "
-        "every larger share; its interval resamples the motions, and is 0.05 wider at each end for another suite.",
-    ]
-
-
-def _about_code(building: OwnBuilding) -> str:
-    code = building.code
-    parts = [f"{code.code}, {code.use}" + " (none was stated)" * (not building.code_stated)]
-    parts[0] += f", {code.fraction:g} of the design live load"
-    if any(building.uses) or not np.isnan(building.own_fractions).all():
-        by_floor = fractions_of(code, building.own_fractions, building.uses)
-        parts[0] += (
-            f" where a floor states no other; by floor {numbers_text(by_floor)}, together {building.code_share:.3g}"
-        )
-    if code.low < code.high:
-        parts[0] += f", the upper end of {code.low:g} to {code.high:g}"
-    parts += [part for part in (code.clause, code.status, code.note) if part]
-    return f"Code: {'; '.join(parts)}."

@@ -12,11 +12,13 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
+from seismass.assessment.floors import by_floor
 from seismass.assessment.governing import ANALYSES, friction_words, largest_change
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, REALS
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.tables import few_collapses
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass
 from seismass.scaling import ScalingResult
 
@@ -41,9 +43,12 @@ class Analysis:
     share_of_goods_present, share_of_design_live_load : float
         What is attached, over the goods present and over the design live load of the whole building.
     mass, goods_mass : tuple of float
-        Mass of each floor in the analysis, and what of it is goods (kg).
+        Mass of each floor in the analysis, and what of it is loose goods (kg).
     multipliers : tuple of float
-        Goods in the analysis over the design live load of each floor: multiplier of the live load in a mass source.
+        Goods in the analysis, bolted ones among them, over the design live load of each floor: multiplier of the live
+        load in a mass source.
+    mass_source : str
+        The mass in words, where all floors with a live load have one multiplier.
     """
 
     number: int
@@ -53,6 +58,7 @@ class Analysis:
     mass: tuple[float, ...]
     goods_mass: tuple[float, ...]
     multipliers: tuple[float, ...]
+    mass_source: str
 
 
 @dataclass(frozen=True)
@@ -71,6 +77,8 @@ class Answer:
         The pair; empty where there is no answer.
     governs : tuple of str
         Which analysis governs which storeys, and what goods that slide drift beside it.
+    goods : str
+        What of the design live load is taken as present, and how that is known.
     why : str
         The friction that decides, the fraction at it, and the rounding.
     design : str
@@ -86,6 +94,7 @@ class Answer:
     doubts: tuple[str, ...]
     analyses: tuple[Analysis, ...] = ()
     governs: tuple[str, ...] = ()
+    goods: str = ""
     why: str = ""
     design: str = ""
     motions: str = ""
@@ -99,27 +108,48 @@ class Answer:
     @property
     def doubt_lines(self) -> tuple[str, ...]:
         """What stands before the statement where the input is doubtful."""
-        shown = [f"DOUBTFUL INPUT: {doubt}" for doubt in self.doubts[:MOST_DOUBTS]]
-        further = len(self.doubts) - len(shown)
-        return (*shown, *([f"and {further} more doubts, among the remarks"] if further else []))
+        return doubt_lines(self.doubts)
 
     @property
     def pair(self) -> tuple[str, ...]:
         """The two analyses in words, the base of shares in the first."""
         return tuple(
             f"lambda = {one.share_of_goods_present:.2f} of the goods present ({one.share_of_design_live_load:.2f} of "
-            "the design live load) as mass"
+            f"the design live load) as mass: {one.mass_source}"
             if one.model == ADVISED
-            else "no goods"
+            else f"no {'loose ' * any(one.multipliers)}goods: {one.mass_source}"
             for one in self.analyses
         )
+
+
+def doubt_lines(doubts: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what stands before an answer whose input is doubtful, the first few of the doubts."""
+    shown = [f"DOUBTFUL INPUT: {doubt}" for doubt in doubts[:MOST_DOUBTS]]
+    further = len(doubts) - len(shown)
+    return (*shown, *([f"and {further} more doubts, among the remarks"] if further else []))
+
+
+@dataclass(frozen=True, eq=False)
+class DesignShare:
+    """Share that goes into the design of the strengths.
+
+    Attributes
+    ----------
+    found : EffectiveMass or None
+        The share; by the median, where few runs of a designed building collapse. None where many do.
+    reason : str
+        Why there is none; empty where there is one.
+    """
+
+    found: EffectiveMass | None
+    reason: str
 
 
 def answer_of(
     building: OwnBuilding,
     advised: float | None,
     effective: dict[str, EffectiveMass],
-    design: EffectiveMass | None,
+    design: DesignShare | None,
     storeys: pl.DataFrame,
     governing: pl.DataFrame,
     collapses: dict[str, int],
@@ -132,7 +162,8 @@ def answer_of(
     reason = _reason(building, effective, collapses, len(suite["motions"]))
     if reason is not None or advised is None:
         why = reason or "there are no goods on the floors, and no live load could act as mass"
-        return Answer(f"no answer: {why}", why, doubts, motions=on)
+        few = "" if reason is not None else _collapsing(collapses, {}, len(suite["motions"]))
+        return Answer(f"{few}no answer: {why}", why, doubts, motions=on)
     words = friction_words(building)
     change = largest_change(storeys, (*(name for name in REALS if name in effective), ATTACHED, BARE))
     matters = change is None or change > NO_MATTER
@@ -149,6 +180,7 @@ def answer_of(
         doubts,
         analyses=(_analysis(building, 1, ADVISED, advised), _analysis(building, 2, BARE, 0.0)),
         governs=_governs(governing),
+        goods=presence_sentence(building),
         why=_why(advised, effective, words),
         design=_design(building, advised, design),
         motions=on,
@@ -156,10 +188,23 @@ def answer_of(
     )
 
 
+def presence_sentence(building: OwnBuilding) -> str:
+    """Return how much of the design live load is taken as present, and how that is known, floor by floor."""
+    found: dict[str, list[str]] = {}
+    for kind in building.loose:
+        if kind.mass > 0.0:
+            found.setdefault(f"{kind.occupied:.2f} {kind.presence}", []).append(f"{kind.floor} {kind.name}".rstrip())
+    if len(found) == 1:
+        (how,) = found
+        return how
+    return "; ".join(f"floor {', '.join(floors)}: {how}" for how, floors in found.items())
+
+
 def rounded_up(value: float) -> float:
-    """Return a share rounded up to `ROUNDING_STEP`, at most 1."""
+    """Return a share rounded up to `ROUNDING_STEP`; at most 1, unless it is above."""
     # Roots are located to 1e-12, so that one at a multiple is not lifted to the next.
-    return min(1.0, round(ROUNDING_STEP * math.ceil(value / ROUNDING_STEP - 1e-9), 2))
+    rounded = round(ROUNDING_STEP * math.ceil(value / ROUNDING_STEP - 1e-9), 2)
+    return rounded if value > 1.0 else min(1.0, rounded)
 
 
 def deciding(effective: dict[str, EffectiveMass]) -> str:
@@ -206,30 +251,52 @@ def _reason(
 
 
 def _collapsing(collapses: dict[str, int], words: dict[str, str], motions: int) -> str:
-    """What the statement begins with where few runs collapse: the friction with most of them, and the statistic."""
+    """What the statement begins with where few runs collapse, and the statistic: the building first, then analyses.
+
+    `words` are those of the frictions; empty for a building without goods.
+    """
+    mean = "mean drifts are 1.2 times the median or the mean of the others; "
     fallen = {name: collapses[name] for name in REALS if collapses.get(name)}
-    if not fallen:
-        return ""
-    worst = max(fallen, key=lambda name: fallen[name])
-    return (
-        f"THE BUILDING COLLAPSES under {fallen[worst]} of {motions} motions ({words[worst]}): lambda is by the median, "
-        "mean drifts are 1.2 times the median or the mean of the others; "
-    )
+    if fallen:
+        worst = max(fallen, key=lambda name: fallen[name])
+        return (
+            f"THE BUILDING COLLAPSES under {fallen[worst]} of {motions} motions ({words[worst]}): lambda is by the "
+            f"median, {mean}"
+        )
+    if not words:
+        count = collapses.get(BARE, 0)
+        return f"THE BUILDING COLLAPSES under {count} of {motions} motions: {mean}" if count else ""
+    told = [
+        f"{called.upper()} COLLAPSES under {collapses[name]} of {motions} motions: its {mean}"
+        for name, called in ANALYSES.items()
+        if collapses.get(name)
+    ]
+    return "".join(told)
 
 
 def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> Analysis:
     goods = share * building.goods
-    load = building.live_load
-    multipliers = np.divide(goods, load, out=np.zeros(len(load)), where=load > 0.0)
+    load = by_floor(building.kinds, [kind.live_load for kind in building.kinds], building.storeys)
+    multipliers = np.divide(goods + building.bolted, load, out=np.zeros(len(load)), where=load > 0.0)
     return Analysis(
         number,
         model,
         share,
         share * building.present_share,
-        tuple((building.mass + goods).tolist()),
+        tuple((building.mass + building.frames + goods).tolist()),
         tuple(goods.tolist()),
         tuple(multipliers.tolist()),
+        _mass_source(multipliers[load > 0.0]),
     )
+
+
+def _mass_source(multipliers: FloatArray) -> str:
+    """Mass in words, of the multipliers of floors with a live load."""
+    if not multipliers.any():
+        return "dead load alone"
+    if np.ptp(multipliers) > 1e-9:
+        return "by floor, below"
+    return f"dead + {multipliers[0]:.2f} live"
 
 
 def _governs(governing: pl.DataFrame) -> tuple[str, ...]:
@@ -239,6 +306,9 @@ def _governs(governing: pl.DataFrame) -> tuple[str, ...]:
     for by in dict.fromkeys(governing["governed_by"].to_list()):
         of = governing.filter(pl.col("governed_by") == by).sort("governing", descending=True)
         row = of.row(0, named=True)
+        if by.startswith("goods slide"):
+            times = max(one["governing"] / max(one[ADVISED], one[BARE]) for one in of.iter_rows(named=True))
+            by = f"{by}, {times:.2f} times the larger analysis"
         limit = "" if row["limit"] is None else f" of {scale * row['limit']:g} %"
         over = "" if row["limit"] is None or row["governing_over_limit"] <= 1.0 else ", above the limit"
         where = _storeys(of["storey"].to_list())
@@ -279,17 +349,18 @@ def _value(result: EffectiveMass) -> str:
     return f"{result.value:.2f} [{result.suite_interval[0]:.2f}, {result.suite_interval[1]:.2f}]"
 
 
-def _design(building: OwnBuilding, advised: float, design: EffectiveMass | None) -> str:
+def _design(building: OwnBuilding, advised: float, design: DesignShare | None) -> str:
     """Which share goes into W."""
-    if building.design is None:
+    if building.design is None or design is None:
         return "strengths are as stated: lambda is for the analysis, not for W of a design"
-    here = f"W here has {building.design_fraction:g} of the design live load"
-    if design is None or not math.isfinite(design.value):
-        return f"{here}; no share for W could be found, since buildings designed with some shares collapse"
-    share = rounded_up(design.value)
+    here = f"W here has {building.design_fraction:.3g} of the design live load"
+    if design.found is None:
+        return f"{here}: keep it; there is no share for W, since {design.reason}"
+    share = rounded_up(design.found.value)
+    median = "" if design.found.statistic == "mean" else ", by the median since some designs collapse"
     return (
         f"for a design of strengths {share:.2f} of the goods present ({share * building.present_share:.2f} of the "
-        f"design live load) go into W; {here}, and lambda = {advised:.2f} is for the analysis of that building"
+        f"design live load) go into W{median}; {here}, and lambda = {advised:.2f} is for the analysis of that building"
     )
 
 
@@ -299,11 +370,11 @@ def floor_masses(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
     Returns
     -------
     polars.DataFrame
-        floor, name; mass_1 and mass_2 (kg) and weight_1 and weight_2 (N) of the floor in both analyses; multiplier, of
-        the live load in the mass source of analysis 1. Empty where there is no answer.
+        floor, name; mass_1 and mass_2 (kg) and weight_1 and weight_2 (N) of the floor in both analyses; multiplier_1
+        and multiplier_2, of the live load in their mass sources. Empty where there is no answer.
     """
-    columns: dict[str, Any] = {"floor": [], "name": [], "mass_1": [], "weight_1": [], "multiplier": []}
-    columns |= {"mass_2": [], "weight_2": []}
+    columns: dict[str, Any] = {"floor": [], "name": [], "mass_1": [], "weight_1": [], "multiplier_1": []}
+    columns |= {"mass_2": [], "weight_2": [], "multiplier_2": []}
     if answer.analyses:
         one, two = answer.analyses
         columns = {
@@ -311,10 +382,11 @@ def floor_masses(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
             "name": list(building.storey_names),
             "mass_1": list(one.mass),
             "weight_1": [STANDARD_GRAVITY * value for value in one.mass],
-            "multiplier": list(one.multipliers),
+            "multiplier_1": list(one.multipliers),
             "mass_2": list(two.mass),
             "weight_2": [STANDARD_GRAVITY * value for value in two.mass],
+            "multiplier_2": list(two.multipliers),
         }
     schema: dict[str, Any] = {"floor": pl.UInt32, "name": pl.String}
-    schema |= dict.fromkeys(("mass_1", "weight_1", "multiplier", "mass_2", "weight_2"), pl.Float64)
+    schema |= dict.fromkeys(list(columns)[2:], pl.Float64)
     return pl.DataFrame(columns, schema=schema)

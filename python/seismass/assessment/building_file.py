@@ -12,43 +12,44 @@ from typing import Any, Final, cast, get_args
 
 import numpy as np
 
-from seismass.assessment.file_goods import (
-    FRICTION,
-    LIVE_LOAD,
-    code_of,
-    floor_codes,
-    friction_of,
-    live_load_of,
-    mu_factors_of,
+from seismass.assessment.file_codes import code_of, floor_codes
+from seismass.assessment.file_goods import FRICTION, LIVE_LOAD, PRESENT, kinds_of, live_load_of, mu_factors_of
+from seismass.assessment.file_racks import SUPPORT
+from seismass.assessment.file_site import LIMIT, PERIOD, SITE, check_period, limit_of, period_of, site_of
+from seismass.assessment.file_units import (
+    PLAIN_GOODS_KEYS,
+    PLAIN_STOREY_KEYS,
+    SYSTEMS,
+    US_GOODS_KEYS,
+    US_STOREY_KEYS,
+    plain_keys,
+    to_si,
 )
 from seismass.assessment.file_values import (
     STRONG,
-    US_GOODS_KEYS,
-    US_STOREY_KEYS,
     held,
     key_of,
     missing,
     number_of,
     positive,
     stated,
-    to_si,
 )
+from seismass.assessment.file_walls import WALL_KEYS, walls_of
+from seismass.assessment.floors import by_floor, counted_fractions
 from seismass.assessment.own_building import (
-    DEFAULT_DRIFT_LIMIT,
     DEFAULT_THETA_LIMIT,
     DesignRule,
     OwnBuilding,
-    fractions_of,
 )
 from seismass.base.errors import InvalidBuildingFile
+from seismass.base.input_kinds import BUILDING_FILE, refuse_other_kind
 from seismass.base.input_table import POSITIVE, SHARE, Need, Table, load_table
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import as_path, brief, printable
+from seismass.base.values import as_path, printable
 from seismass.design import Combination, vibration_modes
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.springs import DEFAULT_THIRD_SLOPE, SHAPE_FIELDS
 from seismass.records.builtin import data_directory
-from seismass.spectra import DEFAULT_TL, TargetSpectrum
 
 _MASS: Final = ("dead_load_kpa", "mass_kg")
 _STIFFNESS: Final = ("stiffness_kn_per_m", "stiffness_n_per_m")
@@ -65,28 +66,30 @@ _STOREY: Final = (
     "second_slope",
     "third_slope",
 )
-_GOODS: Final = (*LIVE_LOAD, "occupied", *FRICTION, "mu_k")
+_KIND: Final = (*PRESENT, *FRICTION, "mu_k", *SUPPORT)
+_GOODS: Final = (*LIVE_LOAD, *_KIND)
 _DESIGN: Final = ("R", "design_fraction", "combination")
 KEYS: Final = {
-    "": ("name", "note", "site", "code", "building", "goods", "storeys"),
-    "site": ("sds_g", "sd1_g", "tl_s", "spectrum_csv"),
+    "": ("name", "note", "units", "site", "code", "building", "walls", "goods", "storeys"),
+    "site": SITE,
     "code": ("id", "use", "fraction"),
     "building": (
-        "period_s",
-        "period_mass",
+        *PERIOD,
         "damping",
         "damping_from_storey",
         "p_delta",
         "design",
         *_DESIGN,
-        "drift_limit",
+        *LIMIT,
         "theta_limit",
         "collapse_drift_ratio",
         "scaling_period_s",
         *_STOREY,
     ),
+    "walls": WALL_KEYS,
     "goods": ("mu_factors", *_GOODS),
-    "storeys": ("name", "use", "fraction", "exempt", *_STOREY, *_GOODS),
+    "storeys": ("name", "use", "fraction", "exempt", "goods", *_STOREY, *_GOODS),
+    "storeys.goods": ("name", "share", "attached", *_KIND),
 }
 """Keys of each table of a building file, the file itself first."""
 US_KEYS: Final[dict[str, tuple[str, ...]]] = {
@@ -95,8 +98,12 @@ US_KEYS: Final[dict[str, tuple[str, ...]]] = {
     "storeys": (*US_STOREY_KEYS, *US_GOODS_KEYS),
 }
 """Keys in US units, in place of those in SI units."""
-PERIOD_MASSES: Final = ("bare", "code share", "all")
-"""What `period_s` is the period of: the building without goods, with the code's share of them, or with all present."""
+PLAIN_KEYS: Final[dict[str, dict[str, dict[str, str]]]] = {
+    "building": PLAIN_STOREY_KEYS,
+    "goods": PLAIN_GOODS_KEYS,
+    "storeys": PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS,
+}
+"""Keys without a unit, in a file that states its system of units."""
 
 
 def example_file() -> Path:
@@ -142,25 +149,42 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
     else:
         path = as_path(source, "building file", InvalidBuildingFile)
         top = load_table(path, "building file", InvalidBuildingFile)
+    refuse_other_kind(top, BUILDING_FILE)
     top.known(KEYS[""])
+    units = top.choice("units", SYSTEMS) if "units" in top.values else ""
     storeys = top.tables("storeys")
     if not storeys:
         top.refuse("storeys", "a table per storey, storey 1 first", "none")
     for storey in storeys:
-        _known(storey, "storeys")
-    building, goods, site, code = (_table(top, key) for key in ("building", "goods", "site", "code"))
+        _known(storey, "storeys", units)
+        for kind in storey.tables("goods"):
+            _known(kind, "storeys.goods", units)
+    building, goods, site, code, walls = (
+        _table(top, key, units) for key in ("building", "goods", "site", "code", "walls")
+    )
     _unique(building, goods, storeys)
-    mass = np.array([_mass(storey, building) for storey in storeys])
+    frame = np.array([_mass(storey, building) for storey in storeys])
     heights = _heights(storeys, building)
     fraction = code_of(code)
-    own_fractions, uses = floor_codes(storeys, fraction)
-    strength, design = _strength(storeys, building, mass)
-    live_load = np.array([live_load_of(storey, goods, building) for storey in storeys])
-    occupied = np.array([stated(storey, goods, "occupied", SHARE, 1.0) for storey in storeys])
-    friction = [
-        friction_of(storey, goods) if load * share > 0.0 else ("", 0.0, 0.0)
-        for storey, load, share in zip(storeys, live_load, occupied, strict=True)
-    ]
+    of_floors = floor_codes(storeys, fraction)
+    strength, design = _strength(storeys, building, frame)
+    area = np.array([positive(storey, building, "area_m2", np.nan) for storey in storeys])
+    kinds = tuple(
+        kind
+        for number, storey in enumerate(storeys, start=1)
+        for kind in kinds_of(
+            number,
+            storey,
+            goods,
+            live_load_of(storey, goods, building),
+            float(area[number - 1]),
+            of_floors[number - 1].use or fraction.use,
+        )
+    )
+    loose, bolted = (tuple(kind for kind in kinds if kind.attached == fixed) for fixed in (False, True))
+    present = by_floor(loose, [kind.mass for kind in loose], len(storeys))
+    fixed = by_floor(bolted, [kind.mass for kind in bolted], len(storeys))
+    mass = frame + fixed
     p_delta = building.flag("p_delta", heights is not None)
     if p_delta and heights is None:
         storeys[0].refuse("height_m", f"given where {building.key('p_delta')} is true", "nothing")
@@ -171,18 +195,30 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
     def springs(name: str) -> Any:
         return np.array([_spring(storey, building, name) for storey in storeys])
 
-    period_mass = _period_mass(building)
-    counted = {"bare": 0.0 * mass, "all": occupied * live_load}
-    if period_mass == "code share":
-        counted["code share"] = fractions_of(fraction, own_fractions, uses) * live_load
+    period = period_of(building, heights, len(storeys), fraction)
+    counted = {"bare": 0.0 * mass, "all": fixed + present}
+    if period.mass == "code share":
+        live_load = by_floor(loose, [kind.live_load for kind in loose], len(storeys))
+        shares = [one.fraction for one in counted_fractions(fraction, of_floors, mass, live_load)]
+        counted["code share"] = fixed + np.array(shares) * live_load
+    limit, limit_rule = limit_of(building, fraction)
+    stiffness = _stiffness(storeys, building, frame, counted[period.mass], period.value)
+    beside = walls_of(walls, building, frame + counted[period.mass], stiffness, heights, period.value)
+    if beside is not None and "damping_from_storey" in building.values:
+        building.refuse("damping_from_storey", f"left out where {top.key('walls')} is given", "both")
+    gravity = _gravity_load(storeys, building, frame) + STANDARD_GRAVITY * fixed if p_delta else None
+    if gravity is not None and heights is not None and beside is None:
+        load = np.cumsum((gravity + STANDARD_GRAVITY * present)[::-1])[::-1]
+        check_period(building, period, stiffness, load / heights)
     return OwnBuilding(
         name=printable(top.text("name")) or ("building" if path is None else printable(path.stem)),
         note=printable(top.text("note"), lines=True),
         storey_names=tuple(printable(storey.text("name")) for storey in storeys),
         mass=mass,
-        stiffness=_stiffness(storeys, building, mass, counted[period_mass]),
-        stated_period=_optional(building, "period_s"),
-        period_mass=period_mass,
+        stiffness=stiffness if beside is None else beside.stiffness,
+        stated_period=period.value,
+        period_mass=period.mass,
+        period_rule=period.rule,
         heights=heights,
         yield_shear=strength,
         design=design,
@@ -193,51 +229,53 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         ),
         damping=building.number("damping", DEFAULT_DAMPING, SHARE),
         damping_from_storey=_damping_from(building, len(storeys)),
-        gravity_load=_gravity_load(storeys, building, mass) if p_delta else None,
-        area=np.array([positive(storey, building, "area_m2", np.nan) for storey in storeys]),
+        gravity_load=gravity,
+        area=area,
         dead_load_stated=np.array([key_of(storey, building, _MASS) == "dead_load_kpa" for storey in storeys]),
-        live_load=live_load,
-        occupied=occupied,
-        friction=tuple(name for name, _, _ in friction),
-        mu_s=np.array([static for _, static, _ in friction]),
-        mu_k=np.array([kinetic for _, _, kinetic in friction]),
+        kinds=kinds,
         mu_factors=mu_factors_of(goods),
-        target=_target(site, Path() if path is None else path.parent),
+        target=site_of(site, Path() if path is None else path.parent),
         code=fraction,
-        own_fractions=own_fractions,
-        uses=uses,
+        floor_codes=of_floors,
         code_stated=bool(code.values),
-        drift_limit=building.number("drift_limit", DEFAULT_DRIFT_LIMIT, POSITIVE),
+        drift_limit=limit,
+        drift_limit_rule=limit_rule,
         theta_limit=building.number("theta_limit", DEFAULT_THETA_LIMIT, POSITIVE),
         collapse_drift_ratio=collapse,
         scaling_period=_optional(building, "scaling_period_s"),
         path=path,
+        walls=None if beside is None else beside.matrix,
+        walls_stated="" if beside is None else beside.how,
     )
 
 
-def _table(top: Table, key: str) -> Table:
+def _table(top: Table, key: str, units: str) -> Table:
     """Return a table, empty where the file has none."""
     table = top.table(key) if key in top.values else Table({}, key, top.file, InvalidBuildingFile)
-    _known(table, key)
+    _known(table, key, units)
     return table
 
 
-def _known(table: Table, kind: str) -> None:
-    """Refuse keys that are not known, and put those in US units into SI units."""
-    table.known(KEYS[kind], also=US_KEYS.get(kind, ()))
-    to_si(table)
+def _known(table: Table, kind: str, units: str) -> None:
+    """Refuse keys that are not known, and put those without a unit and in US units into SI units."""
+    table.known(KEYS[kind], also=(*US_KEYS.get(kind, ()), *plain_keys(PLAIN_KEYS.get(kind, {}), units)))
+    to_si(table, units)
 
 
 def _unique(building: Table, goods: Table, storeys: list[Table]) -> None:
     """Refuse two keys of one table that say the same."""
     for table in (building, goods, *storeys):
-        for group in (_MASS, _STIFFNESS, _STRENGTH, LIVE_LOAD, FRICTION):
+        for group in (_MASS, _STIFFNESS, _STRENGTH, LIVE_LOAD):
+            table.one_of(*group)
+    for table in (goods, *storeys, *(kind for storey in storeys for kind in storey.tables("goods"))):
+        for group in (PRESENT, FRICTION):
             table.one_of(*group)
         for key in ("mu", "friction"):
             table.excluded("mu_k", key)
-    if "period_s" in building.values:
-        for table in (building, *storeys):
-            table.left_out(_STIFFNESS, f"{building.key('period_s')} is given", "both")
+    for key in ("period_s", "system"):
+        if key in building.values:
+            for table in (building, *storeys):
+                table.left_out(_STIFFNESS, f"{building.key(key)} is given", "both")
 
 
 def _spring(storey: Table, default: Table, name: str) -> float:
@@ -253,7 +291,7 @@ def _optional(table: Table, key: str) -> float | None:
 
 def _mass(storey: Table, building: Table) -> float:
     """Mass of a floor without goods (kg)."""
-    place = held(storey, building, _MASS)
+    place = held((storey, building), _MASS)
     if place is None:
         missing(storey, building, _MASS)
     table, key = place
@@ -263,7 +301,7 @@ def _mass(storey: Table, building: Table) -> float:
 
 def _heights(storeys: list[Table], building: Table) -> Any:
     """Heights (m), or None where none is known."""
-    if not any(held(storey, building, ("height_m",)) for storey in storeys):
+    if not any(held((storey, building), ("height_m",)) for storey in storeys):
         return None
     return np.array([positive(storey, building, "height_m") for storey in storeys])
 
@@ -278,35 +316,24 @@ def _gravity_load(storeys: list[Table], building: Table, mass: Any) -> Any:
     )
 
 
-def _stiffness(storeys: list[Table], building: Table, mass: Any, counted: Any) -> Any:
+def _stiffness(storeys: list[Table], building: Table, mass: Any, counted: Any, period: float | None) -> Any:
     """Storey stiffnesses (N/m): as stated, or as the period of the building with the mass counted on floors asks."""
-    if "period_s" not in building.values:
+    if period is None:
         values = []
         for storey in storeys:
-            place = held(storey, building, _STIFFNESS)
+            place = held((storey, building), _STIFFNESS)
             if place is None:
-                where = f"given, or {_STIFFNESS[1]}, or {building.key('period_s')} for the whole building"
+                whole = f"{building.key('period_s')} or {building.key('system')} for the whole building"
+                where = f"given, or {_STIFFNESS[1]}, or {whole}"
                 storey.refuse(_STIFFNESS[0], where, "nothing")
             unit = 1e3 if place[1] == "stiffness_kn_per_m" else 1.0
             values.append(unit * number_of(place, POSITIVE))
         for table in (building, *storeys):
             table.left_out(("relative_stiffness",), f"{building.key('period_s')} is", "given")
         return np.array(values)
-    period = building.number("period_s", need=POSITIVE)
     relative = np.array([positive(storey, building, "relative_stiffness", 1.0) for storey in storeys])
     trial = relative * mass.mean()
     return trial * (vibration_modes(mass + counted, trial).periods[0] / period) ** 2
-
-
-def _period_mass(building: Table) -> str:
-    """What the stated period is the period of."""
-    if "period_mass" not in building.values:
-        return "bare"
-    building.needed("period_s")
-    chosen = building.text("period_mass")
-    if chosen not in PERIOD_MASSES:
-        building.refuse("period_mass", f"one of {', '.join(PERIOD_MASSES)}", brief(chosen))
-    return chosen
 
 
 def _damping_from(building: Table, storeys: int) -> int:
@@ -331,27 +358,9 @@ def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, De
     units = {"yield_shear_kn": 1e3, "yield_shear_n": 1.0, "yield_shear_over_weight": weight}
     values = []
     for storey in storeys:
-        place = held(storey, building, _STRENGTH)
+        place = held((storey, building), _STRENGTH)
         if place is None:
             others = ", or ".join(("", *_STRENGTH[1:])).removeprefix(", or ")
             storey.refuse(_STRENGTH[0], f"given, or {others}, or {building.key('design')} = true with R", "nothing")
         values.append(units[place[1]] * number_of(place, STRONG))
     return np.array(values), None
-
-
-def _target(site: Table, folder: Path) -> TargetSpectrum | None:
-    """Site spectrum; None where the file has none."""
-    if not site.values:
-        return None
-    if "spectrum_csv" in site.values:
-        for key in ("sds_g", "sd1_g", "tl_s"):
-            site.excluded(key, "spectrum_csv")
-        return TargetSpectrum.from_csv(folder / site.text("spectrum_csv"))
-    for key in ("sds_g", "sd1_g"):
-        if key not in site.values:
-            site.refuse(key, f"given, or {site.key('spectrum_csv')} for the whole spectrum", "nothing")
-    short, one = (site.number(key, need=POSITIVE) for key in ("sds_g", "sd1_g"))
-    tl = site.number("tl_s", DEFAULT_TL, POSITIVE)
-    if tl < one / short:
-        site.refuse("tl_s", f"at least T_S = S_D1/S_DS = {one / short:g} s", f"{tl:g}")
-    return TargetSpectrum.asce7(short, one, tl)

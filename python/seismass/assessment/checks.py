@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from seismass.assessment.models import ADVISED, BARE, REALS
 from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import THETA_THRESHOLD, drift_limit
+from seismass.model.codes import NOT_CHECKED, VERIFIED
 from seismass.spectra import TargetSpectrum
 
 
@@ -39,7 +41,7 @@ def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[s
     ]
     if building.heights is not None:
         limits = {
-            "mean drift ratio": ("mean", building.drift_limit, _drift_source(building)),
+            "mean drift ratio": ("mean", building.drift_limit, drift_source(building)),
             "stability coefficient": ("theta", building.theta_limit, _theta_source(building)),
         }
         for check, (column, limit, source) in limits.items():
@@ -78,11 +80,18 @@ def _judged(row: dict[str, Any]) -> dict[str, Any]:
     return {"storey": None, "met": None if value is None else value <= row["limit"], **row}
 
 
-def _drift_source(building: OwnBuilding) -> str:
-    if building.drift_limit != DEFAULT_DRIFT_LIMIT:
-        return "as stated"
-    row = drift_limit("asce7-10")
-    return f"{row.code}, {row.clause}, risk category I or II ({row.status}); it limits {row.of}, here nonlinear drift"
+def drift_source(building: OwnBuilding) -> str:
+    """Return where the limit of the drift ratio is from, what it limits there, and how it was checked."""
+    row = building.drift_limit_rule
+    if row is None:
+        if building.drift_limit != DEFAULT_DRIFT_LIMIT:
+            return "as stated"
+        row, of = drift_limit("asce7-10"), "risk category I or II"
+    else:
+        of = f"{row.structure}, risk category or importance class {row.risk_category}"
+    checked = row.status if row.status == VERIFIED else f"{row.status}; {NOT_CHECKED}"
+    note = f"; {row.note}" if row.note and building.drift_limit_rule is not None else ""
+    return f"{row.code}, {row.clause}, {of} ({checked}); it limits {row.of}, here nonlinear drift{note}"
 
 
 def _theta_source(building: OwnBuilding) -> str:
@@ -107,18 +116,23 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "second_slope": building.second_slope.tolist(),
         "third_slope": building.third_slope.tolist(),
         "live_load": building.live_load.tolist(),
-        "occupied": building.occupied.tolist(),
-        "contact": list(building.friction),
-        "mu_s": building.mu_s.tolist(),
-        "mu_k": building.mu_k.tolist(),
+        "bolted": building.bolted.tolist(),
+        "goods": building.goods.tolist(),
+        "use": [one.use or building.code.use for one in building.floor_codes],
+        "code_fraction": [one.fraction for one in building.counted],
+        "code_exception": [one.exception for one in building.counted],
     }
     names = list(columns)
     rule = building.design
     return {
         "storeys": [dict(zip(names, row, strict=True)) for row in zip(*columns.values(), strict=True)],
+        "goods": [asdict(kind) | {"mass": kind.mass} for kind in building.kinds if kind.live_load > 0.0],
         "goods_present_over_design_live_load": building.present_share,
         "weight": building.weight,
         "weight_of_goods": STANDARD_GRAVITY * float(building.goods.sum()),
+        "period_stated": building.stated_period,
+        "period_mass": building.period_mass if building.stated_period is not None else None,
+        "period_rule": None if building.period_rule is None else asdict(building.period_rule),
         "period_bare": building.period(),
         "period_attached": building.period(building.goods),
         "damping": building.damping,
@@ -128,6 +142,7 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         else {"R": rule.R, "fraction": building.design_fraction, "combination": rule.combination},
         "mu_factors": list(building.mu_factors),
         "drift_limit": building.drift_limit if building.heights is not None else None,
+        "drift_limit_rule": None if building.drift_limit_rule is None else asdict(building.drift_limit_rule),
         "theta_limit": building.theta_limit if building.heights is not None else None,
         "collapse_drift_ratio": building.collapse_drift_ratio,
         "file": None if building.path is None else building.path.name,

@@ -15,7 +15,7 @@ from seismass.assessment.models import NAMES
 from seismass.assessment.own_building import OwnBuilding
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
-from seismass.model.plausibility import mean_motion_remarks, motion_remarks
+from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.spectra import TargetSpectrum
 from seismass.spectra.remarks import target_remarks
@@ -70,31 +70,39 @@ def doubts_of(
         `Assessment.storeys`.
     """
     found = [
+        *building_doubts(building, real, target),
+        *usage_remarks((), motions),
+        *_about_drifts(storeys),
+        *(damping_doubts(real, motions) if building.walls is None else ()),
+    ]
+    return tuple(dict.fromkeys(found))
+
+
+def building_doubts(building: OwnBuilding, real: Scene, target: TargetSpectrum | None) -> tuple[str, ...]:
+    """Return what makes a building file and its site doubtful, without any run.
+
+    Parameters
+    ----------
+    building, real, target
+        As for `doubts_of`.
+    """
+    found = [
         *real.remarks,
         *_about_loads(building),
         *_about_order(building),
         *_about_strength(building),
         *_about_limits(building),
         *(() if target is None else target_remarks(target)),
-        *_about_motions(motions),
-        *mean_motion_remarks(motions),
-        *_about_drifts(storeys),
-        *damping_doubts(real, motions),
     ]
     return tuple(dict.fromkeys(found))
-
-
-def _about_motions(motions: list[Any]) -> tuple[str, ...]:
-    """The first motion that is too strong, with the number of the others."""
-    found = motion_remarks(motions)
-    return found if len(found) < 2 else (f"{found[0]} (and {len(found) - 1} more motions)",)
 
 
 def _about_loads(building: OwnBuilding) -> list[str]:
     """Loads over their areas, and goods over the building."""
     heaviest = MAX_LIVE_LOAD_OF_PIERS if building.code.code_id in PIER_CODES else MAX_LIVE_LOAD
     low, high = FLOOR_WEIGHT_RANGE
-    live, floor = (1e-3 * STANDARD_GRAVITY * mass / building.area for mass in (building.live_load, building.mass))
+    frame = building.mass - building.bolted
+    live, floor = (1e-3 * STANDARD_GRAVITY * mass / building.area for mass in (building.live_load, frame))
     dead = np.where(building.dead_load_stated, floor, np.nan)
     psf = "are loads in kPa (1 psf is 0.0479 kPa)?"
     found = [
@@ -102,7 +110,10 @@ def _about_loads(building: OwnBuilding) -> list[str]:
         *_outside(building, "dead load", dead, 0.0, MAX_DEAD_LOAD, f"above {MAX_DEAD_LOAD:g} kPa{{others}}: {psf}"),
     ]
     if not any(text.startswith("dead load") for text in found):
-        asked = f"outside {low:g} to {high:g} kPa{{others}}: are area and mass or load in the units of their keys?"
+        asked = (
+            f"outside {low:g} to {high:g} kPa{{others}}: are area and mass or load in the units of their keys, and is "
+            "the mass no weight?"
+        )
         found += _outside(building, "weight over the area", floor, low, high, asked)
     heavy = float(building.goods.sum() / building.mass.sum())
     if heavy > MOST_GOODS:

@@ -1,4 +1,4 @@
-"""The goods of the floors of a building file, and what the code counts of them, floor by floor."""
+"""The goods of the floors of a building file: how much, how much of it is there, and at what friction."""
 
 from __future__ import annotations
 
@@ -6,25 +6,29 @@ from typing import Final
 
 import numpy as np
 
-from seismass.assessment.file_values import held, missing, positive
+from seismass.assessment.file_racks import SUPPORT, rack_of, stops_of
+from seismass.assessment.file_values import held, missing, number_of, positive
+from seismass.assessment.floors import NOTHING_STATED, FloorGoods
 from seismass.base.errors import InvalidOption, SeismassError
 from seismass.base.input_table import NOT_NEGATIVE, SHARE, Need, Table
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray
-from seismass.model.codes import AS_STATED, CodeFraction, code_fraction
+from seismass.base.values import printable
 from seismass.model.friction import BOUND_FACTORS, bound_factors, friction_pair
+from seismass.model.occupancy import USUAL, surveyed_load
 
-DEFAULT_CODE: Final = "asce7-10"
-"""Code whose fraction is taken where the file names none."""
 LIVE_LOAD: Final = ("live_load_kpa", "live_load_kg")
 """Keys of the design live load of a floor."""
 FRICTION: Final = ("friction", "mu", "mu_s")
 """Keys of its friction."""
+PRESENT: Final = ("occupied", "occupancy")
+"""Keys of how much of it is present: a share, or what surveys say."""
+SUM_ERROR: Final = 1e-6
+"""By how much the shares of the kinds of goods on a floor may miss one."""
 
 
 def live_load_of(storey: Table, goods: Table, building: Table) -> float:
     """Design live load of a floor as a mass (kg)."""
-    place = held(storey, goods, LIVE_LOAD)
+    place = held((storey, goods), LIVE_LOAD)
     if place is None:
         return 0.0
     table, key = place
@@ -34,11 +38,78 @@ def live_load_of(storey: Table, goods: Table, building: Table) -> float:
     return 1e3 * value * positive(storey, building, "area_m2") / STANDARD_GRAVITY
 
 
-def friction_of(storey: Table, goods: Table) -> tuple[str, float, float]:
-    """Contact (empty: stated as numbers), static and kinetic coefficient of the goods of a floor."""
-    place = held(storey, goods, FRICTION)
+def kinds_of(
+    floor: int, storey: Table, goods: Table, live_load: float, area: float, use: str
+) -> tuple[FloorGoods, ...]:
+    """Return the goods of a floor, kind by kind.
+
+    Parameters
+    ----------
+    floor : int
+        The floor, from 1.
+    storey, goods : Table
+        Tables of the storey and of the defaults.
+    live_load, area : float
+        Design live load as a mass (kg) and area (m2; NaN: not known).
+    use : str
+        Use of the floor.
+    """
+    tables = storey.tables("goods")
+    if not tables:
+        share, how = _present((storey, goods), live_load, area, use)
+        given = (storey, goods)
+        contact = _friction(given) if live_load * share > 0.0 else ("", 0.0, 0.0)
+        return (FloorGoods(floor, "", live_load, share, how, False, *contact, rack_of(given), stops_of(given)),)
+    shares = [table.number("share", need=SHARE) if "share" in table.values else np.nan for table in tables]
+    total = sum(shares)
+    if not abs(total - 1.0) <= SUM_ERROR:
+        got = "a kind without one" if np.isnan(total) else f"a sum of {total:g}"
+        storey.refuse("goods", "kinds with a share of the design live load each, one in sum", got)
+    found = []
+    for table, part in zip(tables, shares, strict=True):
+        attached = table.flag("attached", False)
+        name = printable(table.text("name"))
+        load = part * live_load
+        if attached:
+            table.left_out((*FRICTION, "mu_k", *SUPPORT), f"{table.key('attached')} is true", "both")
+            share, how = _present((table,), live_load, area, "")
+            found.append(FloorGoods(floor, name, load, share, how, True, "", 0.0, 0.0))
+            continue
+        places = (table, storey, goods)
+        share, how = _present(places, live_load, area, use)
+        contact = _friction(places) if load * share > 0.0 else ("", 0.0, 0.0)
+        found.append(FloorGoods(floor, name, load, share, how, False, *contact, rack_of(places), stops_of(places)))
+    return tuple(found)
+
+
+def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str) -> tuple[float, str]:
+    """Share of the design live load that is present, and how that is known."""
+    place = held(tables, PRESENT)
     if place is None:
-        missing(storey, goods, FRICTION)
+        if use != "ordinary":
+            return 1.0, f"of the design live load, {NOTHING_STATED}"
+        usual = surveyed_load(USUAL)
+        return usual.share, f"of the design live load, as {USUAL}, since the use is ordinary and nothing is stated"
+    table, key = place
+    if key == "occupied":
+        return number_of(place, SHARE), "of the design live load, as stated"
+    try:
+        found = surveyed_load(table.text(key))
+    except SeismassError as error:
+        table.refuse_as(key, error)
+    design = 1e-3 * STANDARD_GRAVITY * live_load / area
+    if not design > 0.0:
+        return found.share, f"of the design live load, by {found.occupancy_id}, the area not being known"
+    share, spread = found.mean / design, found.deviation(area) / design
+    scatter = f"+/- {spread:.2f} of the design live load, by {found.occupancy_id} ({found.mean:g} kPa)"
+    return min(1.0, share), scatter + (", which is more than all of it" if share > 1.0 else "")
+
+
+def _friction(tables: tuple[Table, ...]) -> tuple[str, float, float]:
+    """Contact (empty: stated as numbers), static and kinetic coefficient of goods."""
+    place = held(tables, FRICTION)
+    if place is None:
+        missing(tables[-2], tables[-1], FRICTION)
     table, key = place
     if key == "friction":
         try:
@@ -60,46 +131,3 @@ def mu_factors_of(goods: Table) -> tuple[float, float]:
         return bound_factors(given, "goods")
     except InvalidOption as error:
         goods.refuse_as("mu_factors", error)
-
-
-def code_of(table: Table) -> CodeFraction:
-    """Return the code of the file, or a fraction of one's own."""
-    if "fraction" in table.values:
-        table.excluded("id", "fraction")
-        table.excluded("use", "fraction")
-        value = table.number("fraction", need=SHARE)
-        return CodeFraction("own", "a fraction of one's own", "storage", value, value, value, "", "", AS_STATED)
-    names = {key: table.text(key) for key in ("id", "use")}
-    try:
-        found = code_fraction(names["id"] or DEFAULT_CODE)
-        return code_fraction(found.code_id, names["use"] or "storage")  # type: ignore[arg-type]
-    except InvalidOption as error:
-        key = "use" if str(error).startswith("use") else "id"
-        table.refuse_as(key, error)
-
-
-def floor_codes(storeys: list[Table], code: CodeFraction) -> tuple[FloatArray, tuple[str, ...]]:
-    """Return the fraction that each floor states (NaN: none; 0: exempt), and its use (empty: that of the file).
-
-    Parameters
-    ----------
-    storeys : list of Table
-        Tables of the storeys, which may have `use`, or `fraction`, or `exempt`.
-    code : CodeFraction
-        Code of the file.
-    """
-    fractions, uses = [], []
-    for storey in storeys:
-        storey.one_of("use", "fraction", "exempt")
-        stated = storey.number("fraction", need=SHARE) if "fraction" in storey.values else np.nan
-        fractions.append(0.0 if storey.flag("exempt", False) else stated)
-        use = storey.text("use")
-        if use and code.status == AS_STATED:
-            storey.refuse("use", "left out where code.fraction is given", "both")
-        if use:
-            try:
-                code_fraction(code.code_id, use)  # type: ignore[arg-type]
-            except InvalidOption as error:
-                storey.refuse_as("use", error)
-        uses.append(use)
-    return np.array(fractions), tuple(uses)

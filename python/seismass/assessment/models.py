@@ -11,9 +11,10 @@ import polars as pl
 from seismass.assessment.own_building import OwnBuilding
 from seismass.base.errors import SimulationError
 from seismass.base.values import FloatArray
+from seismass.effective_mass.models import frame_mass
 from seismass.model.motion import Motion
 from seismass.model.scene import Scene
-from seismass.runs.batch import simulate_many
+from seismass.runs.batch import solve_many
 from seismass.spectra import TargetSpectrum
 
 REAL: Final = "real"
@@ -25,6 +26,7 @@ ADVISED: Final = "advised"
 CODE: Final = "code"
 ATTACHED: Final = "attached"
 BARE: Final = "bare"
+_SLIPS: Final = ("peak_slip", "residual_slip", "slip_path")
 NAMES: Final = {
     REAL: "goods slide",
     REAL_LOW: "goods slide, low mu",
@@ -50,13 +52,15 @@ def with_mass(scene: Scene, attached: FloatArray) -> Scene:
     Parameters
     ----------
     scene : Scene
-        Building and goods. Stiffness, strength, damping matrix and P/h stay those of the real building.
+        Building and goods. Stiffness, strength, walls, damping matrix and P/h stay those of the real building; frames
+        of racks are attached to their floors.
     attached : ndarray, shape (storeys,)
         Mass attached to each floor (kg).
     """
     building = scene.building
     assert building is not None
-    changes: dict[str, Any] = {"mass": building.mass + attached, "damping": building.damping_matrix}
+    mass = building.mass + frame_mass(scene) + attached
+    changes: dict[str, Any] = {"mass": mass, "damping": building.damping_matrix}
     if scene.geometric_stiffness.any():
         changes |= {"gravity_load": None, "geometric_stiffness": scene.geometric_stiffness}
     return Scene(building.replace(**changes), collapse_drift=scene.collapse_drift, name=scene.name)
@@ -97,31 +101,44 @@ def solve_models(
     *,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
-) -> pl.DataFrame:
+) -> tuple[pl.DataFrame, pl.DataFrame]:
     """Solve all models under all motions.
 
     Returns
     -------
-    polars.DataFrame
+    runs : polars.DataFrame
         One row per model, motion and storey: model, motion, record, status, collapsed, storey, peak_drift (m),
         peak_drift_ratio (null without heights), residual_drift (m), peak_storey_shear (N), peak_floor_acceleration
-        (m/s2), peak_slip, residual_slip and slip_path (m, of the goods of the floor; null where none slide).
+        (m/s2), peak_slip (m, the largest of the loose goods of the floor; null where none slide).
+    slips : polars.DataFrame
+        One row per model with goods that slide, motion and kind of loose goods: model, motion, kind (index in
+        `OwnBuilding.loose`), level of its rack (0: on the floor), collapsed, peak_slip, residual_slip and slip_path
+        (m).
 
     Raises
     ------
     SimulationError
         A run could not be carried to its end.
     """
-    table = simulate_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
+    table = solve_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
     runs = table.to_dicts()
     rows: list[dict[str, Any]] = []
+    slides: list[dict[str, Any]] = []
     for index, run in enumerate(runs):
         model, motion = list(scenes)[index // len(motions)], index % len(motions)
         if run["status"] == "failed":
             raise SimulationError(f"run of model {model} under motion {motion + 1}, {names[motion]}: {run['reason']}")
-        block_of = {floor: number for number, floor in enumerate(scenes[model].block_floor)}
+        collapsed = run["status"] == "collapsed"
+        about = {"model": model, "motion": motion + 1, "collapsed": collapsed}
+        blocks = building.sliding if scenes[model].goods else ()
+        slides += [
+            {**about, "kind": kind, "level": level, **{name: run[name][block] for name in _SLIPS}}
+            for block, (kind, level) in enumerate(blocks)
+        ]
         for storey in range(1, building.storeys + 1):
-            block = block_of.get(storey)
+            of_floor = [
+                run["peak_slip"][i] for i, (kind, _) in enumerate(blocks) if building.loose[kind].floor == storey
+            ]
             drift = run["peak_drift"][storey - 1]
             rows.append(
                 {
@@ -129,19 +146,21 @@ def solve_models(
                     "motion": motion + 1,
                     "record": names[motion],
                     "status": run["status"],
-                    "collapsed": run["status"] == "collapsed",
+                    "collapsed": collapsed,
                     "storey": storey,
                     "peak_drift": drift,
                     "peak_drift_ratio": None if building.heights is None else drift / building.heights[storey - 1],
                     "residual_drift": run["residual_drift"][storey - 1],
                     "peak_storey_shear": run["peak_storey_shear"][storey - 1],
                     "peak_floor_acceleration": run["peak_floor_acceleration"][storey - 1],
-                    **{
-                        name: None if block is None else run[name][block]
-                        for name in ("peak_slip", "residual_slip", "slip_path")
-                    },
+                    "peak_slip": max(of_floor, default=None),
                 }
             )
-    nullable = ("peak_drift_ratio", "peak_slip", "residual_slip", "slip_path")
-    schema: dict[str, Any] = {"motion": pl.UInt32, "storey": pl.UInt32, **dict.fromkeys(nullable, pl.Float64)}
-    return pl.DataFrame(rows, schema_overrides=schema)
+    schema: dict[str, Any] = {"motion": pl.UInt32, "storey": pl.UInt32}
+    schema |= dict.fromkeys(("peak_drift_ratio", "peak_slip"), pl.Float64)
+    of_kinds: dict[str, Any] = {"model": pl.String, "motion": pl.UInt32, "collapsed": pl.Boolean}
+    of_kinds |= dict.fromkeys(("kind", "level"), pl.UInt32)
+    return (
+        pl.DataFrame(rows, schema_overrides=schema),
+        pl.DataFrame(slides, schema=of_kinds | dict.fromkeys(_SLIPS, pl.Float64)),
+    )

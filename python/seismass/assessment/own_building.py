@@ -12,13 +12,22 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from seismass.assessment.floors import CountedFraction, FloorCode, FloorGoods, by_floor, counted_fractions
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content
-from seismass.design import THETA_CAP, Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
+from seismass.design import (
+    THETA_CAP,
+    Combination,
+    DriftLimit,
+    PeriodRule,
+    SpectrumAnalysis,
+    response_spectrum_analysis,
+    vibration_modes,
+)
 from seismass.model.block import Block
 from seismass.model.building import Building
-from seismass.model.codes import CodeFraction, code_fraction
+from seismass.model.codes import CodeFraction
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.scene import Scene
 from seismass.spectra import TargetSpectrum
@@ -48,22 +57,6 @@ class DesignRule:
     combination: Combination = "srss"
 
 
-def fractions_of(code: CodeFraction, own: FloatArray, uses: tuple[str, ...]) -> FloatArray:
-    """Return the fraction of the design live load that counts on each floor.
-
-    Parameters
-    ----------
-    code : CodeFraction
-        Code, with the use of floors that state none.
-    own : ndarray, shape (storeys,)
-        Fraction that a floor states; NaN: none.
-    uses : tuple of str
-        Use that a floor states; empty: none.
-    """
-    of_code = [code_fraction(code.code_id, use).fraction if use else code.fraction for use in uses]  # type: ignore[arg-type]
-    return np.where(np.isnan(own), of_code, own)
-
-
 @dataclass(frozen=True, eq=False)
 class OwnBuilding:
     """A building with its goods, as a building file describes it; see `read_building`.
@@ -75,13 +68,15 @@ class OwnBuilding:
     storey_names : tuple of str
         A name per floor, or empty texts.
     mass : ndarray, shape (storeys,)
-        Floor masses without goods (kg).
+        Floor masses without loose goods (kg), with those that are bolted.
     stiffness : ndarray, shape (storeys,)
         Initial storey stiffnesses (N/m).
     stated_period : float or None
         First period (s) from which they were found; None where they were stated.
     period_mass : {"bare", "code share", "all"}
         Which goods acted as mass in that period: none, the code's share, or all present.
+    period_rule : PeriodRule or None
+        Row of the code whose formula gave that period; None where it was stated.
     heights : ndarray, shape (storeys,), or None
         Storey heights (m); None where they are not known: then drifts are in metres and there is no limit.
     yield_shear : ndarray, shape (storeys,), or None
@@ -95,39 +90,37 @@ class OwnBuilding:
     damping_from_storey : int
         Lowest storey that is damped; above 1 the modes are those of the building above the floor below it.
     gravity_load : ndarray, shape (storeys,), or None
-        Gravity load of each floor without goods (N), to which the weight of the goods is added; None: no P-Delta.
+        Gravity load of each floor without loose goods (N), to which their weight is added; None: no P-Delta.
     area : ndarray, shape (storeys,)
         Floor areas (m2); NaN where they are not stated.
     dead_load_stated : ndarray of bool, shape (storeys,)
         Whether the mass of a floor was stated as a dead load per area.
-    live_load : ndarray, shape (storeys,)
-        Design live load of each floor as a mass (kg).
-    occupied : ndarray, shape (storeys,)
-        Share of it that is present.
-    friction : tuple of str
-        Contact of the goods of each floor; empty where it is stated as numbers or there are no goods.
-    mu_s, mu_k : ndarray, shape (storeys,)
-        Static and kinetic friction of the goods of each floor; 0 where there are none.
+    kinds : tuple of FloorGoods
+        Goods of each kind on each floor, floor by floor; a floor has one kind at least.
     mu_factors : tuple of float
         Factors of friction for its lower and upper bound.
     target : TargetSpectrum or None
         Site spectrum; None where the file has none.
     code : CodeFraction
         The code, and the fraction of the design live load that it counts as mass where a floor states none of its own.
-    own_fractions : ndarray, shape (storeys,)
-        Fraction that a floor states, 0 where it is exempt; NaN: that of the code.
-    uses : tuple of str
-        Use of each floor; empty: that of the file.
+    floor_codes : tuple of FloorCode
+        What the file says of each floor for the code.
     code_stated : bool
         Whether the file names the code.
     drift_limit, theta_limit : float
         Limits of drift ratio and stability coefficient.
+    drift_limit_rule : DriftLimit or None
+        Row of the code that gave the limit of the drift ratio; None where it was stated, or is the default.
     collapse_drift_ratio : float or None
         Drift ratio at which a storey counts as collapsed; None: only where P-Delta says so.
     scaling_period : float or None
         Period (s) for which motions are scaled; None: first period of the building with its goods attached.
     path : Path or None
         The file.
+    walls : ndarray, shape (storeys, storeys), or None
+        Stiffness of elastic walls over the floors (N/m), beside the storeys; None without.
+    walls_stated : str
+        How they are stated, in words.
     """
 
     name: str
@@ -137,6 +130,7 @@ class OwnBuilding:
     stiffness: FloatArray
     stated_period: float | None
     period_mass: str
+    period_rule: PeriodRule | None
     heights: FloatArray | None
     yield_shear: FloatArray | None
     design: DesignRule | None
@@ -148,22 +142,20 @@ class OwnBuilding:
     gravity_load: FloatArray | None
     area: FloatArray
     dead_load_stated: NDArray[np.bool_]
-    live_load: FloatArray
-    occupied: FloatArray
-    friction: tuple[str, ...]
-    mu_s: FloatArray
-    mu_k: FloatArray
+    kinds: tuple[FloorGoods, ...]
     mu_factors: tuple[float, float]
     target: TargetSpectrum | None
     code: CodeFraction
-    own_fractions: FloatArray
-    uses: tuple[str, ...]
+    floor_codes: tuple[FloorCode, ...]
     code_stated: bool
     drift_limit: float
+    drift_limit_rule: DriftLimit | None
     theta_limit: float
     collapse_drift_ratio: float | None
     scaling_period: float | None
     path: Path | None = None
+    walls: FloatArray | None = None
+    walls_stated: str = ""
 
     __eq__ = same_content
     __hash__ = content_hash
@@ -175,14 +167,48 @@ class OwnBuilding:
 
     @property
     def weight(self) -> float:
-        """Weight of the building without goods (N)."""
+        """Weight of the building without loose goods (N)."""
         return STANDARD_GRAVITY * float(self.mass.sum())
 
     @property
+    def loose(self) -> tuple[FloorGoods, ...]:
+        """The kinds of goods that are not bolted."""
+        return tuple(kind for kind in self.kinds if not kind.attached)
+
+    @property
+    def present(self) -> tuple[FloorGoods, ...]:
+        """The kinds of loose goods of which some are present."""
+        return tuple(kind for kind in self.loose if kind.mass > 0.0)
+
+    @property
+    def sliding(self) -> tuple[tuple[int, int], ...]:
+        """Index in `loose` and level of the rack (0: on the floor) of each block of `scene`, in their order."""
+        there = [(number, kind) for number, kind in enumerate(self.loose) if kind.mass > 0.0]
+        on_floors = [(number, 0) for number, kind in there if kind.rack is None]
+        levels = [(number, kind.rack.levels) for number, kind in there if kind.rack is not None]
+        return (*on_floors, *((number, level) for number, count in levels for level in range(1, count + 1)))
+
+    @property
+    def bolted(self) -> FloatArray:
+        """Mass of the bolted goods on each floor (kg), which `mass` contains; shape (storeys,)."""
+        bolted = tuple(kind for kind in self.kinds if kind.attached)
+        return by_floor(bolted, [kind.mass for kind in bolted], self.storeys)
+
+    @property
+    def live_load(self) -> FloatArray:
+        """Design live load of the loose goods on each floor as a mass (kg), shape (storeys,)."""
+        return by_floor(self.loose, [kind.live_load for kind in self.loose], self.storeys)
+
+    @property
     def goods(self) -> FloatArray:
-        """Mass of the goods present on each floor (kg), shape (storeys,)."""
-        present: FloatArray = self.occupied * self.live_load
-        return present
+        """Mass of the loose goods present on each floor (kg), shape (storeys,)."""
+        return by_floor(self.loose, [kind.mass for kind in self.loose], self.storeys)
+
+    @property
+    def frames(self) -> FloatArray:
+        """Mass of the frames of racks on each floor (kg), in every model; shape (storeys,)."""
+        frames = [0.0 if kind.rack is None else kind.rack.frame * kind.mass for kind in self.loose]
+        return by_floor(self.loose, frames, self.storeys)
 
     @property
     def present_share(self) -> float:
@@ -193,14 +219,19 @@ class OwnBuilding:
     @property
     def code_mass(self) -> FloatArray:
         """What the code counts of the live load on each floor (kg), shape (storeys,)."""
-        counted: FloatArray = fractions_of(self.code, self.own_fractions, self.uses) * self.live_load
+        counted: FloatArray = np.array([one.fraction for one in self.counted]) * self.live_load
         return counted
+
+    @property
+    def counted(self) -> tuple[CountedFraction, ...]:
+        """Fraction of the design live load of each floor that the code counts, with its exceptions."""
+        return counted_fractions(self.code, self.floor_codes, self.mass, self.live_load)
 
     @property
     def code_share(self) -> float:
         """What the code counts over the design live load of the whole building; that of the code without live load."""
         total = float(self.live_load.sum())
-        uniform = not any(self.uses) and np.isnan(self.own_fractions).all()
+        uniform = all(one.fraction == self.code.fraction for one in self.counted)
         return self.code.fraction if uniform or total == 0.0 else float(self.code_mass.sum()) / total
 
     @property
@@ -217,7 +248,8 @@ class OwnBuilding:
 
     def period(self, attached: FloatArray | float = 0.0) -> float:
         """Return the first period (s) with a mass attached to each floor (kg)."""
-        return float(vibration_modes(self.mass + attached, self.stiffness).periods[0])
+        mass = self.mass + self.frames + attached
+        return float(vibration_modes(mass, self.stiffness, stiffness_matrix=self.walls).periods[0])
 
     def analysis(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> SpectrumAnalysis:
         """Return the response spectrum analysis of the building with the mass of its design.
@@ -235,9 +267,10 @@ class OwnBuilding:
             There is no site spectrum, or it does not cover the modal periods.
         """
         return response_spectrum_analysis(
-            self.mass + (self.design_mass if attached is None else attached),
+            self.mass + self.frames + (self.design_mass if attached is None else attached),
             self.stiffness,
             self.site_spectrum(target),
+            stiffness_matrix=self.walls,
             combination="srss" if self.design is None else self.design.combination,
             damping=self.damping or DEFAULT_DAMPING,
         )
@@ -246,7 +279,9 @@ class OwnBuilding:
         """Return the spectrum given, or else the building's own; a missing one is refused."""
         chosen = self.target if target is None else target
         if not isinstance(chosen, TargetSpectrum):
-            requirement = "given: [site] in the file (sds_g and sd1_g, or spectrum_csv), or a TargetSpectrum"
+            requirement = (
+                "given: [site] in the file (sds_g and sd1_g, target or spectrum_csv), --target, or an argument"
+            )
             raise refusal(InvalidOption, "target", f"building {self.name}", requirement, brief(chosen))
         return chosen
 
@@ -267,7 +302,8 @@ class OwnBuilding:
         """
         strength = self.yield_shear
         if strength is None and self.design is not None:
-            strength = self.analysis(target, attached).storey_shear / self.design.R
+            # Without walls the springs carry the storey shear; walls stay elastic.
+            strength = self.analysis(target, attached).spring_shear / self.design.R
         return Building(
             self.mass,
             self.stiffness,
@@ -278,6 +314,7 @@ class OwnBuilding:
             damping=self.damping if self.damping_from_storey == 1 else self._damping_above(),
             heights=self.heights,
             gravity_load=self.gravity_load,
+            stiffness_matrix=self.walls,
         )
 
     def _damping_above(self) -> FloatArray:
@@ -294,7 +331,7 @@ class OwnBuilding:
         return matrix
 
     def scene(self, target: TargetSpectrum | None = None, *, mu_factor: float = 1.0) -> Scene:
-        """Return the building with its goods, one block per loaded floor.
+        """Return the building with its goods, one block per kind of loose goods on a floor.
 
         Parameters
         ----------
@@ -308,14 +345,18 @@ class OwnBuilding:
         InvalidOption, InvalidScene
             As for `structure`.
         """
-        blocks = [
-            Block(floor, mass=float(mass), mu_s=mu_factor * float(static), mu_k=mu_factor * float(kinetic))
-            for floor, (mass, static, kinetic) in enumerate(zip(self.goods, self.mu_s, self.mu_k, strict=True), start=1)
-            if mass > 0.0
-        ]
+        blocks, racks = [], []
+        for kind in self.present:
+            mu_s, mu_k = mu_factor * kind.mu_s, mu_factor * kind.mu_k
+            if kind.rack is not None:
+                racks.append(kind.rack.under(kind.floor, kind.mass, (mu_s, mu_k), kind.stops))
+                continue
+            stops = None if kind.stops is None else kind.stops.beside(kind.mass)
+            blocks.append(Block(kind.floor, mass=kind.mass, mu_s=mu_s, mu_k=mu_k, stops=stops))
         collapse = (
             None
             if self.heights is None or self.collapse_drift_ratio is None
             else (self.collapse_drift_ratio * self.heights)
         )
-        return Scene(self.structure(target), blocks, collapse_drift=collapse, name=self.name, note=self.note)
+        building = self.structure(target)
+        return Scene(building, blocks, racks=racks, collapse_drift=collapse, name=self.name, note=self.note)

@@ -23,7 +23,7 @@ from seismass.spectra import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 4
+SCHEMA_VERSION: Final = 5
 """Version of the tables and of the JSON of an assessment."""
 
 
@@ -71,6 +71,8 @@ class Assessment(Result):
         Slip demand by friction and floor; see `seismass.assessment.tables.slip_table`.
     runs : polars.DataFrame
         Peaks of every run by storey; see `seismass.assessment.models.solve_models`.
+    slips : polars.DataFrame
+        Slips of every run by kind of goods; see there.
     collapses : dict of str to int
         Collapsed runs of each model.
     scaling : ScalingResult or None
@@ -97,6 +99,7 @@ class Assessment(Result):
     storeys: pl.DataFrame = field(repr=False)
     governing: pl.DataFrame = field(repr=False)
     slip: pl.DataFrame = field(repr=False)
+    slips: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
     collapses: dict[str, int]
     scaling: ScalingResult | None = field(repr=False)
@@ -130,13 +133,14 @@ class Assessment(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """The tables by name: storeys, governing, masses, slip, runs, checks; curve and scaling where known."""
+        """The tables by name: storeys, governing, masses, slip, runs, slips, checks; curve and scaling where known."""
         tables = {
             "storeys": self.storeys,
             "governing": self.governing,
             "masses": floor_masses(self.answer, self.building),
             "slip": self.slip,
             "runs": self.runs,
+            "slips": self.slips,
             "checks": checks_table(self.building, self.storeys, self.collapses),
         }
         curves = [
@@ -216,6 +220,7 @@ class Assessment(Result):
             "analyses": [asdict(one) for one in answer.analyses],
             "pair": list(answer.pair),
             "governs": list(answer.governs),
+            "goods": answer.goods,
             "why": answer.why,
             "design": answer.design,
             "share_matters": answer.matters,

@@ -13,18 +13,19 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
-from seismass.assessment.answer import answer_of, deciding, rounded_up
+from seismass.assessment.answer import answer_of, deciding
 from seismass.assessment.building_file import read_building
 from seismass.assessment.doubts import doubts_of
 from seismass.assessment.governing import governing_table
-from seismass.assessment.models import compared_models, friction_factors, solve_models
+from seismass.assessment.models import REAL, compared_models, friction_factors, solve_models
 from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.period import period_sentences
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
-from seismass.assessment.tables import collapses_of, few_collapses, slip_table, storey_table
+from seismass.assessment.shares import DESIGN_SHARES, SHARES, advised_share, design_share, fractions_by_friction
+from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
-from seismass.effective_mass import EffectiveMass, effective_mass, effective_mass_of_design
-from seismass.model.building import Building
+from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.model.scene import Scene
@@ -35,10 +36,6 @@ from seismass.spectra import TargetSpectrum
 
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
-DESIGN_SHARES: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which that of a design of strengths is looked for before its root is refined; each takes two models."""
-SHARES: Final = 101
-"""Shares at which each effective fraction is looked for."""
 
 Progress = Callable[[int, int], object]
 
@@ -120,32 +117,35 @@ def assess(
     loaded = bool((chosen.goods > 0.0).any())
     frictions = friction_factors(chosen) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
+    fractions = len(frictions) + SHARES if loaded else 0
     designs = 2 * len(DESIGN_SHARES) if loaded and chosen.design is not None else 0
-    stages = _Stages(progress, (models + len(frictions) * (1 + SHARES) + designs) * len(suite))
+    larger = len(SHARES_BEYOND) if loaded and goes_beyond(chosen.scene(spectrum)) else 0
+    stages = _Stages(progress, (models + fractions + larger + designs) * len(suite))
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
-    effective = {
-        name: _effective(chosen.scene(spectrum, mu_factor=factor), scaled, bootstrap, threads, stages)
-        for name, factor in frictions.items()
-    }
+    effective = fractions_by_friction(
+        chosen, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
+    )
     advised = advised_share(effective)
     design = None
     if designs and advised is not None:
         factor = frictions[deciding(effective)]
-        design = _design_share(chosen, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
+        design = design_share(chosen, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
     scenes = compared_models(chosen, spectrum, advised)
     names = [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(suite, start=1)]
     kernel_motions = [getattr(motion, "motion", motion) for motion in scaled]
-    runs = solve_models(
+    runs, slips = solve_models(
         chosen, scenes, kernel_motions, names, threads=threads, progress=stages.next(models * len(suite))
     )
     real = chosen.scene(spectrum)
-    storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, runs), collapses_of(runs)
+    storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, slips), collapses_of(runs)
     governing = governing_table(chosen, storeys)
     about = {
         "name": suite.name if isinstance(suite, Suite) else "motions",
         "motions": names,
         "synthetic": sum(bool(getattr(motion, "synthetic", False)) for motion in suite),
     }
+    yields = effective[REAL].by_hand.yields if effective else None
+    period = period_sentences(chosen, spectrum, scaled, yields)
     doubts = doubts_of(chosen, real, scaled, spectrum, storeys)
     answer = answer_of(chosen, advised, effective, design, storeys, governing, collapses, about, scaling, doubts)
     return Assessment(
@@ -153,17 +153,18 @@ def assess(
         target=spectrum,
         answer=answer,
         effective=effective,
-        design=design,
+        design=None if design is None else design.found,
         storeys=storeys,
         governing=governing,
         slip=slip,
+        slips=slips,
         runs=runs,
         collapses=collapses,
         scaling=scaling,
         suite=about,
-        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite)),
+        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL)),
         remarks=remarks_of(chosen, doubts, scaling, effective, about),
-        assumptions=assumptions_of(chosen, spectrum, scaling, about),
+        assumptions=assumptions_of(chosen, spectrum, scaling, about, period),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
@@ -174,33 +175,6 @@ def assess(
             "p_delta": chosen.gravity_load is not None,
             "motions": len(suite),
         },
-    )
-
-
-def advised_share(effective: dict[str, EffectiveMass]) -> float | None:
-    """Return the largest effective fraction, rounded up to 0.05; None without goods, or where many runs collapse."""
-    many = (not few_collapses(each.collapses["real"], each.records.height) for each in effective.values())
-    if not effective or any(many):
-        return None
-    return rounded_up(effective[deciding(effective)].value)
-
-
-def _design_share(
-    building: OwnBuilding,
-    target: TargetSpectrum | None,
-    factor: float,
-    motions: list[Any],
-    threads: int | None,
-    progress: Progress | None,
-) -> EffectiveMass:
-    """Share that goes into the design of the strengths and is attached, at one friction; no bootstrap."""
-
-    def designed(share: float) -> Building:
-        return building.structure(target, share * building.goods)
-
-    blocks = building.scene(target, mu_factor=factor).blocks
-    return effective_mass_of_design(
-        designed, blocks, motions, fractions=DESIGN_SHARES, resamples=1, threads=threads, progress=progress
     )
 
 
@@ -244,18 +218,7 @@ def _scaling(
     elif period is not None:
         chosen = as_number(period, "scaling_period", "assessment", InvalidOption)
     assert target is not None
-    return scale_asce7_10(suite, target, chosen, threads=threads)
-
-
-def _effective(
-    scene: Scene, motions: list[Any], bootstrap: dict[str, Any], threads: int | None, stages: _Stages
-) -> EffectiveMass:
-    """Effective fraction by the mean; by the median, where the real building collapses under some motion."""
-    runs = (1 + SHARES) * len(motions)
-    result = effective_mass(scene, motions, **bootstrap, threads=threads, progress=stages.next(runs))
-    if result.kind == "collapsed":
-        return effective_mass(scene, motions, **bootstrap, statistic="median", threads=threads)
-    return result
+    return scale_asce7_10(suite, target, chosen, between=False, threads=threads)
 
 
 class _Stages:
@@ -298,7 +261,13 @@ def _digest(
         arrays = (structure.mass, *springs, structure.damping_matrix, scene.geometric_stiffness)
         for array in (*arrays, structure.heights, scene.collapse_drift, scene.block_mass):
             digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
-        digest.update(np.array([[block.mu_s, block.mu_k] for block in scene.blocks], dtype="<f8").tobytes())
+        blocks = [[block.floor, block.mu_s, block.mu_k] for block in scene.blocks]
+        digest.update(np.array(blocks, dtype="<f8").tobytes())
+        stops = [block.stop_numbers for block in scene.blocks]
+        if scene.racks or any(stops) or structure.stiffness_matrix is not None:
+            matrix = structure.stiffness_matrix
+            digest.update(b"" if matrix is None else np.ascontiguousarray(matrix, dtype="<f8").tobytes())
+            digest.update(repr((stops, *(sorted(rack._arguments().items()) for rack in scene.racks))).encode())
     for motion in motions:
         digest.update(np.float64(motion.dt).tobytes())
         digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())

@@ -60,7 +60,7 @@ def gravity_of_storeys(building: OwnBuilding, scene: Scene) -> FloatArray:
     """Return the gravity load P above each storey (N), goods included, shape (storeys,)."""
     if building.heights is not None and scene.geometric_stiffness.any():
         return scene.geometric_stiffness * building.heights
-    return np.cumsum((STANDARD_GRAVITY * (building.mass + building.goods))[::-1])[::-1]
+    return np.cumsum((STANDARD_GRAVITY * (building.mass + building.frames + building.goods))[::-1])[::-1]
 
 
 def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.DataFrame:
@@ -82,7 +82,8 @@ def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.D
         and max of the peak drift over the motions (null where a collapsed run decides it; of the mean see
         `drift_statistics`); limit, mean_over_limit and
         motions_above_limit (null without heights); collapsed, the number of runs; mean_peak_shear (N); theta, P d/(V h)
-        with the mean peak drift d and the mean peak storey shear V; theta_elastic = P/(k h); theta_limit.
+        with the mean peak drift d and the mean peak storey shear V; theta_elastic = P/(k h); theta_limit. Beside walls,
+        which carry the storeys too, there is no theta of a storey: both are null.
     """
     heights = building.heights
     gravity, rows = gravity_of_storeys(building, real), []
@@ -96,7 +97,11 @@ def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.D
             shears = of["peak_storey_shear"].to_numpy()[~collapsed]
             shear = float(shears.mean()) if known["mean"] is not None else None
             mean, load = known["mean"], float(gravity[storey - 1])
-            elastic = None if heights is None else load / float(building.stiffness[storey - 1] * heights[storey - 1])
+            alone = building.walls is None
+            elastic = None
+            if heights is not None and alone:
+                elastic = load / float(building.stiffness[storey - 1] * heights[storey - 1])
+            has_theta = heights is not None and alone and mean is not None and bool(shear)
             rows.append(
                 {
                     "model": model,
@@ -110,7 +115,7 @@ def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.D
                     "collapsed": int(collapsed.sum()),
                     "mean_peak_shear": shear,
                     # With drift ratios the height is in the drift already.
-                    "theta": None if heights is None or mean is None or not shear else load * mean / shear,
+                    "theta": load * mean / shear if has_theta and mean is not None and shear else None,
                     "theta_elastic": elastic,
                     "theta_limit": None if heights is None else building.theta_limit,
                 }
@@ -121,21 +126,29 @@ def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.D
     return pl.DataFrame(rows, schema_overrides=schema)
 
 
-def slip_table(building: OwnBuilding, runs: pl.DataFrame) -> pl.DataFrame:
-    """Return one row per friction and loaded floor.
+def slip_table(building: OwnBuilding, slips: pl.DataFrame) -> pl.DataFrame:
+    """Return one row per friction and kind of loose goods that is present, and level of its rack.
+
+    Parameters
+    ----------
+    building : OwnBuilding
+        The building.
+    slips : polars.DataFrame
+        Of `solve_models`.
 
     Returns
     -------
     polars.DataFrame
-        model; friction ("as stated", "lower bound", "upper bound"); floor, name, contact, mu_s, mu_k; motions that
-        slide; mean, p16, median, p84 and max of the peak slip, and mean, median and p84 of the absolute residual slip
-        (m); collapsed, the number of runs, whose slips are those until then.
+        model; friction ("as stated", "lower bound", "upper bound"); floor, name, goods, contact, mu_s, mu_k; motions
+        that slide; mean, p16, median, p84 and max of the peak slip, and mean, median and p84 of the absolute residual
+        slip (m); collapsed, the number of runs, whose slips are those until then.
     """
     words = dict(zip(REALS, ("as stated", "lower bound", "upper bound"), strict=True))
     rows = []
     for model, factor in friction_factors(building).items():
-        for floor in np.flatnonzero(building.goods > 0.0) + 1:
-            of = runs.filter((pl.col("model") == model) & (pl.col("storey") == floor))
+        for number, level in sorted(building.sliding):
+            kind = building.loose[number]
+            of = slips.filter((pl.col("model") == model) & (pl.col("kind") == number) & (pl.col("level") == level))
             if of.height == 0:
                 continue
             peak, residual = of["peak_slip"].to_numpy(), np.abs(of["residual_slip"].to_numpy())
@@ -144,11 +157,12 @@ def slip_table(building: OwnBuilding, runs: pl.DataFrame) -> pl.DataFrame:
                 {
                     "model": model,
                     "friction": words[model],
-                    "floor": int(floor),
-                    "name": building.storey_names[floor - 1],
-                    "contact": building.friction[floor - 1],
-                    "mu_s": factor * float(building.mu_s[floor - 1]),
-                    "mu_k": factor * float(building.mu_k[floor - 1]),
+                    "floor": kind.floor,
+                    "name": building.storey_names[kind.floor - 1],
+                    "goods": ", ".join(part for part in (kind.name, f"level {level}" * (level > 0)) if part),
+                    "contact": kind.contact,
+                    "mu_s": factor * kind.mu_s,
+                    "mu_k": factor * kind.mu_k,
                     "motions_that_slide": int((peak > 0.0).sum()),
                     **{f"peak_{name}": value for name, value in statistics_of(peak).items()},
                     **{f"residual_{name}": left[name] for name in ("mean", "median", "p84")},
@@ -157,7 +171,7 @@ def slip_table(building: OwnBuilding, runs: pl.DataFrame) -> pl.DataFrame:
             )
     numbers = [f"peak_{name}" for name in ("mean", *QUANTILES, "max")]
     numbers += [f"residual_{name}" for name in ("mean", "median", "p84")]
-    texts = ("model", "friction", "name", "contact")
+    texts = ("model", "friction", "name", "goods", "contact")
     schema: dict[str, Any] = {
         **dict.fromkeys(texts[:2], pl.String),
         "floor": pl.UInt32,

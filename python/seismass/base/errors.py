@@ -6,6 +6,7 @@ Messages have one form: *parameter* of *what* must be *what*; got *value*.
 from __future__ import annotations
 
 __all__ = [
+    "DoubtfulInput",
     "InvalidBuildingFile",
     "InvalidCampaignFile",
     "InvalidMotion",
@@ -62,3 +63,7 @@ class MissingPackage(SeismassError, ImportError):
 
 class SimulationError(SeismassError, RuntimeError):
     """A run that could not be carried to its end; carries the time and the storey or block concerned in its message."""
+
+
+class DoubtfulInput(UserWarning):
+    """A warning: an input that is valid, but so unlikely that a wrong unit is the usual cause."""

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from seismass.base.errors import InvalidCampaignFile
+from seismass.base.input_kinds import CAMPAIGN_FILE, refuse_other_kind
 from seismass.base.input_table import Table, load_table
 from seismass.base.values import as_path, brief
 from seismass.campaign.folder import Campaign
@@ -72,6 +73,7 @@ def read_campaign(source: str | os.PathLike[str] | Mapping[str, Any]) -> Campaig
     else:
         path = as_path(source, "campaign file", InvalidCampaignFile)
         folder, top = path.parent, load_table(path, "campaign file", InvalidCampaignFile)
+    refuse_other_kind(top, CAMPAIGN_FILE)
     top.known(KEYS[""])
     top.text("note")
     top.needed("grid")

@@ -1,10 +1,11 @@
-"""`seismass animate SCENE`: a building with goods that slide beside the model of a code, as a page, a GIF or a film."""
+"""`seismass animate FILE`: a building with goods that slide beside the model of a code, as a page, a GIF or a film."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from seismass.base.errors import InvalidOption
 from seismass.commands.command import Command
@@ -12,15 +13,23 @@ from seismass.commands.options import (
     add_code_options,
     add_code_share_option,
     add_out_option,
+    add_records_options,
     check_files,
     positive_option,
+    read_motions,
+    read_site,
+    refuse_given,
 )
+from seismass.commands.scene_or_building import add_site_options, is_building_file
+
+if TYPE_CHECKING:
+    from seismass.model.scene import Scene
 
 
 def options(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
     what = parser.add_mutually_exclusive_group(required=True)
-    what.add_argument("scene", type=Path, nargs="?", metavar="SCENE", help="scene file, .toml or .json")
+    what.add_argument("scene", type=Path, nargs="?", metavar="FILE", help="scene or building file, .toml or .json")
     what.add_argument("--example", action="store_true", help="the built-in example: three storeys of storage")
     where = "file to write, .html, .gif or .mp4 (the name of the scene file with .html, in this folder)"
     add_out_option(parser, "FILE", where)
@@ -30,44 +39,79 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--fps", type=positive_option, metavar="N", help="frames per second of a GIF (12.5) or film (25)"
     )
     parser.add_argument("--speed", type=positive_option, default=1.0, metavar="X", help="speed of a GIF or film (1)")
+    motions = parser.add_argument_group("motions of a building file, scaled to its site; one of them is shown")
+    add_records_options(motions)
+    add_site_options(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """Write the animation; return the exit code."""
     from seismass.animation import animate
-    from seismass.runs.scene_file import example_scene, read_scene
+    from seismass.runs.scene_file import example_scene
 
     if args.code_share is not None and (args.code is not None or args.use is not None):
         raise InvalidOption("--code-share of animate must be left out with --code or --use; got both")
     scene: Path = example_scene() if args.example else args.scene
     target = args.out or Path(scene.name).with_suffix(".html")
     check_files(target)
-    file = read_scene(scene)
-    for remark in file.remarks:
+    shown = _of_building(args, scene) if is_building_file(scene) else _of_scene(args, scene)
+    for remark in shown.remarks:
         print(f"seismass: {remark}", file=sys.stderr)
     chosen = {"code": args.code, "use": args.use, "fraction": args.code_share}
-    note = ", ".join(part for part in (file.note, *(record.name for record in file.records[:1])) if part)
-    animation = animate(
-        file.scene,
-        file.motion,
-        title=file.name or scene.stem,
-        note=note,
-        **{name: value for name, value in chosen.items() if value is not None},
-    )
+    given = shown.options | {name: value for name, value in chosen.items() if value is not None}
+    animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
     print("\n".join(animation.shown.sentences))
     print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
     return 0
 
 
+class _Shown(NamedTuple):
+    """What of a file is animated; `options` are those of `animate` that the file states."""
+
+    scene: Scene
+    motion: Any
+    title: str
+    note: str
+    remarks: tuple[str, ...]
+    options: dict[str, Any]
+
+
+def _of_scene(args: argparse.Namespace, path: Path) -> _Shown:
+    from seismass.runs.scene_file import read_scene
+
+    refuse_given(args, ("records", "suite", "target", "sds", "sd1", "tl"), "animate", "with a scene file")
+    file = read_scene(path)
+    note = ", ".join(part for part in (file.note, *(record.name for record in file.records[:1])) if part)
+    return _Shown(file.scene, file.motion, file.name or path.stem, note, file.remarks, {})
+
+
+def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
+    """A building file, under the motion of `shown_motion`, beside the model with its code's share of the load."""
+    from seismass.assessment.building_file import read_building
+    from seismass.assessment.shown_motion import shown_motion
+
+    building = read_building(path)
+    suite = read_motions(args)
+    found = shown_motion(building, suite, read_site(args, "animate"))
+    note = (
+        f"{found.motion.name} x {found.factor:.3g}, motion {found.number} of {len(suite)}, that with the median "
+        "drift of those under which goods slide"
+    )
+    share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
+    options = {} if args.code is not None or args.use is not None else {"fraction": min(1.0, share)}
+    return _Shown(found.scene, found.motion, building.name, note, found.scene.remarks, options)
+
+
 COMMAND = Command(
     description=(
-        "Animate a scene file: the building sways and its goods slide, beside the model of a code, which "
-        "has a share of them attached as mass, above the histories of record, drift and slip."
+        "Animate a scene file or a building file: the building sways and its goods slide, beside the model of a code, "
+        "which has a share of them attached as mass, above the histories of record, drift and slip."
     ),
     examples="""
 animate --example
 animate scene.toml
+animate warehouse.toml
 animate scene.toml --code ec8 --out scene.gif
 animate scene.toml --code-share 0.5 --out scene.mp4 --speed 0.5
 """,

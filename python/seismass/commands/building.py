@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.command import Command
@@ -18,12 +17,9 @@ from seismass.commands.options import (
     numbers_option,
     read_code,
     read_motions,
-    read_target,
+    read_site,
 )
 from seismass.commands.progress import progress
-
-if TYPE_CHECKING:
-    from seismass.spectra import TargetSpectrum
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -33,6 +29,9 @@ def options(parser: argparse.ArgumentParser) -> None:
     what.add_argument("--example", action="store_true", help="print a building file to start from, and stop")
     what.add_argument("--codes", action="store_true", help="print the codes and their fractions, and stop")
     what.add_argument("--frictions", action="store_true", help="print the contacts and their friction, and stop")
+    what.add_argument(
+        "--occupancies", action="store_true", help="print what surveys find on floors, over design loads, and stop"
+    )
     motions = parser.add_argument_group("motions and site, in place of the file's")
     add_records_options(motions)
     add_target_options(motions, stand_in=False)
@@ -54,7 +53,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Assess the building, write its files and print the page; return the exit code."""
-    if args.example or args.codes or args.frictions:
+    if args.example or args.codes or args.frictions or args.occupancies:
         print(_listing(args), end="")
         return 0
     from seismass.assessment import assess
@@ -65,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
     args.out = args.out or Path(args.file.stem)
     check_out(args.out, "assessment")
     building = read_building(args.file)
-    code, target = read_code(args, "building"), _target(args)
+    code, target = read_code(args, "building"), read_site(args, "building")
     suite = read_motions(args)
     with progress() as tell:
         result = assess(
@@ -86,60 +85,15 @@ def run(args: argparse.Namespace) -> int:
 
 def _listing(args: argparse.Namespace) -> str:
     """Return the example file, or the requested table."""
-    from seismass.media.text_table import text_table
-
     if args.example:
         from seismass.assessment.building_file import example_file
 
         return example_file().read_text(encoding="utf-8")
+    from seismass.commands.listings import codes_listing, frictions_listing, occupancies_listing
+
     if args.codes:
-        from seismass.model.codes import MARK, code_legend, code_table
-
-        rows = [["id", "use", "fraction", "clause", "status", "code"]]
-        for row in code_table().iter_rows(named=True):
-            fraction = f"{row['low']:g} to {row['high']:g}" if row["low"] < row["high"] else f"{row['fraction']:g}"
-            rows.append(
-                [
-                    row["code_id"],
-                    row["use"],
-                    fraction,
-                    row["clause"],
-                    row["status"],
-                    row["code"] + MARK * (not row["checked"]),
-                ]
-            )
-    else:
-        from seismass.model.friction import friction_table
-
-        rows = [["id", "mu_s", "mu_k", "contact", "source"]]
-        for row in friction_table().iter_rows(named=True):
-            source = f"{row['source']} ({row['kind']})"
-            rows.append([row["pair_id"], f"{row['mu_s']:g}", f"{row['mu_k']:.4g}", row["contact"], source])
-    lines = text_table(rows, left=len(rows[0]), indent=0)
-    return "\n".join([*lines, *([f"\n{code_legend()}"] if args.codes else [])]) + "\n"
-
-
-def _target(args: argparse.Namespace) -> TargetSpectrum | None:
-    """The site spectrum that the options describe; None where they describe none.
-
-    Raises
-    ------
-    InvalidOption
-        One of S_DS and S_D1 is given without the other, or a CSV beside them.
-    """
-    from seismass.base.errors import InvalidOption
-
-    if args.target is None:
-        if args.sds is args.sd1 is args.tl is None:
-            return None
-        if args.sds is None or args.sd1 is None:
-            given = (
-                "--sds" if args.sd1 is None and args.sds is not None else "--sd1" if args.sd1 is not None else "--tl"
-            )
-            raise InvalidOption(
-                f"site spectrum of building must be given by --sds and --sd1 together; got {given} alone"
-            )
-    return read_target(args)
+        return codes_listing()
+    return occupancies_listing() if args.occupancies else frictions_listing()
 
 
 COMMAND = Command(
@@ -153,10 +107,12 @@ building --example > warehouse.toml
 building warehouse.toml
 building warehouse.toml --records my_records/ --out warehouse
 building warehouse.toml --opensees warehouse_models
-building warehouse.toml --sds 0.8 --sd1 0.5 --code ec8
+building warehouse.toml --sds 0.8 --sd1 0.5
+building warehouse.toml --target ec8:1:C:0.3 --code ec8
 building warehouse.toml --mu-factors 1 1 --json > answer.json
 building --codes
 building --frictions
+building --occupancies
 """,
     options=options,
     run=run,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import give_answer
@@ -17,12 +16,21 @@ from seismass.commands.options import (
     numbers_option,
     positive_option,
     read_motions,
+    read_site,
     refuse_given,
 )
 from seismass.commands.progress import progress
-from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, read_scene_or_building
+from seismass.commands.scene_or_building import (
+    DEFAULT_LIMIT,
+    add_file_argument,
+    add_site_options,
+    doubts_of_input,
+    read_scene_or_building,
+    with_doubts,
+)
 
 if TYPE_CHECKING:
+    from seismass.assessment.own_building import OwnBuilding
     from seismass.model.scene import Scene
 
 
@@ -49,6 +57,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     method.add_argument("--highest", type=positive_option, metavar="X", help="largest intensity of a hunt")
     method.add_argument("--tolerance", type=positive_option, metavar="R", help="relative width of capacities (0.001)")
     add_records_options(parser.add_argument_group("motions, as they are"))
+    add_site_options(parser)
     add_answer_options(parser, seed=True)
 
 
@@ -63,8 +72,11 @@ def run(args: argparse.Namespace) -> int:
         refuse_given(args, ("highest", "tolerance"), "fragility", f"where --method is {args.method}")
     if args.method == "cloud":
         refuse_given(args, ("intensity",), "fragility", "where --method is cloud")
-    models, rule, drift_limit = models_of(args.file, args.code_share)
+    target = read_site(args, "fragility")
+    read = read_scene_or_building(args.file, target, only_site="fragility")
+    models, rule, drift_limit = models_of(*read, args.code_share)
     limits = [parse_limit(text) for text in args.limit or [drift_limit]]
+    doubts = doubts_of_input(*read, target, ((limit.quantity, limit.value) for limit in limits))
     suite = read_motions(args)
     common: dict[str, Any] = {"measure": args.measure, "period": args.measure_period, "at": args.at or ()}
     common |= {"seed": args.seed, "threads": args.jobs}
@@ -84,13 +96,16 @@ def run(args: argparse.Namespace) -> int:
                 **common,
                 progress=tell,
             )
-    head = f"suite     {suite.name}\ncode      {rule}\n"
+    result, doubtful = with_doubts(result, doubts)
+    head = f"{doubtful}suite     {suite.name}\ncode      {rule}\n"
     give_answer(args, result, suite, head=head, indent=10, answer="  where code says")
     return 0
 
 
-def models_of(path: Path, code_share: float | None) -> tuple[dict[str, Scene], str, str]:
-    """Return the models of a scene file or a building file, what the code's has attached, and the limit by default.
+def models_of(
+    scene: Scene, building: OwnBuilding | None, code_share: float | None
+) -> tuple[dict[str, Scene], str, str]:
+    """Return the models of a scene or a building, what the code's has attached, and the limit by default.
 
     The code's model of a building file has its code's fraction of the design live load, whatever is present.
     """
@@ -98,16 +113,15 @@ def models_of(path: Path, code_share: float | None) -> tuple[dict[str, Scene], s
     from seismass.fragility import compared_models
     from seismass.fragility.models import CODE, DEFAULT_CODE_SHARE, REAL
 
-    scene, building = read_scene_or_building(path)
     share = DEFAULT_CODE_SHARE if code_share is None else code_share
     rule = f"{100.0 * share:g} % of the goods attached as mass"
     models = compared_models(scene, share)
     if building is None:
         return models, rule, DEFAULT_LIMIT
     if code_share is None:
-        models[CODE] = with_mass(models[REAL], building.code.fraction * building.live_load)
+        models[CODE] = with_mass(models[REAL], building.code_mass)
         code = building.code
-        rule = f"{code.code}, {code.use}: {100.0 * code.fraction:g} % of the design live load attached as mass"
+        rule = f"{code.code}, {code.use}: {100.0 * building.code_share:.3g} % of the design live load attached as mass"
     return models, rule, f"drift_ratio={building.drift_limit:g}"
 
 
@@ -118,6 +132,7 @@ COMMAND = Command(
     ),
     examples="""
 fragility warehouse.toml
+fragility warehouse.toml --target ec8:1:C:0.3
 fragility scene.toml --records my_records/ --limit drift_ratio=0.02 --limit slip=0.1 --limit collapse
 fragility scene.toml --measure sa_avg --code-share 0.8 --at 0.5,1,1.5 --out fragility
 fragility scene.toml --method stripes --intensity 0.2,0.4,0.6,0.8,1,1.2 --limit drift@1=0.05

@@ -219,6 +219,29 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
     return TargetSpectrum.asce7(sds, sd1, tl)
 
 
+def read_site(args: argparse.Namespace, command: str) -> TargetSpectrum | None:
+    """Return the site spectrum that the options describe, to stand for a file's; None where they describe none.
+
+    Raises
+    ------
+    InvalidOption
+        One of S_DS and S_D1 is given without the other, or as for `read_target`.
+    """
+    from seismass.base.errors import InvalidOption
+
+    if args.target is None:
+        if args.sds is args.sd1 is args.tl is None:
+            return None
+        if args.sds is None or args.sd1 is None:
+            given = (
+                "--sds" if args.sd1 is None and args.sds is not None else "--sd1" if args.sd1 is not None else "--tl"
+            )
+            raise InvalidOption(
+                f"site spectrum of {command} must be given by --sds and --sd1 together; got {given} alone"
+            )
+    return read_target(args)
+
+
 def add_code_options(group: argparse._ActionsContainer) -> None:
     """Add --code and --use, which `read_code` reads."""
     from seismass.model.codes import Use

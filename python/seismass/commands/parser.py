@@ -12,12 +12,14 @@ from seismass.commands.help_text import HelpText, grouped
 
 COMMANDS: Final = {
     "building": ("building", "your own building: how much of its live load to count as mass"),
+    "new": ("new", "a building file from questions, from options, or from another program's storey table"),
     "slip": ("slip", "how far goods slide, to which edge or wall, and whether they slide or rock"),
     "fragility": ("fragility", "what a code's model makes of the probability of exceeding a limit"),
     "risk": ("risk", "the share of the live load that keeps the annual rate of exceeding a drift limit"),
     "explore": ("explore", "the live page: a building with sliding goods, solved while sliders move"),
     "records": ("records", "what record files hold; the paper's seven records in a folder"),
     "spectrum": ("spectrum", "response spectra of records, as CSV"),
+    "target": ("target", "a target spectrum of a code, a suite or a building file, as CSV"),
     "scale": ("scale", "scale a suite to a target spectrum"),
     "match": ("match", "match records to a target spectrum"),
     "pulse": ("pulse", "velocity pulses of near-fault records"),
@@ -33,8 +35,8 @@ COMMANDS: Final = {
 """Subcommands: the module in seismass.commands, which is imported when it is needed, and what --help says of it."""
 
 GROUPS: Final = {
-    "my building": ("building", "slip", "fragility", "risk", "explore"),
-    "motions": ("records", "spectrum", "scale", "match", "pulse"),
+    "my building": ("new", "building", "slip", "fragility", "risk", "explore"),
+    "motions": ("records", "spectrum", "target", "scale", "match", "pulse"),
     "research": ("map", "campaign", "run", "animate"),
     "the paper": ("study", "validate", "report"),
     "shell": ("completion",),

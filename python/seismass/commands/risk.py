@@ -17,9 +17,17 @@ from seismass.commands.options import (
     numbers_option,
     positive_option,
     read_motions,
+    read_site,
 )
 from seismass.commands.progress import progress
-from seismass.commands.scene_or_building import DEFAULT_LIMIT, add_file_argument, read_scene_or_building
+from seismass.commands.scene_or_building import (
+    DEFAULT_LIMIT,
+    add_file_argument,
+    add_site_options,
+    doubts_of_input,
+    read_scene_or_building,
+    with_doubts,
+)
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -56,6 +64,7 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--design-rate", type=positive_option, metavar="R", help="annual rate of the design intensity (1/475)"
     )
     add_records_options(parser.add_argument_group("motions, as they are"))
+    add_site_options(parser)
     add_answer_options(parser, seed=True)
 
 
@@ -70,12 +79,15 @@ def run(args: argparse.Namespace) -> int:
         check_out(args.out, "risk")
     hazard = HazardCurve.from_csv(args.hazard, period=args.hazard_period)
     drift_limit, code_share = DEFAULT_LIMIT, args.code_share
-    scene, building = read_scene_or_building(args.file)
+    target = read_site(args, "risk")
+    scene, building = read_scene_or_building(args.file, target, only_site="risk")
     if building is not None:
         drift_limit = f"drift_ratio={building.drift_limit:g}"
         if code_share is None and building.present_share > 0.0:
-            code_share = min(1.0, building.code.fraction / building.present_share)
+            code_share = min(1.0, building.code_share / building.present_share)
     suite = read_motions(args)
+    limit = parse_limit(args.limit or drift_limit)
+    doubts = doubts_of_input(scene, building, target, [(limit.quantity, limit.value)])
     given = {"code_share": code_share, "design_rate": args.design_rate}
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     with progress() as tell:
@@ -83,7 +95,7 @@ def run(args: argparse.Namespace) -> int:
             scene,
             suite,
             hazard,
-            parse_limit(args.limit or drift_limit),
+            limit,
             measure=args.measure,
             period=args.measure_period,
             shares=args.share,
@@ -95,7 +107,8 @@ def run(args: argparse.Namespace) -> int:
             progress=tell,
             **chosen,
         )
-    head = f"suite                {suite.name}\n"
+    result, doubtful = with_doubts(result, doubts)
+    head = f"{doubtful}suite                {suite.name}\n"
     give_answer(args, result, suite, head=head, indent=21, answer="risk-targeted share")
     return 0
 
@@ -110,6 +123,7 @@ COMMAND = Command(
 risk scene.toml --hazard hazard.csv
 risk scene.toml --hazard hazard.csv --hazard-period 0.5 --limit drift_ratio=0.02 --records recordings/
 risk scene.toml --hazard hazard.csv --code-share 0.8 --other-limit 0.005,0.01,0.03 --out risk
+risk warehouse.toml --hazard hazard.csv --target ec8:1:C:0.3
 risk warehouse.toml --hazard hazard.csv --estimator empirical --extrapolate --json
 """,
     options=options,

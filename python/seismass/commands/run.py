@@ -15,9 +15,11 @@ from seismass.commands.command import Command
 from seismass.commands.options import add_json_option, add_opensees_option, add_out_option, check_files
 from seismass.commands.terminal import show
 from seismass.runs.opensees_export import write_opensees
+from seismass.runs.plane_response import PlaneResponse
 from seismass.runs.response import Response
 from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
 from seismass.runs.simulate import simulate
+from seismass.show.plane_text import plane_run_text
 from seismass.show.response_text import run_text
 
 _HISTORY_SUFFIXES = (".parquet", ".csv")
@@ -29,7 +31,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("scene", type=Path, nargs="?", metavar="SCENE", help="scene file, .toml or .json")
     what.add_argument("--example", action="store_true", help="print a scene file to start from, and stop")
-    histories = "write time, drift of every storey and slip of every block at every sample (.parquet or .csv)"
+    histories = "write time, drift of storeys and rack levels, slip of blocks at every sample (.parquet or .csv)"
     add_out_option(parser, "FILE", histories)
     add_json_option(parser)
     add_opensees_option(parser, "the scene")
@@ -45,6 +47,8 @@ def run(args: argparse.Namespace) -> int:
         print(example_scene().read_text(encoding="utf-8"), end="")
         return 0
     file = read_scene(args.scene)
+    if file.other_motion is not None:
+        return _run_plane(args, file)
     if args.opensees is not None:
         write_opensees(args.opensees, {"scene": file.scene}, [file.motion])
     response = simulate(file.scene, file.motion, histories=args.out is not None, displacements_only=True, energy=True)
@@ -58,16 +62,35 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _write_histories(response: Response, path: Path) -> None:
+def _run_plane(args: argparse.Namespace, file: SceneFile) -> int:
+    """Solve a scene in two directions and print it."""
+    pair = (file.motion, file.other_motion or file.motion)
+    response = simulate(file.scene, pair, histories=args.out is not None, displacements_only=True, energy=True)
+    if args.out is not None:
+        _write_histories(response, args.out)
+    if args.json:
+        print(json.dumps(as_json(file, response), indent=2, allow_nan=False))
+    else:
+        show(plane_run_text(response, title=file.name or file.path.stem))
+    return 0
+
+
+def _write_histories(response: Response | PlaneResponse, path: Path) -> None:
     columns: dict[str, Any] = {"time": response.time}
-    for name, history in (("drift", response.drift), ("slip", response.slip)):
-        columns |= {f"{name}_{number}": history[:, number - 1] for number in range(1, history.shape[1] + 1)}
+    histories = {"drift": response.drift, "slip": response.slip}
+    if isinstance(response, Response):
+        histories |= {f"rack_{number}_drift": drift for number, drift in enumerate(response.rack_drift, start=1)}
+    for name, history in histories.items():
+        for number in range(1, history.shape[1] + 1):
+            values = history[:, number - 1]
+            axes = {"": values} if values.ndim == 1 else {"_x": values[:, 0], "_y": values[:, 1]}
+            columns |= {f"{name}_{number}{axis}": column for axis, column in axes.items()}
     frame = pl.DataFrame(columns)
     with written_whole(path) as temporary:
         write_table(frame, "csv" if path.suffix.lower() == ".csv" else "parquet", temporary)
 
 
-def as_json(file: SceneFile, response: Response) -> dict[str, Any]:
+def as_json(file: SceneFile, response: Response | PlaneResponse) -> dict[str, Any]:
     """Return what `--json` prints: the response, under the name and with the remarks of the file."""
     return response.to_dict() | {"name": file.name, "remarks": list(file.remarks)}
 

@@ -24,6 +24,7 @@ from seismass.commands.options import (
     positive_count,
     positive_option,
     read_motions,
+    read_site,
     read_target,
     refuse_given,
     warn_left_out,
@@ -31,6 +32,7 @@ from seismass.commands.options import (
 from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
+    from seismass.assessment.own_building import OwnBuilding
     from seismass.model.building import Building
     from seismass.records import Pairs, Suite
     from seismass.scaling import ScalingResult, Selection
@@ -50,7 +52,7 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--building",
         type=Path,
         metavar="FILE",
-        help="building file that gives T and modes (asce7-16) or pushover (mps)",
+        help="building file that gives T and modes (asce7-16) or pushover (mps), and the target with its [site]",
     )
     method.add_argument(
         "--lowest-period", type=positive_option, metavar="S", help="period of 90 %% of the mass, s (asce7-16)"
@@ -88,10 +90,11 @@ def run(args: argparse.Namespace) -> int:
     from seismass.spectra.remarks import target_remarks
 
     _check_options(args)
-    target = read_target(args)
+    own = _own_building(args)
+    target = _target(args, own)
     suite, scaled = _motions(args)
     chosen = None
-    building = _building(args, target)
+    building = None if own is None else own.structure(target)
     period = args.period if building is None else float(building.periods[0])
     if args.select is not None:
         limits = {name: getattr(args, name) for name in ("max_per_event", "max_per_station") if getattr(args, name)}
@@ -154,12 +157,20 @@ def _check_options(args: argparse.Namespace) -> None:
     check_files(args.out)
 
 
-def _building(args: argparse.Namespace, target: TargetSpectrum) -> Building | None:
+def _own_building(args: argparse.Namespace) -> OwnBuilding | None:
     if args.building is None:
         return None
     from seismass.assessment.building_file import read_building
 
-    return read_building(args.building).structure(target)
+    return read_building(args.building)
+
+
+def _target(args: argparse.Namespace, building: OwnBuilding | None) -> TargetSpectrum:
+    """The target that options describe, else the site of the building file, else the stand-in."""
+    stated = read_site(args, "scale") if building is not None else None
+    if building is None or (stated is None and building.target is None):
+        return read_target(args)
+    return building.site_spectrum(stated)
 
 
 def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, building: Building | None) -> ScalingResult:

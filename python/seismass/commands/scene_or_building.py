@@ -1,18 +1,36 @@
-"""The file of a scene or of a building, which `ida`, `risk` and `slip` take."""
+"""The file of a scene or of a building, which `fragility`, `risk` and `slip` take, and the site of the latter."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar, cast
+
+from seismass.base.input_kinds import BUILDING_FILE, kind_of
+from seismass.commands.options import add_target_options
 
 if TYPE_CHECKING:
     from seismass.assessment.own_building import OwnBuilding
     from seismass.model.scene import Scene
+    from seismass.spectra import TargetSpectrum
 
 DEFAULT_LIMIT: Final = "drift_ratio=0.02"
 """Limit state of a scene file: the allowable drift of ASCE/SEI 7-10, table 12.12-1, other structures of risk category I
 or II."""
+
+
+class HasRemarks(Protocol):
+    """A result with remarks."""
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to know beside the numbers."""
+        ...
+
+
+Doubtable = TypeVar("Doubtable", bound=HasRemarks)
 
 
 def add_file_argument(parser: argparse.ArgumentParser) -> None:
@@ -22,10 +40,74 @@ def add_file_argument(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def read_scene_or_building(path: Path) -> tuple[Scene, OwnBuilding | None]:
+def add_site_options(parser: argparse.ArgumentParser) -> None:
+    """Add --target, --sds, --sd1 and --tl, which `read_site` reads, for strengths that a building file designs."""
+    group = parser.add_argument_group("site of a building file that designs strengths, in place of its own")
+    add_target_options(group, stand_in=False)
+
+
+def doubts_of_input(
+    scene: Scene,
+    building: OwnBuilding | None,
+    target: TargetSpectrum | None,
+    limits: Iterable[tuple[str, float]],
+    motions: Any = (),
+) -> tuple[str, ...]:
+    """Return what makes the input of a study doubtful: of a scene, its limits and motions, and of a building file.
+
+    Parameters
+    ----------
+    scene, building
+        As `read_scene_or_building` returns them.
+    target : TargetSpectrum or None
+        Site spectrum in place of the file's.
+    limits, motions
+        As for `usage_remarks`.
+    """
+    from seismass.assessment.doubts import building_doubts
+    from seismass.model.plausibility import usage_remarks
+
+    own = () if building is None else building_doubts(building, scene, building.target if target is None else target)
+    return tuple(dict.fromkeys([*own, *usage_remarks(scene.remarks, motions, limits)]))
+
+
+def with_doubts(result: Doubtable, doubts: tuple[str, ...]) -> tuple[Doubtable, str]:
+    """Return a result whose remarks begin with the doubts, and the lines that stand before its text.
+
+    Parameters
+    ----------
+    result : dataclass with remarks
+        The result.
+    doubts : tuple of str
+        Of `doubts_of_input`.
+    """
+    from seismass.assessment.answer import doubt_lines
+
+    merged: Any = replace(cast("Any", result), remarks=tuple(dict.fromkeys([*doubts, *result.remarks])))
+    return merged, "".join(f"{line}\n" for line in doubt_lines(doubts)) + "\n" * bool(doubts)
+
+
+def is_building_file(path: Path) -> bool:
+    """Whether a file has the tables of a building file."""
+    from seismass.base.errors import InvalidSceneFile
+    from seismass.base.input_table import load_table
+
+    return kind_of(load_table(path, "scene or building file", InvalidSceneFile).values) == BUILDING_FILE
+
+
+def read_scene_or_building(
+    path: Path, target: TargetSpectrum | None = None, *, only_site: str = ""
+) -> tuple[Scene, OwnBuilding | None]:
     """Return the scene of a scene file or a building file, and the building of the latter.
 
-    A building file has tables that no scene file has.
+    Parameters
+    ----------
+    path : Path
+        The file. A building file has tables that no scene file has.
+    target : TargetSpectrum, optional
+        Site spectrum of a building file, in place of its own.
+    only_site : str
+        Name of a command that needs the target as a site alone, which a scene file has not.
 
     Raises
     ------
@@ -33,14 +115,19 @@ def read_scene_or_building(path: Path) -> tuple[Scene, OwnBuilding | None]:
         It cannot be read, or as for `read_scene`.
     InvalidBuildingFile
         As for `read_building`.
+    InvalidOption
+        A site is given that nothing needs.
     """
     from seismass.assessment.building_file import read_building
-    from seismass.base.errors import InvalidSceneFile
-    from seismass.base.input_table import load_table
+    from seismass.base.errors import InvalidOption
     from seismass.runs.scene_file import scene_without_motion
 
-    found = load_table(path, "scene or building file", InvalidSceneFile).values
-    if not any(name in found for name in ("storeys", "goods", "site")):
+    if not is_building_file(path):
+        if only_site and target is not None:
+            raise InvalidOption(
+                f"--target of {only_site} must be left out with a scene file, which states its strengths; "
+                f"got {target.label}"
+            )
         return scene_without_motion(path), None
     building = read_building(path)
-    return building.scene(), building
+    return building.scene(target), building

@@ -18,11 +18,17 @@ from seismass.commands.options import (
     refuse_given,
 )
 from seismass.commands.progress import progress
-from seismass.commands.scene_or_building import add_file_argument, read_scene_or_building
+from seismass.commands.scene_or_building import (
+    add_file_argument,
+    doubts_of_input,
+    read_scene_or_building,
+    with_doubts,
+)
 
 if TYPE_CHECKING:
     from seismass.records import Suite
     from seismass.slip import Clearance
+    from seismass.spectra import TargetSpectrum
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -42,7 +48,8 @@ def options(parser: argparse.ArgumentParser) -> None:
     motions = parser.add_argument_group("motions, as they are unless a target or a factor is given")
     add_records_options(motions)
     add_target_options(motions)
-    add_period_option(motions, None, "with a target: scaled from 0.2 T to 1.5 T (1 s)")
+    period = "with a target: scaled from 0.2 T to 1.5 T (1 s; of a building file its period with the goods attached)"
+    add_period_option(motions, None, period)
     motions.add_argument("--factor", type=positive_option, metavar="F", help="factor of all motions (1)")
     add_answer_options(parser, seed=True)
 
@@ -54,11 +61,13 @@ def run(args: argparse.Namespace) -> int:
 
     if args.out is not None:
         check_out(args.out, "slip demand")
-    scene, _ = read_scene_or_building(args.file)
-    blocks = len(scene.blocks)
+    target = read_target(args) if _targeted(args) else None
+    scene, building = read_scene_or_building(args.file, target)
+    blocks = len(scene.goods)
     sizes = _per_block("size", args.size, blocks, parse_size)
     clearances = _per_block("clearance", args.clearance, blocks, parse_clearance)
-    suite, scaling, motions = _motions(args)
+    period = 1.0 if building is None else building.scaling_period or building.period(building.goods)
+    suite, scaling, motions = _motions(args, target, period)
     with progress() as tell:
         result = slip_demand(
             scene,
@@ -71,7 +80,10 @@ def run(args: argparse.Namespace) -> int:
             threads=args.jobs,
             progress=tell,
         )
-    give_answer(args, result, suite, head=f"suite       {suite.name}\nscaling     {scaling}\n\n", indent=12)
+    given = [side for each in clearances or [] if each is not None for side in (each.plus, each.minus)]
+    limits = [("clearance", side) for side in given if side is not None]
+    result, doubtful = with_doubts(result, doubts_of_input(scene, building, target, limits, motions))
+    give_answer(args, result, suite, head=f"{doubtful}suite       {suite.name}\nscaling     {scaling}\n\n", indent=12)
     return 0
 
 
@@ -123,8 +135,13 @@ def _per_block(name: str, given: list[str], blocks: int, parse: Any) -> list[Any
     return [found.get(number, found.get(0)) for number in range(1, blocks + 1)]
 
 
-def _motions(args: argparse.Namespace) -> tuple[Suite, str, list[Any]]:
-    """The suite as it is, how it is scaled, and the motions.
+def _targeted(args: argparse.Namespace) -> bool:
+    """Whether an option describes a target."""
+    return not args.target is args.sds is args.sd1 is args.tl is None
+
+
+def _motions(args: argparse.Namespace, target: TargetSpectrum | None, default: float) -> tuple[Suite, str, list[Any]]:
+    """The suite as it is, how it is scaled, and the motions; without --period to a target for T = `default` (s).
 
     Raises
     ------
@@ -134,17 +151,16 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, str, list[Any]]:
     from seismass.scaling import scale_asce7_10
 
     suite = read_motions(args)
-    targeted = not args.target is args.sds is args.sd1 is args.tl is None
-    if not targeted:
+    if target is None:
         refuse_given(args, ("period",), "slip", "where no target is given")
         factor = args.factor or 1.0
         said = "motions as they are" if args.factor is None else f"motions x {factor:g}"
         return suite, said, list(suite) if args.factor is None else [record.scaled(factor) for record in suite]
     refuse_given(args, ("factor",), "slip", "where a target is given")
-    target = read_target(args)
-    factors = scale_asce7_10(suite, target, period=args.period or 1.0).factors
+    period = args.period or default
+    factors = scale_asce7_10(suite, target, period=period, between=False).factors
     scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
-    return suite, f"ASCE 7-10 to {target.label}, for T = {args.period or 1.0:g} s", scaled
+    return suite, f"ASCE 7-10 to {target.label}, for T = {period:.3g} s", scaled
 
 
 COMMAND = Command(

@@ -1,4 +1,4 @@
-"""Design of shear buildings: modes, response spectrum analysis, lateral forces, weights, limits of codes, pushover.
+"""Design of shear buildings and walls: modes, spectrum analysis, lateral forces, weights, limits of codes, pushover.
 
 Numbers of codes have their clause and say how they were checked, in the words of `seismass.codes.code_table`.
 """
@@ -40,6 +40,7 @@ from seismass.design.spectrum_analysis import (
     response_spectrum_analysis,
 )
 from seismass.design.systems import SystemFactors, importance_factor, system_factors, system_table
+from seismass.design.walls import Wall
 from seismass.design.weight import FloorUse, SeismicWeight, effective_seismic_weight
 
 __all__ = [
@@ -63,6 +64,7 @@ __all__ = [
     "SeismicWeight",
     "SpectrumAnalysis",
     "SystemFactors",
+    "Wall",
     "code_period",
     "combined_modes",
     "distribution_table",

@@ -92,7 +92,14 @@ _TABLES: Final = (
         "7.5.1",
         FROM_MEMORY,
         "drift in the ultimate limit state",
-        (("other", (0.025,) * 4, ""),),
+        (("other", (0.025,) * 4, "importance levels 1 to 4; the damage of partitions has a limit state of its own"),),
+    ),
+    (
+        "as1170.4",
+        "5.4.4",
+        FROM_MEMORY,
+        "drift in the ultimate limit state",
+        (("other", (0.015,) * 4, "importance levels 1 to 4"),),
     ),
     ("is1893", "7.11.1.1", FROM_MEMORY, _DESIGN_FORCE, (("other", (0.004,) * 4, ""),)),
 )

@@ -98,18 +98,21 @@ class Modes:
         return pl.DataFrame(columns | floors, schema_overrides={"mode": pl.UInt32})
 
 
-def vibration_modes(mass: ArrayLike, stiffness: ArrayLike) -> Modes:
-    """Return the modes of a shear building.
+def vibration_modes(mass: ArrayLike, stiffness: ArrayLike, *, stiffness_matrix: ArrayLike | None = None) -> Modes:
+    """Return the modes of a shear building, with walls beside its storeys where it has them.
 
     Parameters
     ----------
     mass, stiffness : array_like, shape (storeys,)
         Floor masses (kg) and storey stiffnesses (N/m), storey 1 first.
+    stiffness_matrix : array_like, shape (storeys, storeys), optional
+        Stiffness over the floors (N/m) beside the storeys, as a `Building` has it; a storey's stiffness may then be 0.
 
     Raises
     ------
     InvalidScene
-        The lists differ in length, are empty, or hold a value that is not positive.
+        The lists differ in length, are empty, or hold a value that is not positive; or the matrix does not fit, is not
+        symmetric, or leaves a displacement without stiffness.
 
     Examples
     --------
@@ -120,7 +123,8 @@ def vibration_modes(mass: ArrayLike, stiffness: ArrayLike) -> Modes:
     >>> modes.table()["cumulative_share"].round(3).to_list()
     [0.914, 0.989, 1.0]
     """
-    m, k = positive(mass, "mass"), positive(stiffness, "stiffness")
+    m = positive(mass, "mass")
+    k = positive(stiffness, "stiffness", or_zero=stiffness_matrix is not None)
     if len(m) != len(k):
         requirement = f"a list of {len(m)} values, one per storey"
         raise refusal(InvalidScene, "stiffness", "building", requirement, f"{len(k)} values")
@@ -133,7 +137,15 @@ def vibration_modes(mass: ArrayLike, stiffness: ArrayLike) -> Modes:
     if not (np.isfinite(diagonal).all() and np.isfinite(beside).all()):
         requirement = "in a ratio to the stiffnesses that a double can hold"
         raise refusal(InvalidScene, "mass", "building", requirement, brief(m.tolist()))
-    squares, vectors = eigh_tridiagonal(diagonal, beside)
+    if stiffness_matrix is None:
+        squares, vectors = eigh_tridiagonal(diagonal, beside)
+    else:
+        walls = checked_matrix(stiffness_matrix, len(m))
+        springs = np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1)
+        squares, vectors = np.linalg.eigh(springs + walls / np.sqrt(m[:, None] * m[None, :]))
+        if not squares[0] > 0.0:
+            requirement = "positive definite together with the storeys"
+            raise refusal(InvalidScene, "stiffness_matrix", "building", requirement, f"an eigenvalue {squares[0]:.3g}")
     shapes = vectors / np.sqrt(m)[:, None]
     shapes = shapes * np.where(shapes[-1] < 0.0, -1.0, 1.0)
     participation = m @ shapes
@@ -229,14 +241,34 @@ def checked_combination(combination: str, damping: float, owner: str) -> float:
     return ratio
 
 
-def positive(values: ArrayLike, name: str) -> FloatArray:
-    """Return one positive number per storey; an empty list and other values are refused."""
+def checked_matrix(matrix: ArrayLike, storeys: int) -> FloatArray:
+    """Return a stiffness over the floors (N/m); one of another shape, or that is not symmetric, is refused."""
+    name, owner = "stiffness_matrix", "building"
+    values = as_array(matrix, name, owner, InvalidScene, dimensions=2)
+    if values.shape != (storeys, storeys):
+        requirement = f"{storeys} lists of {storeys} values"
+        raise refusal(InvalidScene, name, owner, requirement, " by ".join(map(str, values.shape)))
+    if not np.isfinite(values).all() or not np.allclose(values, values.T, rtol=0.0, atol=1e-9 * np.abs(values).max()):
+        raise refusal(InvalidScene, name, owner, "finite and symmetric", brief(values.tolist()))
+    return values
+
+
+def checked_heights(heights: FloatArray | None, owner: str) -> FloatArray:
+    """Return the heights of a building; one that has none is refused."""
+    if heights is None:
+        raise refusal(InvalidScene, "heights", "building", f"given for a {owner}", "none")
+    return heights
+
+
+def positive(values: ArrayLike, name: str, *, or_zero: bool = False) -> FloatArray:
+    """Return one positive number per storey, or zero where that is allowed; an empty list is refused."""
     array = as_array(values, name, "building", InvalidScene)
     if len(array) == 0:
         raise refusal(InvalidScene, name, "building", "a list of at least one value", "none")
     for number, value in enumerate(array, start=1):
-        if not (np.isfinite(value) and value > 0.0):
-            raise refusal(InvalidScene, name, f"storey {number}", "a positive number", f"{value:g}")
+        if not (np.isfinite(value) and (value > 0.0 or (or_zero and value == 0.0))):
+            requirement = "zero or a positive number" if or_zero else "a positive number"
+            raise refusal(InvalidScene, name, f"storey {number}", requirement, f"{value:g}")
     return array
 
 

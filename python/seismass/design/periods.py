@@ -128,6 +128,23 @@ _CODES: Final[tuple[tuple[str, str, str, tuple[_Row, ...]], ...]] = (
         ),
     ),
     (
+        "nzs1170.5",
+        "C4.1.2.2 (commentary)",
+        FROM_MEMORY,
+        (
+            (
+                _STEEL,
+                1.25 * 0.11,
+                0.75,
+                None,
+                "1.25 k_t h^0.75, ultimate limit state",
+            ),
+            (_CONCRETE, 1.25 * 0.075, 0.75, None, "as above"),
+            (_EBF, 1.25 * 0.06, 0.75, None, "as above"),
+            (_OTHER, 1.25 * 0.05, 0.75, None, "as above"),
+        ),
+    ),
+    (
         "as1170.4",
         "6.2.3",
         FROM_MEMORY,

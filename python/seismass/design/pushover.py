@@ -1,4 +1,4 @@
-"""Pushover of a shear building: all storeys in series under a pattern of lateral forces, as an exact polygon."""
+"""Pushover of a building under a pattern of lateral forces, as an exact polygon."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from seismass.base.values import FloatArray, as_array, brief, content_hash, froz
 from seismass.base.views import view
 from seismass.design.lateral_force import exponent_k
 from seismass.design.modes import positive_of_length, vibration_modes
-from seismass.design.storey_springs import StoreySpring, storey_spring
-from seismass.model.building import Building, of_storeys_alone
+from seismass.design.pushover_path import SeriesPath, WallPath
+from seismass.model.building import Building
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,15 +25,11 @@ Pattern: TypeAlias = Literal["modal", "uniform", "code"]
 """Forces as m phi_1, as m, or as m h^k with k of ASCE 7."""
 DEFAULT_DRIFT_RATIO: Final = 0.05
 """Drift over the storey height up to which a building is pushed."""
-_TIE: Final = 1e-12
-"""Relative difference of base shears up to which storeys reach a corner together."""
-_FLAT: Final = 1e-13
-"""Tangent over the initial stiffness up to which it is none: what rounding leaves of a difference of two."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pushover:
-    """Equilibrium path of a shear building under growing lateral forces: points with straight lines between.
+    """Equilibrium path of a building under growing lateral forces: points with straight lines between.
 
     Attributes
     ----------
@@ -44,7 +40,9 @@ class Pushover:
     drift : ndarray, shape (points, storeys)
         Storey drifts (m).
     spring_force : ndarray, shape (points, storeys)
-        Forces of the storey springs (N): the storey shear of the lateral forces, and P-Delta besides.
+        Forces of the storey springs (N): the storey shear of the lateral forces, and P-Delta besides, without walls.
+    wall_shear : ndarray, shape (points, storeys)
+        Shear of the walls in each storey (N); zero without a stiffness matrix.
     force : ndarray, shape (floors,)
         Lateral forces for a base shear of 1.
     events : polars.DataFrame
@@ -65,6 +63,7 @@ class Pushover:
     roof_displacement: FloatArray
     drift: FloatArray
     spring_force: FloatArray
+    wall_shear: FloatArray
     force: FloatArray
     events: pl.DataFrame
     mechanism: int | None
@@ -144,12 +143,12 @@ def pushover(
     drift_limit: ArrayLike | None = None,
     added_load: ArrayLike | None = None,
 ) -> Pushover:
-    """Push a shear building slowly and return its equilibrium path.
+    """Push a building slowly and return its equilibrium path.
 
     Parameters
     ----------
     building : Building
-        The building, with its springs of any law, and P-Delta where it has that.
+        The building, with its springs of any law, P-Delta where it has that, and its stiffness matrix.
     pattern : {"modal", "uniform", "code"} or array_like, shape (floors,)
         Lateral forces in proportion to m phi_1, to m, or to m h^k with k of ASCE 7 for the first period (heights are
         needed); or forces of any scale. Every storey must have a positive shear.
@@ -180,6 +179,11 @@ def pushover(
     There are no steps to choose: every point is a corner of a spring's curve. An `energy_capacity` has no effect, since
     no storey completes a half cycle.
 
+    With a stiffness matrix K, which stays elastic, the storeys are not in series: F_i(d_i) - (P_i/h_i) d_i +
+    (L^T K L d)_i = S_i V_b, where L d are the displacements of the floors. From point to point the drifts follow the
+    tangents, those of unloading in storeys that go back. While the tangent stiffness is positive definite the base
+    shear grows, and where it no longer is the shear falls.
+
     Examples
     --------
     Two elastoplastic storeys; the second has 60 % of the strength and, with equal forces, half of the shear:
@@ -194,11 +198,11 @@ def pushover(
     """
     if not isinstance(building, Building):
         raise refusal(InvalidOption, "building", "pushover", "a Building", brief(building))
-    of_storeys_alone(building, "pushover")
     force = _forces(building, pattern)
     share = np.cumsum(force[::-1])[::-1]
     limits = _limits(building, drift_limit)
-    path = _Path(building, share, limits, _p_delta(building, added_load))
+    kind = SeriesPath if building.stiffness_matrix is None else WallPath
+    path = kind(building, share, limits, _p_delta(building, added_load))
     path.run()
     drift = frozen(path.drifts)
     return Pushover(
@@ -206,6 +210,7 @@ def pushover(
         roof_displacement=frozen(drift.sum(axis=1)),
         drift=drift,
         spring_force=frozen(path.forces),
+        wall_shear=frozen(path.wall_shear(drift)),
         force=frozen(force),
         events=path.event_table(),
         mechanism=path.mechanism,
@@ -213,100 +218,6 @@ def pushover(
         weight=building.weight,
         heights=building.heights,
     )
-
-
-class _Path:
-    """The path while it is found."""
-
-    def __init__(self, building: Building, share: FloatArray, limits: FloatArray, p_delta: FloatArray) -> None:
-        self.springs: list[StoreySpring] = [storey_spring(building, i) for i in range(building.storeys)]
-        self.elastic = building.stiffness
-        self.share, self.limits, self.p_delta = share, limits, p_delta
-        self.base_shear = 0.0
-        self.mechanism: int | None = None
-        self.end = ""
-        self.base_shears, self.drifts, self.forces = [0.0], [np.zeros(len(share))], [np.zeros(len(share))]
-        self._events: list[tuple[int, int, str]] = []
-        self._limited = False  # the base shear does not grow
-
-    def run(self) -> None:
-        """Find points until the path ends."""
-        while not self.end:
-            up = self._tangents(1)
-            if (up > 0.0).all():
-                self._limited = False
-                self._step(self.share / up, 1.0)
-                continue
-            limiting = np.flatnonzero(up <= 0.0)
-            # Flat storeys of one plateau share the drift only where none of them softens.
-            order = np.argsort(up[limiting] / self.share[limiting], kind="stable")
-            active = int(limiting[order[0]])
-            if not self._limited:
-                self._limited = True
-                self.mechanism = self.mechanism or active + 1
-                self._events.append((len(self.base_shears) - 1, active + 1, "capacity"))
-            rates = np.zeros(len(up))
-            if up[active] == 0.0:
-                rates[limiting] = self.share[limiting] / self.elastic[limiting]
-                self._step(rates, 0.0)
-                continue
-            down = self._tangents(-1)
-            others = np.arange(len(up)) != active
-            if (down[others] <= 0.0).any():
-                self._finish(int(np.flatnonzero(others & (down <= 0.0))[0]), "unstable unloading")
-                return
-            slope = up[active] / self.share[active]
-            rates[others] = self.share[others] * slope / down[others]
-            rates[active] = 1.0
-            self._step(rates, slope)
-
-    def _tangents(self, sign: int) -> FloatArray:
-        found = np.array([spring.tangent(sign) for spring in self.springs]) - self.p_delta
-        return np.where(np.abs(found) <= _FLAT * self.elastic, 0.0, found)
-
-    def _step(self, rates: FloatArray, slope: float) -> None:
-        """Move by the rates of drift, with the base shear at a slope, up to the next corner."""
-        signs = np.where(rates < 0.0, -1, 1)
-        moving = rates != 0.0
-        rooms, left = np.full(len(rates), np.inf), np.full(len(rates), np.inf)
-        for i in np.flatnonzero(moving):
-            rooms[i] = self.springs[i].room(int(signs[i])) / abs(rates[i])
-            if signs[i] > 0:
-                left[i] = max(self.limits[i] - self.springs[i].drift, 0.0) / rates[i]
-        empty = self.base_shear / -slope if slope < 0.0 else np.inf
-        length = min(float(rooms.min()), float(left.min()), empty)
-        point = len(self.base_shears)
-        for i in np.flatnonzero(moving):
-            reaches = rooms[i] - length <= _TIE * (length + abs(self.springs[i].drift / rates[i]))
-            whole = self.springs[i].room(int(signs[i])) if reaches else float(abs(rates[i]) * length)
-            kind = self.springs[i].move(int(signs[i]), whole)
-            if kind is not None:
-                self._events.append((point, int(i) + 1, kind))
-        self.base_shear = 0.0 if empty <= length else self.base_shear + slope * length
-        self.base_shears.append(self.base_shear)
-        self.drifts.append(np.array([spring.drift for spring in self.springs]))
-        self.forces.append(np.array([spring.force for spring in self.springs]))
-        if empty <= length:
-            self._finish(int(np.argmax(rates)), "no strength left")
-        elif left.min() <= length:
-            self._finish(int(np.argmin(left)), "drift limit")
-
-    def _finish(self, storey: int, kind: str) -> None:
-        self._events.append((len(self.base_shears) - 1, storey + 1, kind))
-        self.end = kind
-
-    def event_table(self) -> pl.DataFrame:
-        """Return the events, in order."""
-        at = [event[0] for event in self._events]
-        return pl.DataFrame(
-            {
-                "point": pl.Series(at, dtype=pl.UInt32),
-                "base_shear": [self.base_shears[point] for point in at],
-                "roof_displacement": [float(self.drifts[point].sum()) for point in at],
-                "storey": pl.Series([event[1] for event in self._events], dtype=pl.UInt32),
-                "kind": [event[2] for event in self._events],
-            }
-        )
 
 
 def _forces(building: Building, pattern: Pattern | ArrayLike) -> FloatArray:
@@ -317,7 +228,9 @@ def _forces(building: Building, pattern: Pattern | ArrayLike) -> FloatArray:
             requirement = f"a list of {building.storeys} forces, one per floor"
             raise refusal(InvalidOption, "pattern", "pushover", requirement, f"{len(force)} values")
     elif pattern == "modal":
-        force = building.mass * vibration_modes(building.mass, building.stiffness).shapes[:, 0]
+        matrix = building.stiffness_matrix
+        modes = vibration_modes(building.mass, building.stiffness, stiffness_matrix=matrix)
+        force = building.mass * modes.shapes[:, 0]
     elif pattern == "uniform":
         force = building.mass
     elif pattern == "code":

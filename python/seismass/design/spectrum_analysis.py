@@ -1,4 +1,4 @@
-"""Response spectrum analysis of a shear building: displacements, drifts, shears and overturning moments."""
+"""Response spectrum analysis of a building: displacements, drifts, shears and overturning moments."""
 
 from __future__ import annotations
 
@@ -60,7 +60,12 @@ class SpectrumAnalysis:
     modal_shear : ndarray, shape (modes, storeys)
         Peak storey shear of each mode (N), with the sign of its shape.
     storey_shear : ndarray, shape (storeys,)
-        Combined elastic storey shear V_e (N).
+        Combined elastic storey shear V_e (N), of springs and walls together.
+    spring_shear : ndarray, shape (storeys,)
+        Combined elastic force of each storey spring (N); without walls it is the storey shear.
+    wall_shear : ndarray, shape (storeys,)
+        Combined elastic shear of the walls in each storey (N); zero without walls. Each is combined from its own modal
+        peaks, so that they do not add up to the storey shear.
     modal_drift : ndarray, shape (modes, storeys)
         Peak storey drift of each mode (m), with the sign of its shape.
     storey_drift : ndarray, shape (storeys,)
@@ -77,6 +82,8 @@ class SpectrumAnalysis:
     ordinates: FloatArray
     modal_shear: FloatArray
     storey_shear: FloatArray
+    spring_shear: FloatArray
+    wall_shear: FloatArray
     modal_drift: FloatArray
     storey_drift: FloatArray
     displacement: FloatArray
@@ -94,14 +101,16 @@ class SpectrumAnalysis:
         Returns
         -------
         polars.DataFrame
-            storey, from 1; shear (N); drift and displacement of the floor above (m); drift_ratio and overturning (N m),
-            null without heights.
+            storey, from 1; shear (N), and the parts spring_shear and wall_shear where there are walls; drift and
+            displacement of the floor above (m); drift_ratio and overturning (N m), null without heights.
         """
         nothing = [None] * len(self.storey_shear)
+        parts = {"spring_shear": self.spring_shear, "wall_shear": self.wall_shear} if self.wall_shear.any() else {}
         return pl.DataFrame(
             {
                 "storey": list(range(1, len(self.storey_shear) + 1)),
                 "shear": self.storey_shear,
+                **parts,
                 "drift": self.storey_drift,
                 "displacement": self.displacement,
                 "drift_ratio": nothing if self.heights is None else self.storey_drift / self.heights,
@@ -169,8 +178,9 @@ def response_spectrum_analysis(
     combination: Combination = "srss",
     damping: float = 0.05,
     heights: ArrayLike | None = None,
+    stiffness_matrix: ArrayLike | None = None,
 ) -> SpectrumAnalysis:
-    """Return the elastic peaks of a shear building under a pseudo-acceleration spectrum.
+    """Return the elastic peaks of a shear building, with or without walls, under a pseudo-acceleration spectrum.
 
     Parameters
     ----------
@@ -184,6 +194,8 @@ def response_spectrum_analysis(
         Ratio of critical damping for the correlation of modes in CQC.
     heights : array_like, optional
         Storey heights (m); one number stands for all storeys. With them overturning moments and drift ratios are known.
+    stiffness_matrix : array_like, shape (storeys, storeys), optional
+        Stiffness over the floors (N/m) beside the storeys, as a `Building` has it: walls.
 
     Raises
     ------
@@ -194,7 +206,8 @@ def response_spectrum_analysis(
     -----
     V_in = sum over floors j >= i of Gamma_n m_j phi_jn A_n, drift V_in/k_i, M_in = sum over storeys j >= i of V_jn h_j
     (Chopra, Dynamics of Structures, chapter 13); CQC with the correlation of Der Kiureghian (1981), Earthquake Engng
-    Struct. Dyn. 9:419, for equal damping ratios. All modes are used.
+    Struct. Dyn. 9:419, for equal damping ratios. All modes are used. With walls, displacements are Gamma_n phi_jn
+    A_n/w_n^2, springs have k_i times the drift, and the walls the rest of the storey shear.
 
     Examples
     --------
@@ -206,7 +219,7 @@ def response_spectrum_analysis(
     """
     owner = "response spectrum analysis"
     ratio = checked_combination(combination, damping, owner)
-    modes = vibration_modes(mass, stiffness)
+    modes = vibration_modes(mass, stiffness, stiffness_matrix=stiffness_matrix)
     storeys = len(modes.periods)
     h = None if heights is None else positive_of_length(heights, "heights", storeys)
     ordinates = as_array(spectrum(modes.periods), "spectrum", owner, InvalidOption)
@@ -215,7 +228,12 @@ def response_spectrum_analysis(
         raise refusal(InvalidOption, "spectrum", owner, requirement, brief(ordinates))
     forces = (modes.participation * ordinates) * modes.shapes * np.asarray(mass, dtype=np.float64)[:, None]
     shear = np.cumsum(forces[::-1], axis=0)[::-1].T
-    drift = shear / np.asarray(stiffness, dtype=np.float64)
+    if stiffness_matrix is None:
+        drift, of_springs = shear / np.asarray(stiffness, dtype=np.float64), shear
+    else:
+        floors = (modes.participation * ordinates * (modes.periods / (2.0 * np.pi)) ** 2) * modes.shapes
+        drift = np.diff(floors, axis=0, prepend=0.0).T
+        of_springs = drift * np.asarray(stiffness, dtype=np.float64)
 
     def combined(modal: FloatArray) -> FloatArray:
         return combine(modal, modes.periods, combination, ratio)
@@ -225,6 +243,8 @@ def response_spectrum_analysis(
         ordinates=ordinates,
         modal_shear=frozen(shear),
         storey_shear=combined(shear),
+        spring_shear=combined(of_springs),
+        wall_shear=combined(shear - of_springs),
         modal_drift=frozen(drift),
         storey_drift=combined(drift),
         displacement=combined(np.cumsum(drift, axis=1)),

@@ -155,7 +155,7 @@ def storey_spring(building: Building, storey: int) -> StoreySpring:
         drifts, forces = np.array(points).T
         slopes = (np.diff(forces, prepend=0.0) / np.diff(drifts, prepend=0.0)).tolist()
         return _masing(drifts[:-1].tolist(), slopes, np.inf, 0.0)
-    if np.isinf(v_y):
+    if np.isinf(v_y) or k == 0.0:
         return _masing([], [k], clearance, springs["stop_stiffness"])
     corners, slopes, force = [v_y / k], [k], v_y
     if springs["overstrength"] > 1.0:

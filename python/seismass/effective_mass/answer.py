@@ -2,26 +2,26 @@
 
 Definition: the smallest share of the live load which, attached as mass to the building with its stiffness, strength,
 damping matrix and gravity load unchanged, gives a mean over the motions of the largest storey drift not below that of
-the building with sliding goods, there and at every larger share up to 1.
+the building with sliding goods, there and at every larger share up to 1. Goods on racks, or that press on stops, may
+load the building more than all of them attached: then the smallest share above 1 that gives the drift.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any
 
 from numpy.typing import ArrayLike
 
-from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import as_count, as_number, brief, refusal
-from seismass.effective_mass.curve import Statistic, check_fractions, check_statistic
-from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
+from seismass.effective_mass.curve import Statistic
+from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_any_load
 from seismass.effective_mass.result import EffectiveMass
-from seismass.effective_mass.runs import Peaks, Progress, Stages, named_motions, solve
-from seismass.effective_mass.search import Options, Search
+from seismass.effective_mass.runs import Progress, named_motions
+from seismass.effective_mass.search import OWNER, checked_options
+from seismass.effective_mass.solved import solved_designs, solved_frictions
 from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.motion import MotionLike
+from seismass.model.rack import Rack
 from seismass.model.scene import Scene
 
 
@@ -43,7 +43,7 @@ def effective_mass(
     Parameters
     ----------
     scene : Scene
-        The building with its goods as blocks.
+        The building with its goods as blocks, on floors and on racks; walls and stops are as in the real building.
     motions : Motion, Record or iterable of them
         The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together.
     statistic : {"mean", "median"}
@@ -79,6 +79,12 @@ def effective_mass(
     exactly at every share of the grid; each sign change is refined on the exact model. A drift falls with added mass
     where the longer period meets a valley of the spectra, so that there may be several roots: the largest counts.
 
+    With racks the live load is all goods, those on racks too, fixed or not; the frames of the racks are attached to
+    their floors in every model. Where there are racks or stops and the model drifts less even with all goods attached,
+    models go on to share 2, and the first that reaches the real drift counts (`kind` "beyond"): a rack whose period is
+    near that of the building passes on more than the inertia of its goods. The rule by period in `estimate` is of goods
+    on the floors of shear buildings, and a remark says so.
+
     Examples
     --------
     >>> import seismass as sm
@@ -88,18 +94,10 @@ def effective_mass(
     >>> result.kind
     'root'
     """
-    checked = check_loaded(scene)
-    named = named_motions(motions, "effective mass")
-    options = _options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
-    stages = Stages(options.progress, (1 + len(options.fractions)) * len(named))
-    real = solve([checked], named, threads=threads, progress=stages.next(len(named)))
-    models = [attached(checked, share, options.damping) for share in options.fractions]
-    model = solve(models, named, threads=threads, progress=stages.next(len(models) * len(named)))
-
-    def at(share: float) -> tuple[Peaks, Peaks]:
-        return real, solve([attached(checked, share, options.damping)], named, threads=threads)
-
-    return Search(named, options, at, lambda _: checked).answer(real, model, {"question": "given building"})
+    checked = check_any_load(scene)
+    named = named_motions(motions, OWNER)
+    options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
+    return solved_frictions([checked], named, options)[0].answer()
 
 
 def effective_mass_of_design(
@@ -107,6 +105,7 @@ def effective_mass_of_design(
     blocks: Iterable[Block],
     motions: MotionLike | Iterable[MotionLike],
     *,
+    racks: Iterable[Rack] = (),
     statistic: Statistic = "mean",
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
@@ -127,6 +126,8 @@ def effective_mass_of_design(
         Takes a share from 0 to 1, returns the Building designed with it; floor masses without goods.
     blocks : iterable of Block
         The goods, the same for every design.
+    racks : iterable of Rack
+        Racks with goods, the same for every design; shares above 1 are not sought.
     motions, statistic, damping, fractions, confidence, resamples, seed, threads, progress
         As for `effective_mass`.
 
@@ -152,64 +153,6 @@ def effective_mass_of_design(
     >>> 0.0 <= sm.effective_mass_of_design(design, goods, suite).value <= 1.0
     True
     """
-    if not callable(design):
-        requirement = "a callable that takes a share and returns a Building"
-        raise refusal(InvalidOption, "design", "effective mass", requirement, brief(design))
-    goods = tuple(blocks)
-    named = named_motions(motions, "effective mass")
-    options = _options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
-
-    def designed(share: float) -> Scene:
-        building = design(share)
-        if not isinstance(building, Building):
-            raise refusal(InvalidScene, "design", "effective mass", "a Building", brief(building))
-        return check_loaded(Scene(building, goods))
-
-    stages = Stages(options.progress, 2 * len(options.fractions) * len(named))
-    shares = [float(share) for share in options.fractions]
-    scenes = [designed(share) for share in shares]
-    if len({scene.storeys for scene in scenes}) > 1:
-        requirement = "a Building of the same number of storeys for every share"
-        raise refusal(InvalidScene, "design", "effective mass", requirement, "different ones")
-    runs = len(scenes) * len(named)
-    real = solve(scenes, named, threads=threads, progress=stages.next(runs))
-    models = [attached(scene, share, options.damping) for scene, share in zip(scenes, shares, strict=True)]
-    model = solve(models, named, threads=threads, progress=stages.next(runs))
-
-    def at(share: float) -> tuple[Peaks, Peaks]:
-        scene = designed(share)
-        both = (
-            solve([scene], named, threads=threads),
-            solve([attached(scene, share, options.damping)], named, threads=threads),
-        )
-        return both
-
-    return Search(named, options, at, designed).answer(real, model, {"question": "design rule"})
-
-
-def _options(
-    statistic: Any,
-    damping: Any,
-    fractions: Any,
-    confidence: Any,
-    resamples: Any,
-    seed: Any,
-    threads: Any,
-    progress: Any,
-) -> Options:
-    owner = "effective mass"
-    probability = as_number(confidence, "confidence", owner, InvalidOption)
-    if not 0.0 < probability < 1.0:
-        raise refusal(InvalidOption, "confidence", owner, "above 0 and below 1", f"{probability:g}")
-    if progress is not None and not callable(progress):
-        raise refusal(InvalidOption, "progress", owner, "a callable of two numbers", brief(progress))
-    return Options(
-        statistic=check_statistic(statistic, owner),
-        damping=check_damping(damping, owner),
-        fractions=check_fractions(fractions, owner),
-        confidence=probability,
-        resamples=as_count(resamples, "resamples", owner, InvalidOption, least=1),
-        seed=as_count(seed, "seed", owner, InvalidOption),
-        threads=None if threads is None else as_count(threads, "threads", owner, InvalidOption, least=1),
-        progress=progress,
-    )
+    named = named_motions(motions, OWNER)
+    options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
+    return solved_designs(design, blocks, named, options, racks).answer()

@@ -9,7 +9,7 @@ import numpy as np
 from seismass.base.values import FloatArray
 from seismass.design import response_spectrum_analysis
 from seismass.effective_mass.estimate import base_shear_by_hand, best_estimate, exponent, height_ratio
-from seismass.effective_mass.models import building_of, friction, full_weight, goods_mass
+from seismass.effective_mass.models import building_of, frame_mass, friction, full_weight, goods_mass
 from seismass.effective_mass.runs import NamedMotions, Peaks
 from seismass.model.building import Building
 from seismass.model.scene import Scene
@@ -52,22 +52,32 @@ class ByHand:
 
 
 def by_hand(scene: Scene, motions: NamedMotions, full: Peaks) -> ByHand:
-    """Return what the rule says of the building of a scene; `full` has the peaks of the fully attached model."""
+    """Return what the rule says of the building of a scene; `full` has the peaks of the fully attached model.
+
+    Goods on racks count as if they stood on the floor of the rack.
+    """
+    yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building_of(scene))).any())
+    return rule_by_hand(scene, motions, yields)
+
+
+def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
+    """Return what the rule says of the building of a scene that yields, or does not, with all goods attached."""
     building, goods = building_of(scene), goods_mass(scene)
+    mass, walls = building.mass + frame_mass(scene), building.stiffness_matrix
 
     def spectrum(periods: FloatArray) -> FloatArray:
         return mean_spectrum(motions.motions, np.ones(len(motions)), periods)
 
-    attached = building.mass + goods
-    elastic = response_spectrum_analysis(attached, building.stiffness, spectrum)
+    elastic = response_spectrum_analysis(mass + goods, building.stiffness, spectrum, stiffness_matrix=walls)
     weight = full_weight(scene)
     corner, period = corner_period(spectrum), float(building.periods[0])
-    yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building)).any())
-    heights = height_ratio(goods, building.mass, building.heights)
+    heights = height_ratio(goods, mass, building.heights)
+    # Elastic walls set no limit to the base shear.
+    strength = building.yield_shear[0] if walls is None else np.inf
     power = float(exponent(period, corner, yields))
     coefficient = float(
         base_shear_by_hand(
-            building.yield_shear[0] / weight,
+            strength / weight,
             elastic.storey_shear[0] / weight,
             elastic.modes.periods[0],
             corner,
@@ -81,6 +91,7 @@ def by_hand(scene: Scene, motions: NamedMotions, full: Peaks) -> ByHand:
 
 def yield_drift(building: Building) -> FloatArray:
     """Return the drift of each storey at V_y, in the measure of `Peaks.drift`: a ratio where heights are known."""
-    drift = building.yield_shear / building.stiffness
+    with np.errstate(divide="ignore"):  # beside walls a storey may be without a spring
+        drift = building.yield_shear / building.stiffness
     found: FloatArray = drift if building.heights is None else drift / building.heights
     return found

@@ -17,7 +17,7 @@ from seismass.base.values import FloatArray, as_array, brief, is_one_of, refusal
 
 Statistic: TypeAlias = Literal["mean", "median"]
 """What is taken of the largest drifts over the records."""
-Kind: TypeAlias = Literal["stuck", "root", "multiple", "zero", "one", "collapsed"]
+Kind: TypeAlias = Literal["stuck", "root", "multiple", "zero", "one", "beyond", "collapsed"]
 """How an effective fraction came about; see `EffectiveMass`."""
 
 ROUNDING: Final = 1e-12
@@ -79,7 +79,8 @@ def interpolated_roots(fractions: FloatArray, model: FloatArray, real: FloatArra
     roots = []
     for low, high in crossings(fractions, model, real):
         k = int(np.searchsorted(fractions, low))
-        ends = model[k : k + 2] - real[k : k + 2]
+        with np.errstate(invalid="ignore"):  # where both collapse the difference is no number
+            ends = model[k : k + 2] - real[k : k + 2]
         weight = -ends[0] / (ends[1] - ends[0]) if np.isfinite(ends).all() else 0.5
         roots.append(low + float(weight) * (high - low))
     return roots

@@ -254,7 +254,9 @@ def effective_mass_map(
     chosen = EffectiveMassParameters() if parameters is None else parameters
     if not isinstance(suite, Suite):
         raise refusal(InvalidMotion, "suite", "effective mass map", "a Suite of records", brief(suite))
-    scaling = scale_asce7_10(suite, target, chosen.scaling_period, damping=chosen.damping, threads=threads)
+    scaling = scale_asce7_10(
+        suite, target, chosen.scaling_period, damping=chosen.damping, between=False, threads=threads
+    )
 
     def design_spectrum(periods: FloatArray) -> FloatArray:
         return mean_spectrum(suite, scaling.factors, periods, chosen.damping, threads=threads)

@@ -6,6 +6,7 @@ are solved once; the real building is solved for every sample of occupancy and f
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from numbers import Real
@@ -25,6 +26,7 @@ from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached,
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.media.result import Result, finite_values
 from seismass.model.motion import MotionLike
+from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.runs.simulate import instruction_set
 
@@ -97,8 +99,11 @@ class LiveLoadUncertainty(Result):
         """The answer in a few lines."""
         low_high = "" if self.interval is None else f" (90 % interval {self.interval[0]:.2f} to {self.interval[1]:.2f})"
         levels = ", ".join(f"{100 * row[0]:g} % {row[1]:.2f}" for row in self.quantiles.iter_rows())
+        said = f"{self.share:.3f}{low_high}: equal expected drift"
+        if not math.isfinite(self.share):
+            said = "no value: the real building collapses in some sample, and its expected drift has no value"
         lines = [
-            f"share of the design live load   {self.share:.3f}{low_high}: equal expected drift",
+            f"share of the design live load   {said}",
             f"enough in 84 % of samples       {self.share_84:.3f}",
             f"quantiles                       {levels}",
             f"above 0.25 (ASCE 7 storage)     in {100.0 * self.exceedance(0.25):.0f} % of samples",
@@ -237,7 +242,7 @@ def live_load_uncertainty(
         ),
         curve=pl.DataFrame({"fraction": shares, "model_drift": model_drift}),
         unit="m" if heights is None else "ratio",
-        remarks=_remarks(checked, sampled, values, model_drift),
+        remarks=_remarks(checked, named, sampled, values, model_drift),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
@@ -327,8 +332,11 @@ def _tornado(frictions: FloatArray, present: FloatArray, found: FloatArray) -> p
     return pl.DataFrame(rows).sort("span", descending=True)
 
 
-def _remarks(scene: Scene, real: Peaks, values: FloatArray, model_drift: FloatArray) -> tuple[str, ...]:
-    remarks = ["mu and occupancy are independent, and the same on every floor"]
+def _remarks(
+    scene: Scene, motions: NamedMotions, real: Peaks, values: FloatArray, model_drift: FloatArray
+) -> tuple[str, ...]:
+    remarks = usage_remarks(scene.remarks, motions.motions)
+    remarks += ["mu and occupancy are independent, and the same on every floor"]
     if scene.geometric_stiffness.any():
         remarks.append("P-Delta of the models has the weight of the whole design live load")
     collapsed = int(real.collapsed.any(axis=1).sum())

@@ -9,6 +9,7 @@ import numpy as np
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_number, brief, is_one_of, refusal
+from seismass.effective_mass.beyond import LARGEST_SHARE, goes_beyond
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 
@@ -19,15 +20,17 @@ ModelDamping: TypeAlias = Literal["same", "ratio"]
 def attached_scene(scene: Scene, fraction: float, damping: ModelDamping = "same") -> Scene:
     """Return the building of a scene with a share of its live load attached to the floors as mass, without blocks.
 
-    Stiffness and strength stay as they are, and so does P/h: the whole weight of the goods acts in P-Delta whatever
-    share of their mass is attached.
+    Stiffness and strength stay as they are, walls too, and so does P/h: the whole weight of the goods acts in P-Delta
+    whatever share of their mass is attached. Racks are lumped: the share of all their goods, fixed ones too, and the
+    whole mass of their frames on the floor on which they stand.
 
     Parameters
     ----------
     scene : Scene
-        Building and goods. Goods on the ground slab do not load the building and are left out.
+        Building and goods. Goods and racks on the ground slab do not load the building and are left out.
     fraction : float
-        Share of the mass of each block that is attached to its floor, from 0 to 1.
+        Share of the mass of each block that is attached to its floor, from 0 to 1; to 2 where there are racks or stops,
+        whose goods may act more than attached ones.
     damping : {"same", "ratio"}
         "same": the damping matrix of the real building. "ratio": its damping made again for the model, as a ratio in
         the model's own modes; goods that never slide then have no share that gives the same drift.
@@ -46,17 +49,18 @@ def attached_scene(scene: Scene, fraction: float, damping: ModelDamping = "same"
     >>> sm.attached_scene(scene, 0.25).building.mass.tolist()
     [1.25, 1.0]
     """
-    checked = check_loaded(scene)
+    checked = check_any_load(scene)
     share = as_number(fraction, "fraction", "attached scene", InvalidOption)
-    if not 0.0 <= share <= 1.0:
-        raise refusal(InvalidOption, "fraction", "attached scene", "between 0 and 1", f"{share:g}")
+    largest = LARGEST_SHARE if goes_beyond(checked) else 1.0
+    if not 0.0 <= share <= largest:
+        raise refusal(InvalidOption, "fraction", "attached scene", f"between 0 and {largest:g}", f"{share:g}")
     return attached(checked, share, check_damping(damping, "attached scene"))
 
 
 def attached(scene: Scene, fraction: float, damping: ModelDamping) -> Scene:
     """Return the model of `attached_scene` for arguments that are known to be valid."""
     building = building_of(scene)
-    changes: dict[str, Any] = {"mass": building.mass + fraction * goods_mass(scene)}
+    changes: dict[str, Any] = {"mass": building.mass + frame_mass(scene) + fraction * goods_mass(scene)}
     if damping == "same":
         changes["damping"] = building.damping_matrix
     if scene.geometric_stiffness.any():
@@ -79,36 +83,61 @@ def building_of(scene: Scene) -> Building:
 
 
 def goods_mass(scene: Scene) -> FloatArray:
-    """Return the mass of the goods on each floor (kg), shape (storeys,)."""
+    """Return the mass of the goods on each floor, those on its racks included (kg), shape (storeys,)."""
     mass = np.zeros(scene.storeys)
     for floor, block_mass in zip(scene.block_floor, scene.block_mass, strict=True):
         if floor > 0:
             mass[floor - 1] += block_mass
+    for rack in scene.racks:
+        if rack.floor > 0:
+            mass[rack.floor - 1] += rack.goods_mass(scene.building)
+    return mass
+
+
+def frame_mass(scene: Scene) -> FloatArray:
+    """Return the mass of the frames of the racks on each floor (kg), shape (storeys,)."""
+    mass = np.zeros(scene.storeys)
+    for rack in scene.racks:
+        if rack.floor > 0:
+            mass[rack.floor - 1] += rack.frame_mass(scene.building)
     return mass
 
 
 def full_weight(scene: Scene) -> float:
-    """Return the weight of building and goods (N)."""
-    return STANDARD_GRAVITY * float(building_of(scene).mass.sum() + goods_mass(scene).sum())
+    """Return the weight of building, racks and goods (N)."""
+    mass = building_of(scene).mass.sum() + goods_mass(scene).sum() + frame_mass(scene).sum()
+    return STANDARD_GRAVITY * float(mass)
 
 
 def friction(scene: Scene) -> float:
-    """Return the kinetic friction coefficient of the goods on the floors, averaged by mass."""
-    on_floor = np.array(scene.block_floor) > 0
-    mass = scene.block_mass[on_floor]
-    return float(mass @ np.array([block.mu_k for block in scene.blocks])[on_floor] / mass.sum())
+    """Return the kinetic friction coefficient of the goods that may slide above the ground, averaged by mass.
+
+    Infinite where there are none: all goods are fixed to racks.
+    """
+    on_floor = np.array(scene.goods_floor, dtype=np.int64) > 0
+    of_racks = (mass for rack in scene.racks for mass in rack.sliding_masses(scene.building))
+    mass = np.array([*scene.block_mass, *of_racks])[on_floor]
+    if not len(mass):
+        return float("inf")
+    return float(mass @ np.array([block.mu_k for block in scene.goods])[on_floor] / mass.sum())
 
 
-def check_loaded(scene: Any) -> Scene:
-    """Return a scene whose building carries at least one block."""
+def check_any_load(scene: Any) -> Scene:
+    """Return a scene whose building carries at least one block, on a floor or on a rack."""
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "effective mass", "a Scene", brief(scene))
-    scene.of_chain("effective mass")
     building_of(scene)
-    if not any(floor > 0 for floor in scene.block_floor):
+    if not goods_mass(scene).any():
         requirement = "at least one on a floor of the building, as there is no live load otherwise"
         raise refusal(InvalidScene, "blocks", "effective mass", requirement, "none")
     return scene
+
+
+def check_loaded(scene: Any, owner: str = "effective mass") -> Scene:
+    """Return a scene of the chain engine whose building carries at least one block."""
+    if not isinstance(scene, Scene):
+        raise refusal(InvalidScene, "scene", "effective mass", "a Scene", brief(scene))
+    return check_any_load(scene.of_chain(owner))
 
 
 def check_damping(damping: Any, owner: str) -> ModelDamping:

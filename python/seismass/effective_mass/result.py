@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
@@ -36,6 +37,7 @@ KIND_TEXTS: Final[dict[Kind, str]] = {
     "multiple": "several shares give the drift of the real building, the largest counts",
     "zero": "no share drifts less than the real building, so that none needs to be attached",
     "one": "even with all goods attached the model drifts less than the real building",
+    "beyond": "with all goods attached the model drifts less than the real building, a larger share gives its drift",
     "collapsed": "the real building collapses under so many motions that its drift has no such statistic",
 }
 """What each kind means."""
@@ -55,14 +57,15 @@ class EffectiveMass(Result):
         "stuck": no goods slide, the value is exactly 1. "root", "multiple": the model crosses the real drift once or
         several times, the value is the largest crossing. "zero": the model nowhere drifts less, the value is 0 (also
         where all goods are without friction). "one": the model drifts less even at 1, the value is 1 and
-        `excess` says by how much. "collapsed": the statistic of the real building is infinite.
+        `excess` says by how much. "beyond": with racks or stops, a share above 1 gives the drift. "collapsed": the
+        statistic of the real building is infinite.
     roots : tuple of float
-        All crossings on [0, 1].
+        All crossings on [0, 1]; where `kind` is "beyond" the one above 1 too.
     interval : tuple of float or None
         Percentile bootstrap interval over the records, real and model drawn together; None with one earthquake alone
         or without a value. It is a little too narrow: a 90 % interval covers 80 to 92 %.
     suite_interval : tuple of float or None
-        `interval` with the scatter between suites: `SUITE_SCATTER` further at each end, within 0 and 1.
+        `interval` with the scatter between suites: `SUITE_SCATTER` further at each end, within the shares looked at.
     confidence : float
         Probability that the interval is made for.
     statistic : {"mean", "median"}
@@ -142,14 +145,21 @@ class EffectiveMass(Result):
             f"{self.interval[1]:.2f}, over suites too {suites[0]:.2f} to {suites[1]:.2f}"
         )
         scale, unit = (1e3, "mm") if self.unit == "m" else (1e2, "% of the height")
+        drifts = f"real {scale * self.real:.4g}, model {scale * self.model:.4g} {unit}"
+        if not math.isfinite(self.real):
+            drifts = f"none, since the real building collapses under {self.collapses['real']} of them"
         lines = [
-            f"effective fraction  {self.value:.3f} ({scatter})",
+            f"effective fraction  {self.value_text} ({scatter})",
             f"                    {self.kind}: {KIND_TEXTS[self.kind]}",
-            f"largest drift       {self.statistic} of {self.records.height} motions: real {scale * self.real:.4g}, "
-            f"model {scale * self.model:.4g} {unit}",
+            f"largest drift       {self.statistic} of {self.records.height} motions: {drifts}",
             *self.rule_lines,
         ]
         return "\n".join([*lines, *(f"remark              {remark}" for remark in self.remarks)])
+
+    @property
+    def value_text(self) -> str:
+        """The value in three decimals; "no value" where there is none."""
+        return f"{self.value:.3f}" if math.isfinite(self.value) else "no value"
 
     @property
     def suite_interval(self) -> tuple[float, float] | None:
@@ -157,7 +167,8 @@ class EffectiveMass(Result):
         if self.interval is None or self.kind == "stuck" or self.eta == 0.0:
             return self.interval
         low, high = self.interval
-        return max(0.0, low - SUITE_SCATTER), min(1.0, high + SUITE_SCATTER)
+        largest = self.metadata.get("largest_share", 1.0)
+        return max(0.0, low - SUITE_SCATTER), min(largest, high + SUITE_SCATTER)
 
     @property
     def rule_lines(self) -> tuple[str, ...]:

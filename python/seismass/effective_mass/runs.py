@@ -82,7 +82,7 @@ class Peaks:
     drift : ndarray, shape (scenes, motions, storeys)
         Peak drift (m), or drift ratio where heights are known; infinite in a run that collapsed.
     base_shear : ndarray, shape (scenes, motions)
-        Peak shear of storey 1 (N), until the collapse where there is one.
+        Peak shear of storey 1 (N), until the collapse where there is one; with the share of walls.
     slides : ndarray of bool, shape (scenes, motions)
         Whether a block on a floor slid.
     collapsed : ndarray of bool, shape (scenes, motions)
@@ -118,7 +118,7 @@ class Peaks:
 def solve(
     scenes: Sequence[Scene], motions: NamedMotions, *, threads: int | None = None, progress: Progress | None = None
 ) -> Peaks:
-    """Solve scenes of equal number of storeys under all motions.
+    """Solve scenes of equal number of storeys, all of them of the same engine, under all motions.
 
     Raises
     ------
@@ -130,14 +130,7 @@ def solve(
     threads, progress = as_threads(threads, "runs"), as_progress(progress, "runs")
     count, storeys = len(motions), scenes[0].storeys
     runs = np.stack(np.divmod(np.arange(len(scenes) * count), count), axis=1)
-    batch = _kernel.simulate_many(
-        [scene._kernel for scene in scenes],
-        [motion._kernel for motion in motions.motions],
-        runs,
-        peaks_only=True,
-        threads=threads,
-        progress=progress,
-    )
+    batch, base_shear = _batch(scenes, motions, runs, threads, progress)
     for run, reason in batch.failures:
         name = motions.names[run % count]
         raise SimulationError(f"run under motion {run % count + 1} ({name}) must reach its end; got: {reason}")
@@ -149,19 +142,40 @@ def solve(
         drift = drift / heights
     return Peaks(
         drift=np.where(collapsed[:, :, None], np.inf, drift),
-        base_shear=batch.peak_storey_shear.reshape(*shape, storeys)[:, :, 0],
+        base_shear=base_shear.reshape(shape),
         slides=_slides(scenes, batch, count),
         collapsed=collapsed,
     )
 
 
+def _batch(
+    scenes: Sequence[Scene],
+    motions: NamedMotions,
+    runs: NDArray[np.int64],
+    threads: int | None,
+    progress: Progress | None,
+) -> tuple[_kernel.Batch, FloatArray]:
+    """What the engine of the scenes gives back, and the peak base shear of each run (N)."""
+    shakings = [motion._kernel for motion in motions.motions]
+    general = [scene._general for scene in scenes if scene._general is not None]
+    if general:
+        batch, racks = _kernel.simulate_many_general(general, shakings, runs, threads=threads, progress=progress)
+        return batch, racks.peak_base_shear
+    kernels = [scene._kernel for scene in scenes]
+    batch = _kernel.simulate_many(kernels, shakings, runs, peaks_only=True, threads=threads, progress=progress)
+    shear = np.zeros(len(runs))
+    solved = batch.storeys > 0
+    shear[solved] = batch.peak_storey_shear[(np.cumsum(batch.storeys) - batch.storeys)[solved]]
+    return batch, shear
+
+
 def _slides(scenes: Sequence[Scene], batch: _kernel.Batch, count: int) -> NDArray[np.bool_]:
-    """Whether a block that stands on a floor of the building slid, by scene and motion."""
+    """Whether a block that stands on a floor of the building, or on a rack there, slid, by scene and motion."""
     slid = batch.peak_slip > 0.0
     slides = np.zeros((len(scenes), count), dtype=np.bool_)
     first = 0
     for number, scene in enumerate(scenes):
-        on_floor = np.array(scene.block_floor, dtype=np.int64) > 0
+        on_floor = np.array(scene.goods_floor, dtype=np.int64) > 0
         blocks = len(on_floor)
         if blocks:
             own = slid[first : first + count * blocks].reshape(count, blocks)

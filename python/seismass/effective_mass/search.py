@@ -4,16 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from seismass import _kernel
-from seismass.base.values import FloatArray
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.effective_mass.beyond import (
+    FROM_ONE,
+    LARGEST_SHARE,
+    SHARES_BEYOND,
+    extended,
+    first_bracket,
+    goes_beyond,
+    joined,
+)
 from seismass.effective_mass.by_hand import by_hand
 from seismass.effective_mass.curve import (
     Kind,
     Statistic,
+    check_fractions,
+    check_statistic,
     crossings,
     interpolated,
     is_below,
@@ -23,13 +35,18 @@ from seismass.effective_mass.curve import (
     resampled,
 )
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate
-from seismass.effective_mass.models import ModelDamping, attached, building_of, friction, full_weight
+from seismass.effective_mass.models import ModelDamping, attached, building_of, check_damping, friction, full_weight
 from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
+from seismass.effective_mass.structure_remarks import remarks_of_structure
 from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
+from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
 from seismass.runs.simulate import instruction_set
+
+OWNER: Final = "effective mass"
+"""What error messages call it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +63,34 @@ class Options:
     progress: Progress | None
 
 
+def checked_options(
+    statistic: Any,
+    damping: Any,
+    fractions: Any,
+    confidence: Any,
+    resamples: Any,
+    seed: Any,
+    threads: Any,
+    progress: Any,
+) -> Options:
+    """Return the arguments of `effective_mass`; one that is not what it must be is refused."""
+    probability = as_number(confidence, "confidence", OWNER, InvalidOption)
+    if not 0.0 < probability < 1.0:
+        raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{probability:g}")
+    if progress is not None and not callable(progress):
+        raise refusal(InvalidOption, "progress", OWNER, "a callable of two numbers", brief(progress))
+    return Options(
+        statistic=check_statistic(statistic, OWNER),
+        damping=check_damping(damping, OWNER),
+        fractions=check_fractions(fractions, OWNER),
+        confidence=probability,
+        resamples=as_count(resamples, "resamples", OWNER, InvalidOption, least=1),
+        seed=as_count(seed, "seed", OWNER, InvalidOption),
+        threads=None if threads is None else as_count(threads, "threads", OWNER, InvalidOption, least=1),
+        progress=progress,
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class Search:
     """Everything that is needed to go from drifts at the shares of a grid to the answer.
@@ -60,22 +105,29 @@ class Search:
         Takes a share, returns the peaks of the real building and of the model there, one scene each.
     scene_at : callable
         Takes a share, returns the scene with sliding goods.
+    beyond : Peaks, optional
+        Peaks of the models at `SHARES_BEYOND`; None where no share above 1 is sought.
     """
 
     motions: NamedMotions
     options: Options
     at: Callable[[float], tuple[Peaks, Peaks]]
     scene_at: Callable[[float], Scene]
+    beyond: Peaks | None = None
 
     def answer(self, real: Peaks, model: Peaks, about: dict[str, Any]) -> EffectiveMass:
         """Return the effective fraction; `real` has one scene, or one per share."""
         options, shares = self.options, self.options.fractions
         kind = self._kind(real, model)
         brackets = [] if kind in ("collapsed", "stuck") else crossings(shares, *self._statistics(model, real))
+        larger = self._larger_bracket(real, model) if kind == "one" else None
+        if larger is not None:
+            kind = "beyond"
+            brackets.append(larger)
         difference = _Difference(self, real, model)
         roots = [refined_root(difference, bracket) for bracket in brackets]
         value = {"collapsed": float("nan"), "zero": 0.0}.get(kind, 1.0)
-        if kind in ("root", "multiple"):
+        if kind in ("root", "multiple", "beyond"):
             value = roots[-1]
         place = 1.0 if np.isnan(value) else value
         real_there, model_there = self._peaks_at(place, real, model)
@@ -113,11 +165,15 @@ class Search:
             estimate=float(best_estimate(eta, rule.exponent, rule.height_ratio)),
             conservative=float(conservative_estimate(eta, rule.height_ratio)),
             by_hand=rule,
-            curve=curve_table(shares, real, model, band, options.statistic),
+            curve=curve_table(*self._with_larger(model), real, band, options.statistic),
             storeys=storeys,
             records=record_table(self.motions, shares, real, model),
             collapses=collapses,
-            remarks=remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
+            remarks=(
+                *usage_remarks(scene.remarks, self.motions.motions),
+                *remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
+                *remarks_of_structure(scene),
+            ),
             metadata=self._metadata(scene, about, difference.evaluations),
         )
 
@@ -126,15 +182,32 @@ class Search:
         model_drift, real_drift = (over_records(peaks.largest, self.options.statistic) for peaks in (model, real))
         return model_drift, np.broadcast_to(real_drift, model_drift.shape)
 
+    def _with_larger(self, model: Peaks) -> tuple[FloatArray, Peaks]:
+        """All shares at which models were solved, and their peaks."""
+        if self.beyond is None:
+            return self.options.fractions, model
+        return np.concatenate([self.options.fractions, SHARES_BEYOND]), joined(model, self.beyond)
+
+    def _larger_bracket(self, real: Peaks, model: Peaks) -> tuple[float, float] | None:
+        """Shares from 1 on between which the model first reaches the real drift."""
+        if self.beyond is None:
+            return None
+        drift, real_drift = self._statistics(joined(model.one(-1), self.beyond), real)
+        return first_bracket(FROM_ONE, drift, float(real_drift[0]))
+
     def _kind(self, real: Peaks, model: Peaks) -> Kind:
         model_drift, real_drift = self._statistics(model, real)
         if not np.isfinite(real_drift).all():
             return "collapsed"
-        if not real.slides[-1].any():
+        # Goods that do not slide on a rack that sways are not attached to the floor.
+        if not real.slides[-1].any() and not self._on_racks():
             return "stuck"
         if without_friction(self.scene_at(1.0)):  # the real building is the bare one, whatever the curve does
             return "zero"
         return kind_of(is_below(model_drift, real_drift))
+
+    def _on_racks(self) -> bool:
+        return any(rack.floor > 0 for rack in self.scene_at(1.0).racks)
 
     def _peaks_at(self, share: float, real: Peaks, model: Peaks) -> tuple[Peaks, Peaks]:
         """Peaks of the real building and of the model at a share, from the grid where it is one of its shares."""
@@ -155,8 +228,9 @@ class Search:
         options = self.options
         if kind == "collapsed" or self.motions.clusters < 2:
             return None, None
+        shares, every = self._with_larger(model)
         model_drift, real_drift = resampled(
-            model.largest,
+            every.largest,
             real.largest,
             statistic=options.statistic,
             cluster_of=self.motions.cluster_of,
@@ -164,9 +238,12 @@ class Search:
             seed=options.seed,
         )
         tail = 50.0 * (1.0 - options.confidence)
-        values = interpolated(options.fractions, model_drift, real_drift)
-        # Without a finite real drift no share is enough: the resample counts as 1.
-        values[np.isinf(real_drift).any(axis=1)] = 1.0
+        count = len(options.fractions)
+        values = interpolated(options.fractions, model_drift[:, :count], real_drift[:, :count])
+        if self.beyond is not None:
+            values = extended(values, FROM_ONE, model_drift[:, count - 1 :], real_drift[:, 0])
+        # Without a finite real drift no share is enough: the resample counts as the largest.
+        values[np.isinf(real_drift).any(axis=1)] = shares[-1]
         if kind == "stuck":
             values = np.ones(1)
         elif without_friction(self.scene_at(1.0)):
@@ -201,11 +278,14 @@ class Search:
             "motions": len(self.motions),
             "clusters": self.motions.clusters,
             "shares_beside_the_grid": evaluations,
+            **({} if self.beyond is None else {"largest_share": LARGEST_SHARE}),
         }
 
 
 def without_friction(scene: Scene) -> bool:
-    """Whether no goods on the floors have friction; goods with mu_s alone stick until they slide."""
+    """Whether no goods on the floors are held by friction or stops; goods with mu_s alone stick until they slide."""
+    if goes_beyond(scene):
+        return False
     coefficients = ((block.mu_s, *(mu_s for _, mu_s, _ in block.wear)) for block in scene.blocks if block.floor > 0)
     return not any(any(each) for each in coefficients)
 

@@ -21,7 +21,7 @@ STOREY_REMARK: Final = 1.05
 
 
 def curve_table(
-    shares: FloatArray, real: Peaks, model: Peaks, band: FloatArray | None, statistic: Statistic
+    shares: FloatArray, model: Peaks, real: Peaks, band: FloatArray | None, statistic: Statistic
 ) -> pl.DataFrame:
     """Return drifts by share and storey, storey 0 being the largest of each run; see `EffectiveMass.curve`."""
 
@@ -90,6 +90,8 @@ def remarks_of(
         remarks.append(f"{len(roots)} shares give the same drift ({', '.join(f'{root:.3f}' for root in roots)})")
     if kind == "one":
         remarks.append(f"the real building drifts {100.0 * excess:.2g} % more than the model with all goods attached")
+    if kind == "beyond":
+        remarks.append("the goods load the building more than all of them attached would: racks or stops pass on more")
     for name, count in (("real building", collapses["real"]), ("model", collapses["model"])):
         if count:
             remarks.append(f"the {name} collapses under {count} of {motions} motions")
@@ -146,12 +148,17 @@ def scene_bytes(scene: Scene) -> Iterator[bytes]:
     if building is not None:
         structure = [building.mass, *building.springs_in_use().values(), building.damping_matrix]
         optional = [building.heights, scene.initial_drift, scene.initial_velocity, scene.collapse_drift]
+        if building.stiffness_matrix is not None:
+            yield np.ascontiguousarray(building.stiffness_matrix, dtype="<f8").tobytes()
         if building.laws:
             yield repr((building.backbone, building.hysteresis)).encode()
         for array in (*structure, scene.geometric_stiffness, *optional):
             yield b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes()
     for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
-        yield np.array([block.floor, mass, block.mu_s, block.mu_k, *chain(*block.wear)], dtype="<f8").tobytes()
+        stops = block.stop_numbers or ()
+        yield np.array([block.floor, mass, block.mu_s, block.mu_k, *chain(*block.wear), *stops], dtype="<f8").tobytes()
+    for rack in scene.racks:
+        yield repr(sorted(rack._arguments().items(), key=lambda item: item[0])).encode()
 
 
 def motion_bytes(motions: NamedMotions) -> Iterator[bytes]:

@@ -135,7 +135,7 @@ def _named_codes() -> list[tuple[str, float]]:
 def _given() -> dict[str, Any]:
     """What the script of the page is given beside the kernel."""
     suite = builtin_suite("seven")
-    factors = scale_asce7_10(suite, TargetSpectrum.asce7()).factors
+    factors = scale_asce7_10(suite, TargetSpectrum.asce7(), between=False).factors
     files = []
     for record, factor in zip(suite, factors.tolist(), strict=True):
         if record.source is None:

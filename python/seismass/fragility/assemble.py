@@ -18,6 +18,7 @@ from seismass.fragility.compare import comparison_table, curve_table, exceedance
 from seismass.fragility.fragility import BootstrapOptions, Fragility
 from seismass.fragility.result import SCHEMA_VERSION, AnalysisMethod, FragilityAnalysis
 from seismass.fragility.run import Setting, check_levels
+from seismass.model.plausibility import usage_remarks
 from seismass.runs.simulate import instruction_set
 
 Fits: TypeAlias = dict[tuple[str, str], Fragility]
@@ -97,7 +98,8 @@ def _remarks(
 ) -> tuple[str, ...]:
     """What a user must know beside the numbers."""
     count, clusters = len(setting.motions), setting.motions.clusters
-    remarks = []
+    said = (remark for scene in setting.models.values() for remark in scene.remarks)
+    remarks = usage_remarks(said, (), ((limit.quantity, limit.value) for limit in setting.limits))
     if count < FEW_MOTIONS:
         remarks.append(f"{counted(count, 'motion')}: few for a fragility; intervals of so few are too narrow")
     if clusters == 1 and count > 1:

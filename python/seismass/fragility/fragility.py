@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any, Final, Literal, TypeAlias
 
@@ -41,7 +42,7 @@ _KIND_TEXTS: Final[dict[FragilityKind, str]] = {
     "never": "the limit is never exceeded: the median lies above the highest intensity",
     "always": "the limit is always exceeded: the median lies below the lowest intensity",
     "falling": "the limit is not exceeded more often at higher intensities: no lognormal curve fits",
-    "none": "the runs are too few for a curve",
+    "none": "the runs, or the intensities that differ, are too few for a curve",
 }
 
 
@@ -147,9 +148,13 @@ class Fragility:
         def of(value: float, interval: tuple[float, float] | None) -> str:
             return f"{value:.3g}" + ("" if interval is None else f" [{interval[0]:.3g}, {interval[1]:.3g}]")
 
+        if math.isnan(self.median):
+            line = f"no curve; {self.exceeding} of {counted(self.runs, 'run')} exceed"
+            return "\n".join([line, *(f"remark: {remark}" for remark in self.remarks)])
+        scatter = "unknown" if math.isnan(self.dispersion) else of(self.dispersion, self.dispersion_interval)
         line = (
-            f"median {of(self.median, self.median_interval)}, dispersion "
-            f"{of(self.dispersion, self.dispersion_interval)}; {self.exceeding} of {counted(self.runs, 'run')} exceed"
+            f"median {of(self.median, self.median_interval)}, dispersion {scatter}; "
+            f"{self.exceeding} of {counted(self.runs, 'run')} exceed"
         )
         return "\n".join([line, *(f"remark: {remark}" for remark in self.remarks)])
 

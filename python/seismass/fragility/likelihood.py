@@ -230,6 +230,9 @@ def cloud_fits(
     kind[collapse.kind == FALLING] = FALLING
     fitted = kind == FITTED
     curves[fitted, 0], curves[fitted, 1] = median[fitted], scatter[fitted] / slope[fitted]
+    # All runs on one line but for rounding: no scatter from which a dispersion could be told.
+    exact = fitted & (scatter < _SAME)
+    kind[exact], curves[exact, 1] = STEP, 0.0
     nothing = number == 0.0
     kind[nothing & (collapse.kind == NEVER)], kind[nothing & (collapse.kind == ALWAYS)] = NEVER, ALWAYS
     curves[kind == NEVER, 0], curves[kind == ALWAYS, 0] = np.inf, 0.0

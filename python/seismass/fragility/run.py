@@ -17,7 +17,7 @@ from seismass.fragility.limits import LimitState, as_limits
 from seismass.fragility.measures import IntensityMeasure, MeasureName, measure_for
 from seismass.fragility.models import as_models
 from seismass.model.scene import Scene
-from seismass.runs.batch import simulate_many
+from seismass.runs.batch import solve_many
 
 Progress: TypeAlias = Callable[[int, int], object]
 """Called with (runs done, runs in all)."""
@@ -219,7 +219,7 @@ def _solve_part(
     scenes = list(setting.models.values())
     runs = np.stack([model + 1, which.reshape(-1) + 1], axis=1)
     peaks_only = not setting.needs_residual
-    table = simulate_many(scenes, scaled, pairs=runs, peaks_only=peaks_only, threads=threads, progress=progress)
+    table = solve_many(scenes, scaled, pairs=runs, peaks_only=peaks_only, threads=threads, progress=progress)
     failed = table.with_row_index("row").filter(pl.col("status") == "failed")
     if failed.height:
         row, reason = failed.row(0, named=True)["row"], failed.row(0, named=True)["reason"]

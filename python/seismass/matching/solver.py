@@ -1,9 +1,10 @@
 """The iteration of spectral matching: wavelets whose sum brings every oscillator of a list to its target.
 
 Al Atik and Abrahamson (2010), Earthquake Spectra 26:601-617, after Lilhanand and Tseng (1988), with these changes: all
-periods at once and closely spaced; exact peaks in continuous time; extrema that would grow past the target, or outside
-the range past a limit, are held there; and in each pass the sum of all wavelets is sought again, of the least size, so
-that none is left behind.
+periods at once and closely spaced, more closely where the misfit is the largest; wide wavelets beside the usual ones,
+which tell neighbouring periods apart; exact peaks in continuous time; extrema that would grow past the target, or
+outside the range past a limit, are held there; and in each pass the sum of all wavelets is sought again, of the least
+size, so that none is left behind.
 """
 
 from __future__ import annotations
@@ -33,17 +34,27 @@ SECONDARY: Final = (0.3, 1.2)
 pass, and its factor from pass to pass, up to 1."""
 HOLDS: Final = 5
 """Times that extrema are added to those held, in one pass."""
-REGULARISATION: Final = (0.4, 0.65, 0.02)
-"""Weight of the size of the wavelets against the misfit: in the first pass, its factor from pass to pass, the least."""
-WEAKER: Final = (1.0, 0.2)
-"""Shares of that weight that are tried in each pass."""
-STEPS: Final = (0.1, 0.35, 0.7, 1.0)
+REGULARISATION: Final = (0.1, 0.01, 0.5)
+"""Weight of the size of the wavelets against the misfit: in the first pass, the least, the largest."""
+WEIGHTS: Final = (4.0, 1.0, 0.25)
+"""Factors of that weight that are tried in each pass; that of the best is kept (Levenberg 1944, Marquardt 1963)."""
+STEPS: Final = (0.3, 1.0)
 """Shares of the step that are tried in each pass."""
+SHORTER: Final = 2.0
+"""Factor of the weight after a pass whose short step was the best."""
 FORGET: Final = (0.5, 0.8)
 """Share of the sum of all earlier wavelets that a pass takes back and seeks again: in the first pass, and its factor
 from pass to pass."""
 EMPHASIS: Final = 50.0
 """A period off by 1/50 counts twice, by 2/50 five times in the sum of squares, so that no period stays behind."""
+LARGEST_EMPHASIS: Final = 10.0
+"""A period counts no more than so many times."""
+PERSISTENT: Final = 1.5
+"""It counts by this factor more in each pass in which it is still off, and less in others."""
+MOST_PERSISTENT: Final = 10.0
+"""Up to this factor."""
+STILL_OFF: Final = 0.7
+"""Share of the tolerance beyond which a period is still off."""
 PATIENCE: Final = 15
 """Passes without a better misfit after which the iteration ends."""
 GROUP: Final = 16
@@ -129,39 +140,40 @@ def adjust(
     Stopped
         The suite is given up.
     """
-    matched = len(periods)
-    periods, target = np.concatenate([periods, guards[0]]), np.concatenate([target, guards[1]])
-    oscillators = Oscillators(periods, damping, dt)
-    displacement = target * (periods / (2.0 * np.pi)) ** 2
-    delay = _delays(oscillators)
+    grid = _Grid(np.concatenate([periods, guards[0]]), np.concatenate([target, guards[1]]), len(periods), damping, dt)
     acceleration, best = given, given
     least, _ = _score(between([given])[0])
     reached = _score(final([given])[0])[1] <= tolerance
     passes = chosen = 0
     shortened = False
     span = (len(given), 0)  # of all wavelets so far
+    weight = REGULARISATION[0]
     while passes < max_iterations and not reached and passes - chosen < PATIENCE:
         end_if_stopped()
-        extrema = oscillators.extrema(acceleration, SHARE, MOST)
-        sought = extrema.largest & (extrema.oscillator < matched)
-        # Those of the guards come last; they have no wavelets.
-        own = extrema.oscillator[extrema.oscillator < matched]
-        time = dt * (extrema.step + extrema.fraction)[: len(own)]
-        wavelets = place(time - delay[own], periods[own], damping, dt, len(given))
+        extrema = grid.oscillators.extrema(acceleration, SHARE, MOST)
+        sought = extrema.largest & (extrema.oscillator < grid.matched)
+        # Those of the guards have no wavelets; the largest of the others have a wide one, too.
+        usual = np.flatnonzero(extrema.oscillator < grid.matched)
+        of = np.concatenate([usual, np.flatnonzero(sought)])
+        own, time = extrema.oscillator[of], dt * (extrema.step + extrema.fraction)[of]
+        wide = np.arange(len(of)) >= len(usual)
+        wavelets = place(time - grid.delay[own], grid.periods[own], damping, dt, len(given), wide)
         first, last = min(span[0], wavelets.first), max(span[1], wavelets.last)
         end_if_stopped()
-        influence = oscillators.influence(extrema, first, last)
-        scale = np.sign(extrema.value) / displacement[extrema.oscillator]
+        influence = grid.oscillators.influence(extrema, first, last)
+        scale = np.sign(extrema.value) / grid.displacement[extrema.oscillator]
+        ratio = scale * extrema.value
         added = (acceleration - given)[first:last]
         forget = FORGET[0] * float(power(FORGET[1], passes))
         taken_back = forget * scale * np.einsum("es,s->e", influence, added)
         within = slice(wavelets.first - first, wavelets.last - first)
         effect = _effect(influence[:, within], extrema.step, wavelets) * scale[:, None]
         end_if_stopped()
-        weight = max(REGULARISATION[0] * float(power(REGULARISATION[1], passes)), REGULARISATION[2])
         ease = min(SECONDARY[0] * float(power(SECONDARY[1], passes)), 1.0)
+        emphasis = np.ones(len(ratio))
+        emphasis[sought] = grid.emphasis(ratio[sought], tolerance)
         candidates = []
-        for amplitudes in _amplitudes(effect, scale * extrema.value, taken_back, sought, weight, ease):
+        for amplitudes in _amplitudes(effect, of, ratio, taken_back, sought, weight, ease, emphasis):
             change = -forget * added
             change[within] += np.einsum("w,ws->s", amplitudes, wavelets.samples)
             for step in STEPS:
@@ -175,11 +187,48 @@ def adjust(
         span = (first, last)
         passes += 1
         shortened = shortened or bool(wavelets.shortened.any())
-        score, largest = scores[number]
-        reached = largest <= tolerance and _score(final([acceleration])[0])[1] <= tolerance
-        if score < least or reached:
-            least, best, chosen = score, acceleration, passes
+        weight *= WEIGHTS[number // len(STEPS)] * (SHORTER if number % len(STEPS) == 0 else 1.0)
+        weight = min(max(weight, REGULARISATION[1]), REGULARISATION[2])
+        judged = np.abs(final([acceleration])[0] - 1.0)
+        worst = int(np.argmax(judged))
+        reached = bool(judged[worst] <= tolerance)
+        if not reached:
+            grid.insert(float(final.periods[worst]), 1.0 / float(final.over[worst]))
+        if scores[number][0] < least or reached:
+            least, best, chosen = scores[number][0], acceleration, passes
     return Adjusted(best, passes, chosen, shortened)
+
+
+class _Grid:
+    """Periods that are matched, and those outside that are held; a period between, once it is the worst, joins them."""
+
+    def __init__(self, periods: FloatArray, target: FloatArray, matched: int, damping: float, dt: float) -> None:
+        self.periods, self.matched, self.damping, self.dt = periods, matched, damping, dt
+        self.displacement = target * (periods / (2.0 * np.pi)) ** 2
+        self.oscillators = Oscillators(periods, damping, dt)
+        self.delay = _delays(self.oscillators)
+        self.persistence = np.ones(matched)
+
+    def emphasis(self, ratio: FloatArray, tolerance: float) -> FloatArray:
+        """Return how much each matched period counts in the sum of squares, up to 1, and note which are still off."""
+        off = np.abs(1.0 - ratio)
+        factor = np.where(off > STILL_OFF * tolerance, PERSISTENT, 1.0 / PERSISTENT)
+        self.persistence = np.clip(self.persistence * factor, 1.0, MOST_PERSISTENT)
+        found = np.minimum(1.0 + (EMPHASIS * off) ** 2, LARGEST_EMPHASIS) * self.persistence
+        return np.asarray(found / found.max())
+
+    def insert(self, period: float, displacement: float) -> None:
+        """Match a period (s) more, to a displacement (m)."""
+        if np.any(self.periods[: self.matched] == period):
+            return
+        at = int(np.searchsorted(self.periods[: self.matched], period))
+        self.periods = np.insert(self.periods, at, period)
+        self.displacement = np.insert(self.displacement, at, displacement)
+        one = Oscillators(np.array([period]), self.damping, self.dt)
+        self.delay = np.insert(self.delay, at, _delays(one))
+        self.persistence = np.insert(self.persistence, at, MOST_PERSISTENT)
+        self.matched += 1
+        self.oscillators = Oscillators(self.periods, self.damping, self.dt)
 
 
 def _score(ratios: FloatArray) -> tuple[float, float]:
@@ -197,7 +246,7 @@ def _delays(oscillators: Oscillators) -> FloatArray:
         dt = oscillators.dt
         crest = np.array([width + 2.0 * dt])
         samples = int(np.ceil(2.0 * (width + period) / dt)) + 8
-        placed: Placed = place(crest, np.array([period]), oscillators.damping, dt, samples)
+        placed: Placed = place(crest, np.array([period]), oscillators.damping, dt, samples, np.array([False]))
         motion = np.zeros(samples)
         motion[placed.first : placed.last] = placed.samples[0]
         found: Extrema = Oscillators(np.array([period]), oscillators.damping, dt).extrema(motion, 1.0, 1)
@@ -228,13 +277,15 @@ def _effect(influence: FloatArray, steps: NDArray[np.int64], wavelets: Placed) -
 
 def _amplitudes(
     effect: FloatArray,
+    of: NDArray[np.int64],
     ratio: FloatArray,
     taken_back: FloatArray,
     largest: NDArray[np.bool_],
     weight: float,
     ease: float,
+    emphasis: FloatArray,
 ) -> list[FloatArray]:
-    """Amplitudes of the wavelets (m/s2), for each weight of `WEAKER`: regularised least squares.
+    """Amplitudes of the wavelets (m/s2), for each factor of `WEIGHTS`: regularised least squares.
 
     Held are the largest extremum of each matched oscillator, which is brought to the target, and every other that would
     grow past it. An amplitude counts by what it does to its own extremum.
@@ -242,8 +293,9 @@ def _amplitudes(
     Parameters
     ----------
     effect : ndarray, shape (extrema, wavelets)
-        Change of each extremum over the target by a wavelet of unit amplitude; wavelet i is that of extremum i. There
-        may be fewer wavelets than extrema.
+        Change of each extremum over the target by a wavelet of unit amplitude.
+    of : ndarray of int, shape (wavelets,)
+        The extremum that a wavelet is for.
     ratio, taken_back : ndarray, shape (extrema,)
         Extrema over the target, and what is taken from them in this pass.
     largest : ndarray of bool, shape (extrema,)
@@ -252,19 +304,20 @@ def _amplitudes(
         Of the amplitudes against the misfit.
     ease : float
         Above 0 and up to 1: with which wavelets of other extrema than the largest are used.
+    emphasis : ndarray, shape (extrema,)
+        Above 0 and up to 1: how much the misfit of an extremum counts.
     """
     # An end of the record may leave a wavelet with hardly any effect on its own extremum.
-    size = np.maximum(np.abs(np.diag(effect)), 0.1 * np.max(np.abs(effect), axis=0))
-    own = largest[: len(size)]
+    size = np.maximum(np.abs(effect[of, np.arange(len(of))]), 0.1 * np.max(np.abs(effect), axis=0))
+    own = largest[of]
     size = np.where(size > 0.0, size, 1.0)
     size = np.where(own, size, size / ease)
     effect = effect / size
     upper, lower = halves(effect)
     products, known = np.zeros((len(effect), len(effect))), np.zeros(len(effect), dtype=bool)
     miss = 1.0 - ratio + taken_back
-    emphasis = np.minimum(1.0 + (EMPHASIS * (1.0 - ratio)) ** 2, 1e4)
     found = []
-    for share in WEAKER:
+    for share in WEIGHTS:
         regular = (share * weight) ** 2 / emphasis
         end_if_stopped()
         held = largest.copy()

@@ -18,6 +18,10 @@ WINDOW_POWER: Final = 6
 """The window is (1 - x^2) to this power: close to a Gaussian exp(-6 x^2), with five derivatives that close."""
 LEAST_HALF_WIDTH: Final = 0.75
 """Half-width of a window, in periods, below which its centre is moved away from the end of the record instead."""
+WIDE: Final = 2.5
+"""Half-width of a wide window over that of another."""
+EARLY: Final = 0.4
+"""Time by which a wide window is centred before its crest, over its half-width: what comes later has no effect."""
 
 
 def half_width(periods: FloatArray) -> FloatArray:
@@ -42,7 +46,7 @@ class Placed:
     starts, ends : ndarray of int, shape (wavelets,)
         The same for each wavelet.
     shortened : ndarray of bool, shape (wavelets,)
-        Whether an end of the record made the window narrower or moved it.
+        Whether an end of the record made the window narrower or moved it; a wide one has others beside it.
     """
 
     samples: FloatArray
@@ -53,11 +57,14 @@ class Placed:
     shortened: NDArray[np.bool_]
 
 
-def place(crest: FloatArray, periods: FloatArray, damping: float, dt: float, samples: int) -> Placed:
+def place(
+    crest: FloatArray, periods: FloatArray, damping: float, dt: float, samples: int, wide: NDArray[np.bool_]
+) -> Placed:
     """Return wavelets of `samples` samples that are zero at the first and the last, and whose drift is zero.
 
     The displacement is -cos(w (t - crest)) (1 - x^2)^6 / w^2 with w the damped frequency and x = (t - centre) over the
-    half-width; centre and crest are the same unless an end of the record is closer than the window is wide. The samples
+    half-width; centre and crest are the same unless an end of the record is closer than the window is wide, or the
+    window is one of the wide ones, which lie earlier. The samples
     of acceleration are its second differences: those of a piecewise-linear acceleration a with sum(a) = 0 and
     sum(a t) = 0, whose velocity and displacement at the end are exactly zero.
 
@@ -73,11 +80,16 @@ def place(crest: FloatArray, periods: FloatArray, damping: float, dt: float, sam
         Time step (s).
     samples : int
         Samples of the record, at least 5.
+    wide : ndarray of bool, shape (wavelets,)
+        Which have a wide window: their band is as narrow as that of their oscillator, so that they move its neighbours
+        less.
     """
     inner = (samples - 3) * dt  # from the second sample to the last but one
     least = np.minimum(LEAST_HALF_WIDTH * periods, 0.5 * inner)
-    centre = np.clip(crest, dt + least, dt + inner - least)
-    half = np.minimum(half_width(periods), np.minimum(centre - dt, dt + inner - centre))
+    full = np.where(wide, WIDE, 1.0) * half_width(periods)
+    wanted = crest - np.where(wide, EARLY, 0.0) * full
+    centre = np.clip(wanted, dt + least, dt + inner - least)
+    half = np.minimum(full, np.minimum(centre - dt, dt + inner - centre))
     frequency = 2.0 * np.pi / periods * np.sqrt(1.0 - damping * damping)
     # One sample more on each side of the window, on which the second difference may differ from zero.
     starts = np.maximum(np.ceil((centre - half) / dt).astype(int) - 1, 0)
@@ -94,5 +106,5 @@ def place(crest: FloatArray, periods: FloatArray, damping: float, dt: float, sam
         cosine = series_real(far[number], near[number])[: len(time)]
         displacement = (window * window * window) ** 2 * cosine
         row[start - first : end - first] = -np.diff(displacement, n=2) / (omega * dt) ** 2
-    moved = (half < half_width(periods) * (1.0 - 1e-9)) | (centre != crest)
-    return Placed(placed, first, last, starts, ends, moved)
+    moved = (half < full * (1.0 - 1e-9)) | (centre != wanted)
+    return Placed(placed, first, last, starts, ends, moved & ~wide)

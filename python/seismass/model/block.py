@@ -29,12 +29,15 @@ class Block(Value):
         Friction coefficient, static and kinetic. Either it or `mu_s` is needed.
     mu_s, mu_k : float, optional
         Static and kinetic coefficients, mu_s >= mu_k >= 0; mu_k is mu_s by default.
-    velocity : float, optional
-        Initial velocity relative to the ground (m/s); by default that of its floor.
+    velocity : float or pair of float, optional
+        Initial velocity relative to the ground (m/s); by default that of its floor. In two directions a pair.
     wear : list of (path, mu_s, mu_k), optional
         Coefficients that hold from a path slipped (m) on, in order of the path; those above hold until the first.
     stops : Stops, optional
-        What limits its slip. Scenes with stops are solved by the general engine: `simulate` takes them.
+        What limits its slip. Scenes with stops are solved by the general engine: `simulate` takes them. In two
+        directions they stand across x.
+    stops_y : Stops, optional
+        Stops across y, in scenes in two directions.
 
     Raises
     ------
@@ -48,15 +51,16 @@ class Block(Value):
     Block(floor=1, mass_ratio=0.5, mu=0.3)
     """
 
-    __slots__ = ("floor", "mass", "mass_ratio", "mu_k", "mu_s", "stops", "velocity", "wear")
+    __slots__ = ("floor", "mass", "mass_ratio", "mu_k", "mu_s", "stops", "stops_y", "velocity", "wear")
     floor: int
     mass: float | None
     mass_ratio: float | None
     mu_s: float
     mu_k: float
-    velocity: float | None
+    velocity: float | tuple[float, float] | None
     wear: tuple[tuple[float, float, float], ...]
     stops: Stops | None
+    stops_y: Stops | None
 
     def __init__(
         self,
@@ -67,12 +71,14 @@ class Block(Value):
         mu: float | None = None,
         mu_s: float | None = None,
         mu_k: float | None = None,
-        velocity: float | None = None,
+        velocity: float | Sequence[float] | None = None,
         wear: Sequence[tuple[float, float, float]] = (),
         stops: Stops | None = None,
+        stops_y: Stops | None = None,
     ) -> None:
-        if stops is not None and not isinstance(stops, Stops):
-            raise refusal(InvalidScene, "stops", "block", "Stops or None", brief(stops))
+        for key, value in (("stops", stops), ("stops_y", stops_y)):
+            if value is not None and not isinstance(value, Stops):
+                raise refusal(InvalidScene, key, "block", "Stops or None", brief(value))
 
         def number(name: str, value: float | None) -> float | None:
             return None if value is None else as_number(value, name, "block", InvalidScene)
@@ -91,20 +97,34 @@ class Block(Value):
             mass_ratio=number("mass_ratio", mass_ratio),
             mu_s=number("mu" if mu_s is None else "mu_s", static),
             mu_k=number("mu_k", static if mu_k is None else mu_k),
-            velocity=number("velocity", velocity),
+            velocity=_velocity(velocity),
             wear=_stages(wear),
             stops=stops,
+            stops_y=stops_y,
         )
 
     @property
     def contact(self) -> tuple[float, float, float | None, list[tuple[float, float, float]]]:
-        """What the kernel takes beside floor and mass: mu_s, mu_k, velocity, and the stages of wear."""
-        return self.mu_s, self.mu_k, self.velocity, list(self.wear)
+        """What the kernel takes beside floor and mass: mu_s, mu_k, velocity (in x), and the stages of wear."""
+        velocity = self.velocity[0] if isinstance(self.velocity, tuple) else self.velocity
+        return self.mu_s, self.mu_k, velocity, list(self.wear)
 
     @property
     def stop_numbers(self) -> tuple[float, float, float, float] | None:
         """What the kernel takes of the stops; None without."""
         return None if self.stops is None else self.stops.numbers
+
+    def in_y(self) -> Block:
+        """Return what the block is in y: with the second velocity of a pair, and the stops across y."""
+        velocity = self.velocity[1] if isinstance(self.velocity, tuple) else None
+        return self.replace(velocity=velocity, stops=self.stops_y, stops_y=None)
+
+    @property
+    def of_plane(self) -> str | None:
+        """Name of what it has that only two directions give a meaning; None: nothing."""
+        if self.stops_y is not None:
+            return "stops_y"
+        return "velocity" if isinstance(self.velocity, tuple) else None
 
     def _arguments(self) -> dict[str, Any]:
         return {
@@ -116,16 +136,31 @@ class Block(Value):
             "velocity": self.velocity,
             "wear": self.wear,
             "stops": self.stops,
+            "stops_y": self.stops_y,
         }
 
     def __repr__(self) -> str:
         mass = f"mass={self.mass:g}" if self.mass is not None else f"mass_ratio={self.mass_ratio:g}"
         equal = self.mu_s == self.mu_k
         friction = f"mu={self.mu_s:g}" if equal else f"mu_s={self.mu_s:g}, mu_k={self.mu_k:g}"
-        velocity = "" if self.velocity is None else f", velocity={self.velocity:g}"
+        pair = self.velocity if isinstance(self.velocity, tuple) else (self.velocity,)
+        shown = ", ".join(f"{each:g}" for each in pair if each is not None)
+        velocity = "" if self.velocity is None else f", velocity=({shown})" if len(pair) == 2 else f", velocity={shown}"
         wear = f", wear={list(self.wear)}" if self.wear else ""
         stops = "" if self.stops is None else f", stops={self.stops}"
+        stops += "" if self.stops_y is None else f", stops_y={self.stops_y}"
         return f"Block(floor={self.floor}, {mass}, {friction}{velocity}{wear}{stops})"
+
+
+def _velocity(velocity: float | Sequence[float] | None) -> float | tuple[float, float] | None:
+    if velocity is None:
+        return None
+    if not isinstance(velocity, Sequence | np.ndarray) or isinstance(velocity, str):
+        return as_number(velocity, "velocity", "block", InvalidScene)
+    if len(velocity) != 2:
+        raise refusal(InvalidScene, "velocity", "block", "one number, or two: in x and in y", brief(velocity))
+    x, y = (as_number(each, "velocity", "block", InvalidScene) for each in velocity)
+    return x, y
 
 
 def _stages(wear: Any) -> tuple[tuple[float, float, float], ...]:

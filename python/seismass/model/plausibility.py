@@ -32,6 +32,64 @@ MAX_PGA: Final = 5.0
 """Peak ground acceleration (g); the largest recorded one is about 4 g."""
 MAX_MEAN_PGA: Final = 3.0
 """Mean of the peak ground accelerations of a suite as it is used (g); no site has such a hazard."""
+MAX_RATIO_LIMIT: Final = 0.2
+"""Limit of a drift over the height in an analysis of fragility or risk."""
+MAX_DRIFT_LIMIT: Final = 2.0
+"""Limit of a drift (m)."""
+MAX_SLIP_LIMIT: Final = 10.0
+"""Limit of a slip, or a clearance (m)."""
+MAX_ACCELERATION_LIMIT: Final = 5.0
+"""Limit of a floor acceleration (g)."""
+LIMITS: Final = {
+    "drift_ratio": (MAX_RATIO_LIMIT, " of the height", "limits are ratios, not per cent"),
+    "residual_drift_ratio": (MAX_RATIO_LIMIT, " of the height", "limits are ratios, not per cent"),
+    "drift": (MAX_DRIFT_LIMIT, " m", "is it in m, not mm or per cent?"),
+    "residual_drift": (MAX_DRIFT_LIMIT, " m", "is it in m, not mm or per cent?"),
+    "slip": (MAX_SLIP_LIMIT, " m", "is it in m, not mm?"),
+    "residual_slip": (MAX_SLIP_LIMIT, " m", "is it in m, not mm?"),
+    "clearance": (MAX_SLIP_LIMIT, " m", "is it in m, not mm?"),
+    "floor_acceleration_g": (MAX_ACCELERATION_LIMIT, " g", "is it in g, not m/s2?"),
+}
+"""Largest usual limit of each quantity, its unit, and what is doubted above."""
+
+
+def limit_remarks(limits: Iterable[tuple[str, float]]) -> tuple[str, ...]:
+    """Return what is unlikely about limits.
+
+    Parameters
+    ----------
+    limits : iterable of (str, float)
+        Quantities, as a `LimitState` names them, with their values; others than those of `LIMITS` are left out.
+
+    Examples
+    --------
+    >>> limit_remarks([("drift_ratio", 2.0)])
+    ('the limit of drift_ratio is 2 of the height, above 0.2: limits are ratios, not per cent',)
+    """
+    found = []
+    for quantity, value in limits:
+        most, unit, asked = LIMITS.get(quantity, (np.inf, "", ""))
+        if value > most:
+            found.append(f"the limit of {quantity} is {value:.4g}{unit}, above {most:g}: {asked}")
+    return tuple(dict.fromkeys(found))
+
+
+def usage_remarks(scene_remarks: Iterable[str], motions: Any, limits: Iterable[tuple[str, float]] = ()) -> list[str]:
+    """Return what is unlikely about a study: its scene, limits and motions; of these the first, with a count.
+
+    Parameters
+    ----------
+    scene_remarks : iterable of str
+        `Scene.remarks` of one or several scenes.
+    motions : iterable of Motion or Record
+        The motions as they are used; none where they are scaled to many intensities.
+    limits : iterable of (str, float)
+        As for `limit_remarks`.
+    """
+    strong = motion_remarks(motions)
+    if len(strong) > 1:
+        strong = (f"{strong[0]} (and {len(strong) - 1} more motions)",)
+    return list(dict.fromkeys([*scene_remarks, *limit_remarks(limits), *strong, *mean_motion_remarks(motions)]))
 
 
 def model_remarks(building: Building | None, blocks: Sequence[Block]) -> tuple[str, ...]:

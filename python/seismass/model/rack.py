@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final, Unpack
 
 import numpy as np
@@ -28,7 +28,7 @@ class RackBlock(Value):
     ----------
     level : int
         Level, counted from 1, the lowest.
-    mass, mass_ratio, mu, mu_s, mu_k, velocity, wear, stops
+    mass, mass_ratio, mu, mu_s, mu_k, velocity, wear, stops, stops_y
         As for `Block`; `mass_ratio` is over the mass of the floor on which the rack stands.
     fixed : bool, default False
         Attached to the level for good. Friction and stops are then left out.
@@ -60,14 +60,16 @@ class RackBlock(Value):
         mu: float | None = None,
         mu_s: float | None = None,
         mu_k: float | None = None,
-        velocity: float | None = None,
+        velocity: float | Sequence[float] | None = None,
         wear: Sequence[tuple[float, float, float]] = (),
         stops: Stops | None = None,
+        stops_y: Stops | None = None,
         fixed: bool = False,
     ) -> None:
         number = as_count(level, "level", "block of a rack", InvalidScene, least=1)
         if fixed:
             others = {"mu": mu, "mu_s": mu_s, "mu_k": mu_k, "velocity": velocity, "wear": wear or None, "stops": stops}
+            others["stops_y"] = stops_y
             for name, value in others.items():
                 if value is not None:
                     requirement = "left out where the goods are fixed"
@@ -83,6 +85,7 @@ class RackBlock(Value):
             velocity=velocity,
             wear=wear,
             stops=stops,
+            stops_y=stops_y,
         )
         self._set(level=number, fixed=bool(fixed), block=block)
 
@@ -92,6 +95,12 @@ class RackBlock(Value):
         if self.fixed:
             return {"level": self.level, **masses, "fixed": True}
         return {"level": self.level, **{name: value for name, value in block.items() if name != "floor"}}
+
+    def in_y(self) -> RackBlock:
+        """Return what the goods are in y."""
+        if self.fixed:
+            return self
+        return self.replace(velocity=self.block.in_y().velocity, stops=self.block.stops_y, stops_y=None)
 
     def __repr__(self) -> str:
         if self.fixed:
@@ -132,6 +141,8 @@ class Rack(Value):
         P/h of each level (N/m).
     blocks : iterable of RackBlock
         Goods on its levels.
+    other_direction : dict, optional
+        Arguments of springs and damping that differ in y, in scenes in two directions.
 
     Raises
     ------
@@ -155,6 +166,7 @@ class Rack(Value):
         "level_mass",
         "level_mass_ratio",
         "levels",
+        "other_direction",
         "period",
         "shape",
         "stiffness",
@@ -174,6 +186,7 @@ class Rack(Value):
     damping: float
     geometric_stiffness: FloatArray | None
     blocks: tuple[RackBlock, ...]
+    other_direction: dict[str, Any] | None
 
     @takes_springs(SHAPE_FIELDS)
     def __init__(
@@ -191,6 +204,7 @@ class Rack(Value):
         damping: float = DEFAULT_RACK_DAMPING,
         geometric_stiffness: ArrayLike | None = None,
         blocks: Iterable[RackBlock] = (),
+        other_direction: Mapping[str, Any] | None = None,
         **shape: Unpack[SpringShape],
     ) -> None:
         given: dict[str, Any] = dict(shape)
@@ -230,7 +244,19 @@ class Rack(Value):
             damping=as_number(damping, "damping", "rack", InvalidScene),
             geometric_stiffness=per_level("geometric_stiffness", geometric_stiffness),
             blocks=goods,
+            other_direction=None,
         )
+        if other_direction is not None:
+            self._set(other_direction=_of_other_direction(other_direction))
+            self.in_y()
+
+    def in_y(self) -> Rack:
+        """Return what the rack is in y."""
+        changes: dict[str, Any] = {"blocks": [block.in_y() for block in self.blocks], "other_direction": None}
+        given = self.other_direction or {}
+        for one, other in (("period", "stiffness"), ("yield_shear", "yield_shear_over_weight")):
+            changes |= {one: None} if other in given else {other: None} if one in given else {}
+        return self.replace(**changes, **given)
 
     def alone(self, floor_mass: float = np.nan) -> Building:
         """Return the rack alone, fixed at its base, with its goods attached, as a building whose floors are its levels.
@@ -288,10 +314,27 @@ class Rack(Value):
             blocks=goods,
         )
 
+    def masses(self, building: Building | None) -> list[float]:
+        """Return the masses of its goods in their order (kg), where the rack stands on a floor of a building."""
+        floor_mass = self._floor_mass(building)
+        return [_mass(block, floor_mass) for block in self.blocks]
+
     def sliding_masses(self, building: Building | None) -> list[float]:
         """Return the masses of the blocks that may slide (kg), where the rack stands on a floor of a building."""
-        floor_mass = float(building.mass[self.floor - 1]) if building is not None and self.floor else np.nan
+        floor_mass = self._floor_mass(building)
         return [_mass(block, floor_mass) for block in self.blocks if not block.fixed]
+
+    def goods_mass(self, building: Building | None) -> float:
+        """Return the mass of all its goods, fixed ones too (kg), where it stands on a floor of a building."""
+        floor_mass = self._floor_mass(building)
+        return sum(_mass(block, floor_mass) for block in self.blocks)
+
+    def frame_mass(self, building: Building | None) -> float:
+        """Return the mass of its frame (kg), where it stands on a floor of a building."""
+        return float(self._frame(self._floor_mass(building)).sum())
+
+    def _floor_mass(self, building: Building | None) -> float:
+        return float(building.mass[self.floor - 1]) if building is not None and self.floor else np.nan
 
     def _frame(self, floor_mass: float) -> FloatArray:
         """Mass of the frame at each level (kg), a new array."""
@@ -318,6 +361,16 @@ def _check_choice(one: tuple[str, Any], other: tuple[str, Any], *, is_needed: bo
     if len(given) == 2 or (is_needed and not given):
         requirement = f"given either as {one[0]} or as {other[0]}"
         raise refusal(InvalidScene, one[0], "rack", requirement, "both" if given else "neither")
+
+
+def _of_other_direction(given: Mapping[str, Any]) -> dict[str, Any]:
+    known = ("period", "stiffness", "yield_shear", "yield_shear_over_weight", "hysteresis", "damping", *SHAPE_FIELDS)
+    if not isinstance(given, Mapping):
+        raise refusal(InvalidScene, "other_direction", "rack", "a dict of what differs in y", brief(given))
+    for key in given:
+        if key not in known:
+            raise refusal(InvalidScene, f"other_direction.{key}", "rack", f"one of {', '.join(known)}", "another")
+    return dict(given)
 
 
 def _mass(block: RackBlock, floor_mass: float) -> float:

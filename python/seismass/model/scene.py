@@ -20,6 +20,7 @@ from seismass.model.sliding_base import SlidingBase
 
 _ChainScene: TypeAlias = _kernel.Scene
 _GeneralScene: TypeAlias = _kernel.GeneralScene
+_PlaneScene: TypeAlias = _kernel.PlaneScene
 
 
 class Scene(Value):
@@ -33,12 +34,16 @@ class Scene(Value):
         Any number, in any order; several may share a floor. They are counted from 1 as listed.
     racks : iterable of Rack
         Racks on floors or on the ground. Their goods that may slide are counted on from the blocks, rack by rack.
+    other_direction : Building or True, optional
+        There are two horizontal directions: the building in y, of the same masses; True: the same building, or the
+        ground alone. Friction is of the circle. Blocks, racks and initial states may then differ in y.
     base : SlidingBase, optional
         A slab that carries all of it and slides on the ground; floor 0 is the slab then. None: all stands on the
-        ground. initial_drift : array_like, optional
+        ground.
+    initial_drift : array_like, optional
         Storey drifts at the start (m), within the elastic range. It and the next two need a building.
     initial_velocity : array_like, optional
-        Floor velocities relative to the ground at the start (m/s).
+        Floor velocities relative to the ground at the start (m/s). In two directions both have a pair [x, y] for each.
     collapse_drift : array_like, optional
         Drift (m) at which a storey counts as collapsed and the run ends, beside the limit that P-Delta sets.
     name, note : str
@@ -46,7 +51,7 @@ class Scene(Value):
 
     Attributes
     ----------
-    building, blocks, racks, base, initial_drift, initial_velocity, collapse_drift, name, note
+    building, blocks, racks, base, other_direction, initial_drift, initial_velocity, collapse_drift, name, note
         As given; `blocks` and `racks` are tuples, arrays are read-only.
 
     Raises
@@ -66,6 +71,7 @@ class Scene(Value):
     __slots__ = (
         "_chain",
         "_general",
+        "_plane",
         "base",
         "blocks",
         "building",
@@ -74,14 +80,17 @@ class Scene(Value):
         "initial_velocity",
         "name",
         "note",
+        "other_direction",
         "racks",
     )
     _chain: _ChainScene | None
     _general: _GeneralScene | None
+    _plane: _PlaneScene | None
     building: Building | None
     blocks: tuple[Block, ...]
     racks: tuple[Rack, ...]
     base: SlidingBase | None
+    other_direction: Building | bool
     initial_drift: FloatArray | None
     initial_velocity: FloatArray | None
     collapse_drift: FloatArray | None
@@ -95,6 +104,7 @@ class Scene(Value):
         *,
         racks: Iterable[Rack] = (),
         base: SlidingBase | None = None,
+        other_direction: Building | bool = False,
         initial_drift: ArrayLike | None = None,
         initial_velocity: ArrayLike | None = None,
         collapse_drift: ArrayLike | None = None,
@@ -112,14 +122,19 @@ class Scene(Value):
                 raise refusal(InvalidScene, f"block {number}", "scene", "a Block", brief(block))
 
         standing = _racks(racks)
+        other = _other_direction(other_direction, building)
         if base is not None and not isinstance(base, SlidingBase):
             raise refusal(InvalidScene, "base", "scene", "a SlidingBase or None", brief(base))
+        if base is not None and other is not False:
+            raise refusal(InvalidScene, "base", "scene", "left out where there are two directions", brief(base))
 
-        def per_storey(name: str, value: ArrayLike | None) -> FloatArray | None:
+        def per_storey(name: str, value: ArrayLike | None, *, pairs: bool = False) -> FloatArray | None:
             if value is None:
                 return None
             if building is None:
                 raise refusal(InvalidScene, name, "scene", "left out where there is no building", brief(value))
+            if pairs and other is not False:
+                return as_array(value, name, "scene", InvalidScene, dimensions=2)
             array = as_array(value, name, "scene", InvalidScene, or_number=True)
             return frozen(np.full(building.storeys, array)) if array.ndim == 0 else array
 
@@ -128,8 +143,9 @@ class Scene(Value):
             blocks=placed,
             racks=standing,
             base=base,
-            initial_drift=per_storey("initial_drift", initial_drift),
-            initial_velocity=per_storey("initial_velocity", initial_velocity),
+            other_direction=other,
+            initial_drift=per_storey("initial_drift", initial_drift, pairs=True),
+            initial_velocity=per_storey("initial_velocity", initial_velocity, pairs=True),
             collapse_drift=per_storey("collapse_drift", collapse_drift),
             name=as_name(name, "name", "scene", InvalidScene),
             note=as_name(note, "note", "scene", InvalidScene, lines=True),
@@ -140,24 +156,86 @@ class Scene(Value):
             "initial_velocity": self.initial_velocity,
             "collapse_drift": self.collapse_drift,
         }
-        self._set(_chain=None, _general=None)
+        self._set(_chain=None, _general=None, _plane=None)
+        if other is not False:
+            self._set(_plane=_kernel.PlaneScene(*(one._of_general() for one in self._directions())))
+            return
+        self._refuse_plane_alone()
         kernel: Any = None if building is None else building._kernel
         goods = [(block.floor, mass, *block.contact) for block, mass in zip(placed, masses, strict=True)]
         if self.engine == "chain":
             self._set(_chain=_kernel.Scene(kernel, goods, **state))
             return
-        stopped = [(*each, block.stop_numbers) for each, block in zip(goods, placed, strict=True)]
-        kernels = [rack.of_kernel(number, building) for number, rack in enumerate(standing, start=1)]
-        sliding = None if base is None else base.of_kernel(building)
-        self._set(_general=_kernel.GeneralScene(kernel, stopped, kernels, base=sliding, **state))
+        self._set(_general=self._of_general())
+
+    def _of_general(self) -> _GeneralScene:
+        """What the general engine takes of a scene in one direction."""
+        kernel: Any = None if self.building is None else self.building._kernel
+        goods = [
+            (block.floor, block_mass(block, number, self.building), *block.contact, block.stop_numbers)
+            for number, block in enumerate(self.blocks, start=1)
+        ]
+        racks = [rack.of_kernel(number, self.building) for number, rack in enumerate(self.racks, start=1)]
+        sliding = None if self.base is None else self.base.of_kernel(self.building)
+        state: dict[str, Any] = {
+            "initial_drift": self.initial_drift,
+            "initial_velocity": self.initial_velocity,
+            "collapse_drift": self.collapse_drift,
+        }
+        return _kernel.GeneralScene(kernel, goods, racks, base=sliding, **state)
+
+    def _directions(self) -> tuple[Scene, Scene]:
+        """The scene in x and in y, each in one direction."""
+        values: dict[str, Any] = {name: getattr(self, name) for name in ("initial_drift", "initial_velocity")}
+
+        def of(axis: int) -> dict[str, Any]:
+            for name, array in values.items():
+                if array is not None and array.shape[1] != 2:
+                    raise refusal(
+                        InvalidScene, name, "scene", "a pair [x, y] for each storey", f"{array.shape[1]} numbers"
+                    )
+            return {name: None if array is None else array[:, axis] for name, array in values.items()}
+
+        in_x = [block.replace(velocity=block.contact[2], stops_y=None) for block in self.blocks]
+        of_x = [
+            rack.replace(
+                other_direction=None,
+                blocks=[
+                    each if each.fixed else each.replace(velocity=each.block.contact[2], stops_y=None)
+                    for each in rack.blocks
+                ],
+            )
+            for rack in self.racks
+        ]
+        in_y, of_y = [block.in_y() for block in self.blocks], [rack.in_y() for rack in self.racks]
+        other: Any = self.building if self.other_direction is True else self.other_direction
+        shared: dict[str, Any] = {"collapse_drift": self.collapse_drift}
+        x = Scene(self.building, in_x, racks=of_x, **of(0), **shared)
+        return x, Scene(other, in_y, racks=of_y, **of(1), **shared)
+
+    def _refuse_plane_alone(self) -> None:
+        """Refuse what only two directions give a meaning."""
+        requirement = "left out where there is one direction"
+        for number, block in enumerate(self.goods, start=1):
+            if block.of_plane is not None:
+                raise refusal(InvalidScene, block.of_plane, f"block {number}", requirement, "one of two directions")
+        for number, rack in enumerate(self.racks, start=1):
+            if rack.other_direction is not None:
+                raise refusal(InvalidScene, "other_direction", f"rack {number}", requirement, "one")
 
     @property
-    def engine(self) -> Literal["chain", "general"]:
-        """Which engine solves it: "chain" for shear buildings; "general" with racks, stops, a matrix or a base."""
+    def engine(self) -> Literal["chain", "general", "plane"]:
+        """Which engine solves it: "chain" for shear buildings; "general" with racks, stops, a matrix or a
+        base; "plane" in two directions.
+        """
+        if self.other_direction is not False:
+            return "plane"
         return "general" if self._beyond_chain() is not None else "chain"
 
     def _beyond_chain(self) -> tuple[str, str, str] | None:
         """What the chain engine does not take: its parameter, whose it is, and what it is; None where it takes all."""
+        if self.other_direction is not False:
+            return "other_direction", "scene", "two directions"
         if self.building is not None and self.building.stiffness_matrix is not None:
             return "stiffness_matrix", "building", "a matrix"
         if self.base is not None:
@@ -187,7 +265,7 @@ class Scene(Value):
         return self
 
     def on_ground(self, owner: str) -> Scene:
-        """Return the scene itself, for what takes scenes that stand on the ground alone.
+        """Return the scene itself, for what takes scenes in one direction that stand on the ground alone.
 
         Parameters
         ----------
@@ -197,8 +275,11 @@ class Scene(Value):
         Raises
         ------
         InvalidScene
-            It has a sliding base.
+            It has a sliding base, or two directions.
         """
+        if self.other_direction is not False:
+            requirement = f"left out in {owner}; simulate takes it"
+            raise refusal(InvalidScene, "other_direction", "scene", requirement, "two directions")
         if self.base is not None:
             raise refusal(InvalidScene, "base", "scene", f"left out in {owner}; simulate takes it", repr(self.base))
         return self
@@ -229,6 +310,12 @@ class Scene(Value):
         return (*self.blocks, *of_racks)
 
     @property
+    def goods_floor(self) -> tuple[int, ...]:
+        """Floor under each of `goods`, for those of a rack the floor that it stands on; 0 is the ground."""
+        of_racks = (rack.floor for rack in self.racks for block in rack.blocks if not block.fixed)
+        return (*self.block_floor, *of_racks)
+
+    @property
     def block_floor(self) -> tuple[int, ...]:
         """Floor of each block; 0 is the ground."""
         return tuple(block.floor for block in self.blocks)
@@ -236,6 +323,8 @@ class Scene(Value):
     @property
     def geometric_stiffness(self) -> FloatArray:
         """P/h of each storey (N/m), the weight of the blocks included, shape (storeys,); zero without P-Delta."""
+        if self.other_direction is not False:
+            return self._directions()[0].geometric_stiffness
         kernel: Any = self._chain if self._chain is not None else self._general
         values: FloatArray = kernel.geometric_stiffness
         return values
@@ -251,6 +340,7 @@ class Scene(Value):
             "blocks": self.blocks,
             "racks": self.racks,
             "base": self.base,
+            "other_direction": self.other_direction,
             "initial_drift": self.initial_drift,
             "initial_velocity": self.initial_velocity,
             "collapse_drift": self.collapse_drift,
@@ -265,6 +355,7 @@ class Scene(Value):
             self.blocks,
             self.racks,
             self.base,
+            self.other_direction,
             *(None if array is None else (array + 0.0).tobytes() for array in arrays),
         )
 
@@ -276,11 +367,25 @@ class Scene(Value):
         name = f"{self.name!r}, " if self.name else ""
         blocks = {0: "no block", 1: "1 block"}.get(len(self.blocks), f"{len(self.blocks)} blocks")
         racks = {0: "", 1: ", 1 rack"}.get(len(self.racks), f", {len(self.racks)} racks")
+        racks += ", two directions" if self.other_direction is not False else ""
         racks += "" if self.base is None else ", sliding base"
         if self.building is None:
             return f"Scene({name}{'ground' if self.base is None else 'slab'} only, {blocks}{racks})"
         noun = "storey" if self.storeys == 1 else "storeys"
         return f"Scene({name}{self.storeys} {noun}, T1 = {self.building.periods[0]:.4g} s, {blocks}{racks})"
+
+
+def _other_direction(other: Building | bool, building: Building | None) -> Building | bool:
+    """The building in y; False: there is one direction."""
+    if isinstance(other, bool):
+        return other
+    if not isinstance(other, Building):
+        raise refusal(InvalidScene, "other_direction", "scene", "a Building, True or False", brief(other))
+    if building is None:
+        raise refusal(
+            InvalidScene, "other_direction", "scene", "True or False where there is no building", "a Building"
+        )
+    return other
 
 
 def _racks(racks: Iterable[Rack]) -> tuple[Rack, ...]:

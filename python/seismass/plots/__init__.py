@@ -5,17 +5,20 @@ Each takes `ax`, axes to draw into. `figure_svg` and `inline_svg` give figures a
 
 from seismass.media.svg import DARK_CSS, figure_svg, inline_svg
 from seismass.plots.batches import fragility, fragility_fit, ida, scatter
+from seismass.plots.contacts import contacts
 from seismass.plots.drift_profiles import drift_profiles
 from seismass.plots.growth import energy, slip_path
 from seismass.plots.histories import acceleration, drift, slip
 from seismass.plots.hysteresis import loops
 from seismass.plots.profiles import floor_spectra, profile
 from seismass.plots.pushover import pushover
+from seismass.plots.racks import rack_drift, rack_profile
 from seismass.plots.timeline import events
 
 __all__ = [
     "DARK_CSS",
     "acceleration",
+    "contacts",
     "drift",
     "drift_profiles",
     "energy",
@@ -29,6 +32,8 @@ __all__ = [
     "loops",
     "profile",
     "pushover",
+    "rack_drift",
+    "rack_profile",
     "scatter",
     "slip",
     "slip_path",

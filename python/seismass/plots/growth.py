@@ -14,9 +14,9 @@ from matplotlib.patches import Patch
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_count
 from seismass.media.axes import grid_lines, single
-from seismass.media.style import BLUE, GREEN, GREY, INK, SERIES, STYLE, VERMILION
+from seismass.media.style import BLUE, GREEN, GREY, INK, PURPLE, SERIES, STYLE, VERMILION
+from seismass.model.places import goods_names
 from seismass.plots.histories import numbers
-from seismass.plots.timeline import floor_name
 from seismass.runs.response import Response
 from seismass.runs.response_views import DEFAULT_POINTS
 from seismass.runs.simulate import simulate
@@ -25,6 +25,7 @@ _BANDS: Final = (
     ("viscous", BLUE, "///"),
     ("hysteretic", VERMILION, ""),
     ("friction", GREEN, "\\\\\\\\"),
+    ("contact", PURPLE, "xxx"),
     ("elastic", GREY, ""),
     ("kinetic", INK, "+++"),
 )
@@ -54,7 +55,6 @@ def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None 
     InvalidOption
         There are fewer than two points, or `ax` is no Axes.
     """
-    response.scene.of_chain("the energy figure")
     times, runs = _shortened(response, points, "energy figure", energy=True)
     stated = response.scene.building is None or response.scene.building.mass_is_stated
     scale, unit = (1e-3, "kJ") if stated else (1.0, "J for floors of 1 kg")
@@ -64,7 +64,7 @@ def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None 
         axes = place.axes[0]
         floor, handles = np.zeros(len(times)), []
         for name, colour, hatch in _BANDS:
-            if np.any(values[name] != 0.0):
+            if name in values and np.any(values[name] != 0.0):
                 top = floor + values[name]
                 axes.fill_between(times, floor, top, facecolor=colour, alpha=0.3, linewidth=0.0, gid=name)
                 if hatch:
@@ -121,15 +121,15 @@ def slip_path(
     InvalidOption
         There is no such block, there are fewer than two points, or `ax` is no Axes.
     """
-    floors = response.scene.of_chain("the figure of slip paths").block_floor
-    chosen = numbers(blocks, len(floors), "blocks", "figure of slip paths")
+    places = goods_names(response.scene)
+    chosen = numbers(blocks, len(places), "blocks", "figure of slip paths")
     times, runs = _shortened(response, points, "figure of slip paths", energy=False)
     paths = 1e3 * np.array([run.slip_path for run in runs])
     with mpl.rc_context(STYLE):
         place = single(ax, "figure of slip paths", size=(7.0, 3.2))
         axes = place.axes[0]
         for position, number in enumerate(chosen):
-            label = f"block {number}, {floor_name(floors[number - 1])}"
+            label = f"block {number}, {places[number - 1]}"
             axes.plot(times, paths[:, number - 1], **SERIES[position % len(SERIES)], linewidth=1.4, label=label)
         axes.set_xlim(0.0, times[-1] or 1.0)
         axes.set_ylim(0.0, None if paths.any() else 1.0)

@@ -14,13 +14,9 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, brief, refusal
 from seismass.media.axes import RING, Panels, grid_lines, panels, ring, zero_line
-from seismass.media.style import BLUE, INK, SERIES, STYLE
-from seismass.plots.timeline import (
-    chosen_kinds,
-    event_times,
-    mark_events,
-    mark_handles,
-)
+from seismass.media.style import BLUE, INK, PURPLE, SERIES, STYLE
+from seismass.model.places import goods_names
+from seismass.plots.timeline import chosen_kinds, event_times, mark_events, mark_handles
 from seismass.runs.response import Response
 
 
@@ -57,14 +53,14 @@ def drift(
     chosen = numbers(storeys, response.scene.storeys, "storeys", "drift figure")
     with mpl.rc_context(STYLE):
         place = panels(ax, len(chosen), "drift figure")
-        _histories(
+        histories(
             place,
             response,
             chosen,
             lambda number: 1e3 * response.drift[:, number - 1],
             lambda number: (response.peak_drift_time[number - 1], 1e3 * response.peak_drift[number - 1]),
             chosen_kinds(events, ("yield", "close"), "drift figure"),
-            ("drift (mm)", "storey {}"),
+            ("drift (mm)", "storey {}".format),
         )
     return place.figure
 
@@ -76,7 +72,7 @@ def slip(
     events: bool | Sequence[str] = True,
     ax: Axes | Sequence[Axes] | None = None,
 ) -> Figure:
-    """Draw the slip of blocks over time, with their peaks in continuous time and their events.
+    """Draw the slip of blocks over time, with their peaks in continuous time, their events and their stops.
 
     Parameters
     ----------
@@ -85,7 +81,7 @@ def slip(
     blocks : int or sequence of int, optional
         Numbers of blocks, from 1; all by default.
     events : bool or sequence of str, default True
-        Kinds of events to mark, of blocks; True: slip and stick. None are where the run has no event log.
+        Kinds of events to mark, of blocks; True: slip, stick and touch_stop. None are where the run has no event log.
     ax : Axes or sequence of Axes, optional
         One Axes for all blocks, or one for each. By default a new figure with a panel for each, block 1 lowest.
 
@@ -99,19 +95,22 @@ def slip(
     InvalidOption
         The run has no histories, there is no such block or kind of events, or `ax` fits not.
     """
-    floors = response.scene.of_chain("the slip figure").block_floor
-    chosen = numbers(blocks, len(floors), "blocks", "slip figure")
+    places = goods_names(response.scene)
+    chosen = numbers(blocks, len(places), "blocks", "slip figure")
     with mpl.rc_context(STYLE):
         place = panels(ax, len(chosen), "slip figure")
-        _histories(
+        histories(
             place,
             response,
             chosen,
             lambda number: 1e3 * response.slip[:, number - 1],
             lambda number: (response.peak_slip_time[number - 1], 1e3 * response.peak_slip[number - 1]),
-            chosen_kinds(events, ("slip", "stick"), "slip figure"),
-            ("slip (mm)", "block {}"),
+            chosen_kinds(events, ("slip", "stick", "touch_stop"), "slip figure"),
+            ("slip (mm)", lambda number: f"block {number}, {places[number - 1]}"),
         )
+        if len(chosen) == 1 or not place.shared:
+            for number, axes in zip(chosen, place.axes, strict=True):
+                _stops(axes, response, number)
     return place.figure
 
 
@@ -149,7 +148,7 @@ def acceleration(
     chosen = numbers(floors, response.scene.storeys, "floors", "acceleration figure")
     with mpl.rc_context(STYLE):
         place = panels(ax, len(chosen), "acceleration figure")
-        _histories(
+        histories(
             place,
             response,
             chosen,
@@ -159,7 +158,7 @@ def acceleration(
                 response.peak_floor_acceleration[number - 1] / STANDARD_GRAVITY,
             ),
             chosen_kinds(events, ("yield", "close"), "acceleration figure"),
-            ("acceleration (g)", "floor {}"),
+            ("acceleration (g)", "floor {}".format),
         )
     return place.figure
 
@@ -183,14 +182,22 @@ def numbers(given: int | Sequence[int] | None, count: int, parameter: str, owner
     return chosen
 
 
-def _histories(
+def _stops(axes: Axes, response: Response, block: int) -> None:
+    """Draw where the stops of a block stand, as far as they are in reach of what is drawn."""
+    stops = response.scene.goods[block - 1].stops
+    for side, clearance in zip((-1.0, 1.0), (np.inf, np.inf) if stops is None else stops.clearance, strict=True):
+        if clearance <= 2.0 * response.peak_slip[block - 1]:
+            axes.axhline(side * 1e3 * clearance, color=PURPLE, linestyle=(0, (6, 2)), linewidth=0.8, gid="stop")
+
+
+def histories(
     place: Panels,
     response: Response,
     chosen: list[int],
     values_of: Callable[[int], FloatArray],
     peak_of: Callable[[int], tuple[float, float]],
     kinds: tuple[str, ...],
-    labels: tuple[str, str],
+    labels: tuple[str, Callable[[int], str]],
 ) -> None:
     """Draw a history of each number into its panel."""
     unit, called = labels
@@ -200,7 +207,7 @@ def _histories(
     for position, (number, axes) in enumerate(zip(chosen, place.axes, strict=True)):
         values = values_of(number)
         look = SERIES[position % len(SERIES)] if overlaid else {"color": BLUE}
-        name = called.format(number)
+        name = called(number)
         lines += axes.plot(time, values, **look, linewidth=0.9, label=name)
         if response.has_events:
             for kind in kinds:

@@ -53,7 +53,7 @@ def profile(
     quantities : sequence of str
         Panels: "drift" (over the storey height in % where heights are known, otherwise mm), "acceleration" of the
         ground and of floors (g), "shear" of storeys (kN, or over the weight where the mass is not stated), "slip" of
-        blocks (mm; left out where there are none on floors).
+        blocks (mm; left out where there are none on floors; those on racks are in `rack_profile`).
     limits : mapping of str to float, optional
         Limit of a quantity, in the unit of its panel.
     ax : Axes or sequence of Axes, optional
@@ -105,7 +105,7 @@ _LIMIT: Final[dict[str, Any]] = {"color": VERMILION, "linestyle": (0, (5, 2)), "
 
 def _quantities(response: Response) -> dict[str, _Quantity]:
     """What can be shown of a run by name."""
-    building, floors = response.scene.building, response.scene.of_chain("the profile figure").block_floor
+    building, floors = response.scene.building, response.scene.block_floor
     if building is None:
         raise refusal(InvalidOption, "scene", "profile", "one with a building", "none")
     storey = np.arange(building.storeys) + 0.5
@@ -125,7 +125,9 @@ def _quantities(response: Response) -> dict[str, _Quantity]:
         else _Quantity("peak storey shear / weight", True, shear / building.weight, storey),
     }
     if any(floors):
-        found["slip"] = _Quantity("peak slip (mm)", False, 1e3 * response.peak_slip, np.array(floors, dtype=float))
+        found["slip"] = _Quantity(
+            "peak slip (mm)", False, 1e3 * response.peak_slip[: len(floors)], np.array(floors, dtype=float)
+        )
     return found
 
 

@@ -15,6 +15,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, brief, is_one_of, refusal
 from seismass.media.axes import grid_lines, single
 from seismass.media.style import BLUE, GREEN, INK, PAPER, PURPLE, STYLE, VERMILION
+from seismass.model.places import goods_names, spring_names
 from seismass.runs.response import EVENT_KINDS, Response
 
 MARKS: Final[dict[str, dict[str, Any]]] = {
@@ -36,7 +37,7 @@ MARKS: Final[dict[str, dict[str, Any]]] = {
 """How each kind of event is drawn; they differ in marker as well as in colour."""
 
 STOREY_KINDS: Final = ("yield", "unload", "reload", "close", "open")
-"""Kinds whose number is that of a storey; that of the others is a block."""
+"""Kinds whose number is that of a storey or of a rack's level; that of the others is a block."""
 ALL_BLOCKS: Final = ("lift", "land")
 """Kinds that happen to all blocks at once."""
 
@@ -90,7 +91,7 @@ def mark_handles(kinds: Sequence[str]) -> list[Line2D]:
 
 
 def events(response: Response, *, ax: Axes | None = None) -> Figure:
-    """Draw when each storey and block had its events: a row for each of them, a marker for each kind.
+    """Draw when each storey, level of a rack and block had its events: a row for each, a marker for each kind.
 
     Bars show how long blocks slid.
 
@@ -112,19 +113,19 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
         The run has no event log, or `ax` is no Axes.
     """
     log = response.event_log
-    storeys, blocks = response.scene.storeys, response.scene.of_chain("the timeline").block_floor
-    rows = [f"storey {number}" for number in range(1, storeys + 1)]
-    rows += [f"block {number}, {floor_name(floor)}" for number, floor in enumerate(blocks, start=1)]
+    blocks, rows = goods_names(response.scene), list(spring_names(response.scene))
+    springs = len(rows)
+    rows += [f"block {number}, {place}" for number, place in enumerate(blocks, start=1)]
     with mpl.rc_context(STYLE):
         place = single(ax, "event timeline", size=(7.0, 1.3 + 0.32 * max(len(rows), 1)))
         axes = place.axes[0]
         found = []
         for kind in EVENT_KINDS:
             times = log["time"][log["kind"] == kind]
-            first = 0 if kind in STOREY_KINDS else storeys
+            first = 0 if kind in STOREY_KINDS else springs
             level = log["number"][log["kind"] == kind].astype(float) - 1.0 + first
             if kind in ALL_BLOCKS:
-                level = np.tile(np.arange(storeys, len(rows), dtype=float), len(times))
+                level = np.tile(np.arange(springs, len(rows), dtype=float), len(times))
                 times = np.repeat(times, len(blocks))
             if len(times):
                 axes.plot(times, level, **MARKS[kind], linestyle="", markeredgewidth=0.8, zorder=3, gid=kind)
@@ -133,7 +134,7 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
             spans = sliding_spans(response, number)
             if len(spans):
                 widths = [(start, end - start) for start, end in spans]
-                axes.broken_barh(widths, (storeys + number - 1.28, 0.56), facecolor=GREEN, alpha=0.25, linewidth=0.0)
+                axes.broken_barh(widths, (springs + number - 1.28, 0.56), facecolor=GREEN, alpha=0.25, linewidth=0.0)
         axes.set_yticks(range(len(rows)), rows)
         axes.set_ylim(-0.6, max(len(rows), 1) - 0.4)
         axes.set_xlim(0.0, response.end_time or 1.0)
@@ -153,8 +154,3 @@ def sliding_spans(response: Response, block: int) -> FloatArray:
         starts = np.append(0.0, starts)  # it slid at the start
     spans = [(start, next((end for end in ends if end >= start), response.end_time)) for start in starts]
     return np.array(spans).reshape(-1, 2)
-
-
-def floor_name(floor: int) -> str:
-    """Return what a figure calls a floor."""
-    return f"floor {floor}" if floor else "ground"

@@ -4,6 +4,7 @@ from seismass.records.builtin import builtin_record, builtin_suite
 from seismass.records.catalogue import catalogue
 from seismass.records.catalogue_report import CatalogueSearch, FoundFile
 from seismass.records.catalogue_search import find_catalogue
+from seismass.records.counts import read_counts
 from seismass.records.measures import intensity_table
 from seismass.records.pair import Pair, read_pair
 from seismass.records.pair_search import Pairs, find_pairs
@@ -30,6 +31,7 @@ __all__ = [
     "find_catalogue",
     "find_pairs",
     "intensity_table",
+    "read_counts",
     "read_pair",
     "read_record",
     "read_records",

@@ -35,6 +35,8 @@ FormatName: TypeAlias = Literal[
     "nied_csv",
     "cwa",
     "afad",
+    "unam",
+    "bhrc",
     "columns",
 ]
 
@@ -73,8 +75,8 @@ def read_record(
     ----------
     path : path-like
         A file of PEER (.AT2, any vintage), COSMOS (V1, V2), CSMIP (V1, V2), ESM, GeoNet (V1A, V2A), K-NET or KiK-net,
-        USGS SMC, RESORCE, CSMNC, JMA, NIED's CSV, CWA, AFAD, or text of accelerations: one column, times and one or
-        several components, or several samples a line. The format is found in the content.
+        USGS SMC, RESORCE, CSMNC, JMA, NIED's CSV, CWA, AFAD, UNAM, BHRC, or text of accelerations: one column, times
+        and one or several components, or several samples a line. The format is found in the content.
     dt : float, optional
         Time step (s). One column needs it unless the file states it. It refines a step that a header rounded (.0039
         for 1/256 s), and times that are rounded. It must agree with what the file says.

@@ -8,6 +8,7 @@ import numpy as np
 import polars as pl
 
 from seismass.base.values import FloatArray, counted
+from seismass.model.plausibility import usage_remarks
 from seismass.risk.annual_rate import truncation_remarks
 from seismass.risk.rates import Estimator, RateCurve, fitted, interval, rate_parts
 from seismass.risk.search import FoundShare, RiskSearch
@@ -155,9 +156,11 @@ def sensitivity_table(
 def risk_remarks(search: RiskSearch, found: FoundShare, reason: str) -> tuple[str, ...]:
     """Return assumptions, and what a user must know beside the numbers."""
     rates, motions = search.rates, len(search.setting.motions)
+    asked = ((limit.quantity, limit.value) for limit in (search.options.limit,))
     remarks = [
+        *usage_remarks(search.scene.remarks, (), asked),
         "the same motions are scaled to all intensities, whereas those that a site has change their spectra with the "
-        "intensity"
+        "intensity",
     ]
     if found.kind == "multiple":
         listed = ", ".join(f"{root:.3f}" for root in found.roots)

@@ -6,6 +6,7 @@ from .grid.design import StrengthDesign
 from .grid.grid import Grid
 from .long_table import long_table
 from .opensees_export import write_opensees
+from .plane_response import PlaneResponse
 from .response import Response
 from .scene_file import SceneFile, read_scene
 from .simulate import instruction_set, simulate
@@ -14,6 +15,7 @@ from .spring_path import SpringPath, spring_forces
 __all__ = [
     "Grid",
     "GridAxis",
+    "PlaneResponse",
     "Response",
     "SceneFile",
     "SpringPath",

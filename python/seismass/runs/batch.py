@@ -29,9 +29,11 @@ from seismass.base.values import (
 )
 from seismass.model.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
 from seismass.model.scene import Scene
-from seismass.runs.batch_tables import batch_table, heights_of, heights_of_runs
+from seismass.runs.batch_tables import batch_table, heights_of_runs
+from seismass.runs.doubts import warn_of_doubts
 from seismass.runs.grid.columns import IndexArray
 from seismass.runs.grid.grid import Grid
+from seismass.runs.scene_runs import have_racks, scene_table
 from seismass.runs.simulate import instruction_set
 
 DEFAULT_CHUNK: Final = 8192
@@ -67,13 +69,14 @@ def simulate_many(
         The motions.
     pairs : array_like of int, shape (runs, 2), optional
         Rows of (number of scene, number of motion), both counted from 1, as the table counts them. By default every
-        scene under every motion, the motion changing fastest. Equal runs are solved once. A grid has a column of
-        motions instead.
+        scene under every motion, the motion changing fastest. Equal runs of shear buildings are solved once. A grid has
+        a column of motions instead.
     runs : range, optional
         Numbers of the runs to solve, counted from 1 in the order of the whole table, as `range(1001, 2001)`; by default
         all. The rows are those of the whole table. A stretch of a grid costs no more than its runs.
     peaks_only : bool, default False
-        A run may end once no peak can be beaten any more, with the same peaks; residuals are then null.
+        A run may end once no peak can be beaten any more, with the same peaks; residuals are then null. Scenes with
+        racks, stops or a stiffness matrix run to the end.
     threads : int, optional
         Number of threads, up to 1024; by default all cores.
     progress : callable, optional
@@ -87,7 +90,11 @@ def simulate_many(
         failure, else null), `end_time` (s), `collapsed_storey` (from 1, or null); lists per storey `peak_drift`,
         `peak_drift_time`, `peak_drift_ratio` (null without heights), `residual_drift`, `peak_floor_acceleration`,
         `peak_storey_shear`; `peak_base_shear`; lists per block `peak_slip`, `peak_slip_time`, `residual_slip`,
-        `slip_path`; numbers of `events`, `yields`, `slips`. SI units.
+        `slip_path`; numbers of `events`, `yields`, `slips`. SI units. Where a scene has racks, stops or a stiffness
+        matrix, lists per level of all racks, one rack after the other, `peak_rack_drift`, `peak_rack_acceleration`,
+        `peak_rack_shear`, `residual_rack_drift`, and lists per block `peak_contact_force`, `peak_contact_velocity`;
+        blocks are the goods on floors, then those of racks that may slide; a level that collapses counts on from the
+        storeys; the base shear includes the matrix's share.
 
     Raises
     ------
@@ -97,6 +104,11 @@ def simulate_many(
         The process was forked from one in which Polars had been used: its tables cannot be made there.
     KeyboardInterrupt
         Ctrl-C was pressed; the batch stops at once.
+
+    Warns
+    -----
+    DoubtfulInput
+        One of the first hundred scenes or motions is so unlikely that a wrong unit is the usual cause.
 
     See Also
     --------
@@ -112,6 +124,23 @@ def simulate_many(
     >>> table["slips"].to_list()
     [1, 0]
     """
+    warn_of_doubts(scenes, motions)
+    return solve_many(
+        scenes, motions, pairs=pairs, runs=runs, peaks_only=peaks_only, threads=threads, progress=progress
+    )
+
+
+def solve_many(
+    scenes: Scene | Sequence[Scene] | Grid,
+    motions: MotionLike | Iterable[MotionLike],
+    *,
+    pairs: ArrayLike | None = None,
+    runs: range | None = None,
+    peaks_only: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> pl.DataFrame:
+    """Return what `simulate_many` does without its warnings, for studies that say what is unlikely themselves."""
     batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
     # Objects are there already, so that all runs may look for equal ones; those of a grid exist a chunk at a time.
     stretch = _one_table(_stretch(runs, batch.total))
@@ -213,6 +242,7 @@ def write_many(
         requirement = "one with the suffix .parquet, as lists per storey fit no CSV (see long_table)"
         raise refusal(InvalidOption, "path", "batch", requirement, brief(str(target)))
     size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
+    warn_of_doubts(scenes, motions)
     batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
     report = as_progress(progress, "batch")
     stretch = _one_table(_stretch(runs, batch.total))
@@ -339,17 +369,9 @@ class _SceneBatch:
 
     def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame:
         rows = self._rows(runs)
-        used, scene = np.unique(rows[:, 0], return_inverse=True)
-        chosen = [self.scenes[number] for number in used]
-        batch = _kernel.simulate_many(
-            [each._kernel for each in chosen],
-            [each._kernel for each in self.motions],
-            np.stack([scene, rows[:, 1]], axis=1),
-            **options,
-            progress=progress,
+        return scene_table(
+            self.scenes, self.motions, self.names, rows, racks=have_racks(self.scenes), **options, progress=progress
         )
-        heights = [heights_of(each) for each in chosen]
-        return batch_table(batch, rows[:, 0], rows[:, 1], self.names, heights_of_runs(heights, scene, batch.storeys))
 
 
 @dataclass(frozen=True, slots=True)
@@ -397,7 +419,6 @@ def _listed_scenes(scenes: Any) -> list[Scene]:
     for number, scene in enumerate(listed, start=1):
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"scene {number}", "batch", "a Scene", brief(scene))
-        scene.of_chain("batches")
     return listed
 
 

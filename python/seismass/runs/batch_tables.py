@@ -9,9 +9,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass.base.values import (
-    FloatArray,
-)
+from seismass.base.values import FloatArray
 from seismass.model.scene import Scene
 from seismass.runs.grid.columns import IndexArray
 
@@ -91,6 +89,31 @@ def batch_table(
         )
     )
     return table.select(_COLUMNS)
+
+
+_OF_LEVELS: Final = ("peak_rack_drift", "peak_rack_acceleration", "peak_rack_shear", "residual_rack_drift")
+_OF_CONTACTS: Final = ("peak_contact_force", "peak_contact_velocity")
+
+
+def rack_columns(table: pl.DataFrame, batch: _kernel.Batch, racks: _kernel.RackColumns | None) -> pl.DataFrame:
+    """Return the table of a batch with the columns of racks and stops.
+
+    Lists per level of all racks, one rack after the other, and per block. Runs of the chain engine (None) have no
+    levels, and contacts of zero.
+    """
+    failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
+    if racks is None:
+        levels = np.zeros(len(batch.status), dtype=np.uint32)
+        of_levels = {name: np.zeros(0) for name in _OF_LEVELS}
+        of_contacts = {name: np.zeros(int(batch.blocks.sum())) for name in _OF_CONTACTS}
+    else:
+        levels = racks.levels
+        of_levels = {name: getattr(racks, name) for name in _OF_LEVELS}
+        of_contacts = {name: getattr(racks, name) for name in _OF_CONTACTS}
+        shear = pl.Series(racks.peak_base_shear).fill_nan(None)
+        table = table.with_columns(peak_base_shear=pl.when(pl.col("status") != "failed").then(shear))
+    columns = {**_lists(of_levels, levels, failed), **_lists(of_contacts, batch.blocks, failed)}
+    return table.with_columns(**columns)
 
 
 def heights_of(scene: Scene) -> FloatArray | None:

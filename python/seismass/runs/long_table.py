@@ -48,7 +48,8 @@ def long_table(table: pl.DataFrame, scenes: Scene | Iterable[Scene] | Grid) -> p
         block on the row's floor, and what the batch has per block; then what it has per run. SI units.
 
         Of several blocks on a floor the one with the largest peak slip is taken, all its values with it. Where there is
-        no block on the floor they are null. Blocks on the ground have no row. A run that failed has one row, its storey
+        no block on the floor they are null. Goods of a rack count on the floor on which it stands. Blocks on the ground
+        have no row. A run that failed has one row, its storey
         null; so has a scene without a building.
 
     Raises
@@ -151,7 +152,6 @@ def _of_scenes(scenes: Any, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataF
     for number, scene in enumerate(listed, start=1):
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"scene {number}", "long_table", "a Scene", brief(scene))
-        scene.of_chain("long_table")
     used = _used(table, len(listed))
     chosen = [listed[number - 1] for number in used.tolist()]
     periods = [None if scene.building is None else float(scene.building.periods[0]) for scene in chosen]
@@ -162,8 +162,8 @@ def _of_scenes(scenes: Any, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataF
             "period": pl.Series(periods, dtype=pl.Float64),
         }
     )
-    counts = [len(scene.blocks) for scene in chosen]
-    floors = [floor for scene in chosen for floor in scene.block_floor]
+    counts = [len(scene.goods_floor) for scene in chosen]
+    floors = [floor for scene in chosen for floor in scene.goods_floor]
     return described, _block_table(np.repeat(used, counts), np.array(floors, dtype=np.int64))
 
 

@@ -122,6 +122,7 @@ def model_content(scene: Scene, name: str = "") -> dict[str, Any]:
     for what, is_there in (
         ("racks", bool(scene.racks)),
         ("a sliding base", scene.base is not None),
+        ("two directions", scene.engine == "plane"),
         ("a stiffness matrix", building.stiffness_matrix is not None),
         ("backbones of several branches", building.backbone is not None),
         ("stops of springs", bool(np.isfinite(building.clearance).any())),

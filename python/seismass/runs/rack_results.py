@@ -31,6 +31,11 @@ class RackResults:
         return self._of_racks("peak_rack_drift")
 
     @property
+    def peak_rack_drift_time(self) -> tuple[FloatArray, ...]:
+        """When it was first reached (s), for the levels of each rack."""
+        return self._of_racks("peak_rack_drift_time")
+
+    @property
     def peak_rack_acceleration(self) -> tuple[FloatArray, ...]:
         """Largest absolute acceleration of the levels of each rack (m/s2)."""
         return self._of_racks("peak_rack_acceleration")
@@ -49,6 +54,11 @@ class RackResults:
     def rack_drift(self) -> tuple[FloatArray, ...]:
         """Histories of the drifts of each rack (m), each of shape (rows, levels)."""
         return self._histories_of_racks("rack_drift")
+
+    @property
+    def rack_velocity(self) -> tuple[FloatArray, ...]:
+        """Histories of the velocities of each rack's levels relative to the ground (m/s), each (rows, levels)."""
+        return self._histories_of_racks("rack_velocity")
 
     @property
     def rack_acceleration(self) -> tuple[FloatArray, ...]:
@@ -72,10 +82,11 @@ class RackResults:
 
     def rack_values(self) -> dict[str, Any]:
         """Return the peaks and residuals of racks, and the peaks of contacts, by name as plain lists."""
-        of_racks = ("peak_rack_drift", "peak_rack_acceleration", "peak_rack_shear", "residual_rack_drift")
+        of_racks = ("drift", "drift_time", "acceleration", "shear")
         of_stops = ("peak_contact_force", "peak_contact_velocity")
         return {
-            **{name: [levels.tolist() for levels in getattr(self, name)] for name in of_racks},
+            **{f"peak_rack_{name}": _listed(getattr(self, f"peak_rack_{name}")) for name in of_racks},
+            "residual_rack_drift": _listed(self.residual_rack_drift),
             **{name: getattr(self, name).tolist() for name in of_stops},
         }
 
@@ -97,3 +108,7 @@ class RackResults:
         if self.scene.engine != "general":
             return frozen(np.zeros(len(self._array("peak_slip"))))
         return self._array(name)
+
+
+def _listed(racks: tuple[FloatArray, ...]) -> list[list[float]]:
+    return [levels.tolist() for levels in racks]

@@ -6,6 +6,7 @@ import json
 from typing import Any, Final
 
 from seismass.media.result import finite_values
+from seismass.model.places import goods_names
 
 _LISTS: Final = (
     "peak_drift",
@@ -31,7 +32,9 @@ class ResponseDocument:
     def to_dict(self) -> dict[str, Any]:
         """Return peaks, residuals, counts, events, energy and work in SI units, null for what is no finite number.
 
-        Events and energies are there where `simulate` was asked for them. Histories are left out.
+        Events and energies are there where `simulate` was asked for them. Histories are left out. In scenes of the
+        general engine `goods` says where each block stands, in the order of slips; racks have a list for each, of its
+        levels; and events of stops have the velocity at the contact.
         """
         response: Any = self
         scene, building = response.scene, response.scene.building
@@ -46,6 +49,7 @@ class ResponseDocument:
             "peak_base_shear": response.peak_base_shear,
         }
         if scene.engine == "general":
+            result["goods"] = list(goods_names(scene))
             result |= response.rack_values() | response.base_values()
         for name in ("peak_drift_ratio", "residual_drift_ratio"):
             if getattr(response, name) is not None:

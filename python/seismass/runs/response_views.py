@@ -42,7 +42,28 @@ class ResponsePlots(Views):
         events: bool | Sequence[str] = True,
         ax: Axes | Sequence[Axes] | None = None,
     ) -> Figure:
-        """Draw the slip of blocks over time, with their peaks in continuous time and their events."""
+        """Draw the slip of blocks over time, with their peaks in continuous time, their events and their stops."""
+        raise NotImplementedError
+
+    @view
+    def rack_drift(
+        self,
+        *,
+        racks: int | Sequence[int] | None = None,
+        events: bool | Sequence[str] = True,
+        ax: Axes | Sequence[Axes] | None = None,
+    ) -> Figure:
+        """Draw the drift of the levels of racks over time, with their peaks in continuous time and their events."""
+        raise NotImplementedError
+
+    @view
+    def rack_profile(self, *, racks: int | Sequence[int] | None = None, ax: Sequence[Axes] | None = None) -> Figure:
+        """Draw the peaks of racks over their levels: drift, acceleration, spring force, and slip of their goods."""
+        raise NotImplementedError
+
+    @view
+    def contacts(self, *, blocks: int | Sequence[int] | None = None, ax: Axes | Sequence[Axes] | None = None) -> Figure:
+        """Draw the velocity with which blocks come to their stops, up where the stop is on the side of plus."""
         raise NotImplementedError
 
     @view
@@ -104,7 +125,7 @@ class ResponsePlots(Views):
 
     @view
     def events(self, *, ax: Axes | None = None) -> Figure:
-        """Draw when each storey and block had its events: a row for each of them, a marker for each kind."""
+        """Draw when each storey, level of a rack and block had its events: a row for each, a marker for each kind."""
         raise NotImplementedError
 
 

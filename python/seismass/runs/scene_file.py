@@ -11,6 +11,7 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidScene, InvalidSceneFile
+from seismass.base.input_kinds import SCENE_FILE, refuse_other_kind
 from seismass.base.input_table import FINITE, POSITIVE, Table, load_table
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
@@ -24,6 +25,8 @@ from seismass.model.springs import SPRING_FIELDS
 from seismass.records import Record, builtin_record, read_record
 from seismass.records.builtin import builtin_names, data_directory
 from seismass.runs.scene_goods import GOODS_KEYS, read_base, read_block, read_rack
+from seismass.runs.scene_walls import WALL_KEYS, check_walls, matrix_of_walls, with_walls
+from seismass.runs.simulate import motions_in_plane
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
@@ -32,10 +35,13 @@ KEYS: Final = {
         "name",
         "note",
         "building",
+        "walls",
         "blocks",
         "racks",
+        "other_direction",
         "base",
         "motion",
+        "other_motion",
         "vertical_motion",
         "duration",
         "initial",
@@ -55,11 +61,13 @@ KEYS: Final = {
         "stiffness_matrix",
     ),
     "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
+    "walls": WALL_KEYS,
     **GOODS_KEYS,
     "motion": ("file", "builtin", "acceleration", "dt", "unit", "scale", "dt_scale"),
     "initial": ("drift", "velocity"),
 }
-"""Keys of each table of a scene file, the file itself first; `vertical_motion` has those of `motion`."""
+"""Keys of each table of a scene file, the file itself first; `vertical_motion` and `other_motion` have those of
+`motion`, and `other_direction` those of `building` that may differ in y."""
 
 
 @dataclass(frozen=True)
@@ -80,6 +88,8 @@ class SceneFile:
         The file.
     records : tuple of Record
         Records that the motion was read from, as their files have them; empty where the samples stand in the file.
+    other_motion : Motion or None
+        The motion in y, where there are two directions.
     """
 
     scene: Scene
@@ -89,6 +99,7 @@ class SceneFile:
     note: str
     path: Path
     records: tuple[Record, ...] = ()
+    other_motion: Motion | None = None
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -145,15 +156,26 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     """
     source = as_path(path, "scene file", InvalidSceneFile)
     top = load_table(source, "scene file", InvalidSceneFile)
+    refuse_other_kind(top, SCENE_FILE)
     top.known(KEYS[""])
     top.needed("motion")
     scene = _scene(top)
     motion, records = _motions(top, source.parent)
+    other_motion = None
+    if "other_motion" in top.values:
+        if scene.engine != "plane":
+            top.refuse("other_motion", "left out where there is no other_direction", "a motion")
+        samples, dt, record = _samples(top.table("other_motion"), source.parent)
+        records = records if record is None else (*records, record)
+        motion, other_motion = motions_in_plane((motion, Motion(samples, dt)))
+    elif scene.engine == "plane":
+        top.needed("other_motion")
     duration = top.values.get("duration")
     if duration is not None:
         duration = as_number(duration, "duration", source.name, InvalidSceneFile)
         motion = motion.with_duration(duration)
-    return SceneFile(scene, motion, duration, scene.name, scene.note, source, records)
+        other_motion = None if other_motion is None else other_motion.with_duration(duration)
+    return SceneFile(scene, motion, duration, scene.name, scene.note, source, records, other_motion)
 
 
 def scene_without_motion(path: str | os.PathLike[str]) -> Scene:
@@ -165,33 +187,71 @@ def scene_without_motion(path: str | os.PathLike[str]) -> Scene:
         As for `read_scene`.
     """
     top = load_table(as_path(path, "scene file", InvalidSceneFile), "scene file", InvalidSceneFile)
+    refuse_other_kind(top, SCENE_FILE)
     top.known(KEYS[""])
     return _scene(top)
 
 
 def _scene(top: Table) -> Scene:
     """Building, blocks and initial state of a file."""
-    building = building_of_table(top.table("building")) if "building" in top.values else None
+    walls = top.table("walls") if "walls" in top.values else None
+    building = building_of_table(top.table("building"), walls) if "building" in top.values else None
+    if building is None and walls is not None:
+        top.refuse("walls", "left out where there is no building", "a table")
     initial = top.table("initial") if "initial" in top.values else None
     if initial is not None:
         initial.known(KEYS["initial"])
         if building is None:
             initial.empty("there is no building")
+
+    def state(key: str) -> Any:
+        if initial is None:
+            return None
+        return initial.values.get(key) if "other_direction" in top.values else initial.per_storey(key)
+
     return Scene(
         building,
         [read_block(table, number) for number, table in enumerate(top.tables("blocks"), start=1)],
         racks=[read_rack(table, number) for number, table in enumerate(top.tables("racks"), start=1)],
+        other_direction=_other_direction(top, building),
+        initial_drift=state("drift"),
+        initial_velocity=state("velocity"),
         base=read_base(top.table("base")) if "base" in top.values else None,
-        initial_drift=None if initial is None else initial.per_storey("drift"),
-        initial_velocity=None if initial is None else initial.per_storey("velocity"),
         collapse_drift=top.values.get("collapse_drift"),
         name=top.text("name"),
         note=top.text("note"),
     )
 
 
-def building_of_table(table: Table) -> Building:
-    """Return the building of a table with the keys that a scene file has for one.
+_SAME_IN_Y: Final = ("mass", "storeys", "heights", "gravity_load", "geometric_stiffness")
+"""Keys of a building that hold in both directions."""
+
+
+def _other_direction(top: Table, building: Building | None) -> Building | bool:
+    """The building in y: that in x with the keys that differ."""
+    if "other_direction" not in top.values:
+        return False
+    other = top.table("other_direction")
+    other.known(tuple(key for key in KEYS["building"] if key not in _SAME_IN_Y))
+    if building is None or not other.values:
+        if building is None:
+            other.empty("there is no building")
+        return True
+    merged = {**top.values["building"]}
+    for one, replaced in (("period", "stiffness"), ("yield_shear", "yield_shear_over_weight")):
+        for key, dropped in ((one, replaced), (replaced, one)):
+            if key in other.values:
+                merged.pop(dropped, None)
+    merged |= other.values
+    if "period" in merged and isinstance(merged.get("mass"), list):
+        period = other.number("period", np.nan, POSITIVE)
+        merged["stiffness"] = [_kernel.Rack.uniform_stiffness(building.mass, period)] * building.storeys
+        del merged["period"]
+    return building_of_table(Table(merged, "other_direction", top.file, InvalidSceneFile))
+
+
+def building_of_table(table: Table, walls: Table | None = None) -> Building:
+    """Return the building of a table with the keys that a scene file has for one, with the walls of another table.
 
     Raises
     ------
@@ -213,6 +273,8 @@ def building_of_table(table: Table) -> Building:
         springs["damping"] = _damping(table)
     over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
     springs |= table.given("backbone", "hysteresis", "stiffness_matrix")
+    if walls is not None:
+        check_walls(walls, table)
     if isinstance(springs.get("backbone"), list):  # TOML has no null
         springs["backbone"] = [None if points == [] else points for points in springs["backbone"]]
     if "period" in table.values:
@@ -222,22 +284,27 @@ def building_of_table(table: Table) -> Building:
         table.needed("storeys")
         if isinstance(table.values.get("mass"), list):
             table.refuse("mass", f"one number where {table.key('period')} is given", brief(table.values["mass"]))
-        return Building.uniform(
+        building = Building.uniform(
             table.values["storeys"],
             table.values["period"],
             **table.given("mass"),
             yield_shear_over_weight=over_weight,
             **springs,
         )
+        return building if walls is None else with_walls(building, walls, scaled=True)
     table.needed("stiffness", "period", "backbone")
     table.needed("mass")
     mass, stiffness = table.values["mass"], table.values.get("stiffness")
     count = _storeys(table, over_weight, springs)
     if count is not None:
         mass = np.full(count, as_number(mass, "mass", "building", InvalidScene))
-    if over_weight is None:
-        return Building(mass, stiffness, **springs)
+    if walls is not None:
+        springs |= {"stiffness_matrix": matrix_of_walls(walls, table)}
     building = Building(mass, stiffness, **springs)
+    if walls is not None and building.stiffness_matrix is None:
+        building = with_walls(building, walls, scaled=False)
+    if over_weight is None:
+        return building
     return building.replace(yield_shear=as_fraction_of_weight(over_weight, building.storeys) * building.weight)
 
 

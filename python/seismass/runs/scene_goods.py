@@ -15,9 +15,10 @@ from seismass.model.sliding_base import SlidingBase
 from seismass.model.springs import SHAPE_FIELDS, SPRING_FIELDS
 from seismass.model.stops import Stops
 
-_FRICTION: Final = ("mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear", "stops")
+_FRICTION: Final = ("mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear", "stops", "stops_y")
 GOODS_KEYS: Final = {
     "blocks": ("floor", *_FRICTION),
+    "blocks.stops_y": ("clearance", "stiffness", "damping"),
     "blocks.stops": ("clearance", "stiffness", "damping"),
     "racks": (
         "floor",
@@ -32,6 +33,7 @@ GOODS_KEYS: Final = {
         "damping",
         "geometric_stiffness",
         "blocks",
+        "other_direction",
     ),
     "racks.blocks": ("level", *_FRICTION, "fixed"),
     "base": ("mu", "mu_s", "mu_k", "radius", "mass", "mass_ratio"),
@@ -53,7 +55,7 @@ def _friction(table: Table, owner: str) -> dict[str, Any]:
     table.needed("mu", "mu_s")
     table.excluded("mass_ratio", "mass")
     table.excluded("mu", "mu_s", "mu_k")
-    names = ("mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity")
+    names = ("mass", "mass_ratio", "mu", "mu_s", "mu_k")
     values: dict[str, Any] = {
         key: as_number(table.values[key], key, owner, InvalidScene) for key in names if key in table.values
     }
@@ -61,8 +63,13 @@ def _friction(table: Table, owner: str) -> dict[str, Any]:
         raise refusal(InvalidScene, "mu", owner, "finite and not negative", f"{values['mu']:g}")
     if "wear" in table.values:
         values["wear"] = table.values["wear"]
-    if "stops" in table.values:
-        values["stops"] = _stops(table.table("stops"))
+    if "velocity" in table.values:
+        velocity = table.values["velocity"]
+        is_pair = isinstance(velocity, list)
+        values["velocity"] = velocity if is_pair else as_number(velocity, "velocity", owner, InvalidScene)
+    for key in ("stops", "stops_y"):
+        if key in table.values:
+            values[key] = _stops(table.table(key))
     return values
 
 
@@ -114,7 +121,7 @@ def _rack_block(table: Table, number: int, rack: int) -> RackBlock:
         table.refuse("fixed", "true or false", brief(fixed))
     if not fixed:
         return RackBlock(level, **_friction(table, owner))
-    for key in ("mu", "mu_s", "mu_k", "velocity", "wear", "stops"):
+    for key in ("mu", "mu_s", "mu_k", "velocity", "wear", "stops", "stops_y"):
         table.excluded(key, "fixed")
     table.needed("mass", "mass_ratio")
     table.excluded("mass_ratio", "mass")

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias, overload
+
+import numpy as np
+
 from seismass import _kernel
-from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.values import as_count, as_flag, brief, refusal
-from seismass.model.motion import MotionLike, as_motion
+from seismass.model.motion import Motion, MotionLike, as_motion
 from seismass.model.scene import Scene
+from seismass.records.pair import Pair
 from seismass.records.record import Record
+from seismass.runs.plane_response import PlaneResponse
 from seismass.runs.response import Response
 
+MotionPair: TypeAlias = Pair | tuple[MotionLike, MotionLike]
+"""Motions in two directions: a pair of records, or two motions of one step."""
 
+
+@overload
 def simulate(
     scene: Scene,
     motion: MotionLike,
@@ -20,15 +30,41 @@ def simulate(
     events: bool = True,
     energy: bool = False,
     duration: float | None = None,
-) -> Response:
+) -> Response: ...
+
+
+@overload
+def simulate(
+    scene: Scene,
+    motion: MotionPair,
+    *,
+    histories: bool | int = False,
+    displacements_only: bool = False,
+    events: bool = True,
+    energy: bool = False,
+    duration: float | None = None,
+) -> PlaneResponse: ...
+
+
+def simulate(
+    scene: Scene,
+    motion: MotionLike | MotionPair,
+    *,
+    histories: bool | int = False,
+    displacements_only: bool = False,
+    events: bool = True,
+    energy: bool = False,
+    duration: float | None = None,
+) -> Response | PlaneResponse:
     """Solve one scene under one motion, exactly: every event is located, every regime is solved in closed form.
 
     Parameters
     ----------
     scene : Scene
         Building, blocks and racks.
-    motion : Motion or Record
-        Ground motion.
+    motion : Motion or Record; Pair, or two of them
+        Ground motion. A scene in two directions takes a Pair, or motions in x and in y of one step: the shorter one is
+        continued with zeros, and the vertical one is that of the pair or of the first.
     histories : bool or int, default False
         True keeps histories at every sample, a number at every so many samples from the first. A row at the time of an
         event is the state after it.
@@ -44,7 +80,7 @@ def simulate(
 
     Returns
     -------
-    Response
+    Response or, of a scene in two directions, PlaneResponse
         Peaks, residuals, and what else was asked for. A collapse is a result, not an error.
 
     Raises
@@ -64,9 +100,10 @@ def simulate(
     """
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "simulate", "a Scene", brief(scene))
-    chosen = as_motion(motion, "motion", "simulate")
+    motions = motions_in_plane(motion) if scene.engine == "plane" else (as_motion(motion, "motion", "simulate"),)
     if duration is not None:
-        chosen = chosen.with_duration(duration)
+        motions = tuple(each.with_duration(duration) for each in motions)
+    chosen = motions[0]
     every = (
         int(histories)
         if isinstance(histories, bool)
@@ -74,12 +111,43 @@ def simulate(
     )
     given = (("displacements_only", displacements_only), ("energy", energy), ("events", events))
     flags = [as_flag(value, name, "simulate", InvalidOption) for name, value in given]
+    if scene._plane is not None:
+        other = motions[1].acceleration
+        of_plane = _kernel.simulate_plane(scene._plane, chosen._kernel, other, every, *flags)
+        return PlaneResponse(of_plane, scene, (chosen, motions[1]))
     run: _kernel.Response | _kernel.GeneralResponse
     if scene._general is not None:
         run = _kernel.simulate_general(scene._general, chosen._kernel, every, *flags)
     else:
         run = _kernel.simulate(scene._kernel, chosen._kernel, every, *flags)
     return Response(run, scene, chosen, motion if isinstance(motion, Record) else None)
+
+
+def motions_in_plane(pair: MotionPair | MotionLike) -> tuple[Motion, ...]:
+    """Return the motions in x, with the vertical one, and in y, equally long.
+
+    Raises
+    ------
+    InvalidMotion
+        It is no pair, steps differ, or the second has a vertical motion of its own.
+    """
+    vertical = None
+    if isinstance(pair, Pair):
+        x, y = pair.first.motion, pair.second.motion
+        vertical = None if pair.vertical is None else pair.vertical.acceleration
+    elif isinstance(pair, tuple | list) and len(pair) == 2:
+        x, y = (as_motion(each, "motion", "simulate") for each in pair)
+        vertical = x.vertical
+    else:
+        requirement = "a Pair, or two motions, for a scene in two directions"
+        raise refusal(InvalidMotion, "motion", "simulate", requirement, brief(pair))
+    if y.vertical is not None:
+        raise refusal(InvalidMotion, "vertical", "motion in y", "left out: it is that of the motion in x", "a motion")
+    if not np.isclose(y.dt, x.dt, rtol=1e-9, atol=0.0):
+        raise refusal(InvalidMotion, "dt", "motion in y", f"that of the motion in x, {x.dt:g} s", f"{y.dt:g} s")
+    count = max(x.samples, y.samples) if vertical is None else len(vertical)
+    of_x, of_y = (np.pad(each.acceleration, (0, max(0, count - each.samples)))[:count] for each in (x, y))
+    return Motion(of_x, x.dt, vertical), Motion(of_y, x.dt)
 
 
 def instruction_set() -> str:

@@ -96,7 +96,7 @@ def first_mode_oscillator(building: Building) -> FirstModeOscillator:
     """
     if not isinstance(building, Building):
         raise refusal(InvalidOption, "building", "scaling", "a Building", brief(building))
-    of_storeys_alone(building, "scaling")
+    of_storeys_alone(building, "scaling by pushover")
     if building.laws:
         requirement = "of trilinear springs with Masing unloading, as those of the oscillator are"
         raise refusal(InvalidOption, "building", "scaling", requirement, ", ".join(building.laws))

@@ -25,8 +25,19 @@ TARGET_HELP: Final = (
 )
 
 
-def target_of(text: str) -> TargetSpectrum:
-    """Return the target spectrum that an option names.
+ALIASES: Final = {"nzs": "nzs1170", "asce": "asce7"}
+"""Other names of the forms."""
+
+
+def target_of(text: str, folder: Path = Path()) -> TargetSpectrum:
+    """Return the target spectrum that an option or a key names.
+
+    Parameters
+    ----------
+    text : str
+        A file, or one of `FORMS`.
+    folder : Path
+        What relative paths are relative to.
 
     Raises
     ------
@@ -39,20 +50,20 @@ def target_of(text: str) -> TargetSpectrum:
     from seismass.spectra.tables import read_table
 
     name, colon, rest = text.partition(":")
-    name = name.lower()
+    name = ALIASES.get(name.lower(), name.lower())
     if name not in FORMS or not colon:
-        if (colon or not Path(text).suffix) and not Path(text).exists():
+        if (colon or not Path(text).suffix) and not (folder / text).exists():
             forms = ", ".join(FORMS.values())
             raise InvalidOption(f"--target of command must be a CSV that is there or one of {forms}; got {text}")
-        return TargetSpectrum.from_csv(text)
+        return TargetSpectrum.from_csv(folder / text)
     if not rest:
         raise _refused(name, text)
     if name == "asce7-22":
-        return TargetSpectrum.asce7_multi_period(*read_table(rest, zero=True))
+        return TargetSpectrum.asce7_multi_period(*read_table(folder / rest, zero=True))
     if name == "mean":
         from seismass.records.named import records_named
 
-        suite = records_named(Path(rest))
+        suite = records_named(folder / rest)
         return TargetSpectrum.mean_of(suite, label=f"mean spectrum of {suite.name}, {counted(len(suite), 'motion')}")
     words = rest.split(":")
     least = {"asce7": 2, "ec8": 3, "nzs1170": 2}[name]

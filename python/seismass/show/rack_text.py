@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.model.places import goods_names
 from seismass.model.scene import Scene
 from seismass.runs.response import Response
 
@@ -22,16 +24,8 @@ def base_line(scene: Scene, response: Response) -> str:
 
 
 def goods_places(scene: Scene) -> list[str]:
-    """Return where each block stands: its floor, or its rack and level."""
-    ground = "ground" if scene.base is None else "slab"
-    floors = [str(block.floor) if block.floor else ground for block in scene.blocks]
-    levels = [
-        f"rack {number} level {block.level}"
-        for number, rack in enumerate(scene.racks, start=1)
-        for block in rack.blocks
-        if not block.fixed
-    ]
-    return floors + levels
+    """Return where each block stands: the number of its floor, or its rack and level."""
+    return [name.removeprefix("floor ") for name in goods_names(scene)]
 
 
 def goods_masses(scene: Scene) -> list[float]:
@@ -60,3 +54,36 @@ def rack_table(scene: Scene, response: Response) -> list[list[str]]:
         for level in range(rack.levels)
     ]
     return [header, *rows]
+
+
+def stop_table(scene: Scene, response: Response) -> list[list[str]]:
+    """Return what came to its stops as rows of a table, its head first: how often, how fast, and how hard."""
+    counts: dict[int, int] = {}
+    if response.has_events:
+        log = response.event_log
+        for number in log["number"][log["kind"] == "touch_stop"].tolist():
+            counts[number] = counts.get(number, 0) + 1
+    weight = None if scene.building is None or scene.building.mass_is_stated else scene.building.weight
+    unit = "kN" if weight is None else "/ W"
+    header = ["block", "stands on", "clearance mm", "contacts", "largest velocity m/s", f"largest force {unit}"]
+    rows = [
+        [
+            str(number),
+            place,
+            _clearance(stops.clearance),
+            str(counts.get(number, 0)) if response.has_events else "",
+            f"{response.peak_contact_velocity[number - 1]:.4g}",
+            f"{response.peak_contact_force[number - 1] / (1000.0 if weight is None else weight):.4g}",
+        ]
+        for number, (place, stops) in enumerate(
+            zip(goods_names(scene), (block.stops for block in scene.goods), strict=True), start=1
+        )
+        if stops is not None
+    ]
+    return [header, *rows]
+
+
+def _clearance(sides: tuple[float, float]) -> str:
+    """Clearances towards minus and plus; one number where they are equal, none where there is no stop."""
+    words = ["none" if math.isinf(side) else f"{1000.0 * side:g}" for side in sides]
+    return words[0] if words[0] == words[1] else " / ".join(words)

@@ -10,9 +10,10 @@ from seismass.media.text_table import numbers_text, text_table
 from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.damping import Rayleigh
+from seismass.model.places import spring_names
 from seismass.model.scene import Scene
 from seismass.runs.response import Response
-from seismass.show.rack_text import base_line, goods_masses, goods_places, rack_table
+from seismass.show.rack_text import base_line, goods_masses, goods_places, rack_table, stop_table
 
 
 def response_text(response: Response) -> str:
@@ -55,16 +56,23 @@ def run_text(
     lines += [f"            {remark}" for remark in remarks or response.remarks]
     if scene.building is not None:
         lines += ["", *text_table(_storey_table(scene.building, response), left=0)]
+        if scene.building.stiffness_matrix is not None:
+            lines.append(
+                f"  peak base shear {_force(response.peak_base_shear, scene.building)}, springs and walls together"
+            )
     if scene.base is not None:
         lines += ["", base_line(scene, response)]
     if scene.racks:
         lines += ["", *text_table(rack_table(scene, response), left=0)]
     if scene.goods:
         lines += ["", *text_table(_block_table(scene, response), left=0)]
+    if any(block.stops is not None for block in scene.goods):
+        lines += ["", *text_table(stop_table(scene, response), left=0)]
     counts = ", ".join(f"{count} {kind}" for kind, count in response.counts.items() if count) or "none"
     end = f"{response.status} at {response.end_time:g} s"
     if response.collapsed_storey is not None:
-        end += f": storey {response.collapsed_storey} reached its collapse drift; peaks are those until then"
+        fell = spring_names(scene)[response.collapsed_storey - 1]
+        end += f": {fell} reached its collapse drift; peaks are those until then"
     known = response.has_energy
     energy = [f"  energy    residual {response.energy['relative_residual']:.1e} of the input"] if known else []
     return "\n".join(
@@ -108,6 +116,10 @@ def _damping_text(building: Building) -> str:
     if isinstance(damping, Rayleigh):
         return f"{100.0 * damping.ratio:g} % in modes {damping.modes[0]} and {damping.modes[1]} (Rayleigh)"
     return f"{100.0 * damping:g} % in every mode" if isinstance(damping, float) else "by a given matrix"
+
+
+def _force(value: float, building: Building) -> str:
+    return f"{value / 1000.0:.4g} kN" if building.mass_is_stated else f"{value / building.weight:.4g} W"
 
 
 def _storey_table(building: Building, response: Response) -> list[list[str]]:

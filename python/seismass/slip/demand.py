@@ -61,7 +61,7 @@ def slip_demand(
     Parameters
     ----------
     scene : Scene
-        Building and goods; goods on the ground slab, or without any building, are allowed.
+        Building and goods; goods on the ground slab, or without any building, are allowed, and those on racks.
     motions : Motion, Record or iterable of them
         The suite, scaled as it is to act. Records of one event are resampled together.
     sizes : BlockSize, or list with one per block or None, optional
@@ -109,6 +109,11 @@ def slip_demand(
     the exact slip on that motion: on the ground it is the ground slip itself; on the floor it differs from the slip in
     the building by what the goods do to the building.
 
+    With racks, what goods stand on is the level of their rack: its acceleration is set beside mu_s, and the building
+    alone and with all goods attached have the racks in them, empty or with the goods fixed to their levels. Stops act
+    in the building; on the ground and in the estimates the goods are free. Fragilities are of scenes without racks,
+    walls and stops.
+
     Examples
     --------
     >>> import seismass as sm
@@ -120,15 +125,14 @@ def slip_demand(
     """
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", OWNER, "a Scene", brief(scene))
-    scene.of_chain("slip_demand")
-    if not scene.blocks:
+    if not scene.goods:
         raise refusal(InvalidScene, "blocks", OWNER, "at least one", "none")
     given: Any = motions
     if not isinstance(motions, Motion | HasMotion) and isinstance(motions, Iterable):
         given = list(motions)
     scene.on_ground("slip_demand")
     named = named_motions(given, OWNER)
-    count = len(scene.blocks)
+    count = len(scene.goods)
     measured, limits = as_sizes(sizes, count), as_clearances(clearance, count)
     probability = as_number(confidence, "confidence", OWNER, InvalidOption)
     if not 0.0 < probability < 1.0:
@@ -199,7 +203,7 @@ def _digest(scene: Scene, motions: NamedMotions, chosen: dict[str, Any]) -> str:
     if scene.building is not None:
         return inputs_digest(scene, motions, chosen)
     digest = hashlib.sha256(json.dumps(chosen, sort_keys=True).encode())
-    digest.update(repr(scene.blocks).encode())
+    digest.update(repr((scene.blocks, *(rack._arguments() for rack in scene.racks))).encode())
     for motion in motions.motions:
         digest.update(np.float64(motion.dt).tobytes())
         for part in (motion.acceleration, motion.vertical):

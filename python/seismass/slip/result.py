@@ -37,13 +37,16 @@ class SlipDemand(Result):
         `amplification_p16`, `_median`, `_p84` of the ratio motion by motion, where the block slides on the ground;
         `slides_on_floor_only`: motions under which it slides in the building alone. `floor_acceleration_g`: mean peak
         acceleration of its floor while goods slide; `alone_acceleration_g` without goods, `attached_acceleration_g`
-        with all of them attached; `mu_over_attached`: mean of mu_s g over the latter, below 1 where it slides.
+        with all of them attached; `mu_over_attached`: mean of mu_s g over the latter, below 1 where it slides. With
+        racks `rack` and `level` follow `floor`, 0 where the block stands on the floor itself, and "floor" is the level
+        in the names of what follows. With stops: `touches`, the share of motions under which it meets one, and of the
+        velocity at contact (m/s) and of the contact force (N) `..._p84` and `..._largest`.
     runs : polars.DataFrame
         One row per motion and block: motion, record, event, block, floor, collapsed, peak_slip, slip_plus, slip_minus
         (to each side; see `seismass.slip.signed_peaks`), residual_slip (signed), slip_path, moving_at_end, ground_slip,
         ground_residual, amplification, floor_acceleration_g, alone_acceleration_g, attached_acceleration_g,
         mu_over_attached, floor_velocity (m/s), acceleration_over_weight (largest abs(a)/(g + a_v)), uplift and
-        overturning_limits_exceeded (null without a size).
+        overturning_limits_exceeded (null without a size), and with stops contact_velocity (m/s) and contact_force (N).
     exceedance : polars.DataFrame
         Probability of reaching the clearances at the given intensity; see `seismass.slip.exceedance_table`.
     squat : polars.DataFrame

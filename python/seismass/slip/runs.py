@@ -18,12 +18,16 @@ from seismass.runs.response import Response
 from seismass.runs.simulate import simulate
 from seismass.slip.clearance import signed_peaks
 from seismass.slip.estimates import Base, estimates
+from seismass.slip.places import at_nodes, histories_at_nodes, places_of, without_loose_goods
 from seismass.slip.squat import demand_in_g
 
 
 @dataclass(frozen=True, slots=True)
 class SlipModels:
-    """The scene, its blocks on the ground, and the building alone and with all goods attached (None without goods)."""
+    """The scene, its goods on the ground, and the building alone and with all goods attached (None without goods).
+
+    Racks stand in the latter two, empty or with all goods attached to their levels.
+    """
 
     scene: Scene
     ground: Scene
@@ -33,15 +37,18 @@ class SlipModels:
     @classmethod
     def of(cls, scene: Scene, damping: ModelDamping) -> SlipModels:
         """Return the models of a scene."""
-        ground = Scene(None, [on_ground(block) for block in scene.blocks])
+        ground = Scene(None, [on_ground(block) for block in scene.goods])
+        if scene.racks:
+            alone, full = (without_loose_goods(scene, attached=share) for share in (False, True))
+            return cls(scene, ground, alone, full)
         if not any(floor > 0 for floor in scene.block_floor):
             return cls(scene, ground, None, None)
         return cls(scene, ground, attached(scene, 0.0, damping), attached(scene, 1.0, damping))
 
 
 def on_ground(block: Block) -> Block:
-    """Return a block with the same friction on the ground, where its mass does not matter."""
-    return block.replace(floor=0, mass=1.0, mass_ratio=None, velocity=None)
+    """Return a block with the same friction on the ground, without stops, where its mass does not matter."""
+    return block.replace(floor=0, mass=1.0, mass_ratio=None, velocity=None, stops=None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +60,7 @@ class EstimateRow:
     block : int
         Index of the block, from 0.
     base : {"ground", "floor"}
-        Whose motion they are of: the ground, or the block's floor in the building alone.
+        Whose motion they are of: the ground, or the block's floor (or level of a rack) in the building alone.
     values : dict of str to float
         Slip (m) by the name of the estimate; "rigid_block" is exact for that motion.
     """
@@ -71,6 +78,8 @@ class SolvedMotion:
     ----------
     peak, plus, minus, residual, path : ndarray
         Slip of each block (m): largest absolute, largest to each side, final, and the path; up to a collapse.
+    contact_force, contact_velocity : ndarray
+        Largest force of each block on its stop (N), and velocity at which it comes to it (m/s); zero without stops.
     moving : ndarray of bool
         Whether the block still slides at the end.
     collapsed : bool
@@ -78,7 +87,7 @@ class SolvedMotion:
     ground_peak, ground_residual : ndarray
         Slip of the same block on the ground (m).
     acceleration, velocity : ndarray
-        Peak absolute acceleration (m/s2) and velocity (m/s) of the block's floor, goods sliding.
+        Peak absolute acceleration (m/s2) and velocity (m/s) of what the block stands on, goods sliding.
     demand : ndarray
         Largest abs(a)/(g + a_v) there.
     alone_acceleration, full_acceleration : ndarray
@@ -93,6 +102,8 @@ class SolvedMotion:
     minus: FloatArray
     residual: FloatArray
     path: FloatArray
+    contact_force: FloatArray
+    contact_velocity: FloatArray
     moving: NDArray[np.bool_]
     collapsed: bool
     ground_peak: FloatArray
@@ -114,6 +125,8 @@ class SlipRuns:
     minus: FloatArray
     residual: FloatArray
     path: FloatArray
+    contact_force: FloatArray
+    contact_velocity: FloatArray
     moving: NDArray[np.bool_]
     collapsed: NDArray[np.bool_]
     ground_peak: FloatArray
@@ -143,37 +156,42 @@ def solve_motion(models: SlipModels, motion: Motion) -> SolvedMotion:
         A run could not be carried to its end.
     """
     scene = models.scene
-    floors = np.array(scene.block_floor)
+    nodes = np.array([place.node for place in places_of(scene)], dtype=np.int64)
     real = simulate(scene, motion, histories=True, events=False)
     ground = simulate(models.ground, motion, events=False)
     ground_velocity, _ = integrals(motion.acceleration, motion.dt)
     base = _ground_base(motion, ground_velocity)
-    standing = real.floor_velocity[:, floors - 1] if scene.storeys else np.zeros(real.block_velocity.shape)
-    rate = real.block_velocity - np.where(floors > 0, standing, 0.0)
+    standing = histories_at_nodes(real, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
+    rate = real.block_velocity - standing[:, nodes]
     plus, minus = signed_peaks(real.slip, rate, motion.dt, real.peak_slip)
     alone = None if models.alone is None else simulate(models.alone, motion, histories=True, events=False)
     full = None if models.full is None else simulate(models.full, motion, events=False)
     rows = [
         EstimateRow(number, "ground", {**estimates(base, block.mu_k), "rigid_block": float(ground.peak_slip[number])})
-        for number, block in enumerate(scene.blocks)
+        for number, block in enumerate(scene.goods)
     ]
     if alone is not None and alone.status == "completed":
         rows += _floor_estimates(scene, alone, motion, ground_velocity)
+    accelerations = at_nodes(real, "peak_floor_acceleration", "peak_rack_acceleration", base.acceleration)
+    velocities = np.nanmax(np.abs(standing + ground_velocity[:, None]), axis=0)
+    velocities[0] = base.velocity
     return SolvedMotion(
         peak=real.peak_slip,
         plus=plus,
         minus=minus,
         residual=real.residual_slip,
         path=real.slip_path,
+        contact_force=real.peak_contact_force,
+        contact_velocity=real.peak_contact_velocity,
         moving=np.abs(rate[-1]) > 0.0,
         collapsed=real.status == "collapsed",
         ground_peak=ground.peak_slip,
         ground_residual=ground.residual_slip,
-        acceleration=_at_floors(real.peak_floor_acceleration, floors, base.acceleration),
-        velocity=np.array([_peak_velocity(real, ground_velocity, floor, base.velocity) for floor in floors]),
-        demand=np.array([_demand(real, motion, floor) for floor in floors]),
-        alone_acceleration=_peaks(alone, floors, base.acceleration),
-        full_acceleration=_peaks(full, floors, base.acceleration),
+        acceleration=accelerations[nodes],
+        velocity=velocities[nodes],
+        demand=_demands(real, motion, accelerations)[nodes],
+        alone_acceleration=_peaks(alone, nodes, base.acceleration),
+        full_acceleration=_peaks(full, nodes, base.acceleration),
         estimates=rows,
     )
 
@@ -188,51 +206,44 @@ def _peak_vertical(motion: Motion) -> float:
     return 0.0 if motion.vertical is None else float(np.abs(motion.vertical).max())
 
 
-def _peaks(response: Response | None, floors: NDArray[np.int64], ground: float) -> FloatArray:
-    """Peak acceleration at the floor of each block in a model without sliding goods; NaN after a collapse."""
+def _peaks(response: Response | None, nodes: NDArray[np.int64], ground: float) -> FloatArray:
+    """Peak acceleration under each block in a model without sliding goods; NaN after a collapse."""
     if response is None:
-        return np.full(len(floors), ground)
+        return np.full(len(nodes), ground)
     if response.status == "collapsed":
-        return np.where(floors > 0, np.nan, ground)
-    return _at_floors(response.peak_floor_acceleration, floors, ground)
+        return np.where(nodes > 0, np.nan, ground)
+    return at_nodes(response, "peak_floor_acceleration", "peak_rack_acceleration", ground)[nodes]
 
 
-def _at_floors(values: FloatArray, floors: NDArray[np.int64], ground: float) -> FloatArray:
-    return np.array([ground if floor == 0 else values[floor - 1] for floor in floors])
-
-
-def _peak_velocity(response: Response, ground_velocity: FloatArray, floor: int, ground: float) -> float:
-    """Largest absolute velocity of a floor (m/s), at the samples; that of the ground is exact."""
-    if floor == 0:
-        return ground
-    return float(np.nanmax(np.abs(response.floor_velocity[:, floor - 1] + ground_velocity)))
-
-
-def _demand(response: Response, motion: Motion, floor: int) -> float:
-    """Largest abs(a)/(g + a_v): in continuous time without vertical motion, of the samples with it."""
+def _demands(response: Response, motion: Motion, peaks: FloatArray) -> FloatArray:
+    """Largest abs(a)/(g + a_v) of all nodes: in continuous time without vertical motion, of the samples with it."""
     if motion.vertical is None:
-        peak = motion.pga if floor == 0 else float(response.peak_floor_acceleration[floor - 1])
-        return peak / STANDARD_GRAVITY
-    history = motion.acceleration if floor == 0 else response.floor_acceleration[:, floor - 1]
-    return demand_in_g(history, motion.vertical)
+        demands: FloatArray = np.concatenate([[motion.pga], peaks[1:]]) / STANDARD_GRAVITY
+        return demands
+    vertical = motion.vertical
+    every = histories_at_nodes(response, "floor_acceleration", "rack_acceleration", motion.acceleration)
+    return np.array([demand_in_g(history, vertical) for history in every.T])
 
 
 def _floor_estimates(scene: Scene, alone: Response, motion: Motion, ground_velocity: FloatArray) -> list[EstimateRow]:
-    """Estimates of the motion of the floors of the building alone, and the exact slip of each block on it."""
+    """Estimates of the motion under goods in the building alone, and the exact slip of each block on it."""
     rows = []
     bases: dict[int, Base] = {}
-    for number, block in enumerate(scene.blocks):
-        if block.floor == 0:
+    peaks = at_nodes(alone, "peak_floor_acceleration", "peak_rack_acceleration", motion.pga)
+    accelerations = histories_at_nodes(alone, "floor_acceleration", "rack_acceleration", motion.acceleration)
+    velocities = histories_at_nodes(alone, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
+    for number, (block, place) in enumerate(zip(scene.goods, places_of(scene), strict=True)):
+        node = place.node
+        if node == 0:
             continue
-        if block.floor not in bases:
-            velocity = alone.floor_velocity[:, block.floor - 1] + ground_velocity
-            bases[block.floor] = Base(
-                Motion(alone.floor_acceleration[:, block.floor - 1], motion.dt, motion.vertical),
-                float(alone.peak_floor_acceleration[block.floor - 1]),
-                float(np.abs(velocity).max()),
+        if node not in bases:
+            bases[node] = Base(
+                Motion(accelerations[:, node], motion.dt, motion.vertical),
+                float(peaks[node]),
+                float(np.abs(velocities[:, node] + ground_velocity).max()),
                 _peak_vertical(motion),
             )
-        base = bases[block.floor]
+        base = bases[node]
         exact = simulate(Scene(None, [on_ground(block)]), base.motion, events=False)
         values = {**estimates(base, block.mu_k), "rigid_block": float(exact.peak_slip[0])}
         rows.append(EstimateRow(number, "floor", values))

@@ -13,9 +13,11 @@ from seismass.base.quantiles import QUANTILES, interval_of, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.runs import NamedMotions
+from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.slip.clearance import Clearance
 from seismass.slip.estimates import log_ratio
+from seismass.slip.places import place_columns, place_names, places_of
 from seismass.slip.runs import SlipRuns, SolvedMotion
 from seismass.slip.squat import BlockSize
 
@@ -31,7 +33,8 @@ def block_table(
     residual = runs.or_infinite(np.abs(runs.residual))
     weights = _weights(motions, resamples, seed)
     rows = []
-    for number, block in enumerate(scene.blocks):
+    places = places_of(scene)
+    for number, block in enumerate(scene.goods):
         own, ground = slip[:, number], runs.ground_peak[:, number]
         pooled, low, high = _pooled_ratio(own, ground, weights, confidence)
         ratios = amplification(own, ground)
@@ -44,7 +47,7 @@ def block_table(
         rows.append(
             {
                 "block": number + 1,
-                "floor": block.floor,
+                **{name: getattr(places[number], name) for name in place_names(scene)},
                 "mu_s": block.mu_s,
                 "mu_k": block.mu_k,
                 "mean": _mean(own),
@@ -68,10 +71,30 @@ def block_table(
                 "slides_on_floor_only": int(((own > 0.0) & (ground == 0.0)).sum()),
                 **{name: _mean(values) / STANDARD_GRAVITY for name, values in accelerations.items()},
                 "mu_over_attached": _mean(block.mu_s * STANDARD_GRAVITY / accelerations["attached_acceleration_g"]),
+                **_contact(scene, runs, number),
             }
         )
-    kinds = {"block": pl.UInt32, "floor": pl.UInt32, "slides_on_floor_only": pl.UInt32}
+    kinds = dict.fromkeys(("block", "slides_on_floor_only", *place_names(scene)), pl.UInt32)
     return _frame(rows, kinds)
+
+
+def has_stops(scene: Scene) -> bool:
+    """Whether tables have the columns of stops: some goods have them."""
+    return any(block.stops is not None for block in scene.goods)
+
+
+def _contact(scene: Scene, runs: SlipRuns, number: int) -> dict[str, float]:
+    """What a block does to its stops over the motions; nothing in a scene without stops."""
+    if not has_stops(scene):
+        return {}
+    velocity, force = runs.contact_velocity[:, number], runs.contact_force[:, number]
+    return {
+        "touches": float((velocity > 0.0).mean()),
+        "contact_velocity_p84": float(quantile(velocity[None, :], 0.84)[0]),
+        "contact_velocity_largest": float(velocity.max()),
+        "contact_force_p84": float(quantile(force[None, :], 0.84)[0]),
+        "contact_force_largest": float(force.max()),
+    }
 
 
 def amplification(floor: FloatArray, ground: FloatArray) -> FloatArray:
@@ -82,8 +105,8 @@ def amplification(floor: FloatArray, ground: FloatArray) -> FloatArray:
 
 def run_table(scene: Scene, motions: NamedMotions, runs: SlipRuns, sizes: tuple[BlockSize | None, ...]) -> pl.DataFrame:
     """Return one row per motion and block; see `SlipDemand.runs`."""
-    count, blocks = len(motions), len(scene.blocks)
-    sliding = np.array([block.mu_s for block in scene.blocks])
+    count, blocks = len(motions), len(scene.goods)
+    sliding = np.array([block.mu_s for block in scene.goods])
     uplift = np.array([np.nan if size is None else size.uplift_g for size in sizes])
     velocity = np.array(
         [np.nan if size is None or size.overturning_velocity is None else size.overturning_velocity for size in sizes]
@@ -100,7 +123,7 @@ def run_table(scene: Scene, motions: NamedMotions, runs: SlipRuns, sizes: tuple[
         "record": [name for name in motions.names for _ in range(blocks)],
         "event": [event or None for event in motions.events for _ in range(blocks)],
         "block": np.tile(np.arange(1, blocks + 1, dtype=np.uint32), count),
-        "floor": np.tile(np.array(scene.block_floor, dtype=np.uint32), count),
+        **place_columns(scene, count),
         "collapsed": np.repeat(runs.collapsed, blocks),
         "peak_slip": runs.peak.ravel(),
         "slip_plus": runs.plus.ravel(),
@@ -120,6 +143,8 @@ def run_table(scene: Scene, motions: NamedMotions, runs: SlipRuns, sizes: tuple[
     columns["acceleration_over_weight"] = runs.demand.ravel()
     columns["uplift"] = _known(rocks, np.isfinite(uplift))
     columns["overturning_limits_exceeded"] = _known(reached, np.isfinite(velocity))
+    if has_stops(scene):
+        columns |= {"contact_velocity": runs.contact_velocity.ravel(), "contact_force": runs.contact_force.ravel()}
     return pl.DataFrame(columns, schema_overrides={"event": pl.String})
 
 
@@ -135,7 +160,7 @@ def squat_table(scene: Scene, runs: pl.DataFrame, sizes: tuple[BlockSize | None,
     See `SlipDemand.squat`.
     """
     rows = []
-    for number, (block, size) in enumerate(zip(scene.blocks, sizes, strict=True), start=1):
+    for number, (block, place, size) in enumerate(zip(scene.goods, places_of(scene), sizes, strict=True), start=1):
         if size is None:
             continue
         own = runs.filter(block=number)
@@ -144,7 +169,7 @@ def squat_table(scene: Scene, runs: pl.DataFrame, sizes: tuple[BlockSize | None,
         rows.append(
             {
                 "block": number,
-                "floor": block.floor,
+                "floor": place.floor,
                 "mu_s": static,
                 "width": size.width,
                 "height": size.height,
@@ -179,6 +204,7 @@ def squat_table(scene: Scene, runs: pl.DataFrame, sizes: tuple[BlockSize | None,
 def estimate_table(motions: NamedMotions, solved: Iterable[SolvedMotion], scene: Scene) -> pl.DataFrame:
     """Return one row per motion, block, base and estimate; see `SlipDemand.estimate_runs`."""
     rows = []
+    places = places_of(scene)
     for number, each in enumerate(solved):
         for row in each.estimates:
             exact = each.ground_peak if row.base == "ground" else each.peak
@@ -189,20 +215,21 @@ def estimate_table(motions: NamedMotions, solved: Iterable[SolvedMotion], scene:
                         "motion": number + 1,
                         "record": motions.names[number],
                         "block": row.block + 1,
-                        "floor": scene.blocks[row.block].floor,
+                        **{name: getattr(places[row.block], name) for name in place_names(scene)},
                         "base": row.base,
                         "estimate": name,
                         "slip": value,
                         "exact": None if lost else float(exact[row.block]),
                     }
                 )
-    return _frame(rows, {"motion": pl.UInt32, "block": pl.UInt32, "floor": pl.UInt32, "exact": pl.Float64})
+    kinds: dict[str, Any] = dict.fromkeys(("motion", "block", *place_names(scene)), pl.UInt32)
+    return _frame(rows, kinds | {"exact": pl.Float64})
 
 
 def estimate_summary(table: pl.DataFrame) -> pl.DataFrame:
     """Return one row per block, base and estimate: how it does over the motions; see `SlipDemand.estimates`."""
     rows = []
-    keys = ["block", "floor", "base", "estimate"]
+    keys = [name for name in ("block", "floor", "rack", "level", "base", "estimate") if name in table.columns]
     for key, group in table.group_by(keys, maintain_order=True):
         compared = group.drop_nulls("exact")
         slip, exact = compared["slip"].to_numpy(), compared["exact"].to_numpy()
@@ -241,7 +268,20 @@ def demand_remarks(
     fragilities: bool,
 ) -> tuple[str, ...]:
     """Return assumptions, and what a user must know beside the numbers."""
-    remarks = ["goods are rigid, slide in one direction and meet no obstacle: slip beyond a clearance is notional"]
+    given = (side for each in clearances if each is not None for side in (each.plus, each.minus) if side is not None)
+    remarks = usage_remarks(scene.remarks, motions.motions, (("clearance", side) for side in given))
+    meeting = "goods are rigid, slide in one direction and meet no obstacle: slip beyond a clearance is notional"
+    if has_stops(scene):
+        meeting = (
+            "goods are rigid and slide in one direction, between their stops where they have them; on the ground and "
+            "in estimates they are free; slip beyond a clearance that is no stop is notional"
+        )
+    remarks.append(meeting)
+    if scene.racks:
+        remarks.append(
+            "goods on racks slide on their level, whose acceleration is set beside their friction; racks do not "
+            "uplift, and goods do not fall"
+        )
     if not (runs.peak > 0.0).any() and not runs.collapsed.any():
         remarks.append("stuck: no block slides under any motion")
     for row in squat.filter(pl.col("rocks_first")).iter_rows(named=True):
@@ -268,7 +308,7 @@ def demand_remarks(
         remarks.append("with vertical motion, uplift and the ratio of acceleration to weight are taken at the samples")
     if len(motions) < 7:
         remarks.append(f"{counted(len(motions), 'motion')}: few for a mean or a probability")
-    if any(block.wear for block in scene.blocks):
+    if any(block.wear for block in scene.goods):
         remarks.append("estimates take the friction of blocks before any slip")
     return tuple(remarks)
 

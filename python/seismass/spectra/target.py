@@ -9,10 +9,12 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
+import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.elementary import geomspace, power
 from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_array, as_number, refusal
 from seismass.base.views import view
 from seismass.spectra.asce7 import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, multi_period_shape, two_period_shape
@@ -297,6 +299,46 @@ class TargetSpectrum:
         periods = geomspace(shortest, longest, 400) if shortest < longest else np.array([self.shortest])
         ordinates = self(np.clip(periods, self.shortest, self.longest))
         return float(np.max(ordinates * periods) / np.max(ordinates))
+
+    def table(self, periods: ArrayLike | None = None) -> pl.DataFrame:
+        """Return the spectrum as a table, which `from_csv` reads again from a file.
+
+        Parameters
+        ----------
+        periods : array_like, optional
+            Periods (s), positive; by default 200 from 0.01 to 10 s as far as the spectrum goes, geometric, with the
+            corners of the shape among them. `from_csv` interpolates log-log between them.
+
+        Returns
+        -------
+        polars.DataFrame
+            period (s), Sa (g).
+
+        Raises
+        ------
+        InvalidOption
+            A period is outside the range of the spectrum.
+
+        Examples
+        --------
+        >>> import seismass as sm
+        >>> sm.TargetSpectrum.eurocode8(1, "C", agr_g=0.3).table([0.4, 1.2])["Sa (g)"].round(6).to_list()
+        [0.8625, 0.43125]
+        """
+        if periods is None:
+            at = geomspace(max(self.shortest, 0.01), min(self.longest, 10.0), 200)
+            names = ("tb", "tc", "td", "tl", "sds_g", "sd1_g")
+            known = {name: float(self.parameters[name]) for name in names if name in self.parameters}
+            if "sds_g" in known:
+                corner = known.pop("sd1_g") / known.pop("sds_g")
+                known |= {"t0": 0.2 * corner, "ts": corner}
+            points = [*at, *known.values(), *self.parameters.get("period", ())]
+            at = np.unique([point for point in points if at[0] <= point <= at[-1]])
+        else:
+            at = as_array(periods, "periods", "target spectrum", InvalidOption)
+            if not (at > 0.0).all():
+                raise refusal(InvalidOption, "periods", "target spectrum", "positive", f"{at.min():g}")
+        return pl.DataFrame({"period (s)": at, "Sa (g)": self(at) / STANDARD_GRAVITY})
 
     @view
     def _repr_html_(self) -> str:

@@ -24,7 +24,7 @@ from seismass.media.result import Result
 from seismass.model.motion import Motion
 from seismass.model.plausibility import motion_remarks
 from seismass.records import Suite
-from seismass.runs.batch import simulate_many
+from seismass.runs.batch import solve_many
 from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.spectra import TargetSpectrum, corner_period, mean_spectrum, response_spectrum
@@ -185,7 +185,9 @@ def run_study(
         raise refusal(InvalidMotion, "suite", "study", "a Suite of records", brief(suite))
     given = scaling is not None
     if scaling is None:
-        scaling = scale_asce7_10(suite, target, chosen.scaling_period, damping=chosen.damping, threads=threads)
+        scaling = scale_asce7_10(
+            suite, target, chosen.scaling_period, damping=chosen.damping, between=False, threads=threads
+        )
     else:
         _check_scaling(scaling, len(suite))
     factors = scaling.factors
@@ -258,7 +260,7 @@ def _solve(
     of_motion = np.array([motion_numbers[motion] for motion in motions])
     of_scene = np.array([scene_numbers[scene] for scene in scenes])
     table = kept.of(
-        "runs", lambda: simulate_many(list(scene_numbers), list(motion_numbers), threads=threads, progress=progress)
+        "runs", lambda: solve_many(list(scene_numbers), list(motion_numbers), threads=threads, progress=progress)
     )
     run_of = (of_scene[:, None] * len(motion_numbers) + of_motion[None, :]).ravel()
     return len(table), run_of, table

@@ -20,7 +20,7 @@ from seismass.model.building import Building
 from seismass.model.motion import Motion
 from seismass.model.scene import Scene
 from seismass.records import Record
-from seismass.runs.batch import simulate_many
+from seismass.runs.batch import solve_many
 from seismass.runs.simulate import simulate
 from seismass.validation.recordings import label
 
@@ -129,7 +129,7 @@ def _runs(models: Sequence[Record]) -> pl.DataFrame:
     grid = list(product(MASS_RATIOS, PERIODS, (*FRICTIONS, ATTACHED_MU), DAMPINGS))
     scenes = [platform_scene(*values) for values in grid]
     driven = [(label(model), factor, model.scaled(factor).motion) for model, factor in product(models, AMPLITUDES)]
-    table = simulate_many(scenes, [motion for *_, motion in driven])
+    table = solve_many(scenes, [motion for *_, motion in driven])
     rows = [
         {"component": name, "mass_ratio": ratio, "period": period, "mu": mu, "damping": damping, "amplitude": factor}
         for (ratio, period, mu, damping), (name, factor, _) in product(grid, driven)

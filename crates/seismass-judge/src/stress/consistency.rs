@@ -10,11 +10,11 @@ use seismass::{
 use crate::larger;
 
 /// Rounding of floor accelerations and relative velocities in the histories, as a fraction of their peaks.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// What an event log says about a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Contact {
+pub(super) enum Contact {
     Stuck,
     Sliding(i8),
     Airborne,
@@ -33,7 +33,7 @@ pub fn check(scene: &Scene, motion: &Motion, response: &Response) -> Result<(), 
         return Err(format!("{} events in the log, {} counted", log.len(), response.statistics.events.total()));
     }
     order(log, last_instant(response))?;
-    springs(scene, log)?;
+    springs(&laws(scene), log)?;
     blocks(scene, motion, response, log)?;
     peaks(scene, response)
 }
@@ -124,7 +124,7 @@ fn last_instant(response: &Response) -> f64 {
     response.end_time * (1.0 + 4.0 * f64::EPSILON)
 }
 
-fn order(log: &[Event], end: f64) -> Result<(), String> {
+pub(super) fn order(log: &[Event], end: f64) -> Result<(), String> {
     let mut before = 0.0;
     for event in log {
         if !(event.time >= before && event.time <= end) {
@@ -148,21 +148,24 @@ struct Storey {
     has_yielded: bool,
 }
 
+fn laws(scene: &Scene) -> Vec<&SpringLaw> {
+    scene.building().map_or(Vec::new(), |building| building.storeys().iter().map(|storey| &storey.law).collect())
+}
+
 /// Whether an event is of a storey, not of a block.
-fn is_of_storey(kind: EventKind) -> bool {
+pub(super) fn is_of_storey(kind: EventKind) -> bool {
     use EventKind::{Close, Open, Reload, Unload, Yield};
     matches!(kind, Yield | Unload | Reload | Close | Open)
 }
 
 /// Per storey: elements yield one after the other with one sign, and unload together; stops touch and are left in turn;
 /// a peak-oriented spring unloads from where it is loaded, and reloads from where it unloads.
-fn springs(scene: &Scene, log: &[Event]) -> Result<(), String> {
-    let Some(building) = scene.building() else { return Ok(()) };
-    let mut storeys = vec![Storey::default(); scene.storeys()];
+pub(super) fn springs(laws: &[&SpringLaw], log: &[Event]) -> Result<(), String> {
+    let mut storeys = vec![Storey::default(); laws.len()];
     for event in log.iter().filter(|event| is_of_storey(event.kind)) {
         let (i, sign) = (event.number - 1, event.sign);
         let storey = &mut storeys[i];
-        let law = &building.storeys()[i].law;
+        let law = laws[i];
         let legal = match (event.kind, law) {
             (_, SpringLaw::FlagShaped { .. }) => sign != 0,
             (EventKind::Close, SpringLaw::Gap { .. }) => std::mem::replace(&mut storey.closed, sign) == 0 && sign != 0,
@@ -206,7 +209,7 @@ fn at_start(scene: &Scene, motion: &Motion) -> Vec<Contact> {
     scene.blocks().iter().map(state).collect()
 }
 
-fn step(before: Contact, event: &Event) -> Option<Contact> {
+pub(super) fn step(before: Contact, event: &Event) -> Option<Contact> {
     let sign = event.sign;
     match (event.kind, before) {
         (EventKind::Slip, Contact::Stuck | Contact::Landed) if sign != 0 => Some(Contact::Sliding(sign)),

@@ -19,7 +19,7 @@ use crate::{Comparison, DoubleDouble, Solution, compare, compare_events, larger,
 const POWERS: f64 = 40.0;
 /// With the same events, the kernel may be this many times as far from the judge as the judge is from itself under a
 /// change of its input in the last digits.
-const AMPLIFICATION: f64 = 100.0;
+pub(super) const AMPLIFICATION: f64 = 100.0;
 
 /// Compares the kernel's response with the judge in double precision; if they part, with the judge in double-double;
 /// if they part still, looks for a grazing.

@@ -3,6 +3,7 @@
 pub mod cases;
 mod consistency;
 mod family;
+pub mod general;
 mod grazing;
 mod hard_scene;
 mod pairs;

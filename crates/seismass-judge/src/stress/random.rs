@@ -205,15 +205,20 @@ impl Tally {
 
     /// Least, median and greatest number of events of a run.
     pub fn event_quantiles(&self) -> [u64; 3] {
-        let all: u64 = self.events.values().sum();
-        let mut below = 0;
-        let median = self.events.iter().find(|(_, runs)| {
-            below += **runs;
-            2 * below >= all
-        });
-        let number = |entry: Option<(&u64, &u64)>| entry.map_or(0, |(events, _)| *events);
-        [number(self.events.first_key_value()), number(median), number(self.events.last_key_value())]
+        quantiles(&self.events)
     }
+}
+
+/// Least, median and greatest number of a distribution of runs by events.
+pub(super) fn quantiles(events: &BTreeMap<u64, u64>) -> [u64; 3] {
+    let all: u64 = events.values().sum();
+    let mut below = 0;
+    let median = events.iter().find(|(_, runs)| {
+        below += **runs;
+        2 * below >= all
+    });
+    let number = |entry: Option<(&u64, &u64)>| entry.map_or(0, |(events, _)| *events);
+    [number(events.first_key_value()), number(median), number(events.last_key_value())]
 }
 
 /// The kernel's response with everything that can be checked.

@@ -61,9 +61,7 @@ impl Tally {
                 line(key, &[seed.to_string(), reason.clone()]);
             }
         }
-        let new = path.with_extension("new");
-        fs::write(&new, text)?;
-        fs::rename(&new, path)
+        write_whole(path, &text)
     }
 
     /// Reads a tally to go on with; an empty one where there is no file.
@@ -72,25 +70,11 @@ impl Tally {
     /// Those of the file system, and [`io::ErrorKind::InvalidData`] for a file that is no tally, was made by another
     /// program, or has another first seed.
     pub fn load(path: &Path, program: &str, first: u64) -> io::Result<Self> {
-        if !path.exists() {
-            return Ok(Self::from_seed(first));
-        }
-        let refused = |message: String| io::Error::new(io::ErrorKind::InvalidData, message);
-        let text = fs::read_to_string(path)?;
-        let mut lines = text.lines().enumerate();
-        let made_by = lines.next().and_then(|(_, line)| line.strip_prefix("program\t"));
-        if made_by != Some(program) {
-            return Err(refused(format!(
-                "program of tally {} must be the present one, {program}; got {}: remove the tally to begin again",
-                path.display(),
-                made_by.unwrap_or("none"),
-            )));
-        }
-        let mut tally = Self::default();
-        for (number, line) in lines {
+        let mut tally = Self::from_seed(first);
+        for (number, line) in lines_of(path, program)?.iter().enumerate() {
             let fields: Vec<&str> = line.split('\t').collect();
             tally.read_line(&fields).ok_or_else(|| {
-                refused(format!("line {} of {} is not of a tally: {line}", number + 1, path.display()))
+                refused(format!("line {} of {} is not of a tally: {line}", number + 2, path.display()))
             })?;
         }
         if tally.first != first {
@@ -135,8 +119,37 @@ impl Tally {
     }
 }
 
+/// Writes a file whole or not at all.
+pub(super) fn write_whole(path: &Path, text: &str) -> io::Result<()> {
+    let new = path.with_extension("new");
+    fs::write(&new, text)?;
+    fs::rename(&new, path)
+}
+
+/// The lines of a tally after that which names the program; none where there is no file.
+pub(super) fn lines_of(path: &Path, program: &str) -> io::Result<Vec<String>> {
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let text = fs::read_to_string(path)?;
+    let mut lines = text.lines();
+    let made_by = lines.next().and_then(|line| line.strip_prefix("program\t"));
+    if made_by != Some(program) {
+        return Err(refused(format!(
+            "program of tally {} must be the present one, {program}; got {}: remove the tally to begin again",
+            path.display(),
+            made_by.unwrap_or("none"),
+        )));
+    }
+    Ok(lines.map(ToString::to_string).collect())
+}
+
+fn refused(message: String) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, message)
+}
+
 /// Reads a whole number from each field; None if there are fewer fields, or one is no such number.
-fn take_numbers<'a>(fields: &[&str], numbers: impl Iterator<Item = &'a mut u64>) -> Option<()> {
+pub(super) fn take_numbers<'a>(fields: &[&str], numbers: impl Iterator<Item = &'a mut u64>) -> Option<()> {
     let mut fields = fields.iter();
     for number in numbers {
         *number = fields.next()?.parse().ok()?;

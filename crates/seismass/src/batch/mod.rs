@@ -1,5 +1,6 @@
 //! Many runs: grouped so that they share propagators, solved in parallel, returned in the order asked for.
 
+pub(crate) mod general;
 pub(crate) mod plan;
 pub(crate) mod schedule;
 
@@ -19,6 +20,7 @@ use crate::scene::{Motion, Options, Scene};
 use crate::step::cache::RegimeCache;
 use crate::threads::{Control, in_pool};
 
+pub use crate::batch::general::simulate_general_each;
 pub use crate::batch::plan::Run;
 
 /// Solves `runs` on `threads` threads (default: all cores).
@@ -72,15 +74,7 @@ pub fn simulate_each<T: Clone + Send + Sync>(
     control: &Control,
     keep: impl Fn(Response) -> T + Sync,
 ) -> Result<Vec<Result<T>>> {
-    for (position, &Run { scene, motion, .. }) in runs.iter().enumerate() {
-        let owner = || format!("run {}", position + 1);
-        for (name, index, count) in [("scene index", scene, scenes.len()), ("motion index", motion, motions.len())] {
-            if index >= count {
-                let requirement = format!("below the number of them, {count}");
-                return Err(Error::invalid(Domain::Options, name, owner(), requirement, index));
-            }
-        }
-    }
+    check_indices(runs, scenes.len(), motions.len())?;
     let batch = Batch { scenes, motions, options, control, plan: Plan::new(scenes, motions, runs) };
     let mut results = in_pool(threads, "batch", || batch.solve(&keep))?;
     if control.stop.load(Ordering::Relaxed) {
@@ -97,6 +91,20 @@ pub fn simulate_each<T: Clone + Send + Sync>(
         if multiplicity[unique] == 0 { slot.take() } else { slot.get().cloned() }.unwrap_or(Err(Error::Interrupted))
     };
     Ok(of_run.into_iter().map(result_of).collect())
+}
+
+/// Refuses runs of scenes or motions that do not exist.
+fn check_indices(runs: &[Run], scenes: usize, motions: usize) -> Result<()> {
+    for (position, &Run { scene, motion, .. }) in runs.iter().enumerate() {
+        let owner = || format!("run {}", position + 1);
+        for (name, index, count) in [("scene index", scene, scenes), ("motion index", motion, motions)] {
+            if index >= count {
+                let requirement = format!("below the number of them, {count}");
+                return Err(Error::invalid(Domain::Options, name, owner(), requirement, index));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// What `work` returns, its panic as the error of its own run: the others go on.

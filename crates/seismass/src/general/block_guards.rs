@@ -105,7 +105,8 @@ impl Search<'_, '_> {
         );
     }
 
-    fn stops(&mut self, position: usize, block: usize, stops: &Stops) {
+    /// What the stops of a block may do.
+    pub(super) fn stops(&mut self, position: usize, block: usize, stops: &Stops) {
         match self.state.stops[block].contact {
             Contact::Free => self.touch(position, block, stops),
             Contact::Touching(side) => {

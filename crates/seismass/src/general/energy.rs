@@ -24,7 +24,9 @@ impl Balance {
     /// Adds the energies of a series up to its place `end`, before the state is advanced.
     pub(super) fn add(&mut self, state: &GeneralState, series: &Series, end: f64) {
         let (system, length) = (state.system, series.h * end);
-        let velocities: Vec<_> = (0..state.moving.len()).map(|position| series.velocity_of(position)).collect();
+        let blocks =
+            (0..state.moving.len()).map(|position| (series.velocity_of(position), series.friction_of(position)));
+        let blocks: Vec<_> = blocks.collect();
         for (node, weight) in GAUSS {
             let s = node * end;
             let (tau, weight) = (series.tau + s * series.h, weight * length);
@@ -45,11 +47,10 @@ impl Balance {
             }
             let mut momentum: f64 = system.mass.iter().zip(&nodes).map(|(m, v)| m * v).sum();
             momentum += system.blocks.iter().map(|law| law.mass * nodes[law.floor]).sum::<f64>();
-            for (velocity, &j) in velocities.iter().zip(&state.moving) {
+            for ((velocity, friction), &j) in blocks.iter().zip(&state.moving) {
                 let (mass, relative) = (system.blocks[j].mass, velocity.at::<Plain>(s));
                 momentum += mass * relative;
-                let friction = state.friction_coefficient(j) * mass * state.contact_at(tau);
-                self.energy.friction += weight * friction * relative;
+                self.energy.friction += weight * mass * friction.at::<Plain>(s) * relative;
                 if let (Some(_), Some(stops)) = (state.stops[j].touching(), &system.stops[j]) {
                     self.energy.contact += weight * stops.damping * relative * relative;
                 }
@@ -70,9 +71,13 @@ impl Balance {
         (energy.kinetic, energy.elastic) = (kinetic(state), elastic(state));
         let dissipated = energy.viscous + energy.hysteretic + energy.friction + energy.contact;
         let residual = energy.initial + energy.input - (energy.kinetic + energy.elastic + dissipated);
-        let scale = energy.initial + self.largest_input;
-        energy.relative_residual = if residual == 0.0 { 0.0 } else { residual / scale };
+        energy.relative_residual = if residual == 0.0 { 0.0 } else { residual / self.scale() };
         energy
+    }
+
+    /// What residuals are relative to: the initial energy plus the largest input so far (J).
+    pub(super) fn scale(&self) -> f64 {
+        self.energy.initial + self.largest_input
     }
 }
 

@@ -56,9 +56,19 @@ pub(super) struct Search<'a, 'b> {
 }
 
 impl<'a, 'b> Search<'a, 'b> {
+    /// A search that has looked at no guard yet.
+    pub(super) fn new(state: &'b GeneralState<'a>, series: &'b Series) -> Self {
+        Self { state, series, sizes: OnceCell::new(), isolated: 0, first: None }
+    }
+
+    /// The first of the guards looked at that falls, with its place, and how many were isolated.
+    pub(super) fn found(self) -> (Option<(f64, Guard)>, usize) {
+        (self.first, self.isolated)
+    }
+
     /// The first guard that falls within a series with its place, and how many were isolated.
     pub(super) fn first(state: &'b GeneralState<'a>, series: &'b Series) -> (Option<(f64, Guard)>, usize) {
-        let mut search = Self { state, series, sizes: OnceCell::new(), isolated: 0, first: None };
+        let mut search = Self::new(state, series);
         search.springs();
         if state.base.is_some() || !state.motions.is_empty() {
             if state.vertical || state.airborne {
@@ -71,7 +81,7 @@ impl<'a, 'b> Search<'a, 'b> {
             search.moving_blocks();
             search.lift_before_breakaway();
         }
-        (search.first, search.isolated)
+        search.found()
     }
 
     /// Takes a guard whose polynomial falls before all others.
@@ -89,7 +99,8 @@ impl<'a, 'b> Search<'a, 'b> {
         self.sizes.get_or_init(|| self.state.acceleration_sizes(self.series.tau))[node]
     }
 
-    fn springs(&mut self) {
+    /// Ends of segments, turns and collapses of all springs.
+    pub(super) fn springs(&mut self) {
         for node in 1..=self.state.system.nodes {
             self.drift_guards(node);
             let Some(sign) = self.state.springs[node - 1].rate_sign() else { continue };
@@ -129,7 +140,7 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// The contact force per unit mass while there is contact, its negative while there is none. Contact that is none all
     /// along the step has been lost at its start, though the force never falls below zero.
-    fn contact_polynomial(&self) -> Polynomial {
+    pub(super) fn contact_polynomial(&self) -> Polynomial {
         let sign = if self.state.airborne { -1.0 } else { 1.0 };
         let start = self.state.interval.contact_at(self.series.tau);
         let change = self.state.interval.contact_slope * self.series.h;
@@ -139,7 +150,8 @@ impl<'a, 'b> Search<'a, 'b> {
         Polynomial::new([sign * start, sign * change])
     }
 
-    fn contact(&mut self) {
+    /// Loss and return of contact.
+    pub(super) fn contact(&mut self) {
         let polynomial = self.contact_polynomial();
         self.consider(Guard::Contact, &polynomial, NO_CONTACT);
     }

@@ -35,8 +35,8 @@ impl Recorder {
         Ok(Self { histories, base_slip, displacements_only: options.displacements_only, nodes, goods })
     }
 
-    /// Appends the state at `tau` of the present interval, if there is a row at the sample.
-    pub(super) fn append(&mut self, state: &GeneralState, sample: usize, tau: f64) {
+    /// Appends the state, with accelerations of all nodes, if there is a row at the sample.
+    pub(super) fn append(&mut self, state: &GeneralState, sample: usize, accelerations: impl FnOnce() -> Vec<f64>) {
         let histories = &mut self.histories;
         if !sample.is_multiple_of(histories.every) {
             return;
@@ -53,7 +53,7 @@ impl Recorder {
         histories.floor_velocity.extend(&velocities[1..]);
         let of_goods = state.motions.iter().zip(&state.system.blocks);
         histories.block_velocity.extend(of_goods.map(|(motion, law)| motion.velocity + velocities[law.floor]));
-        histories.floor_acceleration.extend(&state.accelerations(tau)[1..]);
+        histories.floor_acceleration.extend(&accelerations()[1..]);
         histories.storey_force.extend((1..=self.nodes).map(|p| state.spring_force(p)));
     }
 

@@ -15,6 +15,7 @@ mod guards;
 mod histories;
 mod outcome;
 mod peaks;
+mod plane;
 mod regime;
 mod response;
 mod run;
@@ -23,5 +24,8 @@ mod state;
 mod stops;
 mod system;
 
+pub use plane::{
+    Axis, PlaneEnergy, PlaneEvent, PlanePeaks, PlaneResponse, VectorPeaks, simulate_plane, simulate_plane_until,
+};
 pub use response::{GeneralBase, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus};
 pub use run::{simulate_general, simulate_general_until};

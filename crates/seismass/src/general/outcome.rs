@@ -223,7 +223,12 @@ impl Happening<'_, '_> {
         let jumps = stops.damping > 0.0 && self.state.motions[block].velocity != 0.0 && !self.state.airborne;
         if jumps {
             self.state.follow();
-            return self.decide(self.state.system.blocks[block].floor, SettleCause::Other);
+            let logged = self.log.len();
+            let outcome = self.decide(self.state.system.blocks[block].floor, SettleCause::Other);
+            // A block that broke away at this instant has not come back to rest: that it goes on is no event.
+            let events = self.log.split_off(logged);
+            self.log.extend(events.into_iter().filter(|entry| entry.event.kind != EventKind::Touch));
+            return outcome;
         }
         Outcome::Continue
     }

@@ -22,7 +22,7 @@ pub(super) struct Observer {
 }
 
 /// Places in (0, `end`) where a polynomial changes sign.
-fn turns(polynomial: &Polynomial, end: f64) -> impl Iterator<Item = f64> {
+pub(super) fn turns(polynomial: &Polynomial, end: f64) -> impl Iterator<Item = f64> {
     let (first, others) = polynomial.sign_changes::<Plain>();
     first.into_iter().chain(others).filter(move |&s| s < end)
 }
@@ -147,23 +147,14 @@ impl Observer {
             }
             return 0;
         };
-        let stiffness = base_stiffness(state, part.count);
-        let sum = |quantity: Quantity| {
-            let mut total = Polynomial::new([0.0]);
-            for (i, k) in stiffness.iter().enumerate() {
-                let (p, _) = series.polynomial(quantity, i + 1, *k, 0.0);
-                total.length = p.length;
-                total.coefficients.iter_mut().zip(p.coefficients()).for_each(|(sum, c)| *sum += c);
-            }
-            total
-        };
-        let shear = sum(Quantity::Drift);
+        let count = part.count;
+        let shear = base_shear_terms(state, series, Quantity::Drift, count);
         let base = base_shear(state, &vec![0.0; state.x.len()]);
         let reach: f64 = shear.coefficients().iter().map(|c| c.abs()).sum();
         if base.abs() + reach <= self.base_shear.value {
             return 0;
         }
-        for s in turns(&sum(Quantity::Rate), end) {
+        for s in turns(&base_shear_terms(state, series, Quantity::Rate, count), end) {
             self.base_shear.take(base + shear.at::<Plain>(s), state.interval.start + series.tau + s * series.h);
         }
         1
@@ -201,16 +192,36 @@ impl Observer {
     }
 }
 
+/// The base shear over a step as a polynomial, or its rate, without what it is at the bases of the segments.
+fn base_shear_terms(state: &GeneralState, series: &Series, quantity: Quantity, count: usize) -> Polynomial {
+    let mut total = Polynomial::new([0.0]);
+    for (i, k) in base_stiffness(state, count).iter().enumerate() {
+        let (p, _) = series.polynomial(quantity, i + 1, *k, 0.0);
+        total.length = p.length;
+        total.coefficients.iter_mut().zip(p.coefficients()).for_each(|(sum, c)| *sum += c);
+    }
+    total
+}
+
+/// The base shear over a step as a polynomial.
+pub(super) fn base_shear_series(state: &GeneralState, series: &Series) -> Polynomial {
+    let count = if state.system.parts[0].elastic.is_empty() { 1 } else { state.system.parts[0].count };
+    let mut shear = base_shear_terms(state, series, Quantity::Drift, count);
+    shear.coefficients[0] += base_shear(state, &vec![0.0; state.x.len()]);
+    shear
+}
+
 /// Stiffnesses by which drifts from the bases of their segments enter the base shear.
 fn base_stiffness(state: &GeneralState, count: usize) -> Vec<f64> {
     // The first column of the symmetric matrix is its first row.
-    let mut stiffness = state.system.parts[0].elastic[..count].to_vec();
+    let mut stiffness = state.system.parts[0].elastic.iter().copied().take(count).collect::<Vec<f64>>();
+    stiffness.resize(count, 0.0);
     stiffness[0] += state.springs[0].segment().tangent;
     stiffness
 }
 
 /// Spring force of storey 1 and the share of the elastic matrix at drifts from the bases of the segments.
-fn base_shear(state: &GeneralState, x: &[f64]) -> f64 {
+pub(super) fn base_shear(state: &GeneralState, x: &[f64]) -> f64 {
     if state.system.storeys == 0 {
         return 0.0;
     }

@@ -224,7 +224,7 @@ impl Run<'_> {
 
     fn record(&mut self, sample: usize, tau: f64) {
         if let Some(recorder) = &mut self.recorder {
-            recorder.append(&self.state, sample, tau);
+            recorder.append(&self.state, sample, || self.state.accelerations(tau));
         }
     }
 

@@ -12,6 +12,8 @@ use crate::polynomial::power::{MAX_DEGREE, Polynomial};
 pub(super) struct BlockSeries {
     pub(super) velocity: [f64; MAX_DEGREE + 1],
     pub(super) slip: [f64; MAX_DEGREE + 1],
+    /// Friction over mass (m/s2), positive where the node is dragged along.
+    pub(super) friction: [f64; MAX_DEGREE + 1],
     /// Bounds of the sums of all terms but the first.
     pub(super) velocity_change: f64,
     pub(super) slip_change: f64,
@@ -36,7 +38,6 @@ pub(super) struct Series {
     pub(super) blocks: Vec<BlockSeries>,
     /// Force of the ground that holds a stuck slab (N).
     pub(super) holding: [f64; MAX_DEGREE + 1],
-    friction: [Vec<f64>; 2],
     shear: Vec<f64>,
 }
 
@@ -54,9 +55,21 @@ pub(super) enum Quantity {
 impl Series {
     /// Forms the series of a step of `h` from `tau`.
     pub(super) fn form(&mut self, state: &GeneralState, tau: f64, h: f64) {
-        let system = state.system;
-        let width = system.nodes + 1;
-        let order = terms::<Plain>(state.regime.frequency * h);
+        self.begin(state, tau, h, terms::<Plain>(state.regime.frequency * h));
+        let contact = [state.contact_at(tau), state.interval.contact_slope * h];
+        for (block, &j) in self.blocks.iter_mut().zip(&state.moving) {
+            let coefficient = state.friction_coefficient(j);
+            (block.friction[0], block.friction[1]) = (coefficient * contact[0], coefficient * contact[1]);
+        }
+        for k in 0..=self.order {
+            self.form_order(state, k);
+        }
+        self.bound_changes();
+    }
+
+    /// The first terms of a series of accelerations to an order, without friction.
+    pub(super) fn begin(&mut self, state: &GeneralState, tau: f64, h: f64, order: usize) {
+        let width = state.system.nodes + 1;
         (self.tau, self.h, self.width, self.order) = (tau, h, width, order);
         self.acceleration.resize((MAX_DEGREE + 1) * width, 0.0);
         self.rate.resize((MAX_DEGREE + 1) * width, 0.0);
@@ -66,40 +79,18 @@ impl Series {
         for p in 0..width {
             self.drift[width + p] = h * state.v[p];
         }
-        self.begin_blocks(state, tau);
-        for k in 0..=order {
-            self.form_order(state, k);
-        }
-        self.bound_changes();
-    }
-
-    /// Friction of sliding blocks on their nodes, and the first terms of the blocks.
-    fn begin_blocks(&mut self, state: &GeneralState, tau: f64) {
-        let (contact, slope) = (state.contact_at(tau), state.interval.contact_slope * self.h);
-        for list in &mut self.friction {
-            list.clear();
-            list.resize(self.width, 0.0);
-        }
+        let none = [0.0; MAX_DEGREE + 1];
         self.blocks.clear();
-        for &j in &state.moving {
-            let law = &state.system.blocks[j];
-            let force = state.friction_coefficient(j) * law.mass;
-            self.friction[0][law.floor] += force * contact;
-            self.friction[1][law.floor] += force * slope;
-            let mut block = BlockSeries {
-                velocity: [0.0; MAX_DEGREE + 1],
-                slip: [0.0; MAX_DEGREE + 1],
-                velocity_change: 0.0,
-                slip_change: 0.0,
-            };
-            block.velocity[0] = state.motions[j].velocity;
-            block.slip[1] = self.h * state.motions[j].velocity;
-            self.blocks.push(block);
-        }
+        self.blocks.extend(state.moving.iter().map(|&j| {
+            let (mut velocity, mut slip) = (none, none);
+            velocity[0] = state.motions[j].velocity;
+            slip[1] = h * velocity[0];
+            BlockSeries { velocity, slip, friction: none, velocity_change: 0.0, slip_change: 0.0 }
+        }));
     }
 
     /// Terms of order k of accelerations, and those of rates, drifts and blocks that follow.
-    fn form_order(&mut self, state: &GeneralState, k: usize) {
+    pub(super) fn form_order(&mut self, state: &GeneralState, k: usize) {
         let (system, width, h) = (state.system, self.width, self.h);
         let row = k * width;
         self.shear.clear();
@@ -118,9 +109,10 @@ impl Series {
             }
         }
         let force = &mut self.acceleration[row..row + width];
-        match self.friction.get(k) {
-            Some(friction) => force.copy_from_slice(friction),
-            None => force.fill(0.0),
+        force.fill(0.0);
+        for (block, &j) in self.blocks.iter().zip(&state.moving) {
+            let law = &system.blocks[j];
+            force[law.floor] += law.mass * block.friction[k];
         }
         for contact in &state.moving_contacts {
             let (node, of_stop) = (system.blocks[contact.block].floor, self.stop_term(state, contact.block, k));
@@ -159,12 +151,7 @@ impl Series {
         }
         for (position, &j) in state.moving.iter().enumerate() {
             let law = &system.blocks[j];
-            let friction = match k {
-                0 => state.contact_at(self.tau),
-                1 => state.interval.contact_slope * h,
-                _ => 0.0,
-            };
-            let own = self.stop_term(state, j, k) / law.mass - state.friction_coefficient(j) * friction;
+            let own = self.stop_term(state, j, k) / law.mass - self.blocks[position].friction[k];
             let velocity = of_rate * (own - self.acceleration[row + law.floor]);
             let block = &mut self.blocks[position];
             block.velocity[k + 1] = velocity;
@@ -189,7 +176,26 @@ impl Series {
         -(stops.stiffness * beyond + stops.damping * terms.velocity[k])
     }
 
-    fn bound_changes(&mut self) {
+    /// Ends the series at its place `end`, which is the new 1, and after the terms of an order.
+    pub(super) fn shorten(&mut self, end: f64, order: usize) {
+        self.order = order;
+        self.h *= end;
+        let mut power = 1.0;
+        for k in 1..=order + 2 {
+            power *= end;
+            for rows in [&mut self.acceleration, &mut self.rate, &mut self.drift] {
+                rows[k * self.width..(k + 1) * self.width].iter_mut().for_each(|term| *term *= power);
+            }
+            for block in &mut self.blocks {
+                block.velocity[k] *= power;
+                block.slip[k] *= power;
+                block.friction[k] *= power;
+            }
+        }
+    }
+
+    /// Bounds all changes, once all terms are formed.
+    pub(super) fn bound_changes(&mut self) {
         let (width, order) = (self.width, self.order);
         let bound = |rows: &[f64], sums: &mut Vec<f64>, last: usize| {
             sums.clear();
@@ -260,6 +266,11 @@ impl Series {
     /// Relative velocity of the moving block at `position` as a polynomial.
     pub(super) fn velocity_of(&self, position: usize) -> Polynomial {
         Polynomial::new(self.blocks[position].velocity[..=self.order + 1].iter().copied())
+    }
+
+    /// Its friction over mass as a polynomial.
+    pub(super) fn friction_of(&self, position: usize) -> Polynomial {
+        Polynomial::new(self.blocks[position].friction[..=self.order].iter().copied())
     }
 
     /// Its slip since the start of the step.

@@ -17,7 +17,7 @@ pub use building::{Building, GravityEffect, MAX_STOREYS};
 pub use building_and_blocks::Scene;
 pub use columns::SceneColumns;
 pub use damping::{Damping, StoreyDamping, natural_frequencies};
-pub use general::{GeneralBuilding, GeneralScene, Goods, Rack, SlidingBase, Stops};
+pub use general::{GeneralBuilding, GeneralScene, Goods, PlaneMotion, PlaneScene, Rack, SlidingBase, Stops};
 pub use motion::{MAX_SAMPLES, Motion};
 pub use options::Options;
 pub use storey::{MAX_BACKBONE_POINTS, PeakOriented, SpringLaw, Storey};

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use seismass::{
-    Block, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, Motion, Rack, STANDARD_GRAVITY, Stops, Storey,
+    Block, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, Motion, PlaneMotion, PlaneScene, Rack,
+    STANDARD_GRAVITY, Stops, Storey,
 };
 use serde_json::Value;
 
@@ -105,16 +106,60 @@ fn rack(table: &Value) -> Rack {
     rack
 }
 
-/// Scene and motion of a file.
+/// A table with the keys of another put in.
+fn with(table: &Value, other: &Value) -> Value {
+    let mut all = table.clone();
+    for (key, value) in other.as_object().into_iter().flatten() {
+        all[key] = value.clone();
+    }
+    all
+}
+
+/// A table as it is in y.
+fn in_y(table: &Value, other: &Value) -> Value {
+    let mut table = with(table, other);
+    match table.as_object_mut().unwrap().remove("stops_y") {
+        Some(stops) => table["stops"] = stops,
+        None => _ = table.as_object_mut().unwrap().remove("stops"),
+    }
+    table
+}
+
+fn samples(table: &Value) -> Vec<f64> {
+    assert_eq!(table["unit"], "m/s2");
+    let scale = number(&table["scale"], 1.0);
+    floats(&table["acceleration"]).iter().map(|a| a * scale).collect()
+}
+
+fn scene(file: &Value, building_table: &Value, is_y: bool) -> GeneralScene {
+    let each = |key: &str| file[key].as_array().cloned().unwrap_or_default();
+    let table = |table: &Value| if is_y { in_y(table, &Value::Null) } else { table.clone() };
+    let on_floors = each("blocks").iter().map(|entry| goods(&table(entry), "floor")).collect();
+    let rack_of = |entry: &Value| {
+        let mut of_rack = if is_y { with(entry, &entry["other_direction"]) } else { entry.clone() };
+        let blocks: Vec<Value> = entry["blocks"].as_array().unwrap().iter().map(table).collect();
+        of_rack["blocks"] = blocks.into();
+        rack(&of_rack)
+    };
+    let racks = each("racks").iter().map(rack_of).collect();
+    GeneralScene::new(Some(Arc::new(building(building_table))), on_floors, racks).unwrap()
+}
+
+/// Scene and motion of a file in one direction.
 pub fn read_general(path: &Path) -> (GeneralScene, Motion) {
     let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    let each = |key: &str| file[key].as_array().cloned().unwrap_or_default();
-    let on_floors = each("blocks").iter().map(|table| goods(table, "floor")).collect();
-    let racks = each("racks").iter().map(rack).collect();
-    let scene = GeneralScene::new(Some(Arc::new(building(&file["building"]))), on_floors, racks).unwrap();
     let motion = &file["motion"];
-    let scale = number(&motion["scale"], 1.0);
-    let samples: Vec<f64> = floats(&motion["acceleration"]).iter().map(|a| a * scale).collect();
-    assert_eq!(motion["unit"], "m/s2");
-    (scene, Motion::new(samples, motion["dt"].as_f64().unwrap(), None).unwrap())
+    let scene = scene(&file, &file["building"], false);
+    (scene, Motion::new(samples(motion), motion["dt"].as_f64().unwrap(), None).unwrap())
+}
+
+/// Scene and motion of a file in two directions.
+pub fn read_plane(path: &Path) -> (PlaneScene, PlaneMotion) {
+    let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let y = scene(&file, &with(&file["building"], &file["other_direction"]), true);
+    let scene = PlaneScene::new(scene(&file, &file["building"], false), y).unwrap();
+    let (x, y) = (samples(&file["motion"]), samples(&file["other_motion"]));
+    let vertical = file.get("vertical_motion").map(|table| samples(table).into());
+    let motion = Motion::new(x, file["motion"]["dt"].as_f64().unwrap(), vertical).unwrap();
+    (scene, PlaneMotion::new(motion, y).unwrap())
 }

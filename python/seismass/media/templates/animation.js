@@ -10,7 +10,8 @@
 
   // ---- data -------------------------------------------------------------------------------------------------------
   let [data, ground, runs] = [null, null, []];
-  let [storeys, blockCount, END] = [0, 0, 0];
+  let [storeys, levels, blockCount, END] = [0, 0, 0, 0]; // levels: of all racks together
+  let racks = []; // with the index of their lowest level among all
 
   const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
   // Values are little-endian, as every machine with a browser is. A page that solves while it is shown gives arrays.
@@ -25,6 +26,7 @@
   function opened(given) {
     const drift = numbers(given.drift.values, given.drift.peak);
     const slip = numbers(given.slip.values, given.slip.peak);
+    const levelDrift = given.racks ? numbers(given.racks.values, given.racks.peak) : [];
     const blocks = given.slip.peak > 0 || slip.length ? slip.length / given.rows : 0;
     const event = { row: whole(given.events.row, Uint32Array), kind: whole(given.events.kind, Uint8Array) };
     event.number = whole(given.events.number, Uint16Array);
@@ -45,12 +47,17 @@
         changes.get(key).push([row, STARTS[name]]);
       }
     });
-    return { ...given, drift, slip, blocks, event, largest, changes };
+    return { ...given, drift, slip, levelDrift, blocks, event, largest, changes };
   }
   function open(given) {
     data = given;
     ground = { low: numbers(data.ground.low, data.ground.peak), high: numbers(data.ground.high, data.ground.peak) };
     storeys = data.heights.length;
+    levels = 0;
+    racks = (data.racks || []).map((rack) => {
+      levels += rack.levels;
+      return { ...rack, first: levels - rack.levels };
+    });
     END = (data.rows - 1) * data.step;
     runs = data.runs.map(opened);
     blockCount = runs[0].blocks;
@@ -119,8 +126,9 @@
 
   function drawBuilding(context, run, left, width, height, at, enlarged) {
     const bottom = 30;
-    const roof = storeys && data.blocks.some((block) => block.floor === storeys);
-    const top = 72 + (roof ? Math.min(46, (0.5 * (height - 150)) / storeys) : 0);
+    const onRoof = (one) => storeys && !one.rack && one.floor === storeys;
+    const aloft = racks.some(onRoof) ? (0.8 * (height - 110)) / (storeys + 0.8) : 0; // of racks on the roof
+    const top = 72 + (aloft || (data.blocks.some(onRoof) ? Math.min(46, (0.5 * (height - 150)) / storeys) : 0));
     const total = data.heights.reduce((sum, one) => sum + one, 0) || 1.2; // m of ground
     const scale = (height - top - bottom) / total;
     const middle = left + width / 2;
@@ -182,12 +190,19 @@
         context.stroke(path);
       }
     }
+    if (data.walls) {
+      context.strokeStyle = colours.slab;
+      context.lineWidth = 2 * thin + 2;
+      context.beginPath();
+      for (let s = 0; s <= storeys; s++) context.lineTo(xs[s] - 0.97 * half, ys[s]);
+      context.stroke();
+    }
     const slab = Math.min(7, Math.max(2, (scale * total) / Math.max(storeys, 1) / 10));
     for (let s = 1; s <= storeys; s++) {
       context.fillStyle = colours.slab;
       context.fillRect(xs[s] - half, ys[s], 2 * half, slab);
     }
-    drawBlocks(context, run, { xs, ys, half, scale, row, enlarged, flash, colour, total });
+    drawGoods(context, run, { xs, ys, half, scale, row, enlarged, flash, colour, total, aloft, thin });
     context.restore();
 
     const shake = (ground.low[Math.round(at)] + ground.high[Math.round(at)]) / 2 / (data.ground.peak || 1);
@@ -197,62 +212,140 @@
     arrow(context, middle, floor + 16, shake * Math.min(width * 0.3, room));
   }
 
-  function drawBlocks(context, run, place) {
-    const { xs, ys, half, scale, row, enlarged, flash, colour, total } = place;
+  // Blocks and racks of a floor stand side by side, blocks first; goods of a level on its beam.
+  function drawGoods(context, run, place) {
+    const { xs, ys, half, scale, total, aloft } = place;
     const onFloor = new Map();
-    data.blocks.forEach((block) => onFloor.set(block.floor, (onFloor.get(block.floor) || 0) + 1));
+    const stand = (one) => onFloor.set(one.floor, (onFloor.get(one.floor) || 0) + 1);
+    data.blocks.filter((block) => !block.rack).forEach(stand);
+    racks.forEach(stand);
     const taken = new Map();
+    const slotOf = (one) => {
+      const position = taken.get(one.floor) || 0;
+      taken.set(one.floor, position + 1);
+      const slot = (1.7 * half) / onFloor.get(one.floor);
+      const storey = (storeys ? data.heights[Math.min(one.floor, storeys - 1)] : total) * scale;
+      return [slot, storey, xs[one.floor] - 0.85 * half + slot * (position + 0.5), ys[one.floor]];
+    };
     data.blocks.forEach((block, j) => {
-      if (run.attached !== null && block.floor === 0) return;
-      const count = onFloor.get(block.floor);
-      const position = taken.get(block.floor) || 0;
-      taken.set(block.floor, position + 1);
-      const slot = (1.7 * half) / count;
-      const storey = (storeys ? data.heights[Math.min(block.floor, storeys - 1)] : total) * scale;
+      if (block.rack || (run.attached !== null && block.floor === 0)) return;
+      const [slot, storey, home, base] = slotOf(block);
       const wide = Math.max(6, Math.min(0.62 * slot, 0.9 * half) * (0.4 + 0.6 * block.size));
       const high = Math.max(4, Math.min(0.5 * storey, 0.8 * wide, storeys ? 46 : 120) * (0.4 + 0.6 * block.size));
-      const home = xs[block.floor] - 0.85 * half + slot * (position + 0.5);
-      const base = ys[block.floor];
-      if (run.attached !== null) {
-        context.lineWidth = 1.2;
-        context.strokeStyle = colour;
-        context.setLineDash([4, 3]);
-        context.strokeRect(home - wide / 2, base - high, wide, high);
-        context.setLineDash([]);
-        context.fillStyle = colour;
-        context.fillRect(home - wide / 2, base - high * run.attached, wide, high * run.attached);
-        return;
-      }
-      const [state, age] = stateOf(run, "b" + (j + 1), row);
-      const slip = between(run.slip, run.blocks, j, run.rows, row);
-      const x = home + enlarged * scale * slip;
-      const y = base - (state === 2 ? 4 : 0);
-      const glow = state ? flash(age) : 0;
-      if (glow > 0) {
-        context.globalAlpha = 0.45 * glow;
-        context.fillStyle = colour;
-        context.fillRect(x - wide / 2 - 6, y - high - 6, wide + 12, high + 6);
-        context.globalAlpha = 1;
-      }
-      context.strokeStyle = colours.ink;
-      context.lineWidth = 1.5;
-      context.beginPath(); // where it stood at the start
-      context.moveTo(home, base + 1);
-      context.lineTo(home, base + 6);
-      context.stroke();
-      context.fillStyle = state ? colour : colours.paper;
-      context.fillRect(x - wide / 2, y - high, wide, high);
-      context.strokeStyle = colour;
-      context.strokeRect(x - wide / 2, y - high, wide, high);
-      context.beginPath(); // its own mark, above that of the floor
-      context.strokeStyle = state ? colours.paper : colour;
-      context.moveTo(x, y);
-      context.lineTo(x, y - Math.min(6, high));
-      context.stroke();
-      if (data.blocks.length > 1 && high >= 22) {
-        text(context, String(j + 1), x, y - high / 2 + 3, { size: 11, align: "center", colour: state ? colours.paper : colours.ink });
-      }
+      drawBlock(context, run, place, block, j, { home, base, wide, high });
     });
+    racks.forEach((rack, r) => {
+      if (run.attached !== null && rack.floor === 0) return;
+      const [slot, storey, home, base] = slotOf(rack);
+      const high = aloft && rack.floor === storeys ? aloft : 0.84 * storey;
+      drawRack(context, run, place, rack, r, { home, base, wide: Math.min(0.82 * slot, 0.9 * half), high });
+    });
+  }
+
+  // In the model of a code racks are part of their floor: they do not sway by themselves.
+  function drawRack(context, run, place, rack, r, { home, base, wide, high }) {
+    const { scale, row, enlarged, flash, colour, thin } = place;
+    const each = high / (rack.levels + 0.72);
+    const [xs, ys] = [[home], [base]];
+    for (let l = 0; l < rack.levels; l++) {
+      const drift = run.attached === null ? between(run.levelDrift, levels, rack.first + l, run.rows, row) : 0;
+      xs.push(xs[l] + enlarged * scale * drift);
+      ys.push(ys[l] - each);
+    }
+    const fine = Math.min(2.2, Math.max(1, 0.6 * thin));
+    for (let l = 0; l < rack.levels; l++) {
+      const [state, age] = run.attached === null ? stateOf(run, "s" + (storeys + rack.first + l + 1), row) : [0, Infinity];
+      const glow = state ? flash(age) : 0;
+      for (const side of [-wide / 2, wide / 2]) {
+        const path = new Path2D();
+        path.moveTo(xs[l] + side, ys[l]);
+        path.lineTo(xs[l + 1] + side, ys[l + 1]);
+        if (glow > 0) {
+          context.globalAlpha = 0.45 * glow;
+          context.strokeStyle = colours.yield;
+          context.lineWidth = fine + 10;
+          context.stroke(path);
+          context.globalAlpha = 1;
+        }
+        context.strokeStyle = state ? colours.yield : colour;
+        context.lineWidth = state ? 2 * fine + 1 : fine;
+        context.stroke(path);
+      }
+      context.fillStyle = colours.slab;
+      context.fillRect(xs[l + 1] - wide / 2, ys[l + 1], wide, Math.max(1.5, 0.7 * fine + 1));
+    }
+    for (let l = 1; l <= rack.levels; l++) {
+      const fixed = rack.fixed.filter((one) => one.level === l).map((one) => [one, -1]);
+      const loose = data.blocks.map((block, j) => [block, j]).filter(([block]) => block.rack === r + 1 && block.level === l);
+      const goods = [...loose, ...fixed];
+      goods.forEach(([block, j], position) => {
+        const slot = (0.96 * wide) / goods.length;
+        const broad = Math.max(4, 0.62 * slot * (0.4 + 0.6 * block.size));
+        const tall = Math.max(3, Math.min(0.66 * each, 0.9 * broad, 46) * (0.5 + 0.5 * block.size));
+        const at = { home: xs[l] - 0.48 * wide + slot * (position + 0.5), base: ys[l], wide: broad, high: tall };
+        drawBlock(context, run, place, block, j, at);
+      });
+    }
+  }
+
+  // A block at its place; fixed ones have no number (-1).
+  function drawBlock(context, run, place, block, j, { home, base, wide, high }) {
+    const { scale, row, enlarged, flash, colour, half } = place;
+    if (run.attached !== null) {
+      context.lineWidth = 1.2;
+      context.strokeStyle = colour;
+      context.setLineDash([4, 3]);
+      context.strokeRect(home - wide / 2, base - high, wide, high);
+      context.setLineDash([]);
+      context.fillStyle = colour;
+      context.fillRect(home - wide / 2, base - high * run.attached, wide, high * run.attached);
+      return;
+    }
+    if (j < 0) {
+      context.fillStyle = colours.slab;
+      context.fillRect(home - wide / 2, base - high, wide, high);
+      return;
+    }
+    const [state, age] = stateOf(run, "b" + (j + 1), row);
+    const slip = between(run.slip, run.blocks, j, run.rows, row);
+    const x = home + enlarged * scale * slip;
+    const y = base - (state === 2 ? 4 : 0);
+    const glow = state ? flash(age) : 0;
+    if (glow > 0) {
+      context.globalAlpha = 0.45 * glow;
+      context.fillStyle = colour;
+      context.fillRect(x - wide / 2 - 6, y - high - 6, wide + 12, high + 6);
+      context.globalAlpha = 1;
+    }
+    context.strokeStyle = colours.ink;
+    context.lineWidth = 1.5;
+    context.beginPath(); // where it stood at the start
+    context.moveTo(home, base + 1);
+    context.lineTo(home, base + 6);
+    context.stroke();
+    context.fillStyle = state ? colour : colours.paper;
+    context.fillRect(x - wide / 2, y - high, wide, high);
+    context.strokeStyle = colour;
+    context.strokeRect(x - wide / 2, y - high, wide, high);
+    context.beginPath(); // its own mark, above that of the floor
+    context.strokeStyle = state ? colours.paper : colour;
+    context.moveTo(x, y);
+    context.lineTo(x, y - Math.min(6, high));
+    context.stroke();
+    (block.stops || []).forEach((clearance, side) => {
+      const away = enlarged * scale * clearance;
+      if (clearance === null || away > 2 * half) return;
+      const rail = home + (side ? 1 : -1) * (wide / 2 + away + 1);
+      context.strokeStyle = colours.ink;
+      context.lineWidth = 2;
+      context.beginPath();
+      context.moveTo(rail, base);
+      context.lineTo(rail, base - Math.min(10, Math.max(5, 0.6 * high)));
+      context.stroke();
+    });
+    if (data.blocks.length > 1 && high >= 22) {
+      text(context, String(j + 1), x, y - high / 2 + 3, { size: 11, align: "center", colour: state ? colours.paper : colours.ink });
+    }
   }
 
   function arrow(context, x, y, length) {
@@ -302,16 +395,28 @@
       const title = `drift of storey ${data.storey + 1} (${unit})`;
       panels.push({ title, ends: rangeOf(curves), digits: data.known ? 2 : 1, curves, marks: marksOf("yield", data.storey + 1) });
     }
+    const reach = (curve) => Math.max(...rangeOf([curve]).map(Math.abs));
+    const hues = [colours.real, colours.other, colours.yield, colours.ink, colours.model];
+    const mostOf = (all) => {
+      const most = all.map((curve) => [reach(curve), curve]).sort(([a], [b]) => b - a).slice(0, mostCurves);
+      const curves = all.filter((curve) => most.some(([, other]) => other === curve));
+      curves.forEach((curve, i) => Object.assign(curve, { colour: hues[i], dash: DASHES[i] }));
+      return curves;
+    };
+    if (levels) {
+      const ofLevels = racks.flatMap((rack, r) => Array.from({ length: rack.levels }, (_, l) => ({
+        values: runs[0].levelDrift, columns: levels, column: rack.first + l, rows: runs[0].rows, scale: 1000,
+        label: `${r + 1}.${l + 1}`,
+      })));
+      const curves = mostOf(ofLevels);
+      panels.push({ title: mostCurves > 3 ? "drift of racks (mm), rack.level" : "drift of racks (mm)", ends: rangeOf(curves), digits: 1, curves });
+    }
     if (blockCount) {
       const real = runs[0];
       const all = data.blocks.map((_, j) => ({
         values: real.slip, columns: blockCount, column: j, rows: real.rows, scale: 1000, label: `${j + 1}`,
       }));
-      const reach = (curve) => Math.max(...rangeOf([curve]).map(Math.abs));
-      const most = all.map((curve) => [reach(curve), curve]).sort(([a], [b]) => b - a).slice(0, mostCurves);
-      const hues = [colours.real, colours.other, colours.yield, colours.ink, colours.model];
-      const curves = all.filter((curve) => most.some(([, other]) => other === curve));
-      curves.forEach((curve, i) => Object.assign(curve, { colour: hues[i], dash: DASHES[i] }));
+      const curves = mostOf(all);
       const title = all.length > mostCurves ? `slip (mm), ${mostCurves} blocks of ${all.length}` : "slip of blocks (mm)";
       panels.push({ title, ends: rangeOf(curves), digits: 1, curves, marks: marksOf("slip") });
     }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from seismass.records.formats.at2 import AT2
+from seismass.records.formats.bhrc import BHRC
 from seismass.records.formats.columns import COLUMNS
 from seismass.records.formats.common import Arguments, Channel, Format, NotRead
 from seismass.records.formats.cosmos import COSMOS
@@ -15,8 +16,9 @@ from seismass.records.formats.geonet import GEONET
 from seismass.records.formats.headed_kinds import HEADED
 from seismass.records.formats.knet import KNET
 from seismass.records.formats.smc import SMC
+from seismass.records.formats.unam import UNAM
 
-FORMATS: Final = (KNET, ESM, GEONET, COSMOS, CSMIP, *HEADED, SMC, AT2, COLUMNS)
+FORMATS: Final = (KNET, ESM, GEONET, UNAM, BHRC, COSMOS, CSMIP, *HEADED, SMC, AT2, COLUMNS)
 """In order of certainty: what a head has that no other format has comes first, and text of columns last."""
 
 BY_NAME: Final = {one.name: one for one in FORMATS}

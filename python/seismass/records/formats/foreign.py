@@ -8,6 +8,7 @@ from typing import Final
 
 _CONVERT: Final = "convert it to text of one column (acceleration) or two (time, acceleration)"
 _NETWORK: Final = f"read the PEER, COSMOS, CSMIP, ESM, K-NET or SMC file of the record, or {_CONVERT}"
+_COUNTS: Final = "read it by seismass.records.read_counts with the m/s2 of one count (needs ObsPy)"
 _UNPACK: Final = "unpack it and read the files in it"
 
 _MAGIC: Final[tuple[tuple[bytes, str, str], ...]] = (
@@ -56,12 +57,6 @@ _LINES: Final[tuple[tuple[re.Pattern[str], str, str], ...]] = tuple(
         ),
         (r"\s*<\?xml|\s*<q:quakeml|\s*<FDSNStationXML", "XML", _NETWORK),
         (r"\s*[{\[]\s*(?:[\"{\[]|$)", "JSON", _NETWORK),
-        (r"\* VOL[12]", "BHRC (ISMN, Iran)", _NETWORK),
-        (
-            r"\*{20,}\s+INSTITUTO DE INGENIERIA|(?s:.{0,800}?ARCHIVO ESTANDAR DE ACELERACION)",
-            "UNAM standard acceleration",
-            _NETWORK,
-        ),
         (r"(?:CORRECTED ACCELEROGRAM.*CORRESPONDING|FILE\s+\d+ OF UNCORRECTED ACCELEROGRAM)", "USC volume", _NETWORK),
         (r"\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", "CSMIP V3 (spectra)", "read its V1 or V2 file"),
         (r"\s*(?:RESPONSE|FOURIER) SPECTR\w+.*\(Format v", "COSMOS V3 (spectra)", "read its V1 or V2 file"),
@@ -87,11 +82,11 @@ def known_binary(head: bytes) -> tuple[str, str] | None:
     if _SEED.match(head):
         return "SEED", _CONVERT
     if _MINISEED.match(head) and (b"\0" in head or not head.isascii()):
-        return "miniSEED", _CONVERT
+        return "miniSEED", _COUNTS
     if len(head) >= _SAC_HEADER_BYTES:
         versions = [struct.unpack_from(order + "i", head, _SAC_VERSION_AT)[0] for order in "<>"]
         if any(version in (6, 7) for version in versions):
-            return "SAC", _CONVERT
+            return "SAC", _COUNTS
     return None
 
 

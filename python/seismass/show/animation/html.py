@@ -14,8 +14,10 @@ from markupsafe import Markup
 from numpy.typing import ArrayLike, NDArray
 
 from seismass.animation.shown import Run
+from seismass.animation.standing import Good, standing_goods
 from seismass.base.values import FloatArray, counted
 from seismass.media.page import page_html, templates
+from seismass.model.scene import Scene
 from seismass.runs.response import EVENT_KINDS
 
 if TYPE_CHECKING:
@@ -43,13 +45,17 @@ def _element(animation: Animation, *, autoplay: bool) -> Markup:
 
 def element_content(animation: Animation) -> dict[str, Any]:
     """Return all that the element shows, as values that JSON has: what is drawn, and the words around it."""
-    shown = animation.shown
+    shown, scene = animation.shown, animation.scene
     return {
         "data": _data(animation),
         "alt": description(animation),
         "caption": caption(animation),
-        "blocks": bool(animation.scene.blocks),
-        "building": bool(animation.scene.storeys),
+        "blocks": bool(scene.goods),
+        "racks": bool(scene.racks),
+        "walls": _has_walls(scene),
+        "fixed": any(block.fixed for rack in scene.racks for block in rack.blocks),
+        "stops": any(block.stops is not None for block in scene.goods),
+        "building": bool(scene.storeys),
         "attached": any(run.attached for run in shown.runs),
         "factor": shown.factor,
         "last": (shown.rows - 1) * shown.step,
@@ -80,12 +86,13 @@ def element_html(
     """
     times = "\N{MULTIPLICATION SIGN}"
     choices = factors or [(factor, f"{factor:g} {times}") for factor in sorted({content["factor"], *FACTORS})]
+    said = dict.fromkeys(("racks", "walls", "fixed", "stops"), False) | content
     data = json.dumps(content["data"], separators=(",", ":")).replace("<", "\\u003c")
     html: str = (
         templates()
         .get_template("animation.html.jinja")
         .render(
-            **{name: value for name, value in content.items() if name != "data"},
+            **{name: value for name, value in said.items() if name != "data"},
             identifier="animation-" + hashlib.sha256(data.encode()).hexdigest()[:10],
             data=Markup(data),
             autoplay=autoplay,
@@ -117,7 +124,7 @@ def _data(animation: Animation) -> dict[str, Any]:
     shown, scene = animation.shown, animation.scene
     peak = float(max(abs(shown.ground_low).max(), abs(shown.ground_high).max()))
     known = scene.building is not None and scene.building.heights is not None
-    mass = scene.block_mass
+    goods = standing_goods(scene)
     return {
         "step": shown.step,
         "rows": shown.rows,
@@ -125,20 +132,42 @@ def _data(animation: Animation) -> dict[str, Any]:
         "known": known,
         "factor": shown.factor,
         "storey": shown.storey,
+        "walls": _has_walls(scene),
         "kinds": list(EVENT_KINDS),
         "ground": {"peak": peak, "low": _packed(shown.ground_low, peak), "high": _packed(shown.ground_high, peak)},
-        "blocks": [
-            {"floor": block.floor, "size": round(float(np.sqrt(one / mass.max())), 3)}
-            for block, one in zip(scene.blocks, mass, strict=True)
+        "blocks": [_block(good) for good in goods if not good.fixed],
+        "racks": [
+            {
+                "floor": rack.floor,
+                "levels": rack.levels,
+                "fixed": [
+                    {"level": good.level, "size": round(good.size, 3)}
+                    for good in goods
+                    if good.fixed and good.rack == number
+                ],
+            }
+            for number, rack in enumerate(scene.racks, start=1)
         ],
         "runs": [_run(run, shown.step) for run in shown.runs],
     }
 
 
+def _has_walls(scene: Scene) -> bool:
+    return scene.building is not None and scene.building.stiffness_matrix is not None
+
+
+def _block(good: Good) -> dict[str, Any]:
+    """A block that may slide: where it stands, how large it is drawn, and its stops where it has some."""
+    place = {"rack": good.rack, "level": good.level} if good.rack else {"floor": good.level}
+    stops = {} if good.stops is None else {"stops": [None if np.isinf(side) else side for side in good.stops]}
+    return {**place, "size": round(good.size, 3), **stops}
+
+
 def _run(run: Run, step: float) -> dict[str, Any]:
     response = run.response
     drift, slip = response.drift[: run.rows], response.slip[: run.rows]
-    largest_drift, largest_slip = (float(abs(moved).max()) if moved.size else 0.0 for moved in (drift, slip))
+    levels = run.level_drift
+    peaks = [float(abs(moved).max()) if moved.size else 0.0 for moved in (drift, slip, levels)]
     return {
         "label": run.label,
         "what": run.what,
@@ -146,8 +175,9 @@ def _run(run: Run, step: float) -> dict[str, Any]:
         "rows": run.rows,
         "collapsed": response.collapsed_storey,
         "end": response.end_time,
-        "drift": {"peak": largest_drift, "values": _packed(drift, largest_drift)},
-        "slip": {"peak": largest_slip, "values": _packed(slip, largest_slip)},
+        "drift": {"peak": peaks[0], "values": _packed(drift, peaks[0])},
+        "slip": {"peak": peaks[1], "values": _packed(slip, peaks[1])},
+        "racks": {"peak": peaks[2], "values": _packed(levels, peaks[2])},
         "events": _events(run, step),
     }
 

@@ -2,15 +2,32 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from typing import TYPE_CHECKING, Final, TypeAlias
+from collections import Counter, defaultdict
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
 import numpy as np
-from matplotlib import get_data_path
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
 from seismass.animation.shown import GROUND_HEIGHT, Run
+from seismass.animation.standing import Good, standing_goods
 from seismass.base.values import FloatArray
+from seismass.model.places import rack_levels
+from seismass.show.animation.canvas import (
+    FINER,
+    INK,
+    LINE,
+    MODEL,
+    PALE_REAL,
+    PALE_YIELD,
+    PAPER,
+    REAL,
+    SLAB,
+    SOFT,
+    YIELD,
+    Box,
+    Canvas,
+    Point,
+)
 
 if TYPE_CHECKING:
     from seismass.animation.animation import Animation
@@ -20,21 +37,15 @@ BUILDINGS: Final = 330
 PANEL: Final = 84
 FOOT: Final = 26
 """Sizes (pixels): of a frame, of the pictures of the buildings, of each history, of the axis of time."""
-FINER: Final = 2
-"""Frames are drawn so many times as large, and reduced, which smooths their edges."""
 FLASH: Final = 0.35
 """How long an event is to be seen (s)."""
 MOST_CURVES: Final = 4
 """Most blocks whose slips are drawn."""
 
-PAPER, INK, SOFT, LINE = "#ffffff", "#1c1c1c", "#595959", "#c8c8c8"
-REAL, MODEL, YIELD, SLAB = "#0072b2", "#b34700", "#a4276f", "#6b6b6b"
-PALE_YIELD, PALE_REAL = "#e9c4d8", "#bcdcee"
 CURVES: Final = (REAL, "#00765a", YIELD, INK)
 
 _COLOUR_AND_NAME: Final = {True: (REAL, "real"), False: (MODEL, "model")}
 
-Point: TypeAlias = tuple[float, float]
 Curve: TypeAlias = tuple[FloatArray, str, str]
 """Values at the rows, colour and name."""
 
@@ -43,7 +54,21 @@ _STATES: Final = {"yield": True, "unload": False, "reload": False, "slip": True,
 _OF_STOREY: Final = frozenset({"yield", "unload", "reload"})
 
 
-class Picture:
+class Sizes(NamedTuple):
+    """Sizes that the drawing of a building shares: pixels, the scale in pixels a metre, and how long an event flashes.
+
+    `half` is the half width, `total` its height (m), `aloft` the room of racks on the roof, `thin` a column.
+    """
+
+    half: float
+    scale: float
+    total: float
+    aloft: float
+    thin: float
+    flash: float
+
+
+class Picture(Canvas):
     """Draws an animation at any time.
 
     Parameters
@@ -53,11 +78,12 @@ class Picture:
     """
 
     def __init__(self, animation: Animation) -> None:
+        super().__init__()
         self._animation = animation
         self._shown = animation.shown
-        self._panels = 1 + bool(animation.scene.storeys) + bool(animation.scene.blocks)
-        self._fonts = {size: _font(size * FINER, bold=False) for size in (11, 12)}
-        self._bold = _font(14 * FINER, bold=True)
+        scene = animation.scene
+        self._panels = 1 + bool(scene.storeys) + bool(scene.racks) + bool(scene.goods)
+        self._standing = standing_goods(scene)
         self._changes = [_changes(run) for run in self._shown.runs]
         self._still = self._histories()
 
@@ -113,28 +139,16 @@ class Picture:
         place = int(np.searchsorted(times, time, side="right")) - 1
         return (False, np.inf) if place < 0 else (states[place], time - times[place])
 
-    def _text(
-        self, draw: ImageDraw.ImageDraw, at: Point, words: str, colour: str, size: int = 12, anchor: str = "la"
-    ) -> None:
-        font = self._bold if size > 12 else self._fonts[size]
-        draw.text((at[0] * FINER, at[1] * FINER), words, fill=colour, font=font, anchor=anchor)
-
-    def _line(self, draw: ImageDraw.ImageDraw, points: list[Point], colour: str, width: float) -> None:
-        draw.line([(FINER * x, FINER * y) for x, y in points], fill=colour, width=round(FINER * width), joint="curve")
-
-    def _box(
-        self, draw: ImageDraw.ImageDraw, box: tuple[float, float, float, float], fill: str | None, edge: str | None
-    ) -> None:
-        x0, y0, x1, y1 = (FINER * value for value in box)
-        draw.rectangle((x0, y0, max(x0, x1), max(y0, y1)), fill=fill, outline=edge, width=3)
-
     def _building(
         self, draw: ImageDraw.ImageDraw, number: int, run: Run, left: float, width: float, time: float, flash: float
     ) -> None:
         """One building with its goods, and what has become of it so far."""
         heights, storeys = self._shown.heights, len(self._shown.heights)
-        roof = any(block.floor == storeys for block in self._animation.scene.blocks) and storeys
-        top = 66.0 + (min(46.0, 90.0 / storeys) if roof else 0.0)
+        scene = self._animation.scene
+        racked = bool(storeys) and any(rack.floor == storeys for rack in scene.racks)
+        aloft = 0.8 * (BUILDINGS - 100.0) / (storeys + 0.8) if racked else 0.0
+        roof = any(block.floor == storeys for block in scene.blocks) and storeys
+        top = 66.0 + (aloft or (min(46.0, 90.0 / storeys) if roof else 0.0))
         total = float(heights.sum()) or GROUND_HEIGHT
         scale = (BUILDINGS - top - 24.0) / total
         middle, ground = left + 0.5 * width, BUILDINGS - 24.0
@@ -165,53 +179,131 @@ class Picture:
                 if yields and age < flash:
                     self._line(draw, curve, PALE_YIELD, thin + 12.0)
                 self._line(draw, curve, YIELD if yields else colour, 2.0 * thin + 1.0 if yields else thin)
+        if scene.building is not None and scene.building.stiffness_matrix is not None:
+            wall = [(x - 0.97 * half, y) for x, y in zip(xs, ys, strict=True)]
+            self._line(draw, wall, SLAB, 2.0 * thin + 2.0)
         slab = min(6.0, max(1.5, scale * total / max(storeys, 1) / 10.0))
         for x, y in zip(xs[1:], ys[1:], strict=True):
-            self._box(draw, (x - half, y, x + half, y + slab), SLAB, None)
-        self._blocks(draw, number, run, (xs, ys), (half, scale, total), time, flash)
+            self._box(draw, (x - half, y, x + half, y + slab), SLAB)
+        self._goods(draw, number, run, (xs, ys), Sizes(half, scale, total, aloft, thin, flash), time)
 
-    def _blocks(
+    def _goods(
         self,
         draw: ImageDraw.ImageDraw,
         number: int,
         run: Run,
         floors: tuple[list[float], list[float]],
-        sizes: tuple[float, float, float],
+        sizes: Sizes,
         time: float,
-        flash: float,
     ) -> None:
-        """The goods of one building: they slide, or a share of them is part of the floors."""
-        (xs, ys), (half, scale, total) = floors, sizes
-        scene, colour = self._animation.scene, REAL if run.attached is None else MODEL
-        count: dict[int, int] = defaultdict(int)
-        for block in scene.blocks:
-            count[block.floor] += 1
-        taken: dict[int, int] = defaultdict(int)
-        mass = np.sqrt(scene.block_mass / scene.block_mass.max()) if scene.blocks else []
-        slips = self._at(run.response.slip, run, time)
-        for place, (block, ratio) in enumerate(zip(scene.blocks, mass, strict=True)):
-            if run.attached is not None and block.floor == 0:
+        """Blocks and racks of one building, side by side on their floors, blocks first."""
+        (xs, ys), scene = floors, self._animation.scene
+        on_floor = Counter([*scene.block_floor, *(rack.floor for rack in scene.racks)])
+        taken: Counter[int] = Counter()
+        slips = self._at(run.response.slip, run, time) if run.attached is None else np.zeros(len(scene.goods))
+
+        def slot_of(floor: int) -> tuple[float, float, float]:
+            """Width of a place on a floor, height of the storey above, and the middle of the next place."""
+            slot = 1.7 * sizes.half / on_floor[floor]
+            storey = self._shown.heights[min(floor, scene.storeys - 1)] if scene.storeys else sizes.total
+            taken[floor] += 1
+            return slot, float(storey) * sizes.scale, xs[floor] - 0.85 * sizes.half + slot * (taken[floor] - 0.5)
+
+        loose = [good for good in self._standing if not good.fixed]
+        for block, (good, slip) in enumerate(zip(loose, slips.tolist(), strict=True), start=1):
+            if good.rack or (run.attached is not None and good.level == 0):
                 continue
-            size = 0.4 + 0.6 * float(ratio)
-            slot = 1.7 * half / count[block.floor]
-            storey = (self._shown.heights[min(block.floor, scene.storeys - 1)] if scene.storeys else total) * scale
-            wide = max(6.0, min(0.62 * slot, 0.9 * half) * size)
+            slot, storey, home = slot_of(good.level)
+            size = 0.4 + 0.6 * good.size
+            wide = max(6.0, min(0.62 * slot, 0.9 * sizes.half) * size)
             high = max(4.0, min(0.5 * storey, 0.8 * wide, 46.0 if scene.storeys else 100.0) * size)
-            home = xs[block.floor] - 0.85 * half + slot * (taken[block.floor] + 0.5)
-            taken[block.floor] += 1
-            base = ys[block.floor]
-            if run.attached is not None:
-                self._box(draw, (home - 0.5 * wide, base - high, home + 0.5 * wide, base), None, colour)
-                self._box(draw, (home - 0.5 * wide, base - high * run.attached, home + 0.5 * wide, base), colour, None)
-                continue
-            slides, age = self._state(number, ("block", place + 1), time)
-            x = home + self._shown.factor * scale * float(slips[place])
-            box = (x - 0.5 * wide, base - high, x + 0.5 * wide, base)
-            if slides and age < flash:
-                self._box(draw, (box[0] - 5, box[1] - 5, box[2] + 5, box[3]), PALE_REAL, None)
-            self._line(draw, [(home, base + 1), (home, base + 6)], INK, 1.5)
-            self._box(draw, box, colour if slides else PAPER, colour)
-            self._line(draw, [(x, base), (x, base - min(6.0, high))], PAPER if slides else colour, 1.5)
+            self._block(draw, number, run, good, (block, slip), (home, ys[good.level], wide, high), sizes, time)
+        drifts = np.split(self._at(run.level_drift, run, time), np.cumsum([rack.levels for rack in scene.racks])[:-1])
+        first = scene.storeys + 1
+        for place, rack in enumerate(scene.racks, start=1):
+            if run.attached is None or rack.floor:
+                slot, storey, home = slot_of(rack.floor)
+                high = sizes.aloft if sizes.aloft and rack.floor == scene.storeys else 0.84 * storey
+                frame = home, ys[rack.floor], min(0.82 * slot, 0.9 * sizes.half), high
+                sways = drifts[place - 1].tolist() if run.attached is None else [0.0] * rack.levels
+                self._rack(draw, number, run, (place, first), sways, slips, frame, sizes, time)
+            first += rack.levels
+
+    def _rack(
+        self,
+        draw: ImageDraw.ImageDraw,
+        number: int,
+        run: Run,
+        which: tuple[int, int],
+        drifts: list[float],
+        slips: FloatArray,
+        frame: Box,
+        sizes: Sizes,
+        time: float,
+    ) -> None:
+        """A rack with its goods; `which` is its number and that of its lowest level among the springs."""
+        (place, first), (home, base, wide, high) = which, frame
+        colour, each = REAL if run.attached is None else MODEL, high / (len(drifts) + 0.72)
+        fine, enlarged = min(2.2, max(1.0, 0.6 * sizes.thin)), self._shown.factor * sizes.scale
+        xs = [home, *(home + enlarged * np.cumsum(drifts)).tolist()]
+        ys = [base - each * level for level in range(len(drifts) + 1)]
+        for level in range(len(drifts)):
+            yields, age = self._state(number, ("storey", first + level), time)
+            for side in (-0.5 * wide, 0.5 * wide):
+                post = [(xs[level] + side, ys[level]), (xs[level + 1] + side, ys[level + 1])]
+                if yields and age < sizes.flash:
+                    self._line(draw, post, PALE_YIELD, fine + 8.0)
+                self._line(draw, post, YIELD if yields else colour, 2.0 * fine + 1.0 if yields else fine)
+            self._box(
+                draw, (xs[level + 1] - 0.5 * wide, ys[level + 1], xs[level + 1] + 0.5 * wide, ys[level + 1] + 2), SLAB
+            )
+        of_rack = [good for good in self._standing if good.rack == place]
+        loose = [good for good in self._standing if not good.fixed]
+        for level in range(1, len(drifts) + 1):
+            goods = sorted((good for good in of_rack if good.level == level), key=lambda good: good.fixed)
+            for position, good in enumerate(goods):
+                slot = 0.96 * wide / len(goods)
+                broad = max(4.0, 0.62 * slot * (0.4 + 0.6 * good.size))
+                tall = max(3.0, min(0.66 * each, 0.9 * broad, 46.0) * (0.5 + 0.5 * good.size))
+                box = xs[level] - 0.48 * wide + slot * (position + 0.5), ys[level], broad, tall
+                block = 0 if good.fixed else 1 + next(n for n, one in enumerate(loose) if one is good)
+                slip = 0.0 if good.fixed else float(slips[block - 1])
+                self._block(draw, number, run, good, (block, slip), box, sizes, time)
+
+    def _block(
+        self,
+        draw: ImageDraw.ImageDraw,
+        number: int,
+        run: Run,
+        good: Good,
+        which: tuple[int, float],
+        box: Box,
+        sizes: Sizes,
+        time: float,
+    ) -> None:
+        """Goods at their first place: they slide, are fixed, or a share of them is part of the floor."""
+        (block, slip), (home, base, wide, high) = which, box
+        colour = REAL if run.attached is None else MODEL
+        whole = (home - 0.5 * wide, base - high, home + 0.5 * wide, base)
+        if run.attached is not None:
+            self._box(draw, whole, None, colour)
+            self._box(draw, (whole[0], base - high * run.attached, whole[2], base), colour)
+            return
+        if good.fixed:
+            self._box(draw, whole, SLAB)
+            return
+        slides, age = self._state(number, ("block", block), time)
+        x, enlarged = home + self._shown.factor * sizes.scale * slip, self._shown.factor * sizes.scale
+        moved = (x - 0.5 * wide, base - high, x + 0.5 * wide, base)
+        if slides and age < sizes.flash:
+            self._box(draw, (moved[0] - 5, moved[1] - 5, moved[2] + 5, moved[3]), PALE_REAL)
+        self._line(draw, [(home, base + 1), (home, base + 6)], INK, 1.5)
+        self._box(draw, moved, colour if slides else PAPER, colour)
+        self._line(draw, [(x, base), (x, base - min(6.0, high))], PAPER if slides else colour, 1.5)
+        for side, clearance in zip((-1.0, 1.0), good.stops or (np.inf, np.inf), strict=True):
+            if enlarged * clearance <= 2.0 * sizes.half:
+                rail = home + side * (0.5 * wide + enlarged * clearance + 1.0)
+                self._line(draw, [(rail, base), (rail, base - min(10.0, max(5.0, 0.6 * high)))], INK, 2.0)
 
     def _histories(self) -> Image.Image:
         """What does not move: the histories and their axes."""
@@ -262,7 +354,16 @@ class Picture:
                 for run in shown.runs
             ]
             panels.append((f"drift of storey {shown.storey + 1} (mm)", drifts))
-        if scene.blocks:
+        if scene.racks:
+            peaks = np.concatenate(real.response.peak_rack_drift)
+            places = rack_levels(scene)
+            swaying = np.sort(np.argsort(-peaks, kind="stable")[:MOST_CURVES])
+            racks = [
+                (1e3 * real.level_drift[:, level], colour, f"rack {places[level][0]} level {places[level][1]}")
+                for level, colour in zip(swaying.tolist(), CURVES, strict=False)
+            ]
+            panels.append(("drift (mm)", racks))
+        if scene.goods:
             most = np.sort(np.argsort(-real.response.peak_slip, kind="stable")[:MOST_CURVES])
             slips = [
                 (1e3 * real.response.slip[: real.rows, block], colour, f"block {block + 1}")
@@ -275,11 +376,6 @@ class Picture:
         x = 52.0 + (WIDTH - 64.0) * time / max(self.duration, 1e-9)
         self._line(draw, [(x, BUILDINGS + 14.0), (x, self.size[1] - FOOT)], INK, 1.5)
         self._text(draw, (WIDTH - 8, BUILDINGS + 2), f"{time:.2f} s", INK, 12, "ra")
-
-
-def _font(size: int, *, bold: bool) -> ImageFont.FreeTypeFont:
-    """DejaVu Sans, as Matplotlib carries it."""
-    return ImageFont.truetype(f"{get_data_path()}/fonts/ttf/DejaVuSans{'-Bold' if bold else ''}.ttf", size)
 
 
 def _column(foot: Point, head: Point) -> list[Point]:

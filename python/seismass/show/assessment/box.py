@@ -23,6 +23,7 @@ def answer_lines(result: AssessmentTables) -> list[Markup]:
         pair = zip(answer["analyses"], answer["pair"], strict=True)
         lines += [Markup("<strong>Analysis {}: {}.</strong>").format(one["number"], words) for one, words in pair]
         lines.append(Markup("Governs: {}.").format("; ".join(answer["governs"])))
+        lines.append(Markup("Goods present: {}.").format(answer["goods"]))
         lines += [Markup("Why: {}.").format(answer["why"]), Markup("{}").format(_sentence(answer["design"]))]
     lines.append(Markup("{}").format(_sentence(document["on_motions"])))
     if result.effective:

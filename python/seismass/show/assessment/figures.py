@@ -187,17 +187,17 @@ def drift_figure(result: AssessmentTables) -> Figure:
 def slip_figure(result: AssessmentTables) -> Figure:
     """Peak and residual slip of the goods of each floor, by friction, with their scatter over the motions."""
     slip = result.slip
-    floors = slip["floor"].unique().sort().to_list()
+    kinds = list(dict.fromkeys(slip.sort("floor", maintain_order=True).select("floor", "goods").iter_rows()))
     models = [model for model in FRICTION_LOOKS if model in set(slip["model"])]
-    figure = Figure(figsize=(6.8, 2.1 + 0.75 * len(floors)), layout="constrained")
+    figure = Figure(figsize=(6.8, 2.1 + 0.75 * len(kinds)), layout="constrained")
     axes = figure.add_subplot()
-    places = {floor: number for number, floor in enumerate(floors, start=1)}
+    places = {kind: number for number, kind in enumerate(kinds, start=1)}
     handles = []
     for number, model in enumerate(models):
         colour, _, marker, name = FRICTION_LOOKS[model]
-        rows = slip.filter(pl.col("model") == model).sort("floor")
+        rows = slip.filter(pl.col("model") == model).sort("floor", maintain_order=True)
         offset = 0.22 * (0.5 * (len(models) - 1) - number)
-        height = np.array([places[floor] + offset for floor in rows["floor"]])
+        height = np.array([places[kind] + offset for kind in rows.select("floor", "goods").iter_rows()])
 
         def column(of: str, table: pl.DataFrame = rows) -> FloatArray:
             values: FloatArray = 1e3 * table[of].cast(pl.Float64).to_numpy()
@@ -226,8 +226,9 @@ def slip_figure(result: AssessmentTables) -> Figure:
         Line2D([], [], color=GREY, linestyle="", marker="o", markerfacecolor="white", label="residual: mean"),
     ]
     names = result.storey_names
-    axes.set_yticks(range(1, len(floors) + 1), [_plain(f"{floor} {names[floor - 1]}".strip()) for floor in floors])
-    axes.set_ylim(0.5, len(floors) + 0.5)
+    labels = [" ".join(part for part in (str(floor), names[floor - 1], goods) if part) for floor, goods in kinds]
+    axes.set_yticks(range(1, len(kinds) + 1), [_plain(label) for label in labels])
+    axes.set_ylim(0.5, len(kinds) + 0.5)
     axes.set_xlim(left=0.0)
     if not slip["peak_max"].max():
         axes.set_xlim(0.0, 1.0)
@@ -236,7 +237,7 @@ def slip_figure(result: AssessmentTables) -> Figure:
     axes.set_ylabel("floor")
     axes.set_xlabel("slip of the goods (mm)")
     axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
-    for edge in np.arange(1.5, len(floors)):
+    for edge in np.arange(1.5, len(kinds)):
         axes.axhline(edge, color=GREY, alpha=0.35, linewidth=0.6)
     figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
     figure.supxlabel(_caption(result), fontsize=7.5)

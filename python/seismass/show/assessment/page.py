@@ -101,9 +101,7 @@ def _input(result: AssessmentTables) -> list[Markup]:
     }
     if given["file"]:
         facts = {"File": given["file"], **facts}
-    storeys = pl.DataFrame(given["storeys"], infer_schema_length=None).with_columns(
-        live_load=pl.col("live_load") * STANDARD_GRAVITY
-    )
+    storeys = pl.DataFrame(given["storeys"], infer_schema_length=None).drop("live_load", "bolted", "goods")
     names = {
         "height": "height (m)",
         "mass": "mass (t)",
@@ -112,15 +110,51 @@ def _input(result: AssessmentTables) -> list[Markup]:
         "overstrength": "Omega",
         "second_slope": "r2",
         "third_slope": "r3",
-        "live_load": "design live load (kN)",
-        "occupied": "present",
+        "code_fraction": "code's fraction",
+        "code_exception": "why",
     }
-    thousandth = dict.fromkeys(("mass", "yield_shear", "live_load"), _thousandth)
-    formats: dict[str, Any] = {**thousandth, "stiffness": lambda value: f"{1e-6 * value:.1f}", "occupied": ".2f"}
-    unused = [name for name in ("name", "contact") if not any(storeys[name])]
+    thousandth = dict.fromkeys(("mass", "yield_shear"), _thousandth)
+    formats: dict[str, Any] = {**thousandth, "stiffness": lambda value: f"{1e-6 * value:.1f}"}
+    unused = [name for name in ("name", "code_exception") if not any(storeys[name])]
+    caption = "Storeys, from the ground up; the code's fraction is that of the design live load of the floor."
     return [
         facts_html(facts),
-        table_html(storeys.drop(unused), "Storeys, from the ground up.", headers=names, formats=formats),
+        table_html(
+            storeys.drop(unused),
+            caption,
+            headers={name: header for name, header in names.items() if name not in unused},
+            formats=formats,
+        ),
+        *_goods(given["goods"]),
+    ]
+
+
+def _goods(rows: list[dict[str, Any]]) -> list[Markup]:
+    """Goods of each kind on each floor."""
+    if not rows:
+        return []
+    goods = pl.DataFrame(rows, infer_schema_length=None).select(
+        "floor",
+        "name",
+        pl.col("live_load") * STANDARD_GRAVITY,
+        "occupied",
+        "presence",
+        pl.when("attached").then(pl.lit("bolted")).otherwise("contact").alias("contact"),
+        "mu_s",
+        "mu_k",
+    )
+    unused = [name for name in ("name", "contact") if not any(goods[name])]
+    return [
+        table_html(
+            goods.drop(unused).rename({} if "name" in unused else {"name": "goods"}),
+            "Goods, kind by kind. Bolted ones are part of the mass of their floor.",
+            headers={
+                "live_load": "design live load (kN)",
+                "occupied": "present",
+                "presence": "how that is known",
+            },
+            formats={"live_load": _thousandth, "occupied": ".2f", "presence": long_html, "mu_s": ".3g", "mu_k": ".3g"},
+        )
     ]
 
 
@@ -277,19 +311,21 @@ def _masses(result: AssessmentTables) -> list[Markup]:
     return [
         table_html(
             table,
-            "Mass of each floor in both analyses, for another program. The multiplier is that of the design live load "
-            "in the mass source of analysis 1; in analysis 2 it is 0.",
+            "Mass of each floor in both analyses, for another program, and the multiplier of the design live load in "
+            "its mass source.",
             headers={
                 "mass_1": "analysis 1: mass (t)",
                 "weight_1": "weight (kN)",
-                "multiplier": "multiplier of the live load",
+                "multiplier_1": "multiplier of the live load",
                 "mass_2": "analysis 2: mass (t)",
                 "weight_2": "weight (kN)",
+                "multiplier_2": "multiplier",
             },
             formats={
                 **dict.fromkeys(("mass_1", "mass_2"), lambda value: f"{1e-3 * value:.1f}"),
                 **dict.fromkeys(("weight_1", "weight_2"), _thousandth),
-                "multiplier": ".2f",
+                "multiplier_1": ".2f",
+                "multiplier_2": ".2f",
             },
         )
     ]
@@ -305,9 +341,8 @@ def _slip(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Markup]
         "residual_p84": "84 % (mm)",
     }
     largest = result.slip["peak_max"].drop_nulls().to_numpy()
-    table = result.slip.select("friction", "floor", "name", "mu_s", "mu_k", "motions_that_slide", *names)
-    if not any(table["name"]):
-        table = table.drop("name")
+    table = result.slip.select("friction", "floor", "name", "goods", "mu_s", "mu_k", "motions_that_slide", *names)
+    table = table.drop([name for name in ("name", "goods") if not any(table[name])])
     return [
         _figure(
             drawings,

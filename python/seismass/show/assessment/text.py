@@ -12,6 +12,7 @@ from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REAL_HI
 from seismass.assessment.result import Assessment
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
+from seismass.effective_mass.structure_remarks import RULE_UNKNOWN
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import NOT_CHECKED
 
@@ -51,9 +52,11 @@ def _answer(result: Assessment) -> list[str]:
     lines = [line for number, doubt in doubts for line in _told("ANSWER" if number == 0 else "", doubt)]
     lines += _told("" if lines else "ANSWER", answer.statement)
     for one, words in zip(answer.analyses, answer.pair, strict=True):
-        lines.append(f"          {one.number}  {words}")
+        lines += textwrap.wrap(f"{one.number}  {words}", WIDTH, initial_indent=" " * 10, subsequent_indent=" " * 13)
     for number, sentence in enumerate(answer.governs):
         lines += _told("governs" if number == 0 else "", sentence)
+    if answer.goods:
+        lines += _told("goods", f"present: {answer.goods}")
     if answer.why:
         lines += _told("why", answer.why)
     if answer.design:
@@ -64,6 +67,9 @@ def _answer(result: Assessment) -> list[str]:
     lines += _told("code", _code(result))
     if answer.analyses:
         real = result.effective[REAL]
+        unknown = [remark for remark in real.remarks if remark.startswith(RULE_UNKNOWN)]
+        if unknown:
+            return [*lines, *_told("rule", f"not applied: {'; '.join(unknown)}")]
         lines += _told(
             "rule",
             f"eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}, mean peak base shear of the "
@@ -164,19 +170,18 @@ def _range(low: float | None, high: float | None, scale: float) -> str:
 
 def _masses(result: Assessment) -> list[str]:
     """What to type into another program, floor by floor."""
-    lines = [
-        "Mass of each floor for another program; the multiplier is that of the design live load in the mass source"
-    ]
-    rows = [["floor", "analysis 1: t", "kN", "multiplier", "analysis 2: t", "kN"]]
+    lines = ["For another program: mass of each floor, and multiplier of the design live load in the mass source"]
+    rows = [["floor", "analysis 1: t", "kN", "multiplier", "analysis 2: t", "kN", "multiplier"]]
     for row in floor_masses(result.answer, result.building).iter_rows(named=True):
         rows.append(
             [
                 f"{row['floor']} {row['name']}".rstrip()[:18],
                 f"{1e-3 * row['mass_1']:.1f}",
                 f"{1e-3 * row['weight_1']:.0f}",
-                f"{row['multiplier']:.2f}",
+                f"{row['multiplier_1']:.2f}",
                 f"{1e-3 * row['mass_2']:.1f}",
                 f"{1e-3 * row['weight_2']:.0f}",
+                f"{row['multiplier_2']:.2f}",
             ]
         )
     return lines + text_table(rows)
@@ -209,7 +214,7 @@ def _slips(result: Assessment) -> list[str]:
         for row in result.slip.filter(pl.col("model") == model).iter_rows(named=True):
             rows.append(
                 [
-                    f"{row['floor']} {row['name']}".rstrip()[:18],
+                    " ".join(part for part in (str(row["floor"]), row["name"], row["goods"]) if part)[:28],
                     f"{row['mu_s']:.3g}" + (f"/{row['mu_k']:.3g}" if row["mu_k"] != row["mu_s"] else ""),
                     f"{row['motions_that_slide']} of {motions}",
                     *(number_text(row[name], ".1f", scale=1e3) for name in names),

@@ -11,6 +11,7 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.media.card import COLOUR, SECOND, card, history, line, rows, stroke, svg, text
 from seismass.media.result import Result
+from seismass.model.places import floor_name, goods_names, spring_names
 
 if TYPE_CHECKING:
     from seismass.effective_mass.result import EffectiveMass
@@ -26,11 +27,13 @@ def response_html(response: Response) -> str:
     """Return a card of a response: the history that drifts or slips most, where it has any, and peaks."""
     scene = response.scene
     fell = response.collapsed_storey
-    ended = f"{response.status}{f' in storey {fell}' if fell is not None else ''} at {response.end_time:g} s"
+    where = "" if fell is None else f" in {spring_names(scene)[fell - 1]}"
+    ended = f"{response.status}{where} at {response.end_time:g} s"
     motion = response.record.name if response.record is not None else repr(response.motion)
     about = ", ".join(part for part in (scene.name, motion) if part)
     facts = [(name, str(count)) for name, count in response.counts.items() if count]
-    return card(f"Response, {ended}", about, _largest(response), _storeys(response), _blocks(response), facts=facts)
+    tables = (_storeys(response), _racks(response), _blocks(response))
+    return card(f"Response, {ended}", about, _largest(response), *tables, facts=facts)
 
 
 def _largest(response: Response) -> str:
@@ -75,15 +78,31 @@ def _storeys(response: Response) -> str:
     return rows(("", "peak drift", *over, "residual", "acceleration above"), body) + left_out
 
 
+def _racks(response: Response) -> str:
+    """Peaks of each rack: of the level that drifts most, and the largest acceleration of any."""
+    body = []
+    for number, drift in enumerate(response.peak_rack_drift):
+        level = int(np.argmax(drift))
+        body.append(
+            (
+                f"rack {number + 1}, {floor_name(response.scene.racks[number].floor)}",
+                f"{1e3 * drift[level]:.4g} mm",
+                str(level + 1),
+                f"{response.peak_rack_acceleration[number].max() / STANDARD_GRAVITY:.3g} g",
+            )
+        )
+    return rows(("", "peak drift", "of level", "acceleration"), body) if body else ""
+
+
 def _blocks(response: Response) -> str:
-    slip, path, floors = response.peak_slip, response.slip_path, response.scene.block_floor
+    slip, path, places = response.peak_slip, response.slip_path, goods_names(response.scene)
     if not len(slip):
         return ""
     order = range(len(slip)) if len(slip) <= MOST_ROWS else np.sort(np.argsort(-slip, kind="stable")[:MOST_ROWS])
     body = [
         (
             f"block {number + 1}",
-            str(floors[number]) if floors[number] else "ground",
+            places[number].removeprefix("floor "),
             f"{1e3 * slip[number]:.4g} mm",
             f"{1e3 * response.residual_slip[number]:.3g} mm",
             f"{1e3 * path[number]:.4g} mm",
@@ -121,9 +140,9 @@ def effective_mass_html(result: EffectiveMass) -> str:
         parts.append(f'<circle cx="{x:.1f}" cy="{middle:.1f}" r="6" fill="{COLOUR}"/>')
         anchor = "start" if result.value < 0.1 else "end" if result.value > 0.9 else "middle"
         parts.append(text(x, middle - 16.0, f"{result.value:.2f}", anchor=anchor, size=14.0))
-    label = f"effective fraction {result.value:.3f} on a line from 0 to 1, with its interval and both estimates"
+    label = f"effective fraction {result.value_text} on a line from 0 to 1, with its interval and both estimates"
     return card(
-        f"Effective fraction {result.value:.3f}",
+        f"Effective fraction {result.value_text}",
         f"of the live load, under {result.records.height} motions",
         svg(580.0, 84.0, label, *parts),
         line(f"filled: value and interval; triangles: estimates {RULE} and {SAFE_RULE}"),

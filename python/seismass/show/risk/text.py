@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Final
 
 from seismass.base.values import counted
 from seismass.effective_mass.curve import Kind
+from seismass.effective_mass.result import KIND_TEXTS as EFFECTIVE_KINDS
 from seismass.media.text_table import interval_text, number_text, text_line
 from seismass.show.slip.text import remark_lines
 
@@ -42,10 +44,9 @@ def risk_text(result: RiskTargetedShare) -> str:
     effective = result.effective
     if effective is not None:
         level = result.hazard.intensity(about["design_rate"])
-        lines.append(
-            f"effective fraction   {effective.value:.3f}{_interval(effective.interval, percent)} at {level:.3g} g, "
-            f"{1.0 / about['design_rate']:.0f} years"
-        )
+        at = f"at {level:.3g} g, {1.0 / about['design_rate']:.0f} years"
+        why = "" if math.isfinite(effective.value) else f": {EFFECTIVE_KINDS[effective.kind]}"
+        lines.append(f"effective fraction   {effective.value_text}{_interval(effective.interval, percent)} {at}{why}")
     lines += [
         "",
         f"Annual rate of exceeding the limit, with its {percent} interval over the motions",

@@ -84,6 +84,8 @@ def _by_block(axes: Axes, result: SlipDemand) -> None:
         for limit in result.exceedance.filter(block=row["block"], side="any")["clearance"]:
             axes.vlines(1e3 * limit, place - 0.4, place + 0.4, color=VERMILION, linestyle=(0, (8, 2)), linewidth=1.2)
         name = "ground" if row["floor"] == 0 else f"floor {row['floor']}"
+        if row.get("rack"):
+            name = f"rack {row['rack']}, level {row['level']}"
         collapses = f"\n{lost} collapsed" if lost else ""
         labels.append(f"block {row['block']}, {name}\n\N{GREEK SMALL LETTER MU} = {row['mu_s']:g}{collapses}")
     axes.set_yticks(range(len(labels)), labels)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
+
+import polars as pl
 
 from seismass.base.values import counted
 from seismass.media.text_table import interval_text, number_text, text_line
@@ -22,7 +24,7 @@ _ESTIMATES: Final = (-8, -14, -34, 8, 9, 8)
 def slip_demand_text(result: SlipDemand) -> str:
     """Return `SlipDemand.text`."""
     lines = _blocks(result)
-    for part in (_exceedance(result), _squat(result), _estimates(result)):
+    for part in (_contacts(result), _exceedance(result), _squat(result), _estimates(result)):
         if part:
             lines += ["", *part]
     return "\n".join([*lines, "", *remark_lines(result.remarks, _LABEL)])
@@ -44,7 +46,7 @@ def _blocks(result: SlipDemand) -> list[str]:
         text_line(("block", "in the building", "largest", "slides", "on the ground", "slides"), _SLIPS),
     ]
     for row in result.blocks.iter_rows(named=True):
-        name = f"{row['block']}, {_floor(row['floor'])}"
+        name = f"{row['block']}, {_place(row)}"
         here = f"{_mm(row['mean'])} [{_mm(row['p16'])}, {_mm(row['p84'])}]"
         ground = f"{_mm(row['ground_mean'])} [{_mm(row['ground_p16'])}, {_mm(row['ground_p84'])}]"
         slides, ground_slides = _percent(row["slides"]), _percent(row["ground_slides"])
@@ -52,7 +54,7 @@ def _blocks(result: SlipDemand) -> list[str]:
     lines += ["", "Slip that remains (mm), slip over that on the ground, friction over floor acceleration"]
     lines.append(text_line(("block", "remains", "building/ground", "motion by motion", "mu_s g/PFA"), _RATIOS))
     for row in result.blocks.iter_rows(named=True):
-        name = f"{row['block']}, {_floor(row['floor'])}"
+        name = f"{row['block']}, {_place(row)}"
         remains = f"{_mm(row['residual_mean'])} [{_mm(row['residual_p16'])}, {_mm(row['residual_p84'])}]"
         pooled = interval_text(row["amplification"], row["amplification_low"], row["amplification_high"])
         each = interval_text(row["amplification_median"], row["amplification_p16"], row["amplification_p84"])
@@ -67,6 +69,19 @@ def _blocks(result: SlipDemand) -> list[str]:
     )
     lines.append("  PFA: peak floor acceleration with all goods attached, mean of the ratio")
     return lines
+
+
+def _contacts(result: SlipDemand) -> list[str]:
+    """What goods do to their stops; nothing without them."""
+    if "touches" not in result.blocks.columns:
+        return []
+    lines = ["Stops: share of motions that touch, velocity at contact (m/s) and contact force (kN), 84 % and largest"]
+    for row in result.blocks.filter(pl.col("touches") > 0.0).iter_rows(named=True):
+        velocity = f"{number_text(row['contact_velocity_p84'])}, {number_text(row['contact_velocity_largest'])} m/s"
+        force = ", ".join(number_text(row[f"contact_force_{of}"], scale=1e-3) for of in ("p84", "largest"))
+        name = f"{row['block']}, {_place(row)}"
+        lines.append(f"  {name:16}{_percent(row['touches']):>8}   {velocity:24}{force} kN")
+    return lines if len(lines) > 1 else [f"{lines[0][:5]}: no goods touch any"]
 
 
 def _exceedance(result: SlipDemand) -> list[str]:
@@ -116,7 +131,7 @@ def _estimates(result: SlipDemand) -> list[str]:
     for row in result.estimates.iter_rows(named=True):
         if row["base"] == "ground" and row["estimate"] == "rigid_block":
             continue  # the exact slip itself
-        base = "the ground" if row["base"] == "ground" else f"{_floor(row['floor'])} alone"
+        base = "the ground" if row["base"] == "ground" else f"{_place(row)} alone"
         numbers = (number_text(row[name]) for name in ("ratio", "log_scatter"))
         short = "-" if row["below"] is None else _percent(row["below"])
         lines.append(text_line((str(row["block"]), base, TITLES[row["estimate"]], *numbers, short), _ESTIMATES))
@@ -126,8 +141,11 @@ def _estimates(result: SlipDemand) -> list[str]:
     ]
 
 
-def _floor(floor: int) -> str:
-    return "ground" if floor == 0 else f"floor {floor}"
+def _place(row: dict[str, Any]) -> str:
+    """What a block stands on."""
+    if row.get("rack"):
+        return f"rack {row['rack']}.{row['level']}"
+    return "ground" if row["floor"] == 0 else f"floor {row['floor']}"
 
 
 def _mm(value: float | None) -> str:

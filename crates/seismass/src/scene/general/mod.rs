@@ -6,11 +6,13 @@ mod base;
 mod building;
 mod goods;
 mod matrix;
+mod plane;
 mod rack;
 mod structure;
 
 pub use base::SlidingBase;
 pub use building::GeneralBuilding;
 pub use goods::{Goods, Stops};
+pub use plane::{PlaneMotion, PlaneScene};
 pub use rack::Rack;
 pub use structure::GeneralScene;

@@ -1,0 +1,183 @@
+//! How far the general engine's response is from a solution, and from the chain engine's response.
+
+use std::collections::BTreeSet;
+
+use seismass::{
+    Event, EventKind, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, Peak, Peaks, Response, Status,
+};
+
+use super::record::GeneralSolution;
+use crate::compare::{Comparison, compare_endings, compare_events, difference, larger, scales, values};
+
+/// Velocities at stops and of events count relative to the largest, and to this at least (m/s).
+const LEAST_VELOCITY: f64 = 1e-3;
+
+/// Drift, slip, acceleration, shear and base shear, contact force, contact velocity.
+fn lists(peaks: &GeneralPeaks) -> [Vec<f64>; 7] {
+    let GeneralPeaks { drift, acceleration, shear, base_shear, slip, contact_force, contact_velocity } = peaks;
+    let own = |list: &[Peak]| values(list);
+    let [base, contact, velocity] = [&[*base_shear][..], contact_force, contact_velocity].map(own);
+    [own(drift), own(slip), own(acceleration), own(shear), base, contact, velocity]
+}
+
+/// The ending as one of the chain engine.
+fn ending(status: GeneralStatus) -> Status {
+    match status {
+        GeneralStatus::Completed => Status::Completed,
+        GeneralStatus::Collapsed { number, time } => Status::Collapsed { storey: number, time },
+    }
+}
+
+/// The events alone.
+fn events_of(log: &[GeneralEvent]) -> Vec<Event> {
+    log.iter().map(|entry| entry.event).collect()
+}
+
+/// For each spring and block that has events, how far apart their times are (s); nothing if one has not the same events in
+/// both logs. What happens to different ones may have changed places.
+pub(crate) fn apart_by_machine(found: &[Event], expected: &[Event]) -> Option<Vec<f64>> {
+    use EventKind::{Close, Open, Reload, Unload, Yield};
+    let of_spring = |kind| matches!(kind, Yield | Unload | Reload | Close | Open);
+    let machine = |event: &Event| (of_spring(event.kind), event.number);
+    let machines: BTreeSet<_> = found.iter().chain(expected).map(machine).collect();
+    let apart = |one| {
+        let of_one = |log: &[Event]| log.iter().filter(|event| machine(event) == one).copied().collect::<Vec<Event>>();
+        compare_events(&of_one(found), &of_one(expected)).ok()
+    };
+    machines.into_iter().map(apart).collect()
+}
+
+/// What is compared of a response or a solution.
+struct Parts<'a> {
+    status: GeneralStatus,
+    peaks: &'a GeneralPeaks,
+    residual_drift: &'a [f64],
+    residual_slip: &'a [f64],
+    slip_path: &'a [f64],
+    histories: Option<(&'a [f64], &'a [f64])>,
+    events: Option<&'a [GeneralEvent]>,
+}
+
+impl GeneralSolution {
+    /// Compares another solution with this one, taken as exact.
+    pub fn judge(&self, other: &Self) -> Comparison {
+        self.judge_parts(&Parts {
+            status: other.status,
+            peaks: &other.peaks,
+            residual_drift: &other.residual_drift,
+            residual_slip: &other.residual_slip,
+            slip_path: &other.slip_path,
+            histories: Some((&other.drift, &other.slip)),
+            events: Some(&other.events),
+        })
+    }
+
+    fn judge_parts(&self, found: &Parts) -> Comparison {
+        let own = lists(&self.peaks);
+        let (drift_scale, slip_scale) = (scales(&own[0]), scales(&own[1]));
+        let peaks = lists(found.peaks);
+        // A stop that is touched at rest has no velocity but rounding.
+        let least = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, LEAST_VELOCITY];
+        let scales_of = |(own, least): (&Vec<f64>, f64)| scales(own).into_iter().map(move |s| s.max(least)).collect();
+        let all: Vec<Vec<f64>> = own.iter().zip(least).map(scales_of).collect();
+        let peaks = peaks.iter().zip(&own).zip(&all).map(|((found, own), scales)| difference(found, own, scales));
+        let residuals = [
+            difference(found.residual_drift, &self.residual_drift, &drift_scale),
+            difference(found.residual_slip, &self.residual_slip, &slip_scale),
+        ];
+        let (drift, slip) = found.histories.map_or((0.0, 0.0), |(drift, slip)| {
+            (difference(drift, &self.drift, &drift_scale), difference(slip, &self.slip, &slip_scale))
+        });
+        let expected = events_of(&self.events);
+        let events = found.events.map_or(Ok(0.0), |events| {
+            let found = events_of(events);
+            // What happens to different springs and blocks within the tolerance of times has no order.
+            compare_events(&found, &expected).or_else(|mismatch| {
+                let times = apart_by_machine(&found, &expected).ok_or(mismatch)?;
+                Ok(times.into_iter().fold(0.0, larger))
+            })
+        });
+        let ending = compare_endings(&ending(found.status), &ending(self.status));
+        let event_time = larger(*events.as_ref().unwrap_or(&f64::NAN), *ending.as_ref().unwrap_or(&f64::NAN));
+        let velocities = match (&events, found.events) {
+            (Ok(_), Some(log)) => self.velocities(log),
+            _ => 0.0,
+        };
+        Comparison {
+            drift,
+            slip,
+            peaks: peaks.fold(velocities, larger),
+            residuals: residuals.into_iter().fold(0.0, larger),
+            slip_path: difference(found.slip_path, &self.slip_path, &scales(&self.slip_path)),
+            event_time,
+            duration: self.end_time,
+            mismatch: ending.err().or(events.err()),
+        }
+    }
+
+    /// Largest difference of the velocities of events, block by block and kind by kind in order, over the largest.
+    fn velocities(&self, log: &[GeneralEvent]) -> f64 {
+        let sorted = |log: &[GeneralEvent]| {
+            let mut log = log.to_vec();
+            log.sort_by_key(|entry| (entry.event.number, entry.event.kind as usize));
+            log.iter().map(|entry| entry.velocity).collect::<Vec<f64>>()
+        };
+        let (found, own) = (sorted(log), sorted(&self.events));
+        let largest = own.iter().fold(0.0f64, |most, v| larger(most, v.abs())).max(LEAST_VELOCITY);
+        difference(&found, &own, &[largest])
+    }
+}
+
+/// Compares the general engine's response with a solution, which is taken as exact. Histories need the same decimation;
+/// what the response was not asked for is not compared.
+pub fn compare_general(response: &GeneralResponse, solution: &GeneralSolution) -> Comparison {
+    solution.judge_parts(&Parts {
+        status: response.status,
+        peaks: &response.peaks,
+        residual_drift: &response.residual_drift,
+        residual_slip: &response.residual_slip,
+        slip_path: &response.slip_path,
+        histories: response.histories.as_ref().map(|h| (&h.drift[..], &h.slip[..])),
+        events: response.events.as_deref(),
+    })
+}
+
+/// A response with events, histories and energies as a solution, to compare another with.
+pub fn solution_of(response: &GeneralResponse) -> Option<GeneralSolution> {
+    let histories = response.histories.as_ref()?;
+    Some(GeneralSolution {
+        status: response.status,
+        end_time: response.end_time,
+        every: histories.every,
+        drift: histories.drift.clone(),
+        slip: histories.slip.clone(),
+        peaks: response.peaks.clone(),
+        residual_drift: response.residual_drift.clone(),
+        residual_slip: response.residual_slip.clone(),
+        slip_path: response.slip_path.clone(),
+        events: response.events.clone()?,
+        energy: response.energy?,
+    })
+}
+
+/// The response of the general engine to a shear building as one of the chain engine; paths are those in contact alone.
+pub fn as_chain(general: GeneralResponse) -> Response {
+    let peaks = general.peaks;
+    Response {
+        status: ending(general.status),
+        end_time: general.end_time,
+        peaks: Peaks {
+            drift: peaks.drift,
+            slip: peaks.slip,
+            floor_acceleration: peaks.acceleration,
+            storey_shear: peaks.shear,
+        },
+        residual_drift: general.residual_drift,
+        residual_slip: general.residual_slip,
+        slip_path: general.slip_path,
+        events: general.events.map(|events| events_of(&events)),
+        histories: general.histories,
+        energy: None,
+        statistics: general.statistics,
+    }
+}

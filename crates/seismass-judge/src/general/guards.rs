@@ -1,0 +1,183 @@
+//! Guards, and the first that falls (`numerics`, sections 5 and 9.3).
+
+use super::arrangement::Machines;
+use super::series::{Series, place};
+use super::state::{State, Stopped};
+use crate::polynomial::Polynomial;
+use crate::real::Real;
+use crate::sign::Sign;
+use crate::springs::SpringGuard;
+use crate::state::Contact;
+
+/// Rounding of a guard, in units of the number type's epsilon times the size of its terms.
+pub(super) const ROUNDING: f64 = 64.0;
+/// Places of roots at one drift differ by at most so much rounding: what it is over the drift that is left.
+const SAME_PLACE: f64 = 1024.0;
+
+/// A state machine's condition for staying as it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Guard {
+    /// g + a_v keeps its sign.
+    Contact,
+    /// A spring stays in its state.
+    Spring { node: usize, guard: SpringGuard },
+    /// A spring stays below its collapse drift.
+    Collapse { node: usize },
+    /// A stuck block stays below its limit, with this sign of what drives it.
+    Breakaway { block: usize, sign: Sign },
+    /// A sliding block's relative velocity keeps its sign.
+    Arrival { block: usize },
+    /// A sliding block's path stays below that of its next stage of wear.
+    Wear { block: usize },
+    /// A moving block stays within its clearance on this side.
+    Touch { block: usize, side: Sign },
+    /// The force of a stop stays above zero.
+    Leave { block: usize },
+    /// A block that has parted from its stop stays beyond its clearance.
+    Within { block: usize },
+    /// What the force of a stop would be stays below zero where its block has parted from it.
+    Again { block: usize, side: Sign },
+}
+
+/// The first fall of the guards looked at so far.
+struct First<R> {
+    found: Option<(R, Guard)>,
+    rounding: R,
+}
+
+impl<R: Real> First<R> {
+    fn consider(&mut self, guard: Guard, polynomial: &Polynomial<R>, size: R) {
+        let rounding = self.rounding;
+        let Some(place) = polynomial.first_fall(rounding * size) else { return };
+        // At A = 0 a stuck block's limit and the contact force vanish together: contact comes first. A backbone may end
+        // where the storey collapses: collapse comes first.
+        let earlier = |(other, before): (R, Guard)| {
+            place
+                < match (guard, before) {
+                    (_, Guard::Contact) => other - rounding * other,
+                    (Guard::Collapse { node }, Guard::Spring { node: ends, .. }) if node == ends => {
+                        other + R::of(SAME_PLACE) * rounding
+                    }
+                    _ => other,
+                }
+        };
+        if self.found.is_none_or(earlier) {
+            self.found = Some((place, guard));
+        }
+    }
+}
+
+impl<R: Real> Machines<'_, R> {
+    /// The first guard that falls on a stretch, and its place on it in [0, 1].
+    pub(super) fn first_event(&self, series: &Series<R>) -> Option<(R, Guard)> {
+        let sizes = series.acceleration_sizes(self.model, self.state);
+        let mut first = First { found: None, rounding: R::of(ROUNDING) * R::epsilon() };
+        self.contact_and_springs(series, &sizes, &mut first);
+        for j in 0..self.model.goods.len() {
+            match self.state.blocks[j].contact {
+                Contact::Stuck => self.breakaway(j, series, &sizes, &mut first),
+                Contact::Sliding(sign) => self.sliding(j, sign, series, &sizes, &mut first),
+                Contact::Airborne => {}
+            }
+            if !self.is_stuck(j) {
+                self.stops(j, series, &sizes, &mut first);
+            }
+        }
+        first.found
+    }
+
+    fn contact_and_springs(&self, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
+        let (model, state) = (self.model, &*self.state);
+        if !state.blocks.is_empty() {
+            let gravity = model.gravity + series.contact.size();
+            let rounding = first.rounding * gravity;
+            let mut contact = series.contact.clone();
+            if *self.airborne {
+                contact = contact.scaled(R::of(-1.0));
+            } else if contact.start() <= rounding && contact.end() <= rounding {
+                // No contact force all along the stretch, though never below zero.
+                contact = Polynomial::constant(-gravity);
+            }
+            first.consider(Guard::Contact, &contact, gravity);
+        }
+        for (node, data) in model.springs.iter().enumerate() {
+            let rate_size = self.piece * (sizes[place(model.parent[node])] + sizes[node + 1]);
+            for limit in state.springs[node].limits(&series.course(node), rate_size) {
+                first.consider(Guard::Spring { node, guard: limit.guard }, &limit.polynomial, limit.size);
+            }
+            let Some(limit) = data.collapse_drift else { continue };
+            for sign in [Sign::Positive, Sign::Negative] {
+                let guard = Polynomial::constant(limit).plus(&series.drift[node].scaled(sign.times(R::of(-1.0))));
+                first.consider(Guard::Collapse { node }, &guard, limit + series.drift[node].size());
+            }
+        }
+    }
+
+    fn breakaway(&self, block: usize, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
+        let data = &self.model.goods[block];
+        let mu = self.state.blocks[block].mu_s;
+        let on_stop = self.state.push(self.model, block) / data.mass;
+        let driven = series.acceleration[place(data.node)].plus(&Polynomial::constant(on_stop));
+        let size = mu * (self.model.gravity + series.contact.size()) + sizes[place(data.node)] + on_stop.abs();
+        for sign in [Sign::Positive, Sign::Negative] {
+            let guard = series.contact.scaled(mu).plus(&driven.scaled(sign.times(R::of(-1.0))));
+            first.consider(Guard::Breakaway { block, sign }, &guard, size);
+        }
+    }
+
+    fn sliding(&self, block: usize, sign: Sign, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
+        let (data, state) = (&self.model.goods[block], &self.state.blocks[block]);
+        let guard = series.velocity[block].scaled(sign.times(R::of(1.0)));
+        let size = guard.size() + self.piece * self.relative_size(block, series, sizes);
+        first.consider(Guard::Arrival { block }, &guard, size);
+        if let Some(next) = data.stages.get(state.stage + 1) {
+            let slipped = series.slipped(block).scaled(sign.times(R::of(-1.0)));
+            let size = next.path + slipped.size();
+            let left = Polynomial::constant(next.path - state.path).plus(&slipped);
+            first.consider(Guard::Wear { block }, &left, size);
+        }
+    }
+
+    /// Size of the terms of a block's acceleration relative to its node.
+    fn relative_size(&self, block: usize, series: &Series<R>, sizes: &[R]) -> R {
+        let data = &self.model.goods[block];
+        let gravity = self.model.gravity + series.contact.size();
+        let stop = if self.presses(block) { series.push_size(self.model, block) / data.mass } else { R::zero() };
+        sizes[place(data.node)] + self.state.blocks[block].mu_k * gravity + stop
+    }
+
+    fn stops(&self, block: usize, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
+        let Some(stops) = &self.model.goods[block].stops else { return };
+        // Slip beyond the stop of a side.
+        let beyond = |side: Sign| {
+            let place = State::place_of_stop(self.model, block, side)?;
+            let slip = series.slip[block].plus(&Polynomial::constant(-place));
+            Some((slip.scaled(side.times(R::of(1.0))), series.slip[block].size() + place.abs()))
+        };
+        let opposite = R::of(-1.0);
+        match self.state.stopped[block] {
+            Stopped::Free => {
+                for side in [Sign::Positive, Sign::Negative] {
+                    if let Some((slip, size)) = beyond(side) {
+                        first.consider(Guard::Touch { block, side }, &slip.scaled(opposite), size);
+                    }
+                }
+            }
+            Stopped::Pressing(side) => {
+                let force = series.push[block].scaled(side.times(R::of(1.0)));
+                let velocity = self.piece * self.relative_size(block, series, sizes);
+                let size = series.push_size(self.model, block) + stops.damping * velocity;
+                first.consider(Guard::Leave { block }, &force, size);
+            }
+            Stopped::Parted(side) => {
+                let Some((slip, size)) = beyond(side) else { return };
+                first.consider(Guard::Within { block }, &slip, size);
+                let velocity = series.velocity[block].scaled(side.times(stops.damping));
+                let force = slip.scaled(stops.stiffness).plus(&velocity).scaled(opposite);
+                let rounding = stops.damping * self.piece * self.relative_size(block, series, sizes);
+                let size = stops.stiffness * size + velocity.size() + rounding;
+                first.consider(Guard::Again { block, side }, &force, size);
+            }
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! The judge of the general engine: racks, walls and stops, written a second time from `numerics`, section 9.
+
+mod arrangement;
+mod carry_out;
+mod compare;
+mod decide;
+mod divide;
+mod guards;
+mod modal;
+mod model;
+mod record;
+mod series;
+mod solve;
+mod state;
+
+pub(crate) use compare::apart_by_machine;
+pub use compare::{as_chain, compare_general, solution_of};
+pub use divide::divided;
+pub use record::GeneralSolution;
+pub use solve::solve_general;

@@ -1,0 +1,236 @@
+//! The constant data of a scene with racks, walls and stops in the number type of the run.
+
+use seismass::{GeneralScene, Goods, Rack, STANDARD_GRAVITY};
+
+use super::modal::modal_damping;
+use crate::model::{Stage, StoreyData, Terms, storey_data};
+use crate::real::Real;
+
+/// Stops of a block: none on a side without a clearance.
+#[derive(Debug, Clone)]
+pub(super) struct StopData<R> {
+    /// On the negative and on the positive side.
+    pub(super) clearance: [Option<R>; 2],
+    pub(super) stiffness: R,
+    pub(super) damping: R,
+}
+
+/// A block that may slide.
+#[derive(Debug, Clone)]
+pub(super) struct GoodsData<R> {
+    /// None is the ground.
+    pub(super) node: Option<usize>,
+    pub(super) mass: R,
+    /// By path, the first from the start.
+    pub(super) stages: Vec<Stage<R>>,
+    pub(super) stops: Option<StopData<R>>,
+}
+
+/// Dampers between the drift rates of the building's storeys, or of a rack's levels.
+#[derive(Debug)]
+struct Dampers<R> {
+    first: usize,
+    rows: Vec<Vec<R>>,
+}
+
+/// A scene in numbers of type `R`. Nodes are the floors, then the levels of each rack; spring p is below node p.
+#[derive(Debug)]
+pub(super) struct Model<R> {
+    pub(super) mass: Vec<R>,
+    /// What the node's spring stands on; none: the ground.
+    pub(super) parent: Vec<Option<usize>>,
+    pub(super) springs: Vec<StoreyData<R>>,
+    /// Elastic matrix over the first nodes, the floors.
+    pub(super) matrix: Vec<Vec<R>>,
+    dampers: Vec<Dampers<R>>,
+    pub(super) goods: Vec<GoodsData<R>>,
+    pub(super) gravity: R,
+    /// Whether the first node is a floor of a building.
+    pub(super) has_building: bool,
+}
+
+impl<R: Real> Model<R> {
+    pub(super) fn new(scene: &GeneralScene) -> Self {
+        let mut model = Self {
+            mass: Vec::new(),
+            parent: Vec::new(),
+            springs: Vec::new(),
+            matrix: Vec::new(),
+            dampers: Vec::new(),
+            goods: Vec::new(),
+            gravity: R::of(STANDARD_GRAVITY),
+            has_building: scene.building().is_some(),
+        };
+        if let Some(building) = scene.building() {
+            let n = building.len();
+            model.mass = building.mass().iter().map(|&m| R::of(m)).collect();
+            model.parent = (0..n).map(|i| i.checked_sub(1)).collect();
+            let has_matrix = building.stiffness_matrix().is_some();
+            for (i, (storey, &geometric)) in building.storeys().iter().zip(scene.geometric_stiffness()).enumerate() {
+                // Beside a matrix no storey collapses but by a limit that was given.
+                let limit = scene.collapse_drift().map(|d| d[i]).or(has_matrix.then_some(f64::INFINITY));
+                model.springs.push(storey_data(storey, geometric, limit));
+            }
+            let rows = |m: &seismass::nalgebra::DMatrix<f64>| -> Vec<Vec<R>> {
+                (0..n).map(|i| (0..n).map(|j| R::of(m[(i, j)])).collect()).collect()
+            };
+            model.matrix = building.stiffness_matrix().map_or(Vec::new(), rows);
+            model.dampers.push(Dampers { first: 0, rows: rows(building.storey_damping()) });
+        }
+        let on_floor = |goods: &Goods| goods_data(goods, goods.block.floor.checked_sub(1));
+        model.goods = scene.goods().iter().map(on_floor).collect();
+        for rack in scene.racks() {
+            model.add(rack);
+        }
+        model
+    }
+
+    fn add(&mut self, rack: &Rack) {
+        let first = self.mass.len();
+        let level_parent = |level: usize| level.checked_sub(1).map_or(rack.floor.checked_sub(1), |l| Some(first + l));
+        for (level, storey) in rack.levels.iter().enumerate() {
+            self.mass.push(R::of(rack.mass[level]));
+            self.parent.push(level_parent(level));
+            self.springs.push(storey_data(storey, rack.geometric_stiffness.get(level).copied().unwrap_or(0.0), None));
+        }
+        self.goods.extend(rack.goods.iter().map(|goods| goods_data(goods, Some(first + goods.block.floor - 1))));
+        self.dampers.push(Dampers { first, rows: rack_damping(rack) });
+    }
+
+    pub(super) fn displacements(&self, drift: &[R], terms: Terms) -> Vec<R> {
+        let mut sums: Vec<R> = Vec::with_capacity(drift.len());
+        for (p, &d) in drift.iter().enumerate() {
+            let below = self.parent[p].map_or(R::zero(), |parent| sums[parent]);
+            sums.push(below + terms.of(d));
+        }
+        sums
+    }
+
+    /// Damping forces of the springs at these drift rates.
+    pub(super) fn damping_forces(&self, rate: &[R], terms: Terms) -> Vec<R> {
+        let mut forces = Vec::with_capacity(rate.len());
+        for Dampers { first, rows } in &self.dampers {
+            let of_part = &rate[*first..first + rows.len()];
+            let force = |row: &Vec<R>| row.iter().zip(of_part).fold(R::zero(), |sum, (&d, &r)| sum + terms.of(d * r));
+            forces.extend(rows.iter().map(force));
+        }
+        forces
+    }
+
+    /// Forces of the elastic matrix on the floors' displacements.
+    pub(super) fn matrix_forces(&self, displacement: &[R], terms: Terms) -> Vec<R> {
+        let force = |row: &Vec<R>| row.iter().zip(displacement).fold(R::zero(), |sum, (&k, &u)| sum + terms.of(k * u));
+        self.matrix.iter().map(force).collect()
+    }
+
+    /// Q: the force of springs, matrix, P-Delta and dampers on each node, at these spring forces, drifts and drift rates.
+    pub(super) fn pull(&self, springs: &[R], drift: &[R], rate: &[R], terms: Terms) -> Vec<R> {
+        let damping = self.damping_forces(rate, terms);
+        let mut pull = vec![R::zero(); self.mass.len()];
+        for (p, spring) in self.springs.iter().enumerate() {
+            let action = terms.of(springs[p]) + terms.of(-spring.geometric * drift[p]) + damping[p];
+            pull[p] = pull[p] + terms.of(-action);
+            if let Some(parent) = self.parent[p] {
+                pull[parent] = pull[parent] + action;
+            }
+        }
+        let displacement = self.displacements(drift, terms);
+        for (p, force) in self.matrix_forces(&displacement, terms).into_iter().enumerate() {
+            pull[p] = pull[p] + terms.of(-force);
+        }
+        pull
+    }
+
+    /// Bound of the norm of the system in every regime (1/s), with stops that touch or without: sqrt(kappa) + gamma, where
+    /// kappa and gamma are the largest row sums from drifts and slips, and from their rates, to the second derivatives of
+    /// drifts and slips, with all springs at their stiffest and no mass but that of the nodes.
+    pub(super) fn frequency_bound(&self, with_stops: bool) -> f64 {
+        let (n, m) = (self.mass.len(), self.goods.len());
+        let none = vec![R::zero(); n];
+        let unit = |at: usize, value: R| (0..n).map(|i| if i == at { value } else { R::zero() }).collect::<Vec<R>>();
+        let largest = |column: &dyn Fn(usize) -> (Vec<R>, Vec<R>)| {
+            let mut sums = vec![0.0; n + m];
+            for index in 0..n + m {
+                let (force, on_goods) = column(index);
+                let a = |p: usize| force[p] / self.mass[p];
+                for p in 0..n {
+                    let below = self.parent[p].map_or(R::zero(), a);
+                    sums[p] += (a(p) - below).to_f64().abs();
+                }
+                for (j, goods) in self.goods.iter().enumerate() {
+                    let node = goods.node.map_or(R::zero(), a);
+                    sums[n + j] += (on_goods[j] / goods.mass - node).to_f64().abs();
+                }
+            }
+            let rows = if with_stops { n + m } else { n };
+            sums[..rows].iter().copied().fold(0.0, f64::max)
+        };
+        // Force of a stop on its block's node and on the block, per unit of slip or of its rate.
+        let stop = |j: usize, of: &dyn Fn(&StopData<R>) -> R| {
+            let value = self.goods[j].stops.as_ref().filter(|_| with_stops).map_or(R::zero(), of);
+            let force = self.goods[j].node.map_or(none.clone(), |node| unit(node, value));
+            (force, (0..m).map(|i| if i == j { -value } else { R::zero() }).collect())
+        };
+        let kappa = largest(&|index| {
+            if index >= n {
+                return stop(index - n, &|s| s.stiffness);
+            }
+            let spring = &self.springs[index];
+            let stiffness = spring.spring.largest_stiffness() + spring.geometric;
+            let mut force = self.pull(&unit(index, stiffness), &none, &none, Terms::Signed);
+            let displacement = self.displacements(&unit(index, R::of(1.0)), Terms::Signed);
+            for (p, of_matrix) in self.matrix_forces(&displacement, Terms::Signed).into_iter().enumerate() {
+                force[p] = force[p] - of_matrix;
+            }
+            (force, vec![R::zero(); m])
+        });
+        let gamma = largest(&|index| {
+            if index >= n {
+                return stop(index - n, &|s| s.damping);
+            }
+            (self.pull(&none, &none, &unit(index, R::of(1.0)), Terms::Signed), vec![R::zero(); m])
+        });
+        kappa.sqrt() + gamma
+    }
+}
+
+fn goods_data<R: Real>(goods: &Goods, node: Option<usize>) -> GoodsData<R> {
+    let block = &goods.block;
+    let stage = |path: f64, mu_s: f64, mu_k: f64| Stage { path: R::of(path), mu_s: R::of(mu_s), mu_k: R::of(mu_k) };
+    let worn = block.wear.iter().map(|wear| stage(wear.path, wear.mu_s, wear.mu_k));
+    let stages = [stage(0.0, block.mu_s, block.mu_k)].into_iter().chain(worn).collect();
+    let stops = goods.stops.map(|stops| StopData {
+        clearance: stops.clearance.map(|c| c.is_finite().then(|| R::of(c))),
+        stiffness: R::of(stops.stiffness),
+        damping: R::of(stops.damping),
+    });
+    GoodsData { node, mass: R::of(block.mass), stages, stops }
+}
+
+/// Dampers of a rack alone, fixed at its base, with frame and goods attached: between its drift rates.
+fn rack_damping<R: Real>(rack: &Rack) -> Vec<Vec<R>> {
+    let n = rack.mass.len();
+    let mut mass: Vec<R> = rack.mass.iter().map(|&m| R::of(m)).collect();
+    for goods in &rack.goods {
+        let level = goods.block.floor - 1;
+        mass[level] = mass[level] + R::of(goods.block.mass);
+    }
+    let mut stiffness = vec![vec![R::zero(); n]; n];
+    for (level, storey) in rack.levels.iter().enumerate() {
+        let k = R::of(storey.stiffness);
+        stiffness[level][level] = stiffness[level][level] + k;
+        if level > 0 {
+            stiffness[level - 1][level - 1] = stiffness[level - 1][level - 1] + k;
+            stiffness[level][level - 1] = -k;
+            stiffness[level - 1][level] = -k;
+        }
+    }
+    let mut sums = modal_damping(&mass, &stiffness, R::of(rack.damping_ratio));
+    for i in (0..n).rev() {
+        for j in (0..n).rev() {
+            let at = |i: usize, j: usize| if i < n && j < n { sums[i][j] } else { R::zero() };
+            sums[i][j] = sums[i][j] + at(i + 1, j) + at(i, j + 1) - at(i + 1, j + 1);
+        }
+    }
+    sums
+}

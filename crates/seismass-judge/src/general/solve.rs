@@ -1,0 +1,139 @@
+//! The run: sample intervals cut into pieces, pieces cut at events.
+
+use seismass::{GeneralEvent, GeneralScene, GeneralStatus, Motion};
+
+use super::arrangement::Machines;
+use super::guards::Guard;
+use super::model::Model;
+use super::record::{GeneralSolution, Recorder};
+use super::series::{MAX_PHASE, Series};
+use super::state::State;
+use crate::real::Real;
+use crate::solve::{JudgeError, MAX_EVENTS, MAX_PIECES, drive};
+use crate::state::{Contact, Drive};
+
+/// Solves a scene of the general engine under a motion, with histories at every `every`-th sample.
+///
+/// # Errors
+/// [`JudgeError`] when the state machines chatter, numbers overflow, or the scene is far too stiff for the time step.
+pub fn solve_general<R: Real>(
+    scene: &GeneralScene,
+    motion: &Motion,
+    every: usize,
+) -> Result<GeneralSolution, JudgeError> {
+    if every == 0 {
+        return Err(JudgeError::NoDecimation);
+    }
+    let model = Model::<R>::new(scene);
+    let phase = model.frequency_bound(false) * motion.dt() / MAX_PHASE;
+    if phase > MAX_PIECES {
+        return Err(JudgeError::TooStiff { longest: motion.dt() * MAX_PIECES / phase, dt: motion.dt() });
+    }
+    let pieces = phase.ceil().max(1.0) as usize;
+    let samples = motion.acceleration().len();
+    let dt = R::of(motion.dt());
+    let mut run = Run {
+        state: State::new(scene, &model),
+        at_stop: R::of(MAX_PHASE / model.frequency_bound(true).max(f64::MIN_POSITIVE)),
+        model,
+        drive: drive(motion, 0),
+        airborne: false,
+        piece: dt / R::of(pieces as f64),
+        start: R::zero(),
+        log: Vec::new(),
+        parted: R::zero(),
+    };
+    run.begin();
+    let mut recorder = Recorder::new(&run.model, &run.state, &run.drive, every);
+    let mut status = GeneralStatus::Completed;
+    'run: for i in 0..samples - 1 {
+        run.drive = drive(motion, i);
+        run.start = R::of(i as f64) * dt;
+        for piece in 0..pieces {
+            let ends = [piece, piece + 1].map(|p| dt * R::of(p as f64) / R::of(pieces as f64));
+            if let Some((node, time)) = run.solve_piece(ends, &mut recorder)? {
+                status = GeneralStatus::Collapsed { number: node + 1, time };
+                break 'run;
+            }
+        }
+        if !run.state.is_finite() {
+            return Err(JudgeError::NotFinite { time: (run.start + dt).to_f64() });
+        }
+        recorder.sample(&run.state, i + 1);
+    }
+    let end_time = match status {
+        GeneralStatus::Completed => (R::of((samples - 1) as f64) * dt).to_f64(),
+        GeneralStatus::Collapsed { time, .. } => time,
+    };
+    Ok(recorder.finish(&run.model, &run.state, (status, end_time), samples, run.log, run.parted))
+}
+
+struct Run<R> {
+    model: Model<R>,
+    state: State<R>,
+    /// Longest stretch of a series while a block that moves presses on a stop.
+    at_stop: R,
+    drive: Drive<R>,
+    airborne: bool,
+    /// Length of a whole piece.
+    piece: R,
+    /// Beginning of the present sample interval.
+    start: R,
+    log: Vec<GeneralEvent>,
+    parted: R,
+}
+
+impl<R: Real> Run<R> {
+    fn machines(&mut self) -> Machines<'_, R> {
+        let Self { model, state, drive, airborne, piece, start, log, parted, .. } = self;
+        Machines { model, state, drive: *drive, airborne, piece: *piece, start: *start, log, parted }
+    }
+
+    /// At t = 0 every node decides, unless there is no contact.
+    fn begin(&mut self) {
+        let [contact, change] = self.drive.contact;
+        self.airborne = contact < R::zero() || contact == R::zero() && change <= R::zero();
+        if self.airborne {
+            self.state.blocks.iter_mut().for_each(|b| b.contact = Contact::Airborne);
+        } else {
+            self.machines().settle_all(R::zero());
+        }
+    }
+
+    /// Solves from `begin` to `end` after the beginning of the interval; a spring that collapses, and when.
+    fn solve_piece(
+        &mut self,
+        [begin, end]: [R; 2],
+        recorder: &mut Recorder<R>,
+    ) -> Result<Option<(usize, f64)>, JudgeError> {
+        let (mut tau, mut events) = (begin, 0);
+        loop {
+            let rest = end - tau;
+            let is_short = self.state.moves_at_a_stop() && self.at_stop < rest;
+            let length = if is_short { self.at_stop } else { rest };
+            let mut series = Series::new(&self.model, &self.state, &self.drive, tau, length);
+            let event = self.machines().first_event(&series);
+            if let Some((place, _)) = event {
+                series.shrink(place);
+            }
+            // An instant is no stretch of time: the regimes passed through at it have no peaks.
+            if series.length > R::zero() {
+                recorder.stretch(&self.model, &self.state, &series, self.start + tau);
+            }
+            series.advance(&mut self.state);
+            tau = tau + series.length;
+            match event {
+                None if is_short => continue,
+                None => return Ok(None),
+                Some((_, Guard::Collapse { node })) => return Ok(Some((node, (self.start + tau).to_f64()))),
+                Some((_, guard)) => self.machines().carry_out(guard, &series, tau),
+            }
+            events += 1;
+            if events == MAX_EVENTS {
+                let last = self.log.last().map(|e| e.event);
+                let last = last.map_or(String::new(), |e| format!("{} of {}", e.kind.name(), e.number));
+                return Err(JudgeError::TooManyEvents { time: (self.start + tau).to_f64(), limit: MAX_EVENTS, last });
+            }
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! The state of a run between and at events: drifts, springs, blocks and their stops.
+
+use seismass::GeneralScene;
+
+use super::model::Model;
+use crate::model::{Stage, Terms};
+use crate::real::Real;
+use crate::sign::Sign;
+use crate::springs::Spring;
+use crate::state::{BlockState, Contact, Drive};
+
+/// A block and its stops.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stopped {
+    /// Beyond no clearance.
+    Free,
+    /// Presses on the stop of this side.
+    Pressing(Sign),
+    /// Beyond the clearance of this side, without a force.
+    Parted(Sign),
+}
+
+/// Everything that changes in a run.
+#[derive(Debug)]
+pub(crate) struct State<R> {
+    pub(super) drift: Vec<R>,
+    pub(super) rate: Vec<R>,
+    pub(super) springs: Vec<Box<dyn Spring<R>>>,
+    pub(super) blocks: Vec<BlockState<R>>,
+    pub(super) stopped: Vec<Stopped>,
+}
+
+impl<R: Real> State<R> {
+    /// The initial state: springs virgin, slips zero, racks at rest on what they stand on, blocks without relative velocity
+    /// taken as stuck.
+    pub(super) fn new(scene: &GeneralScene, model: &Model<R>) -> Self {
+        let n = model.mass.len();
+        let value = |values: &[f64], p: usize| values.get(p).map_or(R::zero(), |&v| R::of(v));
+        let drift: Vec<R> = (0..n).map(|p| value(scene.initial_drift(), p)).collect();
+        let velocity = scene.initial_velocity();
+        let storeys = scene.storeys();
+        let rate = |p: usize| match p {
+            p if p >= storeys => R::zero(),
+            0 => value(velocity, 0),
+            p => value(velocity, p) - value(velocity, p - 1),
+        };
+        let rate: Vec<R> = (0..n).map(rate).collect();
+        let springs = model.springs.iter().zip(&drift).map(|(data, &d)| {
+            let mut spring = data.spring.copied();
+            spring.start(d);
+            spring
+        });
+        // A level moves as the floor that its rack stands on.
+        let mut floors: Vec<R> = Vec::new();
+        for p in 0..n {
+            let below = model.parent[p].map_or(R::zero(), |parent| floors[parent]);
+            floors.push(if p < storeys { value(velocity, p) } else { below });
+        }
+        let blocks = scene.all_goods().zip(&model.goods).map(|(goods, data)| {
+            let node = data.node.map_or(R::zero(), |node| floors[node]);
+            let velocity = goods.block.velocity.map_or(R::zero(), |w| R::of(w) - node);
+            let contact = if velocity == R::zero() { Contact::Stuck } else { Contact::Sliding(Sign::of(velocity)) };
+            let Stage { path, mu_s, mu_k } = data.stages[0];
+            BlockState { contact, velocity, slip: R::zero(), moved: true, path, stage: 0, mu_s, mu_k }
+        });
+        Self {
+            springs: springs.collect(),
+            blocks: blocks.collect(),
+            stopped: vec![Stopped::Free; model.goods.len()],
+            drift,
+            rate,
+        }
+    }
+
+    /// Spring force of each spring, without P-Delta and damping, or the size of its terms.
+    pub(super) fn spring_forces(&self, terms: Terms) -> Vec<R> {
+        let force = |(spring, drift): (&dyn Spring<R>, R)| {
+            let parts = spring.parts().into_iter().fold(R::zero(), |sum, part| sum + terms.of(part.force));
+            parts + terms.of(spring.linear() * drift)
+        };
+        self.springs.iter().zip(&self.drift).map(|(spring, &drift)| force((spring.as_ref(), drift))).collect()
+    }
+
+    /// Slip at which a block comes to the stop of this side.
+    pub(super) fn place_of_stop(model: &Model<R>, block: usize, side: Sign) -> Option<R> {
+        let clearance = model.goods[block].stops.as_ref()?.clearance[usize::from(side == Sign::Positive)]?;
+        Some(side.times(clearance))
+    }
+
+    /// Force of a block's stop on its node, k e + c e' in the direction of the side: minus that on the block.
+    pub(super) fn push(&self, model: &Model<R>, block: usize) -> R {
+        let Stopped::Pressing(side) = self.stopped[block] else { return R::zero() };
+        let (Some(stops), Some(place)) = (&model.goods[block].stops, Self::place_of_stop(model, block, side)) else {
+            return R::zero();
+        };
+        stops.stiffness * (self.blocks[block].slip - place) + stops.damping * self.blocks[block].velocity
+    }
+
+    /// Energy stored in the stop that a block presses on, or has parted from.
+    pub(super) fn stop_energy(&self, model: &Model<R>, block: usize) -> R {
+        let (Stopped::Pressing(side) | Stopped::Parted(side)) = self.stopped[block] else { return R::zero() };
+        let (Some(stops), Some(place)) = (&model.goods[block].stops, Self::place_of_stop(model, block, side)) else {
+            return R::zero();
+        };
+        let beyond = self.blocks[block].slip - place;
+        R::of(0.5) * stops.stiffness * beyond * beyond
+    }
+
+    /// Absolute acceleration of a node (none: the ground) in the present regime, or the size of its terms.
+    pub(super) fn acceleration(
+        &self,
+        model: &Model<R>,
+        node: Option<usize>,
+        drive: &Drive<R>,
+        tau: R,
+        terms: Terms,
+    ) -> R {
+        let Some(node) = node else { return terms.of(drive.ground_at(tau)) };
+        let mut force = model.pull(&self.spring_forces(terms), &self.drift, &self.rate, terms)[node];
+        let mut mass = model.mass[node];
+        for (j, (block, data)) in self.blocks.iter().zip(&model.goods).enumerate() {
+            if data.node != Some(node) {
+                continue;
+            }
+            match block.contact {
+                Contact::Stuck => {
+                    mass = mass + data.mass;
+                    continue;
+                }
+                Contact::Sliding(sign) => {
+                    force = force + terms.of(sign.times(block.mu_k * data.mass * drive.contact_at(tau)));
+                }
+                Contact::Airborne => {}
+            }
+            force = force + terms.of(self.push(model, j));
+        }
+        force / mass
+    }
+
+    /// Kinetic energy of nodes and blocks, relative to the ground.
+    pub(super) fn kinetic_energy(&self, model: &Model<R>) -> R {
+        let velocity = model.displacements(&self.rate, Terms::Signed);
+        let nodes = model.mass.iter().zip(&velocity).fold(R::zero(), |sum, (&m, &v)| sum + m * v * v);
+        let blocks = model.goods.iter().zip(&self.blocks).fold(R::zero(), |sum, (data, block)| {
+            let v = data.node.map_or(R::zero(), |node| velocity[node]) + block.velocity;
+            sum + data.mass * v * v
+        });
+        R::of(0.5) * (nodes + blocks)
+    }
+
+    /// Energy stored in springs, matrix and stops, less the work of P-Delta.
+    pub(super) fn elastic_energy(&self, model: &Model<R>) -> R {
+        let half = R::of(0.5);
+        let mut energy = R::zero();
+        for (p, data) in model.springs.iter().enumerate() {
+            energy = energy + self.springs[p].stored(self.drift[p]);
+            energy = energy - half * data.geometric * self.drift[p] * self.drift[p];
+        }
+        let displacement = model.displacements(&self.drift, Terms::Signed);
+        for (u, force) in displacement.iter().zip(model.matrix_forces(&displacement, Terms::Signed)) {
+            energy = energy + half * *u * force;
+        }
+        let pressing = (0..self.blocks.len()).filter(|&j| matches!(self.stopped[j], Stopped::Pressing(_)));
+        pressing.fold(energy, |sum, j| sum + self.stop_energy(model, j))
+    }
+
+    /// Whether a block that is not stuck presses on a stop.
+    pub(super) fn moves_at_a_stop(&self) -> bool {
+        let pairs = self.blocks.iter().zip(&self.stopped);
+        pairs.into_iter().any(|(b, s)| b.contact != Contact::Stuck && matches!(s, Stopped::Pressing(_)))
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        let blocks = self.blocks.iter().flat_map(|b| [b.velocity, b.slip]);
+        self.drift.iter().chain(&self.rate).copied().chain(blocks).all(|x| x.to_f64().is_finite())
+    }
+}

@@ -1,0 +1,14 @@
+//! Random scenes of the general engine: every run checked by itself, some of them against its judge, and random shear
+//! buildings solved by both engines.
+
+mod chains;
+mod examine;
+mod invariants;
+mod report;
+mod tally;
+mod tally_file;
+mod verdict;
+
+pub use chains::{Chains, compare_engines};
+pub use report::{distribution, page};
+pub use tally::{GeneralTally, LARGEST_DIVISION};

@@ -1,0 +1,99 @@
+//! What the stress suite prints and writes of the general engine.
+
+use std::fmt::Write as _;
+
+use seismass::EventKind;
+
+use super::chains::PEAK;
+use super::tally::{GeneralTally, LARGEST_DIVISION};
+use crate::stress::random::LARGEST_RESIDUAL;
+use crate::stress::verdict::AGREEMENT;
+
+/// The distribution of a random run, as Markdown.
+pub fn distribution(tally: &GeneralTally) -> String {
+    let mut text = String::new();
+    let mut row = |what: &str, value: String| {
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "| {what} | {value} |");
+    };
+    row("quantity", "value".into());
+    row("---", "---".into());
+    row(&format!("scenes run (seeds from {})", tally.first), tally.scenes.to_string());
+    let failed = tally.failed.len() as u64;
+    let completed = tally.scenes - tally.collapsed - failed;
+    row("completed / collapsed / failed", format!("{completed} / {} / {failed}", tally.collapsed));
+    let [least, median, most] = tally.event_quantiles();
+    row("events of a run: least / median / most", format!("{least} / {median} / {most}"));
+    let kinds = EventKind::ALL.iter().zip(tally.kinds);
+    let kinds: Vec<String> = kinds.map(|(kind, n)| format!("{} {n}", kind.name())).collect();
+    row("events by kind", kinds.join(", "));
+    let worst = |(value, seed): (f64, u64)| format!("{value:.1e} (seed {seed})");
+    row(&format!("worst energy residual (limit {LARGEST_RESIDUAL:.0e})"), worst(tally.worst_residual));
+    row("with every sample interval divided by four, the same events", tally.divided.to_string());
+    let beyond = format!("largest change by the division (limit {LARGEST_DIVISION:.0e}, beyond it the judge is asked)");
+    row(&beyond, worst(tally.worst_division));
+    row("compared with the plain implementation", tally.judged.to_string());
+    let limit = format!("where the events agree (limit {AGREEMENT:.0e})");
+    row(&format!("worst relative difference {limit}"), worst(tally.worst_difference));
+    row(&format!("worst difference of event times, of the duration, {limit}"), worst(tally.worst_time));
+    row("parted at a grazing, explained", tally.grazing.len().to_string());
+    row("parted by sensitivity, explained", tally.sensitive.len().to_string());
+    row("defects: panics, NaN, errors, residuals, broken invariants, unexplained", tally.defects.len().to_string());
+    let chains = &tally.chains;
+    row("random shear buildings solved by both engines", chains.scenes.to_string());
+    row("of them, the same events, and numbers", {
+        let same = chains.scenes - chains.judged.len() as u64 - chains.defects.len() as u64;
+        format!("{same}, to {} of the largest peak (limit {PEAK:.0e})", worst(chains.worst))
+    });
+    row("of them, apart by more, and the judge in double-double agrees with the general engine or with neither", {
+        let seeds: Vec<String> = chains.judged.iter().map(ToString::to_string).collect();
+        if seeds.is_empty() { "0".into() } else { format!("{} (seeds {})", seeds.len(), seeds.join(", ")) }
+    });
+    row("of them, defects", chains.defects.len().to_string());
+    let of_input = "with the change of the input, in last digits, that does the same";
+    for (heading, list) in [
+        ("Grazings", &tally.grazing),
+        ("Sensitive scenes (0: by the judge's own rounding in double precision)", &tally.sensitive),
+    ] {
+        if !list.is_empty() {
+            let _ = writeln!(text, "\n{heading}, {of_input}:\n");
+        }
+        for (seed, digits, difference) in list {
+            let _ = writeln!(text, "- seed {seed}, {digits}: `{difference}`");
+        }
+    }
+    let failed = "Failed runs, no defects where the judge fails for the same reason";
+    for (heading, list) in
+        [(failed, &tally.failed), ("Defects", &tally.defects), ("Defects of shear buildings", &chains.defects)]
+    {
+        if !list.is_empty() {
+            let _ = writeln!(text, "\n{heading}:\n");
+        }
+        for (seed, reason) in list {
+            let _ = writeln!(text, "- seed {seed}: `{reason}`");
+        }
+    }
+    text
+}
+
+/// The page of docs.
+pub fn page(tally: &GeneralTally) -> String {
+    format!(
+        "# Stress of the general engine\n\n\
+         Written by `make stress-general`, which may be stopped and gone on with as long as the kernel is the same; the numbers \
+         are in its table. The chain engine has a [page of its own](stress.md).\n\n\
+         Random scenes with racks, walls and stops (`general_scene.rs` of `crates/seismass-judge`): up to six storeys of every \
+         spring law, or none, with cantilevers, braces and random matrices beside them; up to three racks of one to four \
+         levels on floors and on the ground; several blocks per node, with stops of clearances down to zero, soft and stiff, \
+         with dampers and without; goods that are fixed; every kind of damping; P-Delta, vertical motion, wear, initial states.\n\n\
+         Every run is checked by itself: finite numbers; energy balance; legal sequences of events; stuck blocks that neither \
+         move nor exceed their limit; stops that never pull, and blocks that press where they must; slips within clearance and \
+         penetration; peaks that no sample beats. A fifth is solved again with every sample interval divided by four, and for \
+         peaks alone, which must not change a bit. A random part is compared with a second implementation, written from the \
+         specification alone (`crates/seismass-judge/src/general`): a tenth of it in double-double, the others in double \
+         precision and in double-double where that parts. The modal damping of racks is its own; that of the building is the \
+         kernel's, and a test compares it. Where the two part, the judge is asked again with its input changed in the last \
+         digits, as on the page of the chain engine. Random shear buildings are solved by both engines.\n\n{}",
+        distribution(tally),
+    )
+}

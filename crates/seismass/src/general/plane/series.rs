@@ -1,0 +1,254 @@
+//! The Taylor series of both directions over a step, coupled by friction on the circle (`numerics`, section 9.7).
+
+use crate::general::plane::slide_series::{Beginning, ORDER, SlideSeries};
+use crate::general::plane::state::PlaneState;
+use crate::general::plane::vector::{Vector2, dot, length, plus, times};
+use crate::general::series::Series;
+use crate::lanes::Plain;
+use crate::polynomial::orders::terms;
+use crate::polynomial::power::Polynomial;
+use crate::tolerances::{AT_STOPS_ROUNDING, SERIES_PHASE, SERIES_ROUNDING};
+use crate::units::STANDARD_GRAVITY;
+
+/// Where a series has left the range of numbers it is formed anew over this part of its length.
+const SHORTER: f64 = 1e-3;
+
+/// The lowest order at which an asymptotic series is ended.
+const LEAST_ORDER: usize = 6;
+
+/// The series in s = t / h on [0, 1].
+#[derive(Default)]
+pub(super) struct PlaneSeries {
+    pub(super) axes: [Series; 2],
+    /// Of the blocks that slide.
+    pub(super) slides: Vec<SlideSeries>,
+    order: usize,
+}
+
+impl PlaneSeries {
+    /// Length of the step (s).
+    pub(super) fn h(&self) -> f64 {
+        self.axes[0].h
+    }
+
+    /// Start of the step in its sample interval (s).
+    pub(super) fn tau(&self) -> f64 {
+        self.axes[0].tau
+    }
+
+    /// Forms the series from `tau` over at most `remaining`; None, or a block that has broken away though its relative
+    /// acceleration does not rise: it grazes its limit.
+    pub(super) fn form(&mut self, state: &PlaneState, tau: f64, remaining: f64) -> Option<usize> {
+        let frequency = state.axes[0].regime.frequency.max(state.axes[1].regime.frequency);
+        let mut h = remaining / (frequency * remaining / SERIES_PHASE).ceil().max(1.0);
+        self.begin(state);
+        if self.slides.is_empty() {
+            for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
+                series.form(axis, tau, h);
+            }
+            return None;
+        }
+        let (system, inverse_mass) = (state.system(), &state.axes[0].regime.inverse_mass);
+        let contact = state.axes[0].contact_at(tau);
+        for slide in self.slides.iter().filter(|slide| slide.beginning == Beginning::Moving) {
+            let law = &system.blocks[slide.block];
+            let slowing = state.friction(slide.block).1 * contact * (1.0 + law.mass * inverse_mass[law.floor]);
+            h = h.min(length(state.velocity(slide.block)) / slowing);
+        }
+        loop {
+            self.begin(state);
+            self.form_terms(state, tau, h);
+            if let Some(slide) = self.slides.iter().find(|slide| slide.length[0] <= 0.0) {
+                return Some(slide.block);
+            }
+            let is_finite = self.slides.iter().all(|slide| length(slide.direction[ORDER]).is_finite());
+            if is_finite || h < f64::MIN_POSITIVE / SHORTER {
+                break;
+            }
+            h *= SHORTER;
+        }
+        let (end, order) = self.end(frequency * h);
+        self.order = order;
+        for series in &mut self.axes {
+            series.shorten(end, order);
+            series.bound_changes();
+        }
+        self.slides.iter_mut().for_each(|slide| slide.shorten(end));
+        None
+    }
+
+    /// The blocks that slide.
+    fn begin(&mut self, state: &PlaneState) {
+        self.slides.clear();
+        for (position, &block) in state.axes[0].moving.iter().enumerate() {
+            if state.slides(block) {
+                let start = state.slides[block].start;
+                let beginning = match (state.velocity(block) == [0.0; 2], state.friction(block).1 == 0.0) {
+                    (true, true) => Beginning::Free(0),
+                    (true, false) => Beginning::Jump,
+                    (false, _) => Beginning::Moving,
+                };
+                self.slides.push(SlideSeries::new(position, block, beginning, start.unwrap_or_default()));
+            }
+        }
+    }
+
+    fn form_terms(&mut self, state: &PlaneState, tau: f64, h: f64) {
+        let contact = [state.axes[0].contact_at(tau), state.axes[0].interval.contact_slope * h];
+        for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
+            series.begin(axis, tau, h, ORDER);
+        }
+        let starts = self.slides.iter().any(|slide| slide.beginning.is_implicit());
+        for k in 0..=ORDER {
+            for i in 0..self.slides.len() {
+                match self.slides[i].beginning {
+                    Beginning::Moving => {
+                        let r = self.term(i, k);
+                        self.slides[i].divide(k, r);
+                    }
+                    Beginning::Jump | Beginning::Smooth => self.slides[i].along(k),
+                    Beginning::Free(_) => continue,
+                }
+                self.set_friction(state, i, k, contact);
+            }
+            self.form_order(state, k);
+            if !starts {
+                continue;
+            }
+            if k == 0 {
+                self.classify(state, tau);
+            } else {
+                self.solve_across(state, k, contact);
+                self.form_order(state, k);
+            }
+            self.take_starts(k);
+        }
+        self.divide_free(state, tau);
+    }
+
+    /// Directions of the blocks that start without friction; those that stay at rest are left out.
+    fn divide_free(&mut self, state: &PlaneState, tau: f64) {
+        if self.slides.iter().all(|slide| slide.beginning != Beginning::Free(0)) {
+            return;
+        }
+        let sizes = state.axes.each_ref().map(|axis| axis.acceleration_sizes(tau));
+        let axes = &self.axes;
+        self.slides.retain_mut(|slide| {
+            let (position, node) = (slide.position, state.system().blocks[slide.block].floor);
+            let size = sizes[0][node] + sizes[1][node] + length(state.drive(slide.block));
+            let term = |k: usize| axes.each_ref().map(|series| series.blocks[position].velocity[k]);
+            slide.beginning != Beginning::Free(0)
+                || slide.divide_free(ORDER, AT_STOPS_ROUNDING * size * axes[0].h, term)
+        });
+    }
+
+    fn form_order(&mut self, state: &PlaneState, k: usize) {
+        for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
+            series.form_order(axis, k);
+        }
+    }
+
+    /// Term of order k of the relative velocity of a sliding block.
+    fn term(&self, slide: usize, k: usize) -> Vector2 {
+        let position = self.slides[slide].position;
+        self.axes.each_ref().map(|series| series.blocks[position].velocity[k])
+    }
+
+    /// Friction of order k over mass: mu_k (N_0 d_k + N_1 d_(k-1)).
+    fn set_friction(&mut self, state: &PlaneState, i: usize, k: usize, contact: [f64; 2]) {
+        let slide = &self.slides[i];
+        let before = if k > 0 { slide.direction[k - 1] } else { [0.0; 2] };
+        let of_order = plus(times(contact[0], slide.direction[k]), times(contact[1], before));
+        let friction = times(state.friction(slide.block).1, of_order);
+        for (series, friction) in self.axes.iter_mut().zip(friction) {
+            series.blocks[slide.position].friction[k] = friction;
+        }
+    }
+
+    /// Whether blocks start with an acceleration: it vanishes where mu_s = mu_k.
+    fn classify(&mut self, state: &PlaneState, tau: f64) {
+        let sizes = state.axes.each_ref().map(|axis| axis.acceleration_sizes(tau));
+        let (contact, h) = (state.axes[0].contact_at(tau), self.h());
+        for i in 0..self.slides.len() {
+            let SlideSeries { position, block, beginning, direction, .. } = self.slides[i];
+            if !beginning.is_implicit() {
+                continue;
+            }
+            let (node, first) = (state.system().blocks[block].floor, direction[0]);
+            let limit = state.friction(block).0 * contact.max(STANDARD_GRAVITY);
+            let size = limit + sizes[0][node] + sizes[1][node] + length(state.drive(block));
+            let change = dot(self.term(i, 1), first);
+            let jumps = change > AT_STOPS_ROUNDING * size * h;
+            self.slides[i].beginning = if jumps { Beginning::Jump } else { Beginning::Smooth };
+            let term = times(if jumps { change } else { 0.0 }, first);
+            for (series, term) in self.axes.iter_mut().zip(term) {
+                let block = &mut series.blocks[position];
+                (block.velocity[1], block.slip[2]) = (term, 0.5 * h * term);
+            }
+        }
+    }
+
+    /// Parts of order k across the first direction of the blocks that start, coupled by the acceleration of their node.
+    fn solve_across(&mut self, state: &PlaneState, k: usize, contact: [f64; 2]) {
+        let system = state.system();
+        let per_time = (k + 1) as f64 / self.h();
+        let starts: Vec<usize> = (0..self.slides.len()).filter(|&i| self.slides[i].beginning.is_implicit()).collect();
+        let friction = |i: usize| state.friction(self.slides[i].block).1 * contact[0];
+        let law = |i: usize| &system.blocks[self.slides[i].block];
+        let n = starts.len();
+        let mut matrix = nalgebra::DMatrix::<f64>::zeros(n, n);
+        let mut right = nalgebra::DVector::<f64>::zeros(n);
+        for (row, &i) in starts.iter().enumerate() {
+            let (slide, normal) = (&self.slides[i], self.slides[i].normal());
+            right[row] = per_time * (dot(self.term(i, k + 1), normal) - slide.known_across(k));
+            matrix[(row, row)] = friction(i);
+            if slide.beginning == Beginning::Jump {
+                matrix[(row, row)] += per_time * slide.length[0];
+            }
+            for (column, &other) in starts.iter().enumerate().filter(|(_, other)| law(**other).floor == law(i).floor) {
+                let of_node = state.axes[0].regime.inverse_mass[law(i).floor];
+                let turned = dot(normal, self.slides[other].normal());
+                matrix[(row, column)] += of_node * law(other).mass * friction(other) * turned;
+            }
+        }
+        let parts = matrix.lu().solve(&right).unwrap_or_else(|| nalgebra::DVector::from_element(n, f64::NAN));
+        for (&i, &part) in starts.iter().zip(parts.iter()) {
+            self.slides[i].add_across(k, part);
+            self.set_friction(state, i, k, contact);
+        }
+    }
+
+    fn take_starts(&mut self, k: usize) {
+        for i in 0..self.slides.len() {
+            let term = self.term(i, k + 1);
+            match self.slides[i].beginning {
+                Beginning::Jump => self.slides[i].take(k, term),
+                Beginning::Smooth if k > 0 => self.slides[i].take(k - 1, term),
+                _ => {}
+            }
+        }
+    }
+
+    /// The place where the series is to end, and the order after which: the last terms of all directions are below rounding
+    /// there, and no relative velocity comes to zero.
+    fn end(&self, phase: f64) -> (f64, usize) {
+        let is_asymptotic = self.slides.iter().any(|slide| slide.beginning == Beginning::Smooth);
+        let orders = if is_asymptotic { LEAST_ORDER..=ORDER } else { ORDER..=ORDER };
+        let (mut best, mut best_order) = (0.0, ORDER);
+        for order in orders {
+            let mut end = self.slides.iter().fold(1.0, |end: f64, s| end.min(s.reach(order, SERIES_ROUNDING)));
+            while terms::<Plain>(phase * end) > order {
+                end *= 0.8;
+            }
+            if end > best {
+                (best, best_order) = (end, order);
+            }
+        }
+        (self.slides.iter().fold(best, |end, slide| slide.before_stop(best_order, end)), best_order)
+    }
+
+    /// Lengths of the relative velocities of the blocks that slide, as polynomials.
+    pub(super) fn speed_of(&self, slide: usize) -> Polynomial {
+        self.slides[slide].speed(self.order)
+    }
+}

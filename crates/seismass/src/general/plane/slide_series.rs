@@ -1,0 +1,185 @@
+//! The series of a block that slides on the circle: direction and length of its relative velocity (`numerics`, section 9.7).
+
+use crate::general::plane::vector::{Vector2, across, dot, length, minus, plus, times};
+use crate::polynomial::power::{MAX_DEGREE, Polynomial};
+
+/// Highest order of accelerations where a block slides.
+pub(super) const ORDER: usize = MAX_DEGREE - 2;
+
+/// How the relative velocity begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Beginning {
+    /// Not at zero: r itself is divided into length and direction.
+    Moving,
+    /// At zero with an acceleration: r = t R.
+    Jump,
+    /// At zero with acceleration zero: r = t^2 R, and the series is asymptotic.
+    Smooth,
+    /// At zero without friction: r = t^p R, with the power of its first term. Zero: it is not known yet.
+    Free(usize),
+}
+
+impl Beginning {
+    /// Whether the series is one of a start against friction, which its own direction takes part in.
+    pub(super) fn is_implicit(self) -> bool {
+        matches!(self, Self::Jump | Self::Smooth)
+    }
+
+    /// The power of time that is divided out of the relative velocity.
+    pub(super) fn power(self) -> usize {
+        match self {
+            Self::Moving => 0,
+            Self::Jump => 1,
+            Self::Smooth => 2,
+            Self::Free(power) => power,
+        }
+    }
+}
+
+/// Direction and length of a relative velocity, by order.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SlideSeries {
+    /// Position among the blocks that move, and the block.
+    pub(super) position: usize,
+    pub(super) block: usize,
+    pub(super) beginning: Beginning,
+    /// Terms of the direction.
+    pub(super) direction: [Vector2; MAX_DEGREE + 1],
+    /// Terms of the length of R.
+    pub(super) length: [f64; MAX_DEGREE + 1],
+    /// Terms of R.
+    relative: [Vector2; MAX_DEGREE + 1],
+}
+
+impl SlideSeries {
+    pub(super) fn new(position: usize, block: usize, beginning: Beginning, direction: Vector2) -> Self {
+        let none = [[0.0; 2]; MAX_DEGREE + 1];
+        let mut series =
+            Self { position, block, beginning, direction: none, length: [0.0; MAX_DEGREE + 1], relative: none };
+        series.direction[0] = direction;
+        series
+    }
+
+    /// Length and direction of order k of a velocity that does not begin at zero:
+    /// rho_k = (sum r_i . r_(k-i) - sum rho_i rho_(k-i)) / (2 rho_0), d_k = (r_k - sum rho_i d_(k-i)) / rho_0.
+    pub(super) fn divide(&mut self, k: usize, r: Vector2) {
+        self.relative[k] = r;
+        if k == 0 {
+            self.length[0] = length(r);
+            self.direction[0] = times(1.0 / self.length[0], r);
+            return;
+        }
+        let mut squares = 2.0 * dot(self.relative[0], r);
+        for i in 1..k {
+            squares += dot(self.relative[i], self.relative[k - i]) - self.length[i] * self.length[k - i];
+        }
+        self.length[k] = 0.5 * squares / self.length[0];
+        let mut rest = r;
+        for i in 1..=k {
+            rest = minus(rest, times(self.length[i], self.direction[k - i]));
+        }
+        self.direction[k] = times(1.0 / self.length[0], rest);
+    }
+
+    /// Divides a velocity without friction that begins at zero by the power of its first term above a size, up to an order of
+    /// accelerations. False: there is none.
+    pub(super) fn divide_free(&mut self, order: usize, size: f64, term: impl Fn(usize) -> Vector2) -> bool {
+        let Some(power) = (1..=order).find(|&k| length(term(k)) > if k == 1 { size } else { 0.0 }) else {
+            return false;
+        };
+        self.beginning = Beginning::Free(power);
+        (0..=order + 1 - power).for_each(|k| self.divide(k, term(k + power)));
+        true
+    }
+
+    /// The direction across the first one.
+    pub(super) fn normal(&self) -> Vector2 {
+        across(self.direction[0])
+    }
+
+    /// What is known of the direction of order k of a start: its part along the first one, since its length is 1.
+    pub(super) fn along(&mut self, k: usize) {
+        if k > 0 {
+            let sum: f64 = (1..k).map(|i| dot(self.direction[i], self.direction[k - i])).sum();
+            self.direction[k] = times(-0.5 * sum, self.direction[0]);
+        }
+    }
+
+    /// What is known of the part across of the term R_k of a jump, or R_(k-1) of a smooth start, without the direction of
+    /// order k.
+    pub(super) fn known_across(&self, k: usize) -> f64 {
+        let normal = self.normal();
+        match self.beginning {
+            Beginning::Smooth => (0..k).map(|i| self.length[i] * dot(self.direction[k - 1 - i], normal)).sum(),
+            _ => (1..k).map(|i| self.length[i] * dot(self.direction[k - i], normal)).sum(),
+        }
+    }
+
+    /// Takes the part across of the direction of order k.
+    pub(super) fn add_across(&mut self, k: usize, part: f64) {
+        self.direction[k] = plus(self.direction[k], times(part, self.normal()));
+    }
+
+    /// Takes a term of R of a start, and the length of its order.
+    pub(super) fn take(&mut self, k: usize, term: Vector2) {
+        let first = self.direction[0];
+        let known: f64 = (0..k).map(|i| self.length[i] * dot(self.direction[k - i], first)).sum();
+        self.length[k] = dot(term, first) - known;
+    }
+
+    /// Order of the last known term of R in a series of accelerations to an order.
+    fn last(&self, order: usize) -> usize {
+        order.min((order + 1).saturating_sub(self.beginning.power()))
+    }
+
+    /// Length of the relative velocity as a polynomial up to an order of accelerations.
+    pub(super) fn speed(&self, order: usize) -> Polynomial {
+        let power = self.beginning.power();
+        let last = self.last(order);
+        Polynomial::new(std::iter::repeat_n(0.0, power).chain(self.length[..=last].iter().copied()))
+    }
+
+    /// Ends the series at its place `end`, which is the new 1.
+    pub(super) fn shorten(&mut self, end: f64) {
+        let mut power = 1.0;
+        for k in 1..=MAX_DEGREE {
+            power *= end;
+            self.direction[k] = times(power, self.direction[k]);
+            self.length[k] *= power;
+        }
+        let unit = end.powi(self.beginning.power() as i32);
+        self.length.iter_mut().for_each(|term| *term *= unit);
+    }
+
+    /// The longest part of the series in which the negative terms of the length are at most 3/4 of its first: along a
+    /// straight line a longer step would jump over a stop.
+    pub(super) fn before_stop(&self, order: usize, mut end: f64) -> f64 {
+        let first = self.length[0];
+        loop {
+            let (mut sum, mut rate, mut power) = (0.0, 0.0, 1.0);
+            for (k, term) in self.length[..order].iter().enumerate().skip(1) {
+                rate += k as f64 * power * term.min(0.0);
+                power *= end;
+                sum += power * term.min(0.0);
+            }
+            let excess = -sum - 0.75 * first;
+            if excess <= 0.02 * first {
+                return end;
+            }
+            end += excess / rate;
+        }
+    }
+
+    /// The longest part of the series in which both terms of the direction before `last` and at it are below rounding.
+    pub(super) fn reach(&self, order: usize, rounding: f64) -> f64 {
+        let last = match self.beginning {
+            Beginning::Free(_) => self.last(order),
+            _ => order,
+        };
+        let of = |k: usize| {
+            let size = length(self.direction[k]);
+            if size == 0.0 { f64::INFINITY } else { (rounding / size).powf(1.0 / k as f64) }
+        };
+        of(last).min(of(last.saturating_sub(1).max(1)))
+    }
+}

@@ -1,0 +1,209 @@
+//! What must hold for every scene in two horizontal directions, and closed forms (`numerics`, sections 8 and 9.7).
+
+#![allow(clippy::unwrap_used)]
+
+mod maximum;
+
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+
+use maximum::larger;
+use seismass::{
+    Block, EventKind, GeneralBuilding, GeneralScene, Goods, Motion, Options, Peak, PlaneMotion, PlaneResponse,
+    PlaneScene, Rack, STANDARD_GRAVITY, Stops, Storey, UniformBuilding, simulate_general, simulate_plane,
+};
+
+/// Rounding of peaks, as a part of the largest of their kind.
+const ROUNDING: f64 = 1e-12;
+
+/// Energies balance to this fraction of the input.
+const ENERGY: f64 = 1e-11;
+
+fn options() -> Options {
+    Options { histories: NonZeroUsize::new(1), energy: true, events: true, ..Options::default() }
+}
+
+/// Three storeys with goods of one and of two friction coefficients; with a strength (N), a rack, and stops or without.
+fn scene(yield_shear: f64, period: f64, stops: Option<Stops>, velocity: Option<f64>) -> GeneralScene {
+    let uniform = UniformBuilding { storeys: 3, period, mass: 1000.0, ..Default::default() }.build().unwrap();
+    let storeys: Vec<Storey> = uniform.storeys().iter().map(|s| Storey { yield_shear, ..s.clone() }).collect();
+    let damping = seismass::Damping::Modal { ratio: 0.05 };
+    let gravity = seismass::GravityEffect::None;
+    let building = GeneralBuilding::new(uniform.mass().to_vec(), storeys, None, &damping, gravity).unwrap();
+    let goods = vec![
+        Goods { block: Block { mu_k: 0.2, velocity, ..Block::new(1, 600.0, 0.25) }, stops },
+        Block::new(2, 400.0, 0.2).into(),
+        Block { mu_k: 0.1, ..Block::new(2, 900.0, 0.2) }.into(),
+        Block::new(0, 50.0, 0.15).into(),
+        Block::new(3, 30.0, 0.0).into(),
+    ];
+    let rack = Rack {
+        floor: 2,
+        mass: vec![60.0, 60.0],
+        levels: vec![Storey::elastic(4e4); 2],
+        damping_ratio: 0.03,
+        geometric_stiffness: Vec::new(),
+        goods: vec![Block::new(2, 90.0, 0.3).into()],
+    };
+    GeneralScene::new(Some(Arc::new(building)), goods, vec![rack]).unwrap()
+}
+
+fn samples(phase: f64) -> Vec<f64> {
+    let sample = |i: u32| {
+        let t = 0.02 * f64::from(i);
+        3.0 * (4.1 * t + phase).sin() + 2.0 * (9.7 * t + 2.0 * phase).sin() + 1.5 * (2.3 * t).cos()
+    };
+    (0..300).map(sample).collect()
+}
+
+fn turned(x: &[f64], y: &[f64], angle: f64) -> PlaneMotion {
+    let (c, s) = (angle.cos(), angle.sin());
+    let of = |p: f64, q: f64| -> Vec<f64> { x.iter().zip(y).map(|(x, y)| p * x + q * y).collect() };
+    PlaneMotion::new(Motion::new(of(c, -s), 0.02, None).unwrap(), of(s, c)).unwrap()
+}
+
+fn solve(scene: &PlaneScene, motion: &PlaneMotion) -> PlaneResponse {
+    let response = simulate_plane(scene, motion, &options()).unwrap();
+    let energy = response.energy.unwrap();
+    for energy in energy.directions.iter().chain([&energy.total]) {
+        assert!(energy.relative_residual.abs() < ENERGY, "{energy:?}");
+    }
+    response
+}
+
+fn apart(one: &[Peak], other: &[Peak]) -> f64 {
+    let scale = one.iter().fold(0.0, |scale, peak| larger(scale, peak.value));
+    one.iter().zip(other).fold(0.0, |worst, (a, b)| larger(worst, (a.value - b.value).abs() / scale))
+}
+
+fn vectors_apart(one: &PlaneResponse, other: &PlaneResponse) -> f64 {
+    let (one, other) = (&one.peaks.vector, &other.peaks.vector);
+    [
+        apart(&one.drift, &other.drift),
+        apart(&one.acceleration, &other.acceleration),
+        apart(&one.shear, &other.shear),
+        apart(&one.slip, &other.slip),
+    ]
+    .into_iter()
+    .fold(0.0, larger)
+}
+
+/// Motion along a diagonal in a building equal in both directions is the run in one direction; where it yields, springs act
+/// in x and y each by themselves, and the one direction has strengths sqrt 2 times larger.
+#[test]
+fn along_a_diagonal_it_is_the_run_in_one_direction() {
+    let x = samples(0.0);
+    let none = vec![0.0; x.len()];
+    for (strength, angle) in [(f64::INFINITY, 0.7), (f64::INFINITY, -2.9), (3000.0, std::f64::consts::FRAC_PI_4)] {
+        let of = |strength: f64| scene(strength, 0.6, None, None);
+        let one =
+            simulate_general(&of(strength * 2.0_f64.sqrt()), &Motion::new(x.clone(), 0.02, None).unwrap(), &options())
+                .unwrap();
+        let plane = solve(&PlaneScene::new(of(strength), of(strength)).unwrap(), &turned(&x, &none, angle));
+        let (found, expected) = (&plane.peaks.vector, &one.peaks);
+        for (kind, found, expected) in [
+            ("drift", &found.drift, &expected.drift),
+            ("acceleration", &found.acceleration, &expected.acceleration),
+            ("slip", &found.slip, &expected.slip),
+        ] {
+            assert!(apart(expected, found) < ROUNDING, "{kind}: {found:?} for {expected:?}");
+        }
+        let slips = |kind: EventKind| (plane.statistics.events.of(kind), one.statistics.events.of(kind));
+        let (stick, expected) = slips(EventKind::Stick);
+        assert!(stick > 5 && stick == expected, "{stick} sticks for {expected}");
+        for (path, expected) in plane.slip_path.iter().zip(&one.slip_path) {
+            assert!((path - expected).abs() < ROUNDING * expected, "path {path} for {expected}");
+        }
+    }
+}
+
+/// An elastic building equal in both directions does not know them.
+#[test]
+fn the_motion_may_be_turned_by_any_angle() {
+    let elastic = || scene(f64::INFINITY, 0.6, None, None);
+    let scene = PlaneScene::new(elastic(), elastic()).unwrap();
+    let (x, y) = (samples(0.0), samples(1.3));
+    let one = solve(&scene, &turned(&x, &y, 0.0));
+    for angle in [0.4, 1.9, -2.2] {
+        let other = solve(&scene, &turned(&x, &y, angle));
+        assert_eq!(one.statistics.events, other.statistics.events);
+        assert!(vectors_apart(&one, &other) < ROUNDING);
+    }
+}
+
+/// A quarter turn of scene and motion, and mirror images.
+#[test]
+fn quarter_turns_and_mirror_images() {
+    let stops = Stops { damping: 200.0, ..Stops::new(0.02, 1e5) };
+    let (of_x, of_y) = (scene(3000.0, 0.6, Some(stops), None), scene(2500.0, 0.8, None, None));
+    let (x, y) = (samples(0.0), samples(1.3));
+    let one = solve(&PlaneScene::new(of_x.clone(), of_y.clone()).unwrap(), &turned(&x, &y, 0.0));
+    assert!(one.statistics.events.of(EventKind::TouchStop) > 0);
+    let opposite: Vec<f64> = x.iter().map(|a| -a).collect();
+    let mirrored = solve(&PlaneScene::new(of_x.clone(), of_y.clone()).unwrap(), &turned(&opposite, &y, 0.0));
+    let swapped = solve(&PlaneScene::new(of_y, of_x).unwrap(), &turned(&y, &x, 0.0));
+    for other in [mirrored, swapped] {
+        assert_eq!(one.statistics.events, other.statistics.events);
+        assert!(vectors_apart(&one, &other) < ROUNDING);
+    }
+}
+
+/// To divide every sample interval by three changes the result by rounding: a wrong direction at a release would show.
+#[test]
+fn divided_steps_give_the_same() {
+    let (of_x, of_y) = (scene(3000.0, 0.6, Some(Stops::new(0.02, 1e5)), None), scene(2500.0, 0.8, None, None));
+    let scene = PlaneScene::new(of_x, of_y).unwrap();
+    let divided = |samples: &[f64]| -> Vec<f64> {
+        let pairs = samples.windows(2);
+        let parts = pairs.flat_map(|pair| (0..3).map(|part| pair[0] + (pair[1] - pair[0]) * f64::from(part) / 3.0));
+        parts.chain(samples.last().copied()).collect()
+    };
+    let (x, y) = (samples(0.0), samples(1.3));
+    let one = solve(&scene, &turned(&x, &y, 0.0));
+    let motion = Motion::new(divided(&x), 0.02 / 3.0, None).unwrap();
+    let other = solve(&scene, &PlaneMotion::new(motion, divided(&y)).unwrap());
+    assert_eq!(one.statistics.events, other.statistics.events);
+    assert!(vectors_apart(&one, &other) < ROUNDING);
+}
+
+fn on_ground(mu: f64, velocity: [f64; 2]) -> PlaneScene {
+    let of = |velocity: f64| {
+        let block = Block { velocity: Some(velocity), ..Block::new(0, 3.0, mu) };
+        GeneralScene::new(None, vec![block.into()], Vec::new()).unwrap()
+    };
+    PlaneScene::new(of(velocity[0]), of(velocity[1])).unwrap()
+}
+
+/// A block thrown across ground that accelerates at a right angle: rho sin(phi) = v tan(phi/2)^(beta/a), with phi the angle
+/// between the relative velocity and what drives it.
+#[test]
+fn a_block_thrown_across_accelerated_ground_follows_the_pursuit_curve() {
+    let (a, mu, v) = (1.2, 0.2, 0.9);
+    let motion = PlaneMotion::new(Motion::new(vec![a; 60], 0.01, None).unwrap(), vec![0.0; 60]).unwrap();
+    let response = solve(&on_ground(mu, [0.0, v]), &motion);
+    let [x, y] = response.histories.unwrap();
+    let mut compared = 0;
+    for (x, y) in x.block_velocity.iter().zip(&y.block_velocity) {
+        let phi = y.atan2(-x);
+        let expected = v * (0.5 * phi).tan().powf(mu * STANDARD_GRAVITY / a);
+        if x.hypot(*y) > 1e-3 {
+            assert!((x.hypot(*y) * phi.sin() - expected).abs() < 1e-13 * v, "{phi}: {expected}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 30);
+}
+
+/// A block on ground that accelerates by (a_x, a_y) from rest slides back along it by (|a| - mu g) t^2/2.
+#[test]
+fn a_block_on_accelerated_ground_slides_straight() {
+    let (a, mu, t) = ([1.5, -2.0], 0.1, 0.5);
+    let motion = PlaneMotion::new(Motion::new(vec![a[0]; 51], 0.01, None).unwrap(), vec![a[1]; 51]).unwrap();
+    let response = solve(&on_ground(mu, [0.0, 0.0]), &motion);
+    let slip = 0.5 * (2.5 - mu * STANDARD_GRAVITY) * t * t;
+    let expected = [-0.6 * slip, 0.8 * slip];
+    for (found, expected) in response.residual_slip[0].iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-14, "{found} for {expected}");
+    }
+    assert!((response.slip_path[0] - slip).abs() < 1e-14);
+}

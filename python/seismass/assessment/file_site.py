@@ -1,0 +1,156 @@
+"""Site, period and drift limit of a building file: as stated, or by a code with its numbers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT
+from seismass.base.errors import InvalidOption
+from seismass.base.input_table import POSITIVE, Table
+from seismass.base.values import FloatArray, brief
+from seismass.design import (
+    DRIFT_LIMIT_CODES,
+    PERIOD_CODES,
+    DriftLimit,
+    PeriodRule,
+    code_period,
+    drift_limit,
+    drift_limit_table,
+)
+from seismass.model.codes import CodeFraction
+from seismass.model.plausibility import PERIOD_RANGE
+from seismass.scaling.target_text import target_of
+from seismass.spectra import DEFAULT_TL, TargetSpectrum
+
+SITE: Final = ("sds_g", "sd1_g", "tl_s", "spectrum_csv", "target")
+"""Keys of the site."""
+PERIOD: Final = ("period_s", "system", "period_code", "period_mass")
+"""Keys of the first period."""
+LIMIT: Final = ("drift_limit", "risk_category", "drift_class", "drift_limit_code")
+"""Keys of the limit of the drift ratio."""
+PERIOD_MASSES: Final = ("bare", "code share", "all")
+"""What a period is the period of: the building without goods, with the code's share of them, or with all present."""
+
+
+def site_of(site: Table, folder: Path) -> TargetSpectrum | None:
+    """Return the site spectrum; None where the file has none."""
+    if not site.values:
+        return None
+    for whole in ("target", "spectrum_csv"):
+        for key in SITE:
+            if key != whole:
+                site.excluded(key, whole)
+    if "target" in site.values:
+        try:
+            return target_of(site.text("target"), folder)
+        except InvalidOption as error:
+            requirement = str(error).partition(" must be ")[2].rpartition("; got ")[0]
+            site.refuse("target", requirement if "one of asce7" in requirement else f"valid: {error}", "another")
+    if "spectrum_csv" in site.values:
+        return TargetSpectrum.from_csv(folder / site.text("spectrum_csv"))
+    for key in ("sds_g", "sd1_g"):
+        if key not in site.values:
+            others = f"{site.key('spectrum_csv')} or {site.key('target')} for the whole spectrum"
+            site.refuse(key, f"given, or {others}", "nothing")
+    short, one = (site.number(key, need=POSITIVE) for key in ("sds_g", "sd1_g"))
+    tl = site.number("tl_s", DEFAULT_TL, POSITIVE)
+    if tl < one / short:
+        site.refuse("tl_s", f"at least T_S = S_D1/S_DS = {one / short:g} s", f"{tl:g}")
+    return TargetSpectrum.asce7(short, one, tl)
+
+
+class StatedPeriod(NamedTuple):
+    """First period of a building file.
+
+    Attributes
+    ----------
+    value : float or None
+        The period (s); None where stiffnesses are stated.
+    mass : str
+        Which goods act as mass in it, one of `PERIOD_MASSES`.
+    rule : PeriodRule or None
+        Row of the code that gave it; None where it was stated.
+    """
+
+    value: float | None
+    mass: str
+    rule: PeriodRule | None
+
+
+def period_of(building: Table, heights: FloatArray | None, storeys: int, code: CodeFraction) -> StatedPeriod:
+    """Return the first period: as stated, or by the formula of a code for a structural system and the height."""
+    building.excluded("period_s", "system")
+    if "system" not in building.values:
+        building.left_out(("period_code",), f"{building.key('system')} is not given")
+        if "period_mass" in building.values:
+            building.needed("period_s", "system")
+        value = building.number("period_s", need=POSITIVE) if "period_s" in building.values else None
+        return StatedPeriod(value, _mass(building, "bare"), None)
+    code_id = _code_id(building, "period_code", code, PERIOD_CODES, "approximate period is known here")
+    if heights is None:
+        building.refuse("height_m", f"given where {building.key('system')} is", "nothing")
+    try:
+        found = code_period(code_id, building.text("system"), height=float(heights.sum()), storeys=storeys)
+    except InvalidOption as error:
+        building.refuse_as("system", error)
+    return StatedPeriod(found.approximate, _mass(building, "code share"), found.rule)
+
+
+def _mass(building: Table, default: str) -> str:
+    chosen = building.text("period_mass") if "period_mass" in building.values else default
+    if chosen not in PERIOD_MASSES:
+        building.refuse("period_mass", f"one of {', '.join(PERIOD_MASSES)}", brief(chosen))
+    return chosen
+
+
+def limit_of(building: Table, code: CodeFraction) -> tuple[float, DriftLimit | None]:
+    """Return the limit of the drift ratio, and the row of the code that gave it; None where it was stated."""
+    by_code = ("risk_category", "drift_class", "drift_limit_code")
+    if not any(key in building.values for key in by_code):
+        return building.number("drift_limit", DEFAULT_DRIFT_LIMIT, POSITIVE), None
+    building.left_out(("drift_limit",), f"{building.key(next(iter(building.given(*by_code))))} is given", "both")
+    code_id = _code_id(building, "drift_limit_code", code, DRIFT_LIMIT_CODES, "drift limits are known here")
+    of_code = drift_limit_table().filter(code_id=code_id)
+    category = building.choice("risk_category", of_code["risk_category"].unique(maintain_order=True), "II")
+    structure = building.choice("drift_class", of_code["structure"].unique(maintain_order=True), "other")
+    row = drift_limit(code_id, category, structure)
+    return row.ratio, row
+
+
+def check_period(building: Table, period: StatedPeriod, stiffness: FloatArray, geometric: FloatArray) -> None:
+    """Refuse a period so long that gravity takes the whole stiffness of a storey.
+
+    Parameters
+    ----------
+    building : Table
+        The table of the file.
+    period : StatedPeriod
+        Its period.
+    stiffness, geometric : ndarray, shape (storeys,)
+        Storey stiffnesses, and P/h with the goods present (N/m).
+    """
+    ratio = geometric / stiffness
+    storey = int(np.argmax(ratio))
+    if period.value is None or ratio[storey] < 1.0:
+        return
+    longest = period.value / np.sqrt(ratio[storey])
+    if longest < PERIOD_RANGE[0]:  # no building has one so short: the loads are wrong, which the scene says
+        return
+    told = (
+        f"below {longest:.3g} s, where the gravity load P/h of storey {storey + 1} takes its whole stiffness (are "
+        "loads and heights in the units of their keys?)"
+    )
+    if period.rule is None:
+        building.refuse("period_s", told, f"{period.value:g}")
+    building.refuse("system", f"one whose period is {told}", f"{period.value:.3g} s")
+
+
+def _code_id(building: Table, key: str, code: CodeFraction, known: tuple[str, ...], what: str) -> str:
+    """The code that a key names, or else that of the file, whose rules must be known."""
+    chosen = building.text(key).lower() if key in building.values else code.code_id
+    if chosen in known:
+        return chosen
+    building.refuse(key, f"one of the codes whose {what}: {', '.join(known)}", brief(chosen) if chosen else "none")

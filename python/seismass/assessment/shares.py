@@ -1,0 +1,111 @@
+"""The shares of an assessment: effective fractions at each friction, and that of a design of the strengths."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seismass.assessment.answer import DesignShare, deciding, rounded_up
+from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.tables import few_collapses
+from seismass.effective_mass import EffectiveMass
+from seismass.effective_mass.models import SAME_DAMPING
+from seismass.effective_mass.runs import named_motions
+from seismass.effective_mass.search import OWNER, checked_options
+from seismass.effective_mass.solved import solved_designs, solved_frictions
+from seismass.model.building import Building
+from seismass.spectra import TargetSpectrum
+
+DESIGN_SHARES: Final = np.linspace(0.0, 1.0, 21)
+"""Shares at which that of a design of strengths is looked for before its root is refined; each takes two models."""
+SHARES: Final = 101
+"""Shares at which each effective fraction is looked for; the models of all frictions are the same."""
+
+Progress = Callable[[int, int], object]
+
+
+def fractions_by_friction(
+    building: OwnBuilding,
+    target: TargetSpectrum | None,
+    frictions: dict[str, float],
+    motions: list[Any],
+    bootstrap: dict[str, Any],
+    threads: int | None,
+    progress: Progress | None,
+) -> dict[str, EffectiveMass]:
+    """Return the effective fraction at each friction by the mean; by the median, where the building collapses.
+
+    Parameters
+    ----------
+    building : OwnBuilding
+        The building.
+    target : TargetSpectrum or None
+        Site spectrum, for strengths of a design.
+    frictions : dict of str to float
+        Factor of friction of each model.
+    motions : list of Record or Motion
+        Motions, scaled.
+    bootstrap : dict
+        confidence, resamples and seed.
+    threads, progress
+        As for `assess`.
+    """
+    if not frictions:
+        return {}
+    scenes = [building.scene(target, mu_factor=factor) for factor in frictions.values()]
+    drawn = (bootstrap["confidence"], bootstrap["resamples"], bootstrap["seed"])
+    options = checked_options("mean", SAME_DAMPING, None, *drawn, threads, progress)
+    found = {}
+    for name, solved in zip(frictions, solved_frictions(scenes, named_motions(motions, OWNER), options), strict=True):
+        found[name] = solved.answer("median" if solved.real.collapsed.any() else "mean")
+    return found
+
+
+def advised_share(effective: dict[str, EffectiveMass]) -> float | None:
+    """Return the largest effective fraction, rounded up to 0.05; None without goods, or where many runs collapse."""
+    many = (not few_collapses(each.collapses["real"], each.records.height) for each in effective.values())
+    if not effective or any(many):
+        return None
+    return rounded_up(effective[deciding(effective)].value)
+
+
+def design_share(
+    building: OwnBuilding,
+    target: TargetSpectrum | None,
+    factor: float,
+    motions: list[Any],
+    threads: int | None,
+    progress: Progress | None,
+) -> DesignShare:
+    """Return the share that goes into the design of the strengths and is attached, at one friction; no bootstrap.
+
+    Parameters
+    ----------
+    building, target, motions, threads, progress
+        As for `fractions_by_friction`.
+    factor : float
+        Factor of friction.
+    """
+
+    def designed(share: float) -> Building:
+        return building.structure(target, share * building.goods)
+
+    scene = building.scene(target, mu_factor=factor)
+    options = checked_options("mean", SAME_DAMPING, DESIGN_SHARES, 0.9, 1, 0, threads, progress)
+    named = named_motions(motions, OWNER)
+    solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift)
+    fallen = solved.real.collapsed.sum(axis=1)
+    if not few_collapses(int(fallen.max()), len(motions)):
+        return DesignShare(None, _collapsing(fallen, len(motions)))
+    return DesignShare(solved.answer("median" if fallen.any() else "mean"), "")
+
+
+def _collapsing(fallen: NDArray[np.int64], motions: int) -> str:
+    """Which designs collapse under how many motions."""
+    many = DESIGN_SHARES[[not few_collapses(int(count), motions) for count in fallen]]
+    shares = f"{many[0]:.2f}" if len(many) == 1 else f"{many[0]:.2f} to {many[-1]:.2f}"
+    whole = "every share" if len(many) == len(DESIGN_SHARES) else f"shares of {shares} of the goods present"
+    return f"the building designed with {whole} collapses under up to {int(fallen.max())} of {motions} motions"

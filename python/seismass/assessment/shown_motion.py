@@ -1,0 +1,66 @@
+"""The motion under which a building is shown: of those under which goods slide the one with the median drift."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from seismass.assessment.own_building import OwnBuilding
+from seismass.effective_mass.runs import named_motions, solve
+from seismass.model.scene import Scene
+from seismass.records import Suite
+from seismass.scaling import scale_asce7_10
+from seismass.spectra import TargetSpectrum
+
+
+class Shown(NamedTuple):
+    """What is shown of a building.
+
+    Attributes
+    ----------
+    scene : Scene
+        The building with its goods.
+    motion : Record
+        The motion, scaled.
+    number : int
+        Its number in the suite, from 1.
+    factor : float
+        By which it is scaled.
+    """
+
+    scene: Scene
+    motion: Any
+    number: int
+    factor: float
+
+
+def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | None = None) -> Shown:
+    """Return the building with its goods and a motion: the median by largest drift of those under which goods slide.
+
+    Where none slide it is the median of all.
+
+    Parameters
+    ----------
+    building : OwnBuilding
+        The building.
+    suite : Suite
+        Motions, which are scaled to the site as `assess` does.
+    target : TargetSpectrum, optional
+        Site spectrum; default the building's own.
+
+    Raises
+    ------
+    InvalidOption, InvalidScene, SimulationError
+        As for `assess`.
+    """
+    spectrum = building.site_spectrum(target)
+    period = building.scaling_period or building.period(building.goods)
+    factors = scale_asce7_10(suite, spectrum, period).factors
+    scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+    scene = building.scene(spectrum)
+    peaks = solve([scene], named_motions(scaled, "animation"))
+    among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
+    ordered = among[np.argsort(peaks.largest[0][among], kind="stable")]
+    place = int(ordered[(len(ordered) - 1) // 2])
+    return Shown(scene, scaled[place], place + 1, float(factors[place]))

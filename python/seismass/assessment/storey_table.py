@@ -1,0 +1,365 @@
+"""Storey tables as other programs export them: names, heights, masses, stiffnesses and strengths, in SI units.
+
+Columns are recognised by their names, as in tables of ETABS and SAP2000; units stand in the head, in a row below it, or
+are stated for the whole table.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import re
+import zipfile
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final, Literal
+
+import numpy as np
+
+from seismass.assessment.storey_units import Quantity, system_of, unit_factor
+from seismass.base.errors import InvalidBuildingFile, MissingPackage
+from seismass.base.files import MOST_BYTES, read_file
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_path, brief, printable, refusal, short
+from seismass.media.text_table import text_table
+
+Order = Literal["roof-first", "ground-first"]
+
+COLUMNS: Final[dict[str, tuple[str, ...]]] = {
+    "storey": ("story", "storey", "level", "floor", "name", "story name", "storey name", "floor level"),
+    "elevation": ("elevation", "elev", "story elevation", "storey elevation", "z"),
+    "height": ("height", "story height", "storey height", "h"),
+    "mass": ("mass", "mass x", "ux", "mass ux", "floor mass", "story mass", "storey mass", "m"),
+    "weight": ("weight", "floor weight", "story weight", "storey weight", "seismic weight", "w"),
+    "stiffness": ("stiffness", "stiffness x", "stiff x", "kx", "k", "story stiffness", "storey stiffness"),
+    "strength": ("yield shear", "yield strength", "shear strength", "strength", "vy", "yield shear x"),
+    "shear": ("shear", "shear x", "vx", "v", "story shear", "storey shear", "base shear"),
+    "drift": ("drift", "drift x", "story drift", "storey drift", "drift ratio"),
+}
+"""Names of columns, in small letters; x stands for the direction that is asked for."""
+_QUANTITIES: Final[dict[str, Quantity]] = {
+    "elevation": "length",
+    "height": "length",
+    "mass": "mass",
+    "weight": "force",
+    "stiffness": "stiffness",
+    "strength": "force",
+    "shear": "force",
+    "drift": "length",
+}
+_BASE: Final = re.compile(r"base|ground|foundation|0", re.IGNORECASE)
+_ROOF: Final = re.compile(r"roof|top", re.IGNORECASE)
+_HEAD: Final = re.compile(r"^(?P<name>[^([,]*)(?:[(\[,]\s*(?P<unit>[^)\]]*)[)\]]?)?\s*$")
+
+
+@dataclass(frozen=True)
+class StoreyTable:
+    """Storeys of another program's model, storey 1 first, in SI units.
+
+    Attributes
+    ----------
+    source : str
+        Name of the file.
+    names : tuple of str
+        Names of the storeys.
+    heights : ndarray or None, shape (storeys,)
+        Storey heights (m).
+    mass : ndarray or None, shape (storeys,)
+        Floor masses (kg), those of weights over g.
+    stiffness, strength : ndarray or None, shape (storeys,)
+        Storey stiffnesses (N/m) and yield shears (N).
+    remarks : tuple of str
+        How what the table does not say was found.
+    """
+
+    source: str
+    names: tuple[str, ...]
+    heights: FloatArray | None
+    mass: FloatArray | None
+    stiffness: FloatArray | None
+    strength: FloatArray | None
+    remarks: tuple[str, ...] = field(default=())
+
+    @property
+    def text(self) -> str:
+        """What was read, as a table with the roof at its top."""
+        columns = {
+            "height m": (self.heights, 1.0),
+            "mass t": (self.mass, 1e-3),
+            "weight kN": (self.mass, 1e-3 * STANDARD_GRAVITY),
+            "stiffness kN/m": (self.stiffness, 1e-3),
+            "yield shear kN": (self.strength, 1e-3),
+        }
+        shown = {name: (values, unit) for name, (values, unit) in columns.items() if values is not None}
+        rows = [["storey", "name", *shown]]
+        for i in reversed(range(len(self.names))):
+            cells = [f"{unit * float(values[i]):.6g}" for values, unit in shown.values()]
+            rows.append([str(i + 1), self.names[i], *cells])
+        lines = [f"read from {printable(self.source)}", *text_table(rows, left=2)]
+        return "\n".join([*lines, *(f"  {remark}" for remark in self.remarks)])
+
+
+def read_storey_table(
+    source: str | os.PathLike[str],
+    *,
+    units: str | None = None,
+    order: Order | None = None,
+    direction: Literal["x", "y"] = "x",
+) -> StoreyTable:
+    r"""Read a storey table.
+
+    Parameters
+    ----------
+    source : path-like
+        CSV (comma, semicolon or tab) or XLSX. The head is the first row with a column of storeys and another known one.
+    units : str, optional
+        Force and length of numbers whose column states no unit, as these programs have them: "kN-m", "kip-in", "kgf-m".
+        Masses are then in force times s2 over length.
+    order : {"roof-first", "ground-first"}, optional
+        Order of the rows, where neither elevations nor names say it.
+    direction : {"x", "y"}
+        Which of the columns "Stiffness X" and "Stiffness Y" is read; the same of masses, shears and drifts.
+
+    Returns
+    -------
+    StoreyTable
+        The storeys, in SI units.
+
+    Raises
+    ------
+    InvalidBuildingFile
+        The file cannot be read, has no head that is known, a cell that is no number, a storey twice, or a unit or an
+        order that has to be stated.
+    MissingPackage
+        openpyxl is needed for XLSX.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> from seismass.assessment import read_storey_table
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = pathlib.Path(folder) / "storeys.csv"
+    ...     _ = file.write_text("Story,Height (m),Mass (t),Stiffness X (kN/m)\nRoof,3.5,120,2e5\nStory1,4,150,3e5\n")
+    ...     table = read_storey_table(file)
+    >>> table.names, table.mass.tolist(), table.stiffness.tolist()
+    (('Story1', 'Roof'), [150000.0, 120000.0], [300000000.0, 200000000.0])
+    """
+    path = as_path(source, "storey table", InvalidBuildingFile)
+    rows = _rows(path)
+    head, columns = _head(rows, path, direction)
+    body = rows[head + 1 :]
+    stated = {kind: _unit_in(rows[head][place]) for kind, place in columns.items()}
+    if body and _is_unit_row(body[0], columns):
+        stated = {kind: body[0][place].strip() or stated[kind] for kind, place in columns.items()}
+        body = body[1:]
+    place = columns["storey"]
+    body = [row for row in body if row[place].strip()]
+    names = [printable(row[place].strip()) for row in body]
+    repeated = sorted({name for name in names if names.count(name) > 1})
+    if repeated:
+        got = f"{short(repeated[0])} in {names.count(repeated[0])} rows: keep one load case and one diaphragm"
+        raise refusal(InvalidBuildingFile, "rows", path.name, "one for each storey", got)
+    system = None if units is None else system_of(units, path.name)
+    values: dict[str, list[float]] = {}
+    for kind, column in columns.items():
+        if kind == "storey":
+            continue
+        factor = _factor(kind, stated[kind], system, path)
+        values[kind] = [
+            factor * _number(row[column], f"{kind} of storey {short(name)}", path)
+            for row, name in zip(body, names, strict=True)
+        ]
+    return _ordered(path, names, values, order, ratio="drift" in columns and not stated["drift"])
+
+
+def _rows(path: Path) -> list[list[str]]:
+    """Cells of the file as text, in rows of equal length."""
+    try:
+        content = read_file(path)
+    except OSError as error:
+        raise InvalidBuildingFile(
+            f"storey table must be a file that can be read; got {path} ({error.strerror or error})"
+        ) from error
+    if path.suffix.lower() in (".xlsx", ".xlsm"):
+        rows = _sheet(content, path)
+    else:
+        text = content.decode("utf-8-sig", errors="replace")
+        lines = [line for line in text.splitlines() if line.strip()][:50]
+        separator = max(";\t,", key=lambda each: sum(line.count(each) for line in lines))
+        rows = [list(row) for row in csv.reader(io.StringIO(text), delimiter=separator)]
+        if separator == ";":  # then a comma is decimal
+            rows = [[re.sub(r"^(\s*[+-]?\d+),(\d+)", r"\1.\2", cell) for cell in row] for row in rows]
+    width = max(map(len, rows), default=0)
+    return [[*row, *([""] * (width - len(row)))] for row in rows]
+
+
+def _sheet(content: bytes, path: Path) -> list[list[str]]:
+    """Cells of the first sheet of a workbook."""
+    try:
+        from openpyxl import load_workbook
+    except ImportError:
+        needed = "openpyxl, which reads XLSX, must be installed (pip install seismass[xlsx]); or save the table as CSV"
+        raise MissingPackage(needed) from None
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            size = sum(item.file_size for item in archive.infolist())
+        if size > MOST_BYTES:
+            raise refusal(InvalidBuildingFile, "size", path.name, f"at most {MOST_BYTES} bytes unpacked", str(size))
+        book = load_workbook(io.BytesIO(content), read_only=True, data_only=True)
+        found = book.worksheets[0].iter_rows(values_only=True)
+        return [["" if cell is None else str(cell) for cell in row] for row in found]
+    except (zipfile.BadZipFile, KeyError, IndexError, ValueError, OSError) as error:
+        raise refusal(InvalidBuildingFile, "content", path.name, "a workbook", short(str(error))) from error
+
+
+def _name_of(cell: str, direction: str) -> str:
+    """Name of a column in small letters without its unit; that of the other direction is no known one."""
+    matched = _HEAD.match(cell.strip())
+    name = re.sub(r"[^a-z0-9%]+", " ", (matched["name"] if matched else cell).lower()).strip()
+    words = name.split()
+    other = "y" if direction == "x" else "x"
+    if words and (words[-1] == other or words[-1] in (f"u{other}", f"k{other}", f"v{other}")):
+        return ""
+    words = [{f"u{direction}": "ux", f"k{direction}": "kx", f"v{direction}": "vx"}.get(word, word) for word in words]
+    if words and words[-1] == direction:
+        words[-1] = "x"
+    return " ".join(words)
+
+
+def _unit_in(cell: str) -> str:
+    """Unit of a head such as "Mass (kg)" or "Mass, kg"."""
+    matched = _HEAD.match(cell.strip())
+    return (matched["unit"] or "").strip() if matched else ""
+
+
+def _head(rows: list[list[str]], path: Path, direction: str) -> tuple[int, dict[str, int]]:
+    """Row of the head, and the column of each kind."""
+    for number, row in enumerate(rows[:50]):
+        names = [_name_of(cell, direction) for cell in row]
+        found = {
+            kind: min((names.index(name) for name in known if name in names), default=-1)
+            for kind, known in COLUMNS.items()
+        }
+        columns = {kind: place for kind, place in found.items() if place >= 0}
+        if "storey" in columns and len(columns) > 1:
+            return number, columns
+    first = next((", ".join(cell for cell in row if cell) for row in rows if any(row)), "no rows")
+    need = "a head with a column story and others such as elevation, height, mass, weight, stiffness"
+    raise refusal(InvalidBuildingFile, "rows", path.name, f"below {need}", short(first))
+
+
+def _is_unit_row(row: list[str], columns: dict[str, int]) -> bool:
+    """Whether a row below the head states units."""
+    cells = [row[place].strip() for kind, place in columns.items() if kind != "storey"]
+    return (
+        not row[columns["storey"]].strip()
+        and any(cells)
+        and not any(re.fullmatch(r"[+-]?[\d.].*", cell) for cell in cells)
+    )
+
+
+def _factor(kind: str, unit: str, system: tuple[float, float] | None, path: Path) -> float:
+    """Factor of a column towards SI units."""
+    quantity = _QUANTITIES[kind]
+    if kind == "drift" and not unit:
+        return 1.0
+    if unit:
+        return unit_factor(unit, quantity, f"unit of the column {kind}", path.name)
+    if system is None:
+        need = "stated: in its head, as in Mass (kg), in a row below, or for the table by --units, such as kN-m"
+        raise refusal(InvalidBuildingFile, f"unit of the column {kind}", path.name, need, "none")
+    force, length = system
+    return {"length": length, "force": force, "stiffness": force / length, "mass": force / length}[quantity]
+
+
+def _number(cell: str, what: str, path: Path) -> float:
+    text = cell.strip().replace(" ", "")
+    if text == "":
+        return float("nan")
+    if re.fullmatch(r"[+-]?\d{1,3}(,\d{3})+(\.\d+)?", text):
+        text = text.replace(",", "")
+    try:
+        number = float(text)
+    except ValueError:
+        raise refusal(InvalidBuildingFile, what, path.name, "a number", brief(cell)) from None
+    return number
+
+
+def _ordered(
+    path: Path, names: list[str], values: dict[str, list[float]], order: Order | None, *, ratio: bool
+) -> StoreyTable:
+    """Storeys from the ground up, without the row of the base."""
+    remarks: list[str] = []
+    rows = list(range(len(names)))
+    elevation = values.get("elevation")
+    if elevation is not None:
+        rows.sort(key=lambda i: elevation[i])
+    elif _is_roof_first(names, order, path):
+        rows.reverse()
+    base = 0.0
+    loads = [values[kind] for kind in ("mass", "weight", "stiffness", "height") if kind in values]
+    if rows and _BASE.fullmatch(names[rows[0]]) and all(not each[rows[0]] > 0.0 for each in loads):
+        base = 0.0 if elevation is None else elevation[rows[0]]
+        rows = rows[1:]
+    if not rows:
+        raise refusal(InvalidBuildingFile, "rows", path.name, "a storey at least", "none")
+
+    def column(kind: str) -> FloatArray | None:
+        return np.array([values[kind][i] for i in rows]) if kind in values else None
+
+    heights = column("height")
+    if heights is None and elevation is not None:
+        heights = np.diff([elevation[i] for i in rows], prepend=base)
+        remarks.append(f"heights are differences of elevations, over a base at {base:g} m")
+    mass, weight = column("mass"), column("weight")
+    if mass is None and weight is not None:
+        mass = weight / STANDARD_GRAVITY
+        remarks.append("masses are weights over g")
+    stiffness, shear, drift = column("stiffness"), column("shear"), column("drift")
+    if stiffness is None and shear is not None and drift is not None:
+        if ratio and heights is None:
+            raise refusal(InvalidBuildingFile, "height", path.name, "given with drift ratios", "none")
+        length = drift * heights if ratio and heights is not None else drift
+        stiffness = np.abs(shear) / np.abs(length)
+        remarks.append(f"stiffnesses are shears over drifts{', which are ratios of the heights' if ratio else ''}")
+    found = {"height": heights, "mass": mass, "stiffness": stiffness, "strength": column("strength")}
+    for kind, numbers in found.items():
+        if numbers is None:
+            continue
+        for i, number in enumerate(numbers):
+            if not 0.0 < number < np.inf:
+                got = "nothing" if np.isnan(number) else f"{number:g}"
+                what = f"{kind} of storey {short(names[rows[i]])}"
+                raise refusal(InvalidBuildingFile, what, path.name, "a positive number", got)
+    return StoreyTable(
+        source=path.name,
+        names=tuple(names[i] for i in rows),
+        heights=heights,
+        mass=mass,
+        stiffness=stiffness,
+        strength=found["strength"],
+        remarks=tuple(remarks),
+    )
+
+
+def _is_roof_first(names: list[str], order: Order | None, path: Path) -> bool:
+    """Whether the first row is the highest storey: by what is stated, else by names."""
+    if order is not None:
+        return order == "roof-first"
+    if len(names) < 2:
+        return False
+    first, last = names[0], names[-1]
+    if _ROOF.search(first) or _BASE.fullmatch(last):
+        return True
+    if _ROOF.search(last) or _BASE.fullmatch(first):
+        return False
+    numbers = [re.findall(r"\d+", name) for name in names]
+    if all(len(found) == 1 for found in numbers):
+        counted = [int(found[0]) for found in numbers]
+        if counted == sorted(counted, reverse=True):
+            return True
+        if counted == sorted(counted):
+            return False
+    need = "stated by --order, roof-first or ground-first, where names and elevations do not say it"
+    raise refusal(InvalidBuildingFile, "order of the storeys", path.name, need, f"{short(first)} first")

@@ -1,0 +1,101 @@
+"""Units of storey tables: lengths, forces, masses and stiffnesses as programs of structural analysis write them."""
+
+from __future__ import annotations
+
+import re
+from typing import Final, Literal
+
+from seismass.base.errors import InvalidBuildingFile
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import brief, refusal
+
+Quantity = Literal["length", "force", "mass", "stiffness"]
+
+POUND: Final = 0.45359237
+"""International pound (kg)."""
+LENGTHS: Final = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
+"""Metres."""
+FORCES: Final = {
+    "n": 1.0,
+    "kn": 1e3,
+    "mn": 1e6,
+    "kgf": STANDARD_GRAVITY,
+    "tonf": 1e3 * STANDARD_GRAVITY,
+    "lb": POUND * STANDARD_GRAVITY,
+    "lbf": POUND * STANDARD_GRAVITY,
+    "kip": 1e3 * POUND * STANDARD_GRAVITY,
+    "kips": 1e3 * POUND * STANDARD_GRAVITY,
+}
+"""Newtons; tonf is the metric one, as these programs have it, and a kip 1000 lbf."""
+MASSES: Final = {"kg": 1.0, "t": 1e3, "tonne": 1e3, "tonnes": 1e3, "lb": POUND, "lbm": POUND}
+"""Kilograms."""
+
+_MASS: Final = re.compile(r"([a-z]+)[-*.·]?s(?:ec)?\^?[2²]/([a-z]+)")
+_STIFFNESS: Final = re.compile(r"([a-z]+)/([a-z]+)")
+
+
+def unit_factor(unit: str, quantity: Quantity, what: str, owner: str) -> float:
+    """Return the factor of a unit towards SI units.
+
+    Parameters
+    ----------
+    unit : str
+        Such as "mm", "kip", "kN/m", "kg", "kip-s2/in".
+    quantity : {"length", "force", "mass", "stiffness"}
+        What it is the unit of.
+    what, owner : str
+        What errors call it, and whose it is.
+
+    Raises
+    ------
+    InvalidBuildingFile
+        It is no unit of that quantity.
+
+    Examples
+    --------
+    >>> from seismass.assessment.storey_units import unit_factor
+    >>> unit_factor("kN/mm", "stiffness", "unit", "table")
+    1000000.0
+    >>> round(unit_factor("kip-s2/in", "mass", "unit", "table"), 2)
+    175126.84
+    """
+    text = unit.strip().lower().replace(" ", "")
+    if quantity == "length" and text in LENGTHS:
+        return LENGTHS[text]
+    if quantity == "force" and text in FORCES:
+        return FORCES[text]
+    if quantity == "mass" and text in MASSES:
+        return MASSES[text]
+    pattern = {"mass": _MASS, "stiffness": _STIFFNESS}.get(quantity)
+    matched = pattern.fullmatch(text) if pattern is not None else None
+    if matched and matched[1] in FORCES and matched[2] in LENGTHS:
+        return FORCES[matched[1]] / LENGTHS[matched[2]]
+    known = {
+        "length": ", ".join(LENGTHS),
+        "force": "N, kN, kgf, tonf, lb, kip",
+        "mass": "kg, t, lb, or force-s2/length such as kip-s2/in",
+        "stiffness": "force/length such as kN/m or kip/in",
+    }[quantity]
+    raise refusal(InvalidBuildingFile, what, owner, f"one of {known}", brief(unit))
+
+
+def system_of(units: str, owner: str) -> tuple[float, float]:
+    """Return the units of force (N) and of length (m) of a system such as "kN-m" or "kip-in".
+
+    Raises
+    ------
+    InvalidBuildingFile
+        It is no such system.
+
+    Examples
+    --------
+    >>> from seismass.assessment.storey_units import system_of
+    >>> system_of("kN-m", "table")
+    (1000.0, 1.0)
+    """
+    force, _, length = units.strip().lower().replace(" ", "").replace(",", "-").partition("-")
+    length = length.partition("-")[0]  # a third word is that of temperatures
+    if force not in FORCES or length not in LENGTHS:
+        need = "a force and a length such as kN-m, N-mm, kip-in, kip-ft, lb-in, kgf-m or tonf-m"
+        raise refusal(InvalidBuildingFile, "units", owner, need, brief(units))
+    return FORCES[force], LENGTHS[length]

@@ -1,0 +1,57 @@
+"""Tables that `seismass building` prints and stops: codes, contacts, and goods present by surveys."""
+
+from __future__ import annotations
+
+from seismass.media.text_table import text_table
+from seismass.model.codes import MARK, NOT_CHECKED, code_legend, code_table
+from seismass.model.friction import friction_table
+from seismass.model.occupancy import STORAGE, USUAL, occupancy_table, on_surveyed_goods, surveyed_load
+
+
+def codes_listing() -> str:
+    """Return the fractions of codes: of the design live load, and over the goods that surveys find."""
+    rows = [["id", "use", "floors full", "as surveyed", "clause", "status", "code"]]
+    for row in code_table().iter_rows(named=True):
+        fraction = f"{row['low']:g} to {row['high']:g}" if row["low"] < row["high"] else f"{row['fraction']:g}"
+        rows.append(
+            [
+                row["code_id"],
+                row["use"],
+                fraction,
+                f"{on_surveyed_goods(row['fraction'], row['use']):.2f}",
+                row["clause"],
+                row["status"],
+                row["code"] + MARK * (not row["checked"]),
+            ]
+        )
+    storage, usual = surveyed_load(STORAGE), surveyed_load(USUAL)
+    legend = (
+        "floors full: fraction of the design live load. as surveyed: the same mass over the goods that surveys find,\n"
+        f"for the upper end of a range: {storage.share:.2f} of the design live load ({STORAGE}), or {usual.share:.2f} "
+        f"({USUAL}).\nAbove 1 the code counts more than is there. The second compares with lambda of the goods present."
+    )
+    return "\n".join([*text_table(rows, left=len(rows[0]), indent=0), "", legend, "", code_legend()]) + "\n"
+
+
+def frictions_listing() -> str:
+    """Return the contacts with their friction."""
+    rows = [["id", "mu_s", "mu_k", "contact", "source"]]
+    for row in friction_table().iter_rows(named=True):
+        source = f"{row['source']} ({row['kind']})"
+        rows.append([row["pair_id"], f"{row['mu_s']:g}", f"{row['mu_k']:.4g}", row["contact"], source])
+    return "\n".join(text_table(rows, left=len(rows[0]), indent=0)) + "\n"
+
+
+def occupancies_listing() -> str:
+    """Return what surveys find on floors, over the design live load of ASCE 7."""
+    rows = [["id", "mean kPa", "floors +/-", "design kPa", "share", "renewed every", "design live load"]]
+    for row in occupancy_table().iter_rows(named=True):
+        numbers = [f"{row[name]:g}" for name in ("mean", "floor_deviation", "design_load")]
+        design = row["design_source"].partition(": ")[2] + MARK
+        rows.append([row["occupancy_id"], *numbers, f"{row['share']:.2f}", row["renewed"], design])
+    first = occupancy_table().row(0, named=True)
+    legend = (
+        f"Surveys: {first['source']} ({first['status']}); floors +/- is the standard deviation of large floors.\n"
+        f"{MARK} {NOT_CHECKED}: design live loads of ASCE 7 are from memory"
+    )
+    return "\n".join([*text_table(rows, left=len(rows[0]), indent=0), "", legend]) + "\n"

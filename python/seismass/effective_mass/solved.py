@@ -1,0 +1,174 @@
+"""Drifts that several answers have in common: models do not depend on friction, nor drifts on the statistic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.values import FloatArray, brief, refusal
+from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
+from seismass.effective_mass.curve import Statistic
+from seismass.effective_mass.models import attached, check_any_load
+from seismass.effective_mass.result import EffectiveMass
+from seismass.effective_mass.runs import NamedMotions, Peaks, Stages, solve
+from seismass.effective_mass.search import OWNER, Options, Search
+from seismass.model.block import Block
+from seismass.model.building import Building
+from seismass.model.rack import Rack
+from seismass.model.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """Peaks of a real building and of its models at every share of a grid; answers need few further runs.
+
+    Attributes
+    ----------
+    motions : NamedMotions
+        The suite.
+    options : Options
+        How the fraction is sought.
+    at : callable
+        Takes a share, returns the peaks of the real building and of the model there, one scene each.
+    scene_at : callable
+        Takes a share, returns the scene with sliding goods.
+    real, model : Peaks
+        Of the real building, one scene or one per share, and of the models, one scene per share.
+    question : str
+        What is asked, for the metadata.
+    beyond : Peaks, optional
+        Of the models at `SHARES_BEYOND`, where shares above 1 are sought.
+    """
+
+    motions: NamedMotions
+    options: Options
+    at: Callable[[float], tuple[Peaks, Peaks]]
+    scene_at: Callable[[float], Scene]
+    real: Peaks
+    model: Peaks
+    question: str
+    beyond: Peaks | None = None
+
+    def answer(self, statistic: Statistic | None = None) -> EffectiveMass:
+        """Return the effective fraction, by the statistic of the options where none is given."""
+        options = self.options if statistic is None else replace(self.options, statistic=statistic)
+        search = Search(self.motions, options, self.at, self.scene_at, self.beyond)
+        return search.answer(self.real, self.model, {"question": self.question})
+
+
+def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Options) -> list[Solved]:
+    """Solve a building with its goods at several frictions; its models, which have none, are solved once.
+
+    Parameters
+    ----------
+    scenes : sequence of Scene
+        The same building and goods, with different friction.
+    motions : NamedMotions
+        The suite.
+    options : Options
+        How the fraction is sought.
+
+    Raises
+    ------
+    InvalidScene
+        A scene has no goods on its floors, or the scenes differ in more than friction.
+    SimulationError, KeyboardInterrupt
+        As for `solve`.
+    """
+    checked = [check_any_load(scene) for scene in scenes]
+    first, shares, threads = checked[0], options.fractions, options.threads
+    for number, scene in enumerate(checked[1:], start=2):
+        if attached(scene, 1.0, options.damping) != attached(first, 1.0, options.damping):
+            requirement = "the building and goods of scene 1 but for friction"
+            raise refusal(InvalidScene, f"scene {number}", OWNER, requirement, "others")
+    larger = SHARES_BEYOND if any(goes_beyond(scene) for scene in checked) else SHARES_BEYOND[:0]
+    stages = Stages(options.progress, (len(checked) + len(shares) + len(larger)) * len(motions))
+    reals = solve(checked, motions, threads=threads, progress=stages.next(len(checked) * len(motions)))
+    models = [attached(first, share, options.damping) for share in shares]
+    model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
+    beyond = None
+    if len(larger):
+        models = [attached(first, share, options.damping) for share in larger]
+        beyond = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
+    beside: dict[float, Peaks] = {}
+
+    def model_at(share: float) -> Peaks:
+        if share not in beside:
+            beside[share] = solve([attached(first, share, options.damping)], motions, threads=threads)
+        return beside[share]
+
+    def of(number: int, scene: Scene) -> Solved:
+        real = reals.one(number)
+        return Solved(
+            motions,
+            options,
+            lambda share: (real, model_at(share)),
+            lambda _: scene,
+            real,
+            model,
+            "given building",
+            beyond,
+        )
+
+    return [of(number, scene) for number, scene in enumerate(checked)]
+
+
+def solved_designs(
+    design: Callable[[float], Building],
+    blocks: Iterable[Block],
+    motions: NamedMotions,
+    options: Options,
+    racks: Iterable[Rack] = (),
+    collapse_drift: FloatArray | None = None,
+) -> Solved:
+    """Solve the building that is designed with each share, with sliding goods and with that share attached.
+
+    Parameters
+    ----------
+    design, blocks, racks
+        As for `effective_mass_of_design`.
+    motions : NamedMotions
+        The suite.
+    options : Options
+        How the fraction is sought.
+    collapse_drift : ndarray, shape (storeys,), optional
+        Drift at which a storey counts as collapsed (m), beside the limit that P-Delta sets.
+
+    Raises
+    ------
+    InvalidScene, InvalidOption, SimulationError, KeyboardInterrupt
+        As for `effective_mass_of_design`.
+    """
+    if not callable(design):
+        requirement = "a callable that takes a share and returns a Building"
+        raise refusal(InvalidOption, "design", OWNER, requirement, brief(design))
+    goods, standing, threads = tuple(blocks), tuple(racks), options.threads
+
+    def designed(share: float) -> Scene:
+        building: Any = design(share)
+        if not isinstance(building, Building):
+            raise refusal(InvalidScene, "design", OWNER, "a Building", brief(building))
+        return check_any_load(Scene(building, goods, racks=standing, collapse_drift=collapse_drift))
+
+    shares = [float(share) for share in options.fractions]
+    stages = Stages(options.progress, 2 * len(shares) * len(motions))
+    scenes = [designed(share) for share in shares]
+    if len({scene.storeys for scene in scenes}) > 1:
+        requirement = "a Building of the same number of storeys for every share"
+        raise refusal(InvalidScene, "design", OWNER, requirement, "different ones")
+    runs = len(scenes) * len(motions)
+    real = solve(scenes, motions, threads=threads, progress=stages.next(runs))
+    models = [attached(scene, share, options.damping) for scene, share in zip(scenes, shares, strict=True)]
+    model = solve(models, motions, threads=threads, progress=stages.next(runs))
+
+    def at(share: float) -> tuple[Peaks, Peaks]:
+        scene = designed(share)
+        both = (
+            solve([scene], motions, threads=threads),
+            solve([attached(scene, share, options.damping)], motions, threads=threads),
+        )
+        return both
+
+    return Solved(motions, options, at, designed, real, model, "design rule")

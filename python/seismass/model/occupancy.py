@@ -1,0 +1,215 @@
+"""Goods that are present on floors, as surveys find them, beside the design live load of such floors.
+
+A code's fraction is of the design live load; surveys say how much of that load is there on an average day.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Final, get_args
+
+import polars as pl
+
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_number, brief, is_one_of, known_id, refusal
+from seismass.model.codes import FROM_MEMORY, VERIFIED, Use
+
+__all__ = [
+    "OCCUPANCY_IDS",
+    "STORAGE",
+    "USUAL",
+    "SurveyedLoad",
+    "occupancy_table",
+    "on_surveyed_goods",
+    "surveyed_load",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
+
+
+@dataclass(frozen=True)
+class SurveyedLoad:
+    """The sustained part of the live load of floors of one use, as surveys find it: what is there at a time.
+
+    Attributes
+    ----------
+    occupancy_id : str
+        Short name, as building files take it: "storage, sustained".
+    use : {"storage", "ordinary"}
+        What such a floor is for a code.
+    mean : float
+        Mean of the sustained load (kPa).
+    floor_deviation : float
+        Standard deviation from floor to floor (kPa).
+    point_deviation, reference_area : float
+        Standard deviation within a floor (kPa) of areas of this size (m2), which a floor averages out.
+    renewed : str
+        Time between changes of the sustained load.
+    design_load : float
+        Least design live load of ASCE 7 for such floors (kPa).
+    source, status : str
+        Of mean and deviations: where they were read, and how they were checked.
+    design_source, design_status : str
+        The same of the design live load.
+    """
+
+    occupancy_id: str
+    use: Use
+    mean: float
+    floor_deviation: float
+    point_deviation: float
+    reference_area: float
+    renewed: str
+    design_load: float
+    source: str
+    status: str
+    design_source: str
+    design_status: str
+
+    @property
+    def share(self) -> float:
+        """Mean of what is there over the design live load of ASCE 7."""
+        return self.mean / self.design_load
+
+    def deviation(self, area: float = math.inf) -> float:
+        """Return the standard deviation of the mean load of a floor (kPa).
+
+        Parameters
+        ----------
+        area : float, default infinite
+            Area of the floor (m2).
+
+        Raises
+        ------
+        InvalidOption
+            The area is not positive.
+
+        Notes
+        -----
+        JCSS Probabilistic Model Code, part 2.2: Var[q] = sigma_V^2 + sigma_U^2 (A_0/A) kappa, A_0/A at most 1, with
+        kappa = 1 for the mean of a floor.
+        """
+        size = as_number(area, "area", "surveyed load", InvalidOption)
+        if not size > 0.0:
+            raise refusal(InvalidOption, "area", "surveyed load", "positive (m2)", brief(area))
+        averaged = min(1.0, self.reference_area / size)
+        return math.sqrt(self.floor_deviation**2 + self.point_deviation**2 * averaged)
+
+
+_JCSS: Final = "JCSS Probabilistic Model Code, part 2.2, parameters for live loads depending on the user category"
+
+
+# What follows `renewed`: design live load of ASCE 7, in kPa and psf.
+def _row(
+    occupancy_id: str,
+    use: Use,
+    loads: tuple[float, float, float, float],
+    renewed: str,
+    design: tuple[float, int],
+    of: str,
+) -> SurveyedLoad:
+    mean, floor, point, area = loads
+    return SurveyedLoad(
+        f"{occupancy_id}, sustained",
+        use,
+        mean,
+        floor,
+        point,
+        area,
+        renewed,
+        design[0],
+        _JCSS,
+        VERIFIED,
+        f"ASCE 7, minimum uniformly distributed live loads: {of}, {design[1]} psf",
+        FROM_MEMORY,
+    )
+
+
+_STORED: Final = (3.5, 2.5, 6.9, 100.0)
+_ROWS: Final = (
+    _row("storage", "storage", _STORED, "0.1 to 1 years", (6.00, 125), "light storage warehouses"),
+    _row("heavy storage", "storage", _STORED, "0.1 to 1 years", (11.97, 250), "heavy storage warehouses"),
+    _row("light industry", "storage", (1.0, 1.0, 2.8, 100.0), "5 to 10 years", (6.00, 125), "light manufacturing"),
+    _row("heavy industry", "storage", (3.0, 1.5, 4.1, 100.0), "5 to 10 years", (11.97, 250), "heavy manufacturing"),
+    _row("library", "storage", (1.7, 0.5, 1.0, 20.0), "more than 10 years", (7.18, 150), "stack rooms of libraries"),
+    _row("retail", "ordinary", (0.9, 0.6, 1.6, 100.0), "1 to 5 years", (4.79, 100), "retail stores, first floor"),
+    _row("office", "ordinary", (0.5, 0.3, 0.6, 20.0), "5 years", (2.40, 50), "offices"),
+)
+OCCUPANCY_IDS: Final[tuple[str, ...]] = tuple(row.occupancy_id for row in _ROWS)
+"""Ids of the table, as building files take them."""
+STORAGE: Final = "storage, sustained"
+"""Occupancy with which fractions of codes for storage are compared on floors as surveyed."""
+USUAL: Final = "office, sustained"
+"""Occupancy of a floor of ordinary use where nothing is said."""
+
+
+def surveyed_load(occupancy_id: str) -> SurveyedLoad:
+    """Return what surveys find on floors of one use.
+
+    Parameters
+    ----------
+    occupancy_id : str
+        One of `OCCUPANCY_IDS`, in any case.
+
+    Raises
+    ------
+    InvalidOption
+        The occupancy is not in the table.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> found = sm.occupancy.surveyed_load("storage, sustained")
+    >>> found.mean, round(found.share, 2), round(found.deviation(1200.0), 1)
+    (3.5, 0.58, 3.2)
+    """
+    wanted = known_id(occupancy_id, OCCUPANCY_IDS, "occupancy")
+    return next(row for row in _ROWS if row.occupancy_id == wanted)
+
+
+def on_surveyed_goods(fraction: float, use: Use = "storage") -> float:
+    """Return a code's fraction of the design live load over the goods that surveys find there.
+
+    It is what compares with the effective fraction of the goods present. Above 1 the code counts more than is there.
+
+    Parameters
+    ----------
+    fraction : float
+        Fraction of the design live load.
+    use : {"storage", "ordinary"}
+        Storage as `STORAGE`, ordinary floors as `USUAL`.
+
+    Raises
+    ------
+    InvalidOption
+        The fraction is not from 0 to 1, or the use is another.
+
+    Examples
+    --------
+    The 25 % of ASCE 7:
+
+    >>> import seismass as sm
+    >>> round(sm.occupancy.on_surveyed_goods(0.25), 2)
+    0.43
+    """
+    counted = as_number(fraction, "fraction", "code", InvalidOption)
+    if not 0.0 <= counted <= 1.0:
+        raise refusal(InvalidOption, "fraction", "code", "from 0 to 1", f"{counted:g}")
+    if not is_one_of(use, get_args(Use)):
+        raise refusal(InvalidOption, "use", "code", f"one of {', '.join(get_args(Use))}", brief(use))
+    return counted / surveyed_load(STORAGE if use == "storage" else USUAL).share
+
+
+def occupancy_table() -> pl.DataFrame:
+    """Return one row per occupancy.
+
+    Returns
+    -------
+    polars.DataFrame
+        The attributes of `SurveyedLoad`, and `share`.
+    """
+    return pl.DataFrame([asdict(row) | {"share": row.share} for row in _ROWS])

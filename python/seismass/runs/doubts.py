@@ -1,0 +1,52 @@
+"""What is unlikely about the scenes and motions of a batch, said as a warning, since a table has no place for it."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, Final
+
+from seismass.base.errors import DoubtfulInput, SeismassError
+from seismass.model.plausibility import motion_remarks
+from seismass.model.scene import Scene
+from seismass.runs.grid.grid import Grid
+
+MOST_LOOKED_AT: Final = 100
+"""Scenes and motions of a batch that are looked at, from the first on."""
+
+
+def warn_of_doubts(scenes: Any, motions: Any) -> None:
+    """Warn of the first doubtful scene and the first doubtful motion of a batch, each once; the caller's line is named.
+
+    Parameters
+    ----------
+    scenes : Scene, sequence of Scene, or Grid
+        Of a grid the first scene is looked at.
+    motions : Motion, Record or iterable of them
+        An iterator is not looked at, as it can be read but once.
+
+    Warns
+    -----
+    DoubtfulInput
+        A scene or a motion is so unlikely that a wrong unit is the usual cause.
+    """
+    doubtful = [(number, scene.remarks) for number, scene in enumerate(_listed(scenes), start=1) if scene.remarks]
+    if doubtful:
+        number, remarks = doubtful[0]
+        others = f" (and {len(doubtful) - 1} more scenes)" if len(doubtful) > 1 else ""
+        warnings.warn(f"scene {number}: {'; '.join(remarks)}{others}", DoubtfulInput, stacklevel=3)
+    given = [motions] if hasattr(motions, "acceleration") else motions if hasattr(motions, "__len__") else ()
+    strong = motion_remarks([each for each in list(given)[:MOST_LOOKED_AT] if hasattr(each, "acceleration")])
+    if strong:
+        others = f" (and {len(strong) - 1} more motions)" if len(strong) > 1 else ""
+        warnings.warn(f"{strong[0]}{others}", DoubtfulInput, stacklevel=3)
+
+
+def _listed(scenes: Any) -> list[Scene]:
+    """The first scenes of a batch; what is none is refused elsewhere."""
+    if isinstance(scenes, Grid):
+        try:
+            return [scenes.scene(1)]
+        except SeismassError:
+            return []
+    given = [scenes] if isinstance(scenes, Scene) else scenes if isinstance(scenes, list | tuple) else []
+    return [scene for scene in given[:MOST_LOOKED_AT] if isinstance(scene, Scene)]

@@ -1,0 +1,101 @@
+"""The share for W of an assessment where designed buildings collapse: by the median, or none with the reason."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import seismass as sm
+from seismass.assessment.shares import DESIGN_SHARES, design_share, fractions_by_friction
+
+
+def building(collapse: float | None) -> sm.assessment.OwnBuilding:
+    tables: dict[str, Any] = {
+        "site": {"sds_g": 1.0, "sd1_g": 0.6},
+        "building": {
+            "period_s": 0.4,
+            "height_m": 4.0,
+            "area_m2": 500.0,
+            "dead_load_kpa": 5.0,
+            "design": True,
+            "R": 3.0,
+        },
+        "goods": {"live_load_kpa": 6.0, "occupied": 0.8, "mu": 0.2},
+        "storeys": [{}, {"live_load_kpa": 0.0}],
+    }
+    if collapse is not None:
+        tables["building"]["collapse_drift_ratio"] = collapse
+    return sm.read_building(tables)
+
+
+@pytest.fixture(scope="module")
+def motions() -> list[sm.Record]:
+    return [record.scaled(1.5) for record in sm.builtin_suite("eleven")]
+
+
+@pytest.fixture(scope="module")
+def largest(motions: list[sm.Record]) -> np.ndarray:
+    """Largest drift ratio by design share and motion, each by a run of its own."""
+    own = building(None)
+    rows = []
+    for share in DESIGN_SHARES:
+        scene = sm.Scene(own.structure(None, share * own.goods), own.scene().blocks)
+        rows.append([(sm.simulate(scene, motion).peak_drift / 4.0).max() for motion in motions])
+    return np.array(rows)
+
+
+def test_without_a_collapse_it_is_that_of_the_public_function(motions: list[sm.Record]) -> None:
+    own = building(None)
+    alone = sm.effective_mass_of_design(
+        lambda share: own.structure(None, share * own.goods),
+        own.scene().blocks,
+        motions,
+        fractions=DESIGN_SHARES,
+        resamples=1,
+    )
+    found = design_share(own, None, 1.0, motions, None, None)
+    assert found.reason == ""
+    assert found.found is not None
+    assert found.found.value == alone.value
+    assert found.found.statistic == "mean"
+
+
+def test_few_collapses_leave_a_share_by_the_median(motions: list[sm.Record], largest: np.ndarray) -> None:
+    """A collapse ratio between the two largest drifts of the weakest design: one of eleven falls there."""
+    worst = np.sort(largest, axis=1)
+    ratio = 0.5 * (worst[:, -1].max() + worst[:, -2].max())
+    assert ((largest > ratio).sum(axis=1) <= 1).all()
+    found = design_share(building(ratio), None, 1.0, motions, None, None)
+    assert found.found is not None
+    assert found.found.statistic == "median"
+    assert 0.0 <= found.found.value <= 1.0
+
+
+def test_many_collapses_leave_none_and_say_which(motions: list[sm.Record], largest: np.ndarray) -> None:
+    """The designs with two and more of eleven runs above the ratio, as those runs say."""
+    second = np.sort(largest, axis=1)[:, -2]
+    ratio = float(np.median(second))
+    fallen = (largest > ratio).sum(axis=1)
+    many = DESIGN_SHARES[fallen > 1]
+    found = design_share(building(ratio), None, 1.0, motions, None, None)
+    assert found.found is None
+    assert found.reason == (
+        f"the building designed with shares of {many[0]:.2f} to {many[-1]:.2f} of the goods present collapses under up "
+        f"to {fallen.max()} of 11 motions"
+    )
+
+
+def test_frictions_have_their_models_in_common(motions: list[sm.Record]) -> None:
+    """The runs: three frictions and 101 shares, and what roots take beside; values as each friction alone gives."""
+    own, calls = building(None), []
+    frictions = {"real": 1.0, "real_mu_low": 0.67, "real_mu_high": 1.5}
+    bootstrap = {"confidence": 0.9, "resamples": 20, "seed": 0}
+    found = fractions_by_friction(
+        own, None, frictions, motions, bootstrap, None, lambda done, total: calls.append((done, total))
+    )
+    assert calls[-1] == ((3 + 101) * 11, (3 + 101) * 11)
+    for name, factor in frictions.items():
+        alone = sm.effective_mass(own.scene(mu_factor=factor), motions, resamples=20)
+        assert found[name].to_dict() == alone.to_dict()

@@ -1,0 +1,142 @@
+"""Scenes in two horizontal directions: Python face, scene files, refusals (the numbers are tested in the kernel)."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import seismass as sm
+from seismass.cli import main
+
+G = 9.80665
+
+
+def crate(**other: object) -> sm.Scene:
+    return sm.Scene(None, [sm.Block(0, mass=100.0, mu=0.1, **other)], other_direction=True)
+
+
+def constant(a: float, samples: int = 51) -> sm.Motion:
+    return sm.Motion(np.full(samples, a), dt=0.01)
+
+
+def test_a_crate_slides_along_a_constant_acceleration() -> None:
+    response = sm.simulate(crate(), (constant(1.5), constant(-2.0)), histories=True, energy=True)
+    slip = 0.5 * (2.5 - 0.1 * G) * 0.5**2  # (|a| - mu g) t^2 / 2, against the ground
+    np.testing.assert_allclose(response.residual_slip, [[-0.6 * slip, 0.8 * slip]], rtol=1e-14)
+    np.testing.assert_allclose(response.peak_slip, [[0.6 * slip, 0.8 * slip, slip]], rtol=1e-14)
+    np.testing.assert_allclose(response.slip_path, [slip], rtol=1e-14)
+    assert response.slip.shape == (51, 1, 2)
+    assert response.counts["slip"] == 1
+    event = response.events.row(0, named=True)
+    assert (event["kind"], event["direction"], event["sign"]) == ("slip", None, None)
+    assert event["angle"] == pytest.approx(np.arctan2(0.8, -0.6), abs=1e-14)
+    assert abs(response.energy["relative_residual"]) < 1e-12
+    assert json.loads(response.to_json())["peak_slip"] == response.peak_slip.tolist()
+    assert "peak slip (mm)" in response.text
+
+
+def test_motions_are_brought_to_one_length() -> None:
+    short = sm.simulate(crate(), (constant(1.5, 51), constant(2.0, 11)))
+    assert short.motions[1].samples == 51
+    assert short.motions[1].acceleration[11:].tolist() == [0.0] * 40
+    with pytest.raises(sm.errors.InvalidMotion, match="two motions, for a scene in two directions"):
+        sm.simulate(crate(), constant(1.0))  # type: ignore[call-overload]
+    with pytest.raises(sm.errors.InvalidMotion, match="dt of motion in y"):
+        sm.simulate(crate(), (constant(1.0), sm.Motion([0.0, 1.0], dt=0.02)))
+
+
+def test_a_building_may_differ_in_y() -> None:
+    building = sm.Building.uniform(2, 0.5)
+    scene = sm.Scene(building, sm.blocks_on_floors([0.5, 0.5], mu=0.2), other_direction=sm.Building.uniform(2, 0.7))
+    motions = (constant(2.0), constant(2.0))
+    response = sm.simulate(scene, motions)
+    assert response.peak_drift.shape == (2, 3)
+    assert response.peak_drift[0, 0] != response.peak_drift[0, 1]
+    assert np.all(response.peak_drift[:, 2] >= response.peak_drift[:, :2].max(axis=1))
+    alike = sm.Scene(building, scene.blocks, other_direction=True)
+    peaks = sm.simulate(alike, motions).peak_drift
+    np.testing.assert_allclose(peaks[:, 0], peaks[:, 1], rtol=1e-13)  # a motion along the diagonal
+
+
+def test_what_belongs_to_two_directions_is_refused_in_one() -> None:
+    for other in ({"velocity": (0.1, 0.2)}, {"stops_y": sm.Stops(0.1, 1e5)}):
+        with pytest.raises(sm.errors.InvalidScene, match="left out where there is one direction"):
+            sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1, **other)])  # type: ignore[arg-type]
+    with pytest.raises(sm.errors.InvalidScene, match="mass of scene in y"):
+        sm.Scene(sm.Building([1.0], 100.0), other_direction=sm.Building([2.0], 100.0))
+
+
+def test_other_functions_refuse_two_directions_by_name() -> None:
+    with pytest.raises(sm.errors.InvalidScene, match="other_direction of scene"):
+        sm.simulate_many([crate()], [constant(1.0)])
+    scene = sm.Scene(sm.Building.uniform(1, 0.5), sm.blocks_on_floors([0.5], mu=0.2), other_direction=True)
+    with pytest.raises(sm.errors.InvalidScene, match="other_direction of scene"):
+        sm.effective_mass(scene, [constant(1.0)])
+    with pytest.raises(sm.errors.InvalidScene, match="left out where there are two directions"):
+        sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)], base=sm.SlidingBase(mu=0.1, mass=1.0), other_direction=True)
+
+
+FILE = """
+[building]
+mass = [1000.0, 1000.0]
+stiffness = [5e5, 5e5]
+[other_direction]
+period = 0.7
+[[blocks]]
+floor = 1
+mass = 300.0
+mu = 0.2
+velocity = [0.1, -0.1]
+stops_y = {clearance = 0.05, stiffness = 1e5}
+[initial]
+velocity = [[0.1, 0.0], [0.2, 0.0]]
+[motion]
+acceleration = [0.0, 3.0, -3.0, 2.0, 0.0]
+dt = 0.1
+[other_motion]
+acceleration = [0.0, 2.0, 2.0]
+dt = 0.1
+"""
+
+
+def test_scene_files_and_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "plane.toml"
+    path.write_text(FILE)
+    file = sm.read_scene(path)
+    assert file.other_motion is not None
+    assert file.other_motion.samples == 5
+    assert isinstance(file.scene.other_direction, sm.Building)
+    assert file.scene.other_direction.periods[0] == pytest.approx(0.7, rel=1e-12)
+    assert main(["run", str(path), "--json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    response = sm.simulate(file.scene, (file.motion, file.other_motion), energy=True)
+    assert printed["peak_drift"] == response.peak_drift.tolist()
+    assert main(["run", str(path), "--out", str(tmp_path / "histories.csv")]) == 0
+    assert (tmp_path / "histories.csv").read_text().startswith("time,drift_1_x,drift_1_y,")
+    path.write_text(FILE.replace("[other_direction]\nperiod = 0.7\n", ""))
+    with pytest.raises(sm.errors.InvalidScene, match=r"initial\.velocity"):
+        sm.read_scene(path)
+
+
+@pytest.mark.skipif("SEISMASS_SHARED" not in os.environ, reason="SEISMASS_SHARED is not set")
+@pytest.mark.parametrize("name", ["25_plane", "33_plane_rack", "36_plane_stop"])
+def test_reference_scenes_from_files(name: str) -> None:
+    folder = Path(os.environ["SEISMASS_SHARED"], "reference", "general")
+    file = sm.read_scene(folder / f"{name}.json")
+    assert file.other_motion is not None
+    response = sm.simulate(file.scene, (file.motion, file.other_motion), energy=True)
+    expected = json.loads((folder / "results" / f"{name}.json").read_text())
+    for key, found in (
+        ("peak_drift", response.peak_drift),
+        ("peak_acceleration", response.peak_floor_acceleration),
+        ("peak_slip", response.peak_slip),
+        ("residual_slip", response.residual_slip),
+    ):
+        values = np.array(expected[key])
+        np.testing.assert_allclose(found, values, rtol=0.0, atol=1e-12 * np.abs(values).max())
+    assert len(response.events) == len(expected["events"])
+    assert abs(response.energy["relative_residual"]) < 1e-11

@@ -1,0 +1,253 @@
+"""Writes docs/racks.md and its figures: words of tools/pages/racks.md, numbers of benchmarks/racks.py.
+
+Usage: python tools/racks_page.py
+"""
+
+from __future__ import annotations
+
+import runpy
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, Final
+
+import matplotlib as mpl
+import polars as pl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from seismass.media.axes import grid_lines
+from seismass.media.figure_file import save_figure
+from seismass.media.style import GREY, INK, SERIES, STYLE
+
+ROOT: Final = Path(__file__).parents[1]
+PAGE: Final = ROOT / "docs" / "racks.md"
+FIGURES: Final = ROOT / "docs" / "figures"
+WORDS: Final = Path(__file__).parent / "pages" / "racks.md"
+SUITE: Final = "far_field"
+GOODS: Final = ("sliding", "fixed", "yielding")
+SHARE: Final = "effective fraction"
+
+
+def solved() -> pl.DataFrame:
+    """Return the stored cases of the suite of the page."""
+    rows: pl.DataFrame = runpy.run_path(str(ROOT / "benchmarks" / "racks.py"))["kept"]()
+    return rows.filter(suite=SUITE)
+
+
+def markdown(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    """A table in Markdown."""
+    names = list(header)
+    lines = [names, ["---"] * len(names), *map(list, rows)]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def share_text(row: dict[str, Any]) -> str:
+    """The fraction with its interval, and real over fully attached drift."""
+    return f"{row['value']:.2f} [{row['low']:.2f}, {row['high']:.2f}], {row['over_attached']:.2f}"
+
+
+def racks_table(rows: pl.DataFrame) -> str:
+    """Rows by R and rack period, columns by what the goods and the rack do."""
+    found = rows.filter(study="racks")
+    lines = []
+    for reduction, period in found.select("R", "rack_period").unique(maintain_order=True).rows():
+        at = found.filter(R=reduction, rack_period=period)
+        cells = [of.row(0, named=True) for goods in GOODS if (of := at.filter(goods=goods)).height]
+        texts = [share_text(cell) for cell in cells] + ["-"] * (len(GOODS) - len(cells))
+        where = f"{period:g} s" if period else "on the floor"
+        lines.append([f"{reduction:g}", where, *texts])
+    return markdown(["R", "rack", "sliding, mu = 0.37", "fixed", "sliding, rack yields"], lines)
+
+
+def by_eta_table(rows: pl.DataFrame, key: str, name: str) -> str:
+    """Rows by R and a property, columns by eta; the rule's estimates below."""
+    etas = sorted(round(value, 6) for value in rows["eta"].unique())
+    lines = []
+    for reduction, value in rows.select("R", key).unique(maintain_order=True).rows():
+        at = rows.filter(R=reduction, **{key: value}).sort("eta")
+        lines.append([f"{reduction:g}", named(key, value), *(f"{share:.2f}" for share in at["value"])])
+    for label, column in (("the rule's estimate", "estimate"), ("its conservative form", "conservative")):
+        for reduction in rows["R"].unique(maintain_order=True):
+            at = rows.filter(R=reduction).group_by(pl.col("eta").round(6)).agg(pl.col(column).median()).sort("eta")
+            lines.append([f"{reduction:g}", label, *(f"{share:.2f}" for share in at[column])])
+    return markdown(["R", name, *(f"eta = {eta:g}" for eta in etas)], lines)
+
+
+def named(key: str, value: float) -> str:
+    """What a row is of."""
+    if key == "rack_period":
+        return f"{value:g} s" if value else "on the floor"
+    return f"wall and frame, alpha H = {value:g}" if value else "wall alone"
+
+
+def stops_table(rows: pl.DataFrame) -> str:
+    """Rows by R and mu, columns by clearance, with the worst record at 5 cm."""
+    found = rows.filter(study="stops")
+    clearances = sorted(found["clearance"].drop_nulls().unique(), reverse=True)
+    lines = []
+    for reduction, mu in found.select("R", "mu").unique(maintain_order=True).rows():
+        at = found.filter(R=reduction, mu=mu)
+        free = at.filter(pl.col("clearance").is_null()).row(0, named=True)
+        of = [at.filter(clearance=clearance).row(0, named=True) for clearance in clearances]
+        worst = max(of, key=lambda row: row["worst_record"])
+        shares = [f"{row['value']:.2f}" for row in (free, *of)]
+        lines.append([f"{reduction:g}", f"{mu:g}", *shares, f"{worst['worst_record']:.2f}"])
+    names = [f"{1e2 * clearance:g} cm" for clearance in clearances]
+    return markdown(["R", "mu", "no stops", *names, "one record, at most"], lines)
+
+
+def between(values: pl.Series) -> str:
+    """Least and largest value, once where they are the same to two digits."""
+    low, high = (f"{value:.2f}" for value in (values.min(), values.max()))
+    return low if low == high else f"{low} to {high}"
+
+
+def numbers(rows: pl.DataFrame) -> dict[str, str]:
+    """Numbers that stand in sentences."""
+    racks, stops, walls = (rows.filter(study=name) for name in ("racks", "stops", "walls"))
+    stiff = racks.filter(pl.col("rack_period").is_between(0.05, 0.5), pl.col("R") > 1.0)
+    largest = {goods: stiff.filter(goods=goods).sort("value").row(-1, named=True) for goods in ("sliding", "fixed")}
+    drift = {
+        goods: stiff.filter(goods=goods).sort("over_attached").row(-1, named=True) for goods in ("sliding", "fixed")
+    }
+    soft = racks.filter(pl.col("rack_period") >= 1.0, pl.col("goods") != "fixed", pl.col("R") > 1.0)
+    floor = racks.filter(pl.col("rack_period") == 0.0, pl.col("R") > 1.0)
+    near = stops.filter(clearance=0.05, mu=0.1).join(
+        stops.filter(pl.col("clearance").is_null(), mu=0.1).select("R", free="value"), on="R"
+    )
+    rise = (near["value"] - near["free"]).to_list()
+    rough = stops.filter(clearance=0.05, mu=0.3).join(
+        stops.filter(pl.col("clearance").is_null(), mu=0.3).select("R", free="value"), on="R"
+    )
+    half = walls.filter((pl.col("eta") - 0.5).abs() < 1e-6, R=4.0)
+    sliding = stiff.filter(goods="sliding")["value"]
+    return {
+        "stiff_sliding": between(sliding),
+        "largest_sliding": f"{largest['sliding']['value']:.2f}",
+        "largest_fixed": f"{largest['fixed']['value']:.2f}",
+        "drift_sliding": f"{100.0 * (drift['sliding']['over_attached'] - 1.0):.0f} %",
+        "drift_fixed": f"{100.0 * (drift['fixed']['over_attached'] - 1.0):.0f} %",
+        "soft": between(soft["value"]),
+        "floor": between(floor["value"]),
+        "stops_rise": f"{min(rise):.2f} to {max(rise):.2f}",
+        "stops_rough": f"{(rough['value'] - rough['free']).abs().max():.2f}",
+        "stops_worst": f"{stops['worst_record'].max():.2f}",
+        "walls_half": between(half["value"]),
+        "walls_half_estimate": between(half["estimate"]),
+        "walls_half_safe": between(half["conservative"]),
+    }
+
+
+def against_period(rows: pl.DataFrame) -> Figure:
+    """The fraction against the period of the rack, one panel for each R."""
+    found = rows.filter(study="racks")
+    labels = {"sliding": "pallets that slide", "fixed": "goods fixed", "yielding": "pallets slide, rack yields"}
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.0, 3.4), layout="constrained")
+        panels = figure.subplots(1, 3, sharey=True)
+        for axes, reduction in zip(panels, (1.0, 2.0, 4.0), strict=True):
+            of = found.filter(R=reduction)
+            for look, goods in zip(SERIES, GOODS, strict=False):
+                line = of.filter(pl.col("rack_period") > 0.0, goods=goods).sort("rack_period")
+                axes.plot(line["rack_period"], line["value"], marker="o", markersize=3.0, label=labels[goods], **look)
+            floor = of.filter(rack_period=0.0).row(0, named=True)
+            axes.axhline(floor["value"], color=GREY, linewidth=1.0, label="pallets on the floor")
+            axes.axhline(1.0, color=INK, linewidth=0.6, linestyle=(0, (1, 2)))
+            axes.set_xscale("log")
+            axes.set_xticks([0.1, 0.2, 0.5, 1.0, 2.0], ["0.1", "0.2", "0.5", "1", "2"])
+            axes.minorticks_off()
+            axes.set_title(f"R = {reduction:g}")
+            axes.set_xlabel("period of the rack (s)")
+            grid_lines(axes)
+        panels[0].set_ylabel(SHARE)
+        panels[0].set_ylim(-0.03, None)
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, frameon=False)
+    return figure
+
+
+def against_eta(rows: pl.DataFrame, key: str, panels_of: tuple[float, ...]) -> Figure:
+    """The fraction against eta, one line for each value of a key, one panel for each R, with the rule."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(7.2, 3.4), layout="constrained")
+        panels: Any = figure.subplots(1, 2, sharey=True)
+        values = sorted(rows[key].unique())
+        looks = dict(zip(values, SERIES, strict=False))
+        for axes, reduction in zip(panels, panels_of, strict=True):
+            of = rows.filter(R=reduction)
+            for value in of[key].unique(maintain_order=True):
+                line = of.filter(**{key: value}).sort("eta")
+                label = named(key, value) if key == "alpha_h" or not value else f"rack of {value:g} s"
+                axes.plot(line["eta"], line["value"], marker="o", markersize=3.0, label=label, **looks[value])
+            _rule(axes, of)
+            axes.set_title(f"R = {reduction:g}")
+            axes.set_xlabel("eta = mu / C1")
+            grid_lines(axes)
+        panels[0].set_ylabel(SHARE)
+        handles = {
+            label: handle for axes in panels for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+        }
+        figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=3, frameon=False)
+    return figure
+
+
+def _rule(axes: Axes, rows: pl.DataFrame) -> None:
+    """The estimate of the rule and its conservative form, at the same eta."""
+    for column, line, label in (
+        ("estimate", (0, (1, 1)), "rule by period"),
+        ("conservative", (0, (4, 3)), "its conservative form"),
+    ):
+        by = rows.group_by(pl.col("eta").round(6)).agg(pl.col(column).median()).sort("eta")
+        axes.plot(by["eta"], by[column], color=GREY, linestyle=line, linewidth=1.2, label=label)
+
+
+def against_friction(rows: pl.DataFrame) -> Figure:
+    """The fraction against friction with stops at some clearances, one panel for each R."""
+    found = rows.filter(study="stops")
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(9.0, 3.2), layout="constrained")
+        panels = figure.subplots(1, 3, sharey=True)
+        for axes, reduction in zip(panels, (1.0, 2.0, 4.0), strict=True):
+            of = found.filter(R=reduction)
+            for look, clearance in zip(SERIES, (None, 0.1, 0.05, 0.02), strict=False):
+                is_it = pl.col("clearance").is_null() if clearance is None else pl.col("clearance") == clearance
+                line = of.filter(is_it).sort("mu")
+                label = "no stops" if clearance is None else f"stops at {1e2 * clearance:g} cm"
+                axes.plot(line["mu"], line["value"], marker="o", markersize=3.0, label=label, **look)
+            axes.set_title(f"R = {reduction:g}")
+            axes.set_xlabel("mu")
+            grid_lines(axes)
+        panels[0].set_ylabel(SHARE)
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, frameon=False)
+    return figure
+
+
+def page(rows: pl.DataFrame) -> str:
+    """The page."""
+    words = WORDS.read_text(encoding="utf-8")
+    walls = rows.filter(study="walls")
+    texts = {
+        "racks": racks_table(rows),
+        "friction": by_eta_table(rows.filter(study="friction"), "rack_period", "goods"),
+        "walls": by_eta_table(walls, "alpha_h", "building"),
+        "stops": stops_table(rows),
+        **numbers(rows),
+    }
+    for name, text in texts.items():
+        words = words.replace("{" + name + "}", text)
+    return words
+
+
+def main() -> int:
+    """Write the page and its figures."""
+    rows = solved()
+    PAGE.write_text(page(rows), encoding="utf-8")
+    save_figure(against_period(rows), "png", FIGURES / "racks_period.png")
+    save_figure(against_eta(rows.filter(study="friction"), "rack_period", (1.0, 4.0)), "png", FIGURES / "racks_eta.png")
+    save_figure(against_eta(rows.filter(study="walls"), "alpha_h", (1.0, 4.0)), "png", FIGURES / "walls.png")
+    save_figure(against_friction(rows), "png", FIGURES / "stops.png")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
