@@ -34,5 +34,5 @@ pub(super) fn reach(axes: &[Series; 2], quantity: Quantity, node: usize, offset:
         let (low, high) = axes[a].range(quantity, node);
         (low + offset[a]).abs().max((high + offset[a]).abs())
     };
-    of_axis(0).hypot(of_axis(1))
+    libm::hypot(of_axis(0), of_axis(1))
 }

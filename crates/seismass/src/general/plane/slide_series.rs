@@ -178,7 +178,7 @@ impl SlideSeries {
         };
         let of = |k: usize| {
             let size = length(self.direction[k]);
-            if size == 0.0 { f64::INFINITY } else { (rounding / size).powf(1.0 / k as f64) }
+            if size == 0.0 { f64::INFINITY } else { libm::pow(rounding / size, 1.0 / k as f64) }
         };
         of(last).min(of(last.saturating_sub(1).max(1)))
     }

@@ -10,7 +10,7 @@ pub(super) fn dot(a: Vector2, b: Vector2) -> f64 {
 
 #[inline]
 pub(super) fn length(a: Vector2) -> f64 {
-    a[0].hypot(a[1])
+    libm::hypot(a[0], a[1])
 }
 
 #[inline]
@@ -42,5 +42,5 @@ pub(super) fn unit(a: Vector2) -> Option<Vector2> {
 
 /// Its angle from x towards y (rad).
 pub(super) fn angle(a: Vector2) -> f64 {
-    a[1].atan2(a[0])
+    libm::atan2(a[1], a[0])
 }
