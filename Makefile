@@ -37,6 +37,8 @@ ifeq ($(filter-out --quick,$(BENCH_OPTIONS)),)
 	$(PYTHON) benchmarks/effective_mass.py --map
 	$(BENCH_VENV)/bin/python benchmarks/campaign.py --write docs/scale.md
 	$(BENCH_VENV)/bin/python benchmarks/spring_loops.py
+	$(BENCH_VENV)/bin/python benchmarks/general_engine.py --write .
+	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/sliding_base.py --write .
 	$(PYTHON) tools/spring_loops_page.py
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/ground_motions.py $(BENCH_OPTIONS)
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/matching.py $(BENCH_OPTIONS)

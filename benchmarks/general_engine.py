@@ -144,8 +144,8 @@ def page(data: dict[str, Any]) -> str:
         "stiff as the",
         "stiffest spring, per sample with all that happens in it.",
         "",
-        "| n | general: a sample us | an event us | events | chain: a sample us | an event us | OpenSees: a",
-        "sample us |",
+        "| n | general: a sample us | an event us | events | chain: a sample us | an event us "
+        "| OpenSees: a sample us |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
     for row in data["costs"]:

@@ -597,8 +597,8 @@ class GeneralScene:
         collapse_drift: NDArray[float64] | None = None,
     ) -> GeneralScene:
         """
-        As `Scene`; blocks have stops or None at the end of their tuples. A sliding base has the mass of its slab (kg), mu_s,
-        mu_k and the radius of its pendulum (m; infinite: flat).
+        As `Scene`; blocks have stops or None at the end of their tuples. A sliding base has the mass of its slab (kg),
+        mu_s, mu_k and the radius of its pendulum (m; infinite: flat).
         """
     @property
     def geometric_stiffness(self, /) -> NDArray[float64]:

@@ -5,6 +5,7 @@
 #[allow(dead_code)] // Its readers are those of the kernel's tests.
 #[path = "../../seismass/tests/common/mod.rs"]
 mod common;
+#[allow(dead_code)] // Scenes in two directions are read elsewhere.
 #[path = "../../seismass/tests/general_files/mod.rs"]
 mod general_files;
 

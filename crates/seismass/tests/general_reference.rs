@@ -5,6 +5,7 @@
 #[allow(dead_code)] // Its reader is that of shear buildings.
 mod common;
 mod general_compare;
+#[allow(dead_code)] // Scenes in two directions are read elsewhere.
 mod general_files;
 mod maximum;
 

@@ -14,6 +14,9 @@ use crate::stress::grazing::AMPLIFICATION;
 use crate::stress::verdict::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
 use crate::{Comparison, DoubleDouble, Real};
 
+/// Different changes of each size for the judge in double-double.
+const PRECISE_TRIALS: u64 = 2;
+
 /// Compares a response with the judge in double precision; if they part, or `precisely`, in double-double; if they part
 /// still, looks for a grazing.
 pub(super) fn judge(scene: &GeneralScene, motion: &Motion, response: &GeneralResponse, precisely: bool) -> Verdict {
@@ -38,8 +41,8 @@ pub(super) fn judge(scene: &GeneralScene, motion: &Motion, response: &GeneralRes
         return Verdict::Sensitive { digits: 0.0, difference };
     }
     // In doubles first: the judge's own rounding, some last digits too, is cheaper than its precision.
-    let changed = explain::<f64>(scene, motion, response, &exact, same_events);
-    let changed = changed.or_else(|| explain::<DoubleDouble>(scene, motion, response, &exact, same_events));
+    let changed = explain::<f64>(scene, motion, response, &exact, TRIALS);
+    let changed = changed.or_else(|| explain::<DoubleDouble>(scene, motion, response, &exact, PRECISE_TRIALS));
     match changed {
         Some((true, digits)) => Verdict::Grazing { digits, difference },
         Some((false, digits)) => Verdict::Sensitive { digits, difference },
@@ -55,11 +58,12 @@ fn explain<R: Real>(
     motion: &Motion,
     response: &GeneralResponse,
     exact: &GeneralSolution,
-    same_events: bool,
+    trials: u64,
 ) -> Option<(bool, f64)> {
+    let same_events = compare_general(response, exact).mismatch.is_none();
     let mut alike: Vec<GeneralSolution> = Vec::new();
     for digits in LAST_DIGITS {
-        for trial in 0..TRIALS {
+        for trial in 0..trials {
             let Some(other) = changed_judge::<R>(scene, motion, digits, trial) else { continue };
             let left = compare_general(response, &other);
             if left.agrees(AGREEMENT) {
