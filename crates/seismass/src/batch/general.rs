@@ -4,8 +4,8 @@ use std::sync::atomic::Ordering;
 
 use rayon::prelude::*;
 
+use crate::batch::checked::{check_indices, contained};
 use crate::batch::plan::Run;
-use crate::batch::{check_indices, contained};
 use crate::error::{Error, Result};
 use crate::general::{GeneralResponse, simulate_general_until};
 use crate::scene::{GeneralScene, Motion, Options};

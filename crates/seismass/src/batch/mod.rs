@@ -1,18 +1,19 @@
 //! Many runs: grouped so that they share propagators, solved in parallel, returned in the order asked for.
 
+pub(crate) mod checked;
 pub(crate) mod general;
 pub(crate) mod plan;
 pub(crate) mod schedule;
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
 
 use rayon::prelude::*;
 
+use crate::batch::checked::{check_indices, contained};
 use crate::batch::plan::Plan;
 use crate::batch::schedule::Schedule;
-use crate::error::{Domain, Error, Result};
+use crate::error::{Error, Result};
 use crate::machines::model::Model;
 use crate::response::Response;
 use crate::run::run;
@@ -91,25 +92,6 @@ pub fn simulate_each<T: Clone + Send + Sync>(
         if multiplicity[unique] == 0 { slot.take() } else { slot.get().cloned() }.unwrap_or(Err(Error::Interrupted))
     };
     Ok(of_run.into_iter().map(result_of).collect())
-}
-
-/// Refuses runs of scenes or motions that do not exist.
-fn check_indices(runs: &[Run], scenes: usize, motions: usize) -> Result<()> {
-    for (position, &Run { scene, motion, .. }) in runs.iter().enumerate() {
-        let owner = || format!("run {}", position + 1);
-        for (name, index, count) in [("scene index", scene, scenes), ("motion index", motion, motions)] {
-            if index >= count {
-                let requirement = format!("below the number of them, {count}");
-                return Err(Error::invalid(Domain::Options, name, owner(), requirement, index));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// What `work` returns, its panic as the error of its own run: the others go on.
-fn contained<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|payload| Err(Error::of_panic(payload.as_ref())))
 }
 
 /// What the threads of a batch work on.

@@ -5,7 +5,6 @@ use std::num::NonZeroUsize;
 use seismass::{Error, EventCounts, GeneralResponse, GeneralScene, GeneralStatus, Motion, Options, simulate_general};
 
 use super::invariants;
-use super::tally::LARGEST_DIVISION;
 use super::verdict::judge;
 use crate::general::{compare_general, divided, solution_of, solve_general};
 use crate::general_scene::general_scene;
@@ -13,6 +12,10 @@ use crate::random_scene::Draw;
 use crate::stress::random::LARGEST_RESIDUAL;
 use crate::stress::verdict::Verdict;
 use crate::{DoubleDouble, JudgeError};
+
+/// Largest change of numbers and times, relative as those to the judge are, by a division of the sample intervals; beyond,
+/// the judge is asked.
+pub const LARGEST_DIVISION: f64 = 1e-9;
 
 /// One scene in so many is solved with every sample interval divided, and without energies and histories. A judged one
 /// always is.

@@ -10,5 +10,6 @@ mod tally_file;
 mod verdict;
 
 pub use chains::{Chains, compare_engines};
+pub use examine::LARGEST_DIVISION;
 pub use report::{distribution, page};
-pub use tally::{GeneralTally, LARGEST_DIVISION};
+pub use tally::GeneralTally;

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use seismass::EventKind;
 
 use super::chains::PEAK;
-use super::tally::{GeneralTally, LARGEST_DIVISION};
+use super::examine::LARGEST_DIVISION;
+use super::tally::GeneralTally;
 use crate::stress::random::LARGEST_RESIDUAL;
 use crate::stress::verdict::AGREEMENT;
 

@@ -7,13 +7,10 @@ use rayon::prelude::*;
 use seismass::EventKind;
 
 use super::chains::{Chains, compare_engines};
-use super::examine::{Found, examine};
+use super::examine::{Found, LARGEST_DIVISION, examine};
 use crate::random_scene::Draw;
 use crate::stress::verdict::Verdict;
 
-/// Largest change of numbers and times, relative as those to the judge are, by a division of the sample intervals; beyond,
-/// the judge is asked.
-pub const LARGEST_DIVISION: f64 = 1e-9;
 /// One judged scene in so many is compared with the judge in double-double from the start.
 const PRECISELY: u64 = 10;
 
