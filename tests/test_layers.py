@@ -40,6 +40,7 @@ def modules() -> dict[str, str]:
     return {
         ".".join(path.relative_to(SOURCES).with_suffix("").parts).removesuffix(".__init__"): path.read_text("utf-8")
         for path in SOURCES.glob("seismass/**/*.py")
+        if "data" not in path.relative_to(SOURCES).parts  # a copy of data/, whose programs are for others
     }
 
 

@@ -111,7 +111,7 @@ def test_readme_table_of_rules_is_that_of_the_page() -> None:
     table = text.partition("| rule | mean |")[2].partition("\n\n")[0]
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()[2:]]
     assert len(rows) == 7
-    for rule, mean, interval, unsafe in rows:
+    for rule, mean, interval, unsafe, _ in rows:
         numbers = printed[rule.replace("\N{DAGGER}", "")]  # the mark of what was not checked against the code
         assert [mean, interval, unsafe] == [numbers[0], " ".join(numbers[2:5]), " ".join(numbers[6:])]
     assert "goods slide in 3670" in block
@@ -180,7 +180,7 @@ def test_numbers_of_the_page_of_slip_demand_are_current() -> None:
     slip = [int(re.findall(r"(?:ground|floor \d) +(\d+)", line)[0]) for line in blocks["floors"][1:]]
     elastic, yielding = ([slip[first : first + 5] for first in range(start, start + 15, 5)] for start in (0, 15))
     assert all(floors == sorted(floors) for floors in elastic)
-    assert elastic[2][0] <= 1 < 200 < elastic[2][4]
+    assert elastic[2][0] <= 2 < 200 < elastic[2][4]
     assert max(yielding[2]) <= 1
     assert yielding[1][1] < yielding[1][0] < yielding[1][4]
     assert "3.78 [" in blocks["floors"][-6]

@@ -210,7 +210,7 @@ def test_a_failed_run_gives_no_mean(small: StudyResult, monkeypatch: pytest.Monk
             *(pl.when(~first).then(name).alias(name) for name in [*lists, "peak_slip", "residual_slip", "slip_path"]),
         )
 
-    monkeypatch.setattr(study, "simulate_many", failing)
+    monkeypatch.setattr(study, "solve_many", failing)
     result = run_study(sm.builtin_suite("seven"), TARGET, SMALL)
     assert result.metadata["counts"]["failed"] == 1
     # Run 1 is the elastic real model under motion 1, which storage and commercial share.
@@ -621,7 +621,7 @@ def test_interrupt_exits_with_130_and_keeps_only_what_is_solved(
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patched:
-        patched.setattr("seismass.study.run.simulate_many", interrupted)
+        patched.setattr("seismass.study.run.solve_many", interrupted)
         assert command("study", "--out", tmp_path / "out") == 130
         assert "interrupted" in capsys.readouterr().err
         assert list(tmp_path.iterdir()) == []
@@ -630,7 +630,7 @@ def test_interrupt_exits_with_130_and_keeps_only_what_is_solved(
         assert command("study", "--out", tmp_path / "out", "--effective", "--no-figures") == 130
         (kept,) = (tmp_path / "out").iterdir()
         assert {file.name for file in kept.iterdir()} == {"inputs", "part-runs.parquet"}
-        patched.setattr("seismass.study.run.simulate_many", None)
+        patched.setattr("seismass.study.run.solve_many", None)
         patched.undo()
     assert command("study", "--out", tmp_path / "out", "--no-figures") == 0
     assert not kept.exists()

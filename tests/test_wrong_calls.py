@@ -59,6 +59,9 @@ PARTS = """
 LEFT_OUT: dict[str, str] = {
     **dict.fromkeys(("Rack", "RackBlock", "Stops"), SEE),
     "SlidingBase": "see tests/test_sliding_base.py",
+    **dict.fromkeys(("SceneProduct", "PlaneResponse"), "see tests/test_scene_product.py and tests/test_plane.py"),
+    "write_opensees": "see tests/test_opensees_export.py",
+    "read_counts": "needs ObsPy: see tests/test_record_counts.py",
     **dict.fromkeys(TYPES.split(), "a type or a part of a result"),
     **dict.fromkeys(PARTS.split(), "a step of a public call, which has checked what it is given"),
     **dict.fromkeys(("HuntAndFill", "IntensityMeasure", "multiple_stripes", "cloud_analysis"), "see its own tests"),

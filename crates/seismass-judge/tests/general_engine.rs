@@ -127,6 +127,7 @@ fn a_tally_goes_on_where_it_stopped() {
     tally.sensitive.push((2, 4.0, "a sensitive scene".into()));
     tally.failed.push((5, "a failure".into()));
     tally.defects.push((6, "a defect".into()));
+    tally.chains.scenes = 3;
     tally.chains.defects.push((7, "a defect".into()));
     let program = program().unwrap();
     tally.save(&path, &program).unwrap();

@@ -56,7 +56,7 @@ def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | N
     """
     spectrum = building.site_spectrum(target)
     period = building.scaling_period or building.period(building.goods)
-    factors = scale_asce7_10(suite, spectrum, period).factors
+    factors = scale_asce7_10(suite, spectrum, period, between=False).factors
     scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
     scene = building.scene(spectrum)
     peaks = solve([scene], named_motions(scaled, "animation"))

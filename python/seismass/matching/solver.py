@@ -171,7 +171,7 @@ def adjust(
         end_if_stopped()
         ease = min(SECONDARY[0] * float(power(SECONDARY[1], passes)), 1.0)
         emphasis = np.ones(len(ratio))
-        emphasis[sought] = grid.emphasis(ratio[sought], tolerance)
+        emphasis[sought] = grid.emphasis(ratio[sought], extrema.oscillator[sought], tolerance)
         candidates = []
         for amplitudes in _amplitudes(effect, of, ratio, taken_back, sought, weight, ease, emphasis):
             change = -forget * added
@@ -209,13 +209,17 @@ class _Grid:
         self.delay = _delays(self.oscillators)
         self.persistence = np.ones(matched)
 
-    def emphasis(self, ratio: FloatArray, tolerance: float) -> FloatArray:
-        """Return how much each matched period counts in the sum of squares, up to 1, and note which are still off."""
-        off = np.abs(1.0 - ratio)
+    def emphasis(self, ratio: FloatArray, oscillator: NDArray[np.integer], tolerance: float) -> FloatArray:
+        """Return how much each extremum counts in the sum of squares, up to 1, and note which periods are still off.
+
+        One oscillator has several where equal responses are its largest, as those to next to nothing.
+        """
+        off = np.zeros(self.matched)
+        np.maximum.at(off, oscillator, np.abs(1.0 - ratio))
         factor = np.where(off > STILL_OFF * tolerance, PERSISTENT, 1.0 / PERSISTENT)
         self.persistence = np.clip(self.persistence * factor, 1.0, MOST_PERSISTENT)
         found = np.minimum(1.0 + (EMPHASIS * off) ** 2, LARGEST_EMPHASIS) * self.persistence
-        return np.asarray(found / found.max())
+        return np.asarray((found / found.max())[oscillator])
 
     def insert(self, period: float, displacement: float) -> None:
         """Match a period (s) more, to a displacement (m)."""
