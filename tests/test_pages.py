@@ -181,7 +181,7 @@ def test_numbers_of_the_page_of_slip_demand_are_current() -> None:
     elastic, yielding = ([slip[first : first + 5] for first in range(start, start + 15, 5)] for start in (0, 15))
     assert all(floors == sorted(floors) for floors in elastic)
     assert elastic[2][0] <= 2 < 200 < elastic[2][4]
-    assert max(yielding[2]) <= 1
+    assert max(yielding[2]) <= 2
     assert yielding[1][1] < yielding[1][0] < yielding[1][4]
     assert "3.78 [" in blocks["floors"][-6]
 
