@@ -183,7 +183,7 @@ def test_numbers_of_the_page_of_slip_demand_are_current() -> None:
     assert elastic[2][0] <= 2 < 200 < elastic[2][4]
     assert max(yielding[2]) <= 2
     assert yielding[1][1] < yielding[1][0] < yielding[1][4]
-    assert "3.78 [" in blocks["floors"][-6]
+    assert "3.75 [" in blocks["floors"][-6]
 
 
 def test_numbers_of_the_page_of_risk_are_current(shared: Path) -> None:
