@@ -22,7 +22,7 @@ pub struct Chains {
     pub scenes: u64,
     /// Events of all of them.
     pub events: u64,
-    /// Largest difference of those that agree within [`PEAK`], and its seed.
+    /// Largest difference of those that agree within `PEAK`, and its seed.
     pub worst: (f64, u64),
     /// Seeds of those that part, of which the judge says that the general engine is right, or that neither is.
     pub judged: Vec<u64>,
