@@ -26,6 +26,7 @@ from seismass.assessment.file_units import (
     to_si,
 )
 from seismass.assessment.file_values import (
+    REDUCTION,
     STRONG,
     held,
     key_of,
@@ -348,7 +349,7 @@ def _strength(storeys: list[Table], building: Table, mass: Any) -> tuple[Any, De
         for table in (building, *storeys):
             table.left_out(_STRENGTH, f"{building.key('design')} is true", "both")
         building.needed("R")
-        reduction = building.number("R", need=Need("finite and at least 1", lambda number: 1.0 <= number < np.inf))
+        reduction = building.number("R", need=REDUCTION)
         combination = building.choice("combination", get_args(Combination), "srss")
         stated = "design_fraction" in building.values
         fraction = building.number("design_fraction", need=SHARE) if stated else None

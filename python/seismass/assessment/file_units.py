@@ -6,12 +6,8 @@ from typing import Final, NamedTuple
 
 from seismass.assessment.file_values import STRONG
 from seismass.base.input_table import NOT_NEGATIVE, POSITIVE, Need, Table
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import FOOT, KIP, STANDARD_GRAVITY
 
-FOOT: Final = 0.3048
-"""Foot (m), exact."""
-KIP: Final = 4448.2216152605
-"""Kip (N): 1000 lb of 0.45359237 kg, exact."""
 SI: Final = "si"
 US: Final = "us"
 SYSTEMS: Final = (SI, US)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final, NoReturn
 
 from seismass.base.input_table import POSITIVE, Need, Table
 
 STRONG: Final = Need("positive (inf: the storey stays elastic)", lambda number: number > 0.0)
 """What a strength must be."""
+REDUCTION: Final = Need("finite and at least 1", lambda number: 1.0 <= number < math.inf)
+"""What R must be."""
 
 
 def held(tables: tuple[Table, ...], group: tuple[str, ...]) -> tuple[Table, str] | None:

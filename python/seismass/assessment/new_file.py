@@ -7,8 +7,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
+from seismass.assessment.file_values import REDUCTION
 from seismass.assessment.storey_table import StoreyTable
 from seismass.base.errors import InvalidOption
+from seismass.base.input_table import POSITIVE, SHARE, Need
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, refusal
 from seismass.model.friction import friction_table
@@ -25,25 +27,19 @@ def _count(given: str) -> int:
     return number
 
 
-def _positive(given: str) -> float:
-    number = float(given)
-    if not 0.0 < number < float("inf"):
-        raise ValueError
-    return number
+def _number(need: Need) -> Callable[[str], float]:
+    """Return what reads a number that fits; another one is a ValueError."""
+
+    def read(given: str) -> float:
+        number = float(given)
+        if not need.fits(number):
+            raise ValueError
+        return number
+
+    return read
 
 
-def _share(given: str) -> float:
-    number = float(given)
-    if not 0.0 <= number <= 1.0:
-        raise ValueError
-    return number
-
-
-def _reduction(given: str) -> float:
-    number = _positive(given)
-    if number < 1.0:
-        raise ValueError
-    return number
+_positive, _share = _number(POSITIVE), _number(SHARE)
 
 
 def _friction(given: str) -> str | float:
@@ -88,7 +84,7 @@ QUESTIONS: Final = (
     Question("period", "What is the first period without goods (s)?", "a positive number", _positive),
     Question("sds", "What is S_DS of the site (g)?", "a positive number", _positive),
     Question("sd1", "What is S_D1 of the site (g)?", "a positive number", _positive),
-    Question("reduction", "By which R are strengths designed?", "a number from 1", _reduction, "3"),
+    Question("reduction", "By which R are strengths designed?", "a number from 1", _number(REDUCTION), "3"),
     Question("live_load", "What is the design live load of the loaded floors (kPa)?", "a positive number", _positive),
     Question("occupied", "Which share of it is present (0 to 1)?", "a number from 0 to 1", _share, "1"),
     Question(

@@ -6,14 +6,12 @@ import re
 from typing import Final, Literal
 
 from seismass.base.errors import InvalidBuildingFile
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import FOOT, INCH, KIP, POUND, STANDARD_GRAVITY
 from seismass.base.values import brief, refusal
 
 Quantity = Literal["length", "force", "mass", "stiffness"]
 
-POUND: Final = 0.45359237
-"""International pound (kg)."""
-LENGTHS: Final = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
+LENGTHS: Final = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": FOOT, "in": INCH}
 """Metres."""
 FORCES: Final = {
     "n": 1.0,
@@ -21,10 +19,8 @@ FORCES: Final = {
     "mn": 1e6,
     "kgf": STANDARD_GRAVITY,
     "tonf": 1e3 * STANDARD_GRAVITY,
-    "lb": POUND * STANDARD_GRAVITY,
-    "lbf": POUND * STANDARD_GRAVITY,
-    "kip": 1e3 * POUND * STANDARD_GRAVITY,
-    "kips": 1e3 * POUND * STANDARD_GRAVITY,
+    **dict.fromkeys(("lb", "lbf"), 1e-3 * KIP),
+    **dict.fromkeys(("kip", "kips"), KIP),
 }
 """Newtons; tonf is the metric one, as these programs have it, and a kip 1000 lbf."""
 MASSES: Final = {"kg": 1.0, "t": 1e3, "tonne": 1e3, "tonnes": 1e3, "lb": POUND, "lbm": POUND}

@@ -12,6 +12,15 @@ from seismass.base.values import brief, refusal
 STANDARD_GRAVITY: Final = _kernel.STANDARD_GRAVITY
 """Standard gravity (m/s2), 3rd CGPM 1901: the g of every number in this package."""
 
+FOOT: Final = 0.3048
+"""Foot (m), that of 1959, exact."""
+INCH: Final = 0.0254
+"""Inch (m), likewise."""
+POUND: Final = 0.45359237
+"""Pound (kg), exact."""
+KIP: Final = 1e3 * POUND * STANDARD_GRAVITY
+"""Kip (N): the weight of 1000 lb."""
+
 ACCELERATION_UNITS: Final = {
     "g": STANDARD_GRAVITY,
     "m/s2": 1.0,
@@ -20,10 +29,10 @@ ACCELERATION_UNITS: Final = {
     "mm/s2": 0.001,
     "mg": STANDARD_GRAVITY / 1000.0,
     "%g": STANDARD_GRAVITY / 100.0,
-    "ft/s2": 0.3048,
-    "in/s2": 0.0254,
+    "ft/s2": FOOT,
+    "in/s2": INCH,
 }
-"""Accelerations of files in m/s2, by the name of the unit; records call gal cm/s2. Foot and inch are those of 1959."""
+"""Accelerations of files in m/s2, by the name of the unit; records call gal cm/s2."""
 
 _LENGTHS: Final = {
     **dict.fromkeys(("m", "meter", "meters", "metre", "metres"), "m"),

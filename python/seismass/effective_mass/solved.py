@@ -26,35 +26,24 @@ class Solved:
 
     Attributes
     ----------
-    motions : NamedMotions
-        The suite.
-    options : Options
-        How the fraction is sought.
-    at : callable
-        Takes a share, returns the peaks of the real building and of the model there, one scene each.
-    scene_at : callable
-        Takes a share, returns the scene with sliding goods.
+    search : Search
+        What goes from these peaks to an answer.
     real, model : Peaks
         Of the real building, one scene or one per share, and of the models, one scene per share.
     question : str
         What is asked, for the metadata.
-    beyond : Peaks, optional
-        Of the models at `SHARES_BEYOND`, where shares above 1 are sought.
     """
 
-    motions: NamedMotions
-    options: Options
-    at: Callable[[float], tuple[Peaks, Peaks]]
-    scene_at: Callable[[float], Scene]
+    search: Search
     real: Peaks
     model: Peaks
     question: str
-    beyond: Peaks | None = None
 
     def answer(self, statistic: Statistic | None = None) -> EffectiveMass:
         """Return the effective fraction, by the statistic of the options where none is given."""
-        options = self.options if statistic is None else replace(self.options, statistic=statistic)
-        search = Search(self.motions, options, self.at, self.scene_at, self.beyond)
+        search = self.search
+        if statistic is not None:
+            search = replace(search, options=replace(search.options, statistic=statistic))
         return search.answer(self.real, self.model, {"question": self.question})
 
 
@@ -101,16 +90,8 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
 
     def of(number: int, scene: Scene) -> Solved:
         real = reals.one(number)
-        return Solved(
-            motions,
-            options,
-            lambda share: (real, model_at(share)),
-            lambda _: scene,
-            real,
-            model,
-            "given building",
-            beyond,
-        )
+        search = Search(motions, options, lambda share: (real, model_at(share)), lambda _: scene, beyond)
+        return Solved(search, real, model, "given building")
 
     return [of(number, scene) for number, scene in enumerate(checked)]
 
@@ -171,4 +152,4 @@ def solved_designs(
         )
         return both
 
-    return Solved(motions, options, at, designed, real, model, "design rule")
+    return Solved(Search(motions, options, at, designed), real, model, "design rule")

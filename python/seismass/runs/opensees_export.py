@@ -5,16 +5,14 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping
-from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
 from seismass.base.errors import InvalidOption, InvalidScene, SeismassError
-from seismass.base.files import written_whole
 from seismass.base.values import as_path, refusal
-from seismass.media.folder import folder_for
+from seismass.media.folder import folder_for, write_folder
 from seismass.model.building import Building
 from seismass.model.motion import Motion, MotionLike, as_motion
 from seismass.model.scene import Scene
@@ -91,10 +89,7 @@ def write_opensees(
         texts[file] = "".join(f"{value!r}\n" for value in motion.acceleration.tolist())
     texts[CONTENT] = json.dumps({"units": "kg, N, m, s", "models": models, "motions": listed}, indent=1) + "\n"
     with folder_for(out):
-        for name, text in texts.items():
-            with written_whole(out / name) as place:
-                partial(Path.write_text, data=text, encoding="utf-8")(place)
-    return [out / name for name in texts]
+        return write_folder(out, tables={}, documents=texts)
 
 
 def model_content(scene: Scene, name: str = "") -> dict[str, Any]:

@@ -112,7 +112,7 @@
     }
     const select = one("#x-record");
     for (const name of records.keys()) {
-      if (Array.from(select.options).every((option) => option.value !== name)) select.add(new Option(name.replace(/^file:/, ""), name));
+      if (Array.from(select.options).every((option) => option.value !== name)) select.add(new Option(nameOf(name), name));
     }
     select.value = state.record;
     const code = Array.from(one("#x-code").options).find((option) => option.value !== "" && Number(option.value) === state.counted);

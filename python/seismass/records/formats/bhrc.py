@@ -23,6 +23,7 @@ from seismass.records.formats.common import (
     NotRead,
     agreed_step,
     agreed_unit,
+    channels_of,
     refuse_skip,
 )
 from seismass.records.formats.fixed import Layout, header_values, read_block
@@ -44,6 +45,8 @@ _HEADER: Final = 27
 _WHOLE: Final = Layout(14, 5, True)
 _REALS: Final = Layout(6, 13)
 _NUMBERS: Final = Layout(10, 13)
+_END: Final = "/&"
+"""Beginning of a line that ends a component."""
 _POINTS_AT: Final = 25
 _RATE_AT: Final = 6
 """Points among the integers, and samples a second among the reals."""
@@ -52,15 +55,7 @@ _RATE_AT: Final = 6
 def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
     refuse_skip(arguments, BHRC.title, source.name)
     lines = text.splitlines()
-    channels: list[Channel] = []
-    at = 0
-    while at < len(lines):
-        if not lines[at].strip() or lines[at].startswith("/&"):
-            at += 1
-            continue
-        channel, at = _channel(lines, at, len(channels) + 1, source, arguments)
-        channels.append(channel)
-    return tuple(channels)
+    return channels_of(lines, lambda at, number: _channel(lines, at, number, source, arguments), between=_END)
 
 
 def _channel(lines: list[str], at: int, number: int, source: Path, arguments: Arguments) -> tuple[Channel, int]:

@@ -39,6 +39,32 @@ class Channel:
     record: Record
 
 
+def channels_of(
+    lines: list[str], component: Callable[[int, int], tuple[Channel, int]], *, between: str | None = None
+) -> tuple[Channel, ...]:
+    """Return the components of a file, which stand one after the other, with blank lines between them.
+
+    Parameters
+    ----------
+    lines : list of str
+        The file.
+    component : callable
+        Takes the index of the first line of a component and its number, from 1; returns the component and the index of
+        the line after it.
+    between : str, optional
+        Beginning of other lines that stand between components.
+    """
+    channels: list[Channel] = []
+    at = 0
+    while at < len(lines):
+        if not lines[at].strip() or (between is not None and lines[at].startswith(between)):
+            at += 1
+            continue
+        channel, at = component(at, len(channels) + 1)
+        channels.append(channel)
+    return tuple(channels)
+
+
 @dataclass(frozen=True)
 class Format:
     """One format: its key, what it is called, how its head is known, and its reader."""

@@ -21,6 +21,7 @@ from seismass.records.formats.common import (
     Format,
     agreed_step,
     agreed_unit,
+    channels_of,
     refuse_skip,
 )
 from seismass.records.formats.directions import azimuth_of
@@ -50,15 +51,7 @@ def _recognises(head: str) -> bool:
 def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
     refuse_skip(arguments, GEONET.title, source.name)
     lines = text.splitlines()
-    channels: list[Channel] = []
-    at = 0
-    while at < len(lines):
-        if not lines[at].strip():
-            at += 1
-            continue
-        channel, at = _channel(lines, at, len(channels) + 1, source, arguments)
-        channels.append(channel)
-    return tuple(channels)
+    return channels_of(lines, lambda at, number: _channel(lines, at, number, source, arguments))
 
 
 def _channel(lines: list[str], at: int, number: int, source: Path, arguments: Arguments) -> tuple[Channel, int]:
