@@ -14,15 +14,10 @@ use crate::general::state::GeneralState;
 use crate::general::system::System;
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::response::{EventKind, Statistics};
+use crate::run::limits::{EVENTS_PER_INTERVAL, EVENTS_PER_MACHINE};
 use crate::scene::{GeneralScene, Motion, Options};
 use crate::state::interval::interval;
 use crate::tolerances::{REFUSED_PHASE, SERIES_PHASE};
-
-/// Events one sample interval may have, beside those of each machine.
-const EVENTS_PER_INTERVAL: usize = 256;
-
-/// Events each spring and block may have within one vibration of the stiffest mode.
-const EVENTS_PER_MACHINE: usize = 64;
 
 /// Solves a scene of the general engine under one motion.
 ///

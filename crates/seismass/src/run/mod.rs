@@ -4,7 +4,7 @@ mod advance;
 mod at_rest;
 mod exact_run;
 mod interval;
-mod limits;
+pub(crate) mod limits;
 mod simulate;
 
 pub use simulate::{simulate, simulate_until};

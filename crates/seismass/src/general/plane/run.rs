@@ -21,15 +21,10 @@ use crate::lanes::Plain;
 use crate::machines::block::BlockState;
 use crate::polynomial::power::Polynomial;
 use crate::response::{EventKind, Statistics};
+use crate::run::limits::{EVENTS_PER_INTERVAL, EVENTS_PER_MACHINE};
 use crate::scene::{Options, PlaneMotion, PlaneScene};
 use crate::state::interval::interval;
 use crate::tolerances::{ARRIVED_ON_CIRCLE, REFUSED_PHASE};
-
-/// Events one sample interval may have, beside those of each machine.
-const EVENTS_PER_INTERVAL: usize = 256;
-
-/// Events each spring and block may have within one vibration of the stiffest mode.
-const EVENTS_PER_MACHINE: usize = 64;
 
 /// Steps that sliding blocks may take within one sample interval, beside one for each radian of the stiffest vibration.
 const STEPS_PER_INTERVAL: usize = 200_000;
