@@ -9,6 +9,7 @@ import polars as pl
 from markupsafe import Markup, escape
 
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
+from seismass.media.page_lists import bullets_html, long_html
 from seismass.media.svg import short_svg
 from seismass.show.animation.html import element_html
 from seismass.show.study.answer import SHORT, answer, compared_rules, percent, span
@@ -94,16 +95,6 @@ class _Pictures:
     def figure(self, name: str, caption: str, alt: str) -> Markup:
         """Return one figure; nothing where there is no such drawing."""
         return figure_html(short_svg(self._drawings[name]), caption, alt) if name in self._drawings else Markup("")
-
-
-def bullets_html(lines: list[str]) -> Markup:
-    """Return sentences as a list."""
-    return Markup("<ul>{}</ul>").format(Markup("").join(Markup("<li>{}</li>").format(line) for line in lines))
-
-
-def long_html(text: str) -> Markup:
-    """Return a text that keeps some width in a table, on a narrow screen too."""
-    return Markup('<span class="long">{}</span>').format(text)
 
 
 def _remarks(metadata: dict[str, Any]) -> Iterator[Markup]:

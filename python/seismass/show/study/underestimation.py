@@ -1,4 +1,4 @@
-"""The underestimation of a study at once: against R by alpha, real and fully attached over the code model."""
+"""The underestimation of a study at once: against R by alpha, goods that slide and all attached over the code model."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from seismass.media.style import ALPHA, GREY, INK, MU, plain
+from seismass.media.roles import ALPHA, ATTACHED, CODE, DEEP_BLUE, GREY, INK, MU, SKY, SLIDE
+from seismass.media.style import plain
 from seismass.show.study.captions import LEAST_WIDTH, StudyFrames, labels_of, occupancy_title, suite_caption
 
-ALPHA_COLOURS: Final = ("#56B4E9", "#0072B2", "#002B4D")
+ALPHA_COLOURS: Final = (SKY, SLIDE.colour, DEEP_BLUE)
 ALPHA_MARKERS: Final = ("o", "s", "D", "^", "v", "P", "X")
 ALPHA_SPACING: Final = 0.24
 """Largest distance between the ranges of two alphas, as a fraction of that between two R."""
@@ -64,7 +65,7 @@ def underestimation_figure(result: StudyFrames, mu: float) -> Figure:
         _alpha_handle(look, label) for look, label in zip(looks, alphas.values(), strict=True)
     ]
     handles += [
-        Line2D([], [], **RING, color=GREY, linestyle="", label="attached, none slides"),
+        Line2D([], [], **RING, color=GREY, linestyle="", label=ATTACHED.name),
         Line2D([], [], color=GREY, marker="_", markersize=6.0, linewidth=1.2, label="other storeys"),
         Patch(color=GREY, alpha=0.12, linewidth=0.0, label="code gives more drift"),
     ]
@@ -75,7 +76,7 @@ def underestimation_figure(result: StudyFrames, mu: float) -> Figure:
         loc="outside upper center",
         ncols=6 if width > 9.0 else 3,
         frameon=False,
-        title=f"(real \N{EN DASH} code) / code of mean peak drift, code: {code}{friction}",
+        title=f"({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name} of mean peak drift, code: {code}{friction}",
     )
     figure.supxlabel(suite_caption(result, mu, inches=width), fontsize=7.5)
     return figure
