@@ -62,6 +62,15 @@ def _has_goods(result: StudyFrames) -> bool:
     return result.responses["peak_slip"].null_count() < result.responses.height
 
 
+def phone_figures(result: StudyFrames) -> dict[str, Figure]:
+    """Return figures for narrow screens, by the name of that in whose place they stand."""
+    frictions = labels_of(result.summary["mu"])
+    mu, name = next(iter(frictions.items()))
+    behind = f"_mu{name}" if len(frictions) > 1 else ""
+    with mpl.rc_context(STYLE):
+        return {f"underestimation{behind}": lay_out(underestimation_figure(result, mu, narrow=True))}
+
+
 def page_figures(result: StudyTables) -> dict[str, Figure]:
     """Return the figures of the page of a study by name: those of the study, its sensitivity and its validations."""
     figures = study_figures(result)
