@@ -22,6 +22,8 @@ from seismass.media.roles import GREY, INK, LIMIT, MODELS, PAPER, SLIDE, model_n
 from seismass.media.style import SERIES, STYLE, plain
 
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
+NEARLY_ONE: Final = 0.97
+"""Probability behind which a curve has nothing more to show."""
 _FRACTILE_LOOKS: Final[dict[str, Any]] = {"p16": (0, (1.2, 1.2)), "p50": "-", "p84": (0, (5, 2))}
 _FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
 
@@ -52,7 +54,7 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
                     _curve(axes, result, limit, model, look, marker)
             axes.set_title(plain(limit.text))
             axes.set_ylim(-0.02, 1.02)
-            axes.set_xlim(left=0.0)
+            axes.set_xlim(0.0, _highest_drawn(result, limit))
             axes.set_xlabel(_intensity_label(result))
             axes.set_ylabel("probability of exceedance")
             grid_lines(axes)
@@ -65,9 +67,25 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
         if any(len(fit.samples) for fit in result.fits.values()):
             share = f"{100.0 * result.metadata['confidence']:g} % interval"
             handles.append(Patch(facecolor=GREY, alpha=0.3, label=share))
-        figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
+        if count < len(panels):
+            panels[count].legend(handles=handles, loc="center", frameon=False)
+        else:
+            figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
         figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
+
+
+def _highest_drawn(result: FragilityAnalysis, limit: LimitState) -> float | None:
+    """Intensity up to which curves are drawn: to where the last of them is nearly one, where that is known."""
+    own = result.curves.filter(pl.col("limit") == limit.name)
+    if own.is_empty():
+        return None
+    known = [
+        rows.filter(pl.col("probability") >= NEARLY_ONE)["intensity"].min()
+        for _, rows in own.group_by("model", maintain_order=True)
+    ]
+    ends = [float(end) for end in known if isinstance(end, float)]
+    return 1.15 * max(ends) if ends else None
 
 
 def _looks(result: FragilityAnalysis) -> dict[str, tuple[dict[str, Any], str]]:
