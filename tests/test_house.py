@@ -101,7 +101,7 @@ def test_commands_are_ones_that_the_parser_takes(place: str) -> None:
     lines = re.findall(r"^ *seismass (.*)$", text, re.MULTILINE)
     assert lines
     for line in lines:
-        words = shlex.split(line.partition(">")[0], comments=True)
+        words = shlex.split(re.split(r" [>|] ", line)[0], comments=True)
         try:
             parse(words)
         except SystemExit:
