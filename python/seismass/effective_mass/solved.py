@@ -18,6 +18,7 @@ from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.rack import Rack
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +104,7 @@ def solved_designs(
     options: Options,
     racks: Iterable[Rack] = (),
     collapse_drift: FloatArray | None = None,
+    base: SlidingBase | None = None,
 ) -> Solved:
     """Solve the building that is designed with each share, with sliding goods and with that share attached.
 
@@ -116,6 +118,8 @@ def solved_designs(
         How the fraction is sought.
     collapse_drift : ndarray, shape (storeys,), optional
         Drift at which a storey counts as collapsed (m), beside the limit that P-Delta sets.
+    base : SlidingBase, optional
+        Base that slides under the building.
 
     Raises
     ------
@@ -131,7 +135,7 @@ def solved_designs(
         building: Any = design(share)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building", brief(building))
-        return check_any_load(Scene(building, goods, racks=standing, collapse_drift=collapse_drift))
+        return check_any_load(Scene(building, goods, racks=standing, base=base, collapse_drift=collapse_drift))
 
     shares = [float(share) for share in options.fractions]
     stages = Stages(options.progress, 2 * len(shares) * len(motions))

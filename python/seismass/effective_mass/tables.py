@@ -157,6 +157,8 @@ def scene_bytes(scene: Scene) -> Iterator[bytes]:
     for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
         stops = block.stop_numbers or ()
         yield np.array([block.floor, mass, block.mu_s, block.mu_k, *chain(*block.wear), *stops], dtype="<f8").tobytes()
+    if scene.base is not None:
+        yield repr(scene.base).encode()
     for rack in scene.racks:
         yield repr(sorted(rack._arguments().items(), key=lambda item: item[0])).encode()
 

@@ -264,6 +264,24 @@ class Scene(Value):
             raise refusal(InvalidScene, parameter, of, f"left out in {owner}; simulate takes it", value)
         return self
 
+    def in_one_direction(self, owner: str) -> Scene:
+        """Return the scene itself, for what takes scenes in one direction alone.
+
+        Parameters
+        ----------
+        owner : str
+            What takes it, as errors name it.
+
+        Raises
+        ------
+        InvalidScene
+            It has two directions.
+        """
+        if self.other_direction is not False:
+            requirement = f"left out in {owner}; simulate takes it"
+            raise refusal(InvalidScene, "other_direction", "scene", requirement, "two directions")
+        return self
+
     def on_ground(self, owner: str) -> Scene:
         """Return the scene itself, for what takes scenes in one direction that stand on the ground alone.
 
@@ -277,9 +295,7 @@ class Scene(Value):
         InvalidScene
             It has a sliding base, or two directions.
         """
-        if self.other_direction is not False:
-            requirement = f"left out in {owner}; simulate takes it"
-            raise refusal(InvalidScene, "other_direction", "scene", requirement, "two directions")
+        self.in_one_direction(owner)
         if self.base is not None:
             raise refusal(InvalidScene, "base", "scene", f"left out in {owner}; simulate takes it", repr(self.base))
         return self

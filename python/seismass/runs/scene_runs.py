@@ -19,7 +19,7 @@ Progress: TypeAlias = Callable[[int, int], object]
 
 
 def have_racks(scenes: Sequence[Scene]) -> bool:
-    """Whether tables of these scenes have the columns of racks and stops: one is of the general engine."""
+    """Whether tables of these scenes have the columns of racks, stops and bases: one is of the general engine."""
     return any(scene.engine == "general" for scene in scenes)
 
 
@@ -45,7 +45,7 @@ def scene_table(
     rows : ndarray of int, shape (runs, 2)
         Index of scene and of motion of each run.
     racks : bool
-        Whether the table has the columns of racks and stops, see `have_racks`.
+        Whether the table has the columns of racks, stops and bases, see `have_racks`.
     peaks_only, threads, progress
         As for `simulate_many`.
     """
