@@ -44,7 +44,8 @@ def effective_mass(
     Parameters
     ----------
     scene : Scene
-        The building with its goods as blocks, on floors and on racks; walls, stops and a sliding base are as in the real building.
+        The building with its goods as blocks, on floors and on racks; walls, stops and a base are those of the real
+        building.
     motions : Motion, Record or iterable of them
         The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together.
     statistic : {"mean", "median"}
