@@ -133,7 +133,7 @@ class Assessment(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """The tables by name: storeys, governing, analysis, slip, runs, slips, checks; curve and scaling where known."""
+        """The tables by name: storeys, governing, analysis, slip, runs, slips, checks; curve and scaling if known."""
         tables = {
             "storeys": self.storeys,
             "governing": self.governing,
