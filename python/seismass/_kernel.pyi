@@ -43,6 +43,7 @@ __all__ = [
     "simulate_general",
     "simulate_many",
     "simulate_many_general",
+    "simulate_many_plane",
     "simulate_plane",
     "uniform_stiffness",
 ]
@@ -1260,6 +1261,21 @@ def simulate_many_general(
 ) -> tuple[Batch, RackColumns]:
     """
     Solves `runs`, rows of (index of scene, index of motion); `progress` is called with runs done and runs in all.
+    """
+
+def simulate_many_plane(
+    scenes: SupportsGetItem[int, PlaneScene],
+    motions: SupportsGetItem[int, Motion],
+    others: SupportsGetItem[int, NDArray[float64]],
+    runs: NDArray[int64],
+    *,
+    threads: SupportsIndex | None = None,
+    progress: Any | None = None,
+) -> list[tuple[Batch, RackColumns]]:
+    """
+    Solves `runs`, rows of (index of scene, index of motion), of scenes in two directions: a batch of the lengths of
+    vectors, one of x and one of y. `others` are the samples of the motions in y (m/s2); `progress` is called with runs
+    done and runs in all. The residuals of the first are lengths too, its contacts the larger of both directions.
     """
 
 def simulate_plane(

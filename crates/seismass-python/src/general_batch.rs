@@ -32,24 +32,37 @@ pub(crate) fn simulate_many_general(
         let options = Options { events: false, ..Options::default() };
         let solved =
             seismass::simulate_general_each(&scenes, &motions, &runs, &options, threads, control, |response| {
-                (row(&response), OfRacks::new(&response))
+                kept(&response)
             })?;
-        let mut columns = RackColumns::default();
-        let mut of_run = |result: seismass::Result<(Row, OfRacks)>| {
-            let (row, racks) = match result {
-                Ok((row, racks)) => (Ok(row), racks),
-                Err(error) => (Err(error), OfRacks::none()),
-            };
-            columns.push(&racks);
-            row
-        };
-        let rows: Vec<_> = solved.into_iter().map(&mut of_run).collect();
-        let mut batch = Batch::with_room_for(&rows);
-        for (run, row) in rows.into_iter().enumerate() {
-            batch.push(run, row);
-        }
-        Ok((batch, columns))
+        Ok(gathered(solved))
     })
+}
+
+/// What a batch keeps of a run.
+pub(crate) type Kept = (Row, OfRacks);
+
+/// What a batch keeps of a response.
+pub(crate) fn kept(response: &GeneralResponse) -> Kept {
+    (row(response), OfRacks::new(response))
+}
+
+/// The columns of a batch, of what was kept of its runs in their order.
+pub(crate) fn gathered(runs: Vec<seismass::Result<Kept>>) -> (Batch, RackColumns) {
+    let mut columns = RackColumns::default();
+    let mut of_run = |result: seismass::Result<Kept>| {
+        let (row, racks) = match result {
+            Ok((row, racks)) => (Ok(row), racks),
+            Err(error) => (Err(error), OfRacks::none()),
+        };
+        columns.push(&racks);
+        row
+    };
+    let rows: Vec<_> = runs.into_iter().map(&mut of_run).collect();
+    let mut batch = Batch::with_room_for(&rows);
+    for (run, row) in rows.into_iter().enumerate() {
+        batch.push(run, row);
+    }
+    (batch, columns)
 }
 
 /// What storeys, floors and blocks have, as of a run of the chain engine.
@@ -89,7 +102,7 @@ const NO_BASE: [f64; 4] = [f64::NAN; 4];
 
 /// What racks, stops and a sliding base of one run have.
 #[derive(Default)]
-struct OfRacks {
+pub(crate) struct OfRacks {
     base_shear: f64,
     /// Peak drift, acceleration and shear, and residual drift, of the levels of all racks.
     levels: [Vec<f64>; 4],

@@ -21,10 +21,11 @@ ModelDamping: TypeAlias = Literal["same", "ratio"]
 def attached_scene(scene: Scene, fraction: float, damping: ModelDamping = "same") -> Scene:
     """Return the building of a scene with a share of its live load attached to the floors as mass, without blocks.
 
-    Stiffness and strength stay as they are, walls too, and so does P/h: the whole weight of the goods acts in P-Delta
-    whatever share of their mass is attached. Racks are lumped: the share of all their goods, fixed ones too, and the
-    whole mass of their frames on the floor on which they stand. A sliding base keeps the friction and the restoring
-    force of the whole weight: its coefficients, and 1/R, grow by the real weight over that of the model.
+    In two directions it has two as well. Stiffness and strength stay as they are, walls too, and so does P/h: the whole
+    weight of the goods acts in P-Delta whatever share of their mass is attached. Racks are lumped: the share of all
+    their goods, fixed ones too, and the whole mass of their frames on the floor on which they stand. A sliding base
+    keeps the friction and the restoring force of the whole weight: its coefficients, and 1/R, grow by the real weight
+    over that of the model.
 
     Parameters
     ----------
@@ -61,6 +62,16 @@ def attached_scene(scene: Scene, fraction: float, damping: ModelDamping = "same"
 
 def attached(scene: Scene, fraction: float, damping: ModelDamping) -> Scene:
     """Return the model of `attached_scene` for arguments that are known to be valid."""
+    if scene.other_direction is not False:
+        x, y = (attached(each, fraction, damping) for each in scene._directions())
+        return Scene(
+            x.building,
+            other_direction=building_of(y),
+            initial_drift=scene.initial_drift,
+            initial_velocity=scene.initial_velocity,
+            collapse_drift=scene.collapse_drift,
+            name=scene.name,
+        )
     building = building_of(scene)
     changes: dict[str, Any] = {"mass": building.mass + frame_mass(scene) + fraction * goods_mass(scene)}
     if damping == "same":
@@ -110,7 +121,7 @@ def base_of_model(scene: Scene, mass: FloatArray) -> SlidingBase | None:
 
 def building_of(scene: Scene) -> Building:
     """Return the building of a scene that has one."""
-    building = scene.in_one_direction("effective mass").building
+    building = scene.building
     if building is None:
         raise refusal(InvalidScene, "building", "effective mass", "given", "None")
     return building

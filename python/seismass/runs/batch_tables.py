@@ -91,9 +91,11 @@ def batch_table(
     return table.select(_COLUMNS)
 
 
-_OF_LEVELS: Final = ("peak_rack_drift", "peak_rack_acceleration", "peak_rack_shear", "residual_rack_drift")
-_OF_CONTACTS: Final = ("peak_contact_force", "peak_contact_velocity")
-_OF_BASES: Final = ("peak_base_slip", "peak_base_acceleration", "residual_base_slip", "base_slip_path")
+OF_LEVELS: Final = ("peak_rack_drift", "peak_rack_acceleration", "peak_rack_shear", "residual_rack_drift")
+OF_CONTACTS: Final = ("peak_contact_force", "peak_contact_velocity")
+OF_BASES: Final = ("peak_base_slip", "peak_base_acceleration", "residual_base_slip", "base_slip_path")
+OF_RACKS: Final = (*OF_LEVELS, *OF_CONTACTS)
+"""Columns of racks and stops; those of bases have one number."""
 
 
 def rack_columns(table: pl.DataFrame, batch: _kernel.Batch, racks: _kernel.RackColumns | None) -> pl.DataFrame:
@@ -105,14 +107,14 @@ def rack_columns(table: pl.DataFrame, batch: _kernel.Batch, racks: _kernel.RackC
     failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
     if racks is None:
         levels = np.zeros(len(batch.status), dtype=np.uint32)
-        of_levels = {name: np.zeros(0) for name in _OF_LEVELS}
-        of_contacts = {name: np.zeros(int(batch.blocks.sum())) for name in _OF_CONTACTS}
-        of_bases = {name: np.full(len(batch.status), np.nan) for name in _OF_BASES}
+        of_levels = {name: np.zeros(0) for name in OF_LEVELS}
+        of_contacts = {name: np.zeros(int(batch.blocks.sum())) for name in OF_CONTACTS}
+        of_bases = {name: np.full(len(batch.status), np.nan) for name in OF_BASES}
     else:
         levels = racks.levels
-        of_levels = {name: getattr(racks, name) for name in _OF_LEVELS}
-        of_contacts = {name: getattr(racks, name) for name in _OF_CONTACTS}
-        of_bases = {name: getattr(racks, name) for name in _OF_BASES}
+        of_levels = {name: getattr(racks, name) for name in OF_LEVELS}
+        of_contacts = {name: getattr(racks, name) for name in OF_CONTACTS}
+        of_bases = {name: getattr(racks, name) for name in OF_BASES}
         shear = pl.Series(racks.peak_base_shear).fill_nan(None)
         table = table.with_columns(peak_base_shear=pl.when(pl.col("status") != "failed").then(shear))
     columns = {**_lists(of_levels, levels, failed), **_lists(of_contacts, batch.blocks, failed)}
