@@ -30,7 +30,15 @@ def test_one_version() -> None:
 def test_package_is_typed_and_finds_its_data() -> None:
     assert (Path(seismass.__file__).parent / "py.typed").is_file()
     stored = sorted(file.name for file in (data_directory() / "synthetic").iterdir())
-    assert stored == sorted(["forty.parquet", "seven.csv", "suite.csv", *(f"synthetic-{i}.AT2" for i in range(1, 12))])
+    assert stored == sorted(
+        [
+            "forty.parquet",
+            "forty_second.parquet",
+            "seven.csv",
+            "suite.csv",
+            *(f"synthetic-{i}.AT2" for i in range(1, 12)),
+        ]
+    )
 
 
 def test_every_error_is_a_seismass_error_and_the_builtin_one() -> None:

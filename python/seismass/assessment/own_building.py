@@ -30,6 +30,7 @@ from seismass.model.building import Building
 from seismass.model.codes import CodeFraction
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
 from seismass.spectra import TargetSpectrum
 
 DEFAULT_DRIFT_LIMIT: Final = 0.020
@@ -121,6 +122,8 @@ class OwnBuilding:
         Stiffness of elastic walls over the floors (N/m), beside the storeys; None without.
     walls_stated : str
         How they are stated, in words.
+    base : SlidingBase or None
+        What the building slides on; None on firm ground.
     """
 
     name: str
@@ -156,6 +159,7 @@ class OwnBuilding:
     path: Path | None = None
     walls: FloatArray | None = None
     walls_stated: str = ""
+    base: SlidingBase | None = None
 
     __eq__ = same_content
     __hash__ = content_hash
@@ -359,4 +363,6 @@ class OwnBuilding:
             else (self.collapse_drift_ratio * self.heights)
         )
         building = self.structure(target)
-        return Scene(building, blocks, racks=racks, collapse_drift=collapse, name=self.name, note=self.note)
+        return Scene(
+            building, blocks, racks=racks, base=self.base, collapse_drift=collapse, name=self.name, note=self.note
+        )

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
-from seismass.assessment.answer import Answer, floor_masses
+from seismass.assessment.answer import ANALYSIS, Answer, analysis_table
 from seismass.assessment.checks import checks_table, input_document
 from seismass.assessment.own_building import OwnBuilding
 from seismass.base.values import content_hash, same_content
@@ -133,11 +133,11 @@ class Assessment(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """The tables by name: storeys, governing, masses, slip, runs, slips, checks; curve and scaling where known."""
+        """The tables by name: storeys, governing, analysis, slip, runs, slips, checks; curve and scaling if known."""
         tables = {
             "storeys": self.storeys,
             "governing": self.governing,
-            "masses": floor_masses(self.answer, self.building),
+            ANALYSIS: analysis_table(self.answer, self.building),
             "slip": self.slip,
             "runs": self.runs,
             "slips": self.slips,

@@ -25,6 +25,8 @@ VIEWS: Final = {
     "OrientationScan.plot": "seismass.show.motions.pulse:orientation_figure",
     "PulseResult.plot": "seismass.show.motions.pulse:pulse_figure",
     "Pushover.plot": "seismass.plots.pushover:pushover",
+    "PushoverFit.plot": "seismass.show.design.pushover_fit:pushover_fit_figure",
+    "PushoverFit.text": "seismass.show.design.pushover_fit:pushover_fit_text",
     "Record._repr_html_": "seismass.show.cards.records:record_html",
     "Record.plot": "seismass.show.motions.record:record_figure",
     "PlaneResponse.text": "seismass.show.plane_text:plane_text",
