@@ -31,6 +31,7 @@ from seismass.model.building import Building
 from seismass.model.codes import CodeFraction
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
 from seismass.spectra import TargetSpectrum
 
 DEFAULT_DRIFT_LIMIT: Final = 0.020
@@ -122,6 +123,8 @@ class OwnBuilding(Card):
         Stiffness of elastic walls over the floors (N/m), beside the storeys; None without.
     walls_stated : str
         How they are stated, in words.
+    base : SlidingBase or None
+        What the building slides on; None on firm ground.
     """
 
     name: str
@@ -157,6 +160,7 @@ class OwnBuilding(Card):
     path: Path | None = None
     walls: FloatArray | None = None
     walls_stated: str = ""
+    base: SlidingBase | None = None
 
     __repr__ = short_repr
     __eq__ = same_content
@@ -361,4 +365,6 @@ class OwnBuilding(Card):
             else (self.collapse_drift_ratio * self.heights)
         )
         building = self.structure(target)
-        return Scene(building, blocks, racks=racks, collapse_drift=collapse, name=self.name, note=self.note)
+        return Scene(
+            building, blocks, racks=racks, base=self.base, collapse_drift=collapse, name=self.name, note=self.note
+        )
