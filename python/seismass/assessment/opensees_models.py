@@ -11,6 +11,7 @@ import numpy as np
 from seismass.assessment.answer import ANALYSIS, analysis_table
 from seismass.assessment.models import ADVISED, BARE, REAL, compared_models
 from seismass.assessment.result import Assessment
+from seismass.base.files import without_formulas
 from seismass.records import Suite
 from seismass.runs.opensees_export import write_opensees
 
@@ -41,4 +42,4 @@ def write_models(folder: str | os.PathLike[str], result: Assessment, suite: Suit
     motions = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
     chosen = {title: scenes[name] for name, title in TITLES.items() if name in scenes}
     table = analysis_table(result.answer, result.building)
-    return write_opensees(folder, chosen, motions, documents={f"{ANALYSIS}.csv": table.write_csv()})
+    return write_opensees(folder, chosen, motions, documents={f"{ANALYSIS}.csv": without_formulas(table).write_csv()})

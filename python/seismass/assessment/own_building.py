@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from seismass.assessment.floors import CountedFraction, FloorCode, FloorGoods, by_floor, counted_fractions
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content
+from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.views import Card
 from seismass.design import (
     THETA_CAP,
     Combination,
@@ -59,7 +60,7 @@ class DesignRule:
 
 
 @dataclass(frozen=True, eq=False)
-class OwnBuilding:
+class OwnBuilding(Card):
     """A building with its goods, as a building file describes it; see `read_building`.
 
     Attributes
@@ -161,6 +162,7 @@ class OwnBuilding:
     walls_stated: str = ""
     base: SlidingBase | None = None
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

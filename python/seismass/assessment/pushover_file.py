@@ -13,6 +13,7 @@ from seismass.assessment.storey_table import COLUMNS, Order, is_roof_first
 from seismass.assessment.storey_units import system_of
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.values import FloatArray, as_path, frozen, printable, refusal, short
+from seismass.base.views import Card
 from seismass.media.text_table import text_table
 
 _DISPLACEMENTS: Final = (
@@ -35,7 +36,7 @@ _RATIO: Final = {"": 1.0, "-": 1.0, "rad": 1.0, "%": 0.01}
 
 
 @dataclass(frozen=True, eq=False)
-class PushoverCurves:
+class PushoverCurves(Card):
     """Pushover curves as a file has them.
 
     Attributes

@@ -112,6 +112,9 @@ class Assessment(Result):
     __eq__ = same_content
     __hash__ = content_hash
 
+    def __repr__(self) -> str:
+        return f"<Assessment of {self.building.name}: {self.answer.headline}>"
+
     @property
     def advised(self) -> float | None:
         """Share of the goods present to attach in analysis 1; None where there is no answer.
@@ -225,6 +228,10 @@ class Assessment(Result):
             "design": answer.design,
             "share_matters": answer.matters,
         }
+
+    @view
+    def _repr_html_(self) -> str:
+        raise NotImplementedError
 
     @view
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:

@@ -19,6 +19,7 @@ from seismass.assessment.storey_units import Quantity, system_of
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_path, printable, refusal, short
+from seismass.base.views import Card
 from seismass.media.text_table import text_table
 
 Order = Literal["roof-first", "ground-first"]
@@ -50,7 +51,7 @@ _ROOF: Final = re.compile(r"roof|top", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
-class StoreyTable:
+class StoreyTable(Card):
     """Storeys of another program's model, storey 1 first, in SI units.
 
     Attributes

@@ -20,6 +20,7 @@ from seismass.base.values import (
     is_one_of,
     refusal,
     same_content,
+    short_repr,
 )
 from seismass.base.views import view
 from seismass.design.roof_fit import fitted_storeys, roof_shear
@@ -74,6 +75,7 @@ class PushoverFit(Result):
     rms_misfit: FloatArray
     assumptions: tuple[str, ...]
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 
