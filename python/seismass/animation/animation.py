@@ -144,6 +144,7 @@ def animate(
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "animation", "a Scene", brief(scene))
     chosen = as_motion(motion, "motion", "animation")
+    scene.on_ground("animation")
     scenes: list[tuple[str, float | None, Scene]] = [
         ("real building" if scene.building else f"{'racks' if scene.racks else 'blocks'} on the ground", None, scene)
     ]

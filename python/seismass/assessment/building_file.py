@@ -12,6 +12,7 @@ from typing import Any, Final, cast, get_args
 
 import numpy as np
 
+from seismass.assessment.file_base import BASE_KEYS, base_of
 from seismass.assessment.file_codes import code_of, floor_codes
 from seismass.assessment.file_goods import FRICTION, LIVE_LOAD, PRESENT, kinds_of, live_load_of, mu_factors_of
 from seismass.assessment.file_racks import SUPPORT
@@ -71,7 +72,7 @@ _KIND: Final = (*PRESENT, *FRICTION, "mu_k", *SUPPORT)
 _GOODS: Final = (*LIVE_LOAD, *_KIND)
 _DESIGN: Final = ("R", "design_fraction", "combination")
 KEYS: Final = {
-    "": ("name", "note", "units", "site", "code", "building", "walls", "goods", "storeys"),
+    "": ("name", "note", "units", "site", "code", "building", "walls", "base", "goods", "storeys"),
     "site": SITE,
     "code": ("id", "use", "fraction"),
     "building": (
@@ -88,6 +89,7 @@ KEYS: Final = {
         *_STOREY,
     ),
     "walls": WALL_KEYS,
+    "base": BASE_KEYS,
     "goods": ("mu_factors", *_GOODS),
     "storeys": ("name", "use", "fraction", "exempt", "goods", *_STOREY, *_GOODS),
     "storeys.goods": ("name", "share", "attached", *_KIND),
@@ -160,8 +162,8 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         _known(storey, "storeys", units)
         for kind in storey.tables("goods"):
             _known(kind, "storeys.goods", units)
-    building, goods, site, code, walls = (
-        _table(top, key, units) for key in ("building", "goods", "site", "code", "walls")
+    building, goods, site, code, walls, base = (
+        _table(top, key, units) for key in ("building", "goods", "site", "code", "walls", "base")
     )
     _unique(building, goods, storeys)
     frame = np.array([_mass(storey, building) for storey in storeys])
@@ -247,6 +249,7 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         path=path,
         walls=None if beside is None else beside.matrix,
         walls_stated="" if beside is None else beside.how,
+        base=base_of(base),
     )
 
 

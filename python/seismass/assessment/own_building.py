@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from seismass.assessment.floors import CountedFraction, FloorCode, FloorGoods, by_floor, counted_fractions
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content
+from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.views import Card
 from seismass.design import (
     THETA_CAP,
     Combination,
@@ -30,6 +31,7 @@ from seismass.model.building import Building
 from seismass.model.codes import CodeFraction
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
 from seismass.spectra import TargetSpectrum
 
 DEFAULT_DRIFT_LIMIT: Final = 0.020
@@ -58,7 +60,7 @@ class DesignRule:
 
 
 @dataclass(frozen=True, eq=False)
-class OwnBuilding:
+class OwnBuilding(Card):
     """A building with its goods, as a building file describes it; see `read_building`.
 
     Attributes
@@ -121,6 +123,8 @@ class OwnBuilding:
         Stiffness of elastic walls over the floors (N/m), beside the storeys; None without.
     walls_stated : str
         How they are stated, in words.
+    base : SlidingBase or None
+        What the building slides on; None on firm ground.
     """
 
     name: str
@@ -156,7 +160,9 @@ class OwnBuilding:
     path: Path | None = None
     walls: FloatArray | None = None
     walls_stated: str = ""
+    base: SlidingBase | None = None
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 
@@ -359,4 +365,6 @@ class OwnBuilding:
             else (self.collapse_drift_ratio * self.heights)
         )
         building = self.structure(target)
-        return Scene(building, blocks, racks=racks, collapse_drift=collapse, name=self.name, note=self.note)
+        return Scene(
+            building, blocks, racks=racks, base=self.base, collapse_drift=collapse, name=self.name, note=self.note
+        )

@@ -162,7 +162,7 @@ def assess(
         collapses=collapses,
         scaling=scaling,
         suite=about,
-        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL)),
+        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL), runs),
         remarks=remarks_of(chosen, doubts, scaling, effective, about),
         assumptions=assumptions_of(chosen, spectrum, scaling, about, period),
         metadata={
@@ -264,6 +264,8 @@ def _digest(
         blocks = [[block.floor, block.mu_s, block.mu_k] for block in scene.blocks]
         digest.update(np.array(blocks, dtype="<f8").tobytes())
         stops = [block.stop_numbers for block in scene.blocks]
+        if scene.base is not None:
+            digest.update(repr(scene.base).encode())
         if scene.racks or any(stops) or structure.stiffness_matrix is not None:
             matrix = structure.stiffness_matrix
             digest.update(b"" if matrix is None else np.ascontiguousarray(matrix, dtype="<f8").tobytes())

@@ -55,7 +55,7 @@ def building_page(result: AssessmentTables, drawings: Mapping[str, str]) -> str:
         Section("Effective fraction", _fractions(result, drawings)),
         Section("Drifts", _drifts(result, drawings)),
         *([Section("Slip of the goods", _slip(result, drawings))] if result.slip.height else []),
-        Section("In an analysis", [bullets_html(document["advice"]), *_masses(result)]),
+        Section("In an analysis", [bullets_html(document["advice"]), *_analysis(result)]),
         Section("Remarks", [bullets_html(document["remarks"] or ["None."])]),
         Section("Assumptions", [bullets_html(document["assumptions"])]),
         Section("Limits of this page", [bullets_html(list(LIMITS))]),
@@ -301,11 +301,11 @@ def _governing(result: AssessmentTables, scale: float, unit: str) -> Markup:
     )
 
 
-def _masses(result: AssessmentTables) -> list[Markup]:
+def _analysis(result: AssessmentTables) -> list[Markup]:
     """What to type into another program."""
     if result.answer is None:
         return []
-    table = result.masses
+    table = result.analysis
     if not any(table["name"]):
         table = table.drop("name")
     return [
@@ -314,16 +314,16 @@ def _masses(result: AssessmentTables) -> list[Markup]:
             "Mass of each floor in both analyses, for another program, and the multiplier of the design live load in "
             "its mass source.",
             headers={
-                "mass_1": "analysis 1: mass (t)",
-                "weight_1": "weight (kN)",
+                "mass_1_t": "analysis 1: mass (t)",
+                "weight_1_kn": "weight (kN)",
                 "multiplier_1": "multiplier of the live load",
-                "mass_2": "analysis 2: mass (t)",
-                "weight_2": "weight (kN)",
+                "mass_2_t": "analysis 2: mass (t)",
+                "weight_2_kn": "weight (kN)",
                 "multiplier_2": "multiplier",
             },
             formats={
-                **dict.fromkeys(("mass_1", "mass_2"), lambda value: f"{1e-3 * value:.1f}"),
-                **dict.fromkeys(("weight_1", "weight_2"), _thousandth),
+                **dict.fromkeys(("mass_1_t", "mass_2_t"), ".1f"),
+                **dict.fromkeys(("weight_1_kn", "weight_2_kn"), ".0f"),
                 "multiplier_1": ".2f",
                 "multiplier_2": ".2f",
             },

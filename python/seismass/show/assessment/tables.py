@@ -20,7 +20,7 @@ from seismass.media.folder import as_written
 
 DOCUMENT: Final = "assessment.json"
 """File by which a folder is known as that of an assessment."""
-NEEDED: Final = ("storeys", "governing", "masses", "slip", "runs", "checks")
+NEEDED: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks")
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class AssessmentTables:
     ----------
     document : dict
         What assessment.json holds.
-    storeys, governing, masses, slip, runs, checks : polars.DataFrame
+    storeys, governing, analysis, slip, runs, checks : polars.DataFrame
         Tables of the assessment.
     scaling : polars.DataFrame or None
         Factors of the motions.
@@ -64,7 +64,7 @@ class AssessmentTables:
     document: dict[str, Any]
     storeys: pl.DataFrame = field(repr=False)
     governing: pl.DataFrame = field(repr=False)
-    masses: pl.DataFrame = field(repr=False)
+    analysis: pl.DataFrame = field(repr=False)
     slip: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
     checks: pl.DataFrame = field(repr=False)
@@ -154,7 +154,7 @@ def _made(document: dict[str, Any], tables: dict[str, pl.DataFrame]) -> Assessme
         document=document,
         storeys=tables["storeys"],
         governing=tables["governing"],
-        masses=tables["masses"],
+        analysis=tables["analysis"],
         slip=tables["slip"],
         runs=tables["runs"],
         checks=tables["checks"],

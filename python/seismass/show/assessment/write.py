@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 FIGURES: Final = ("effective_fraction", "drift", "slip")
 """Names of all figures; those of an earlier assessment that are not written again are removed."""
-TABLES: Final = ("storeys", "governing", "masses", "slip", "runs", "checks", "curve", "scaling")
+TABLES: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "curve", "scaling")
 """Names of all tables, likewise."""
 
 
