@@ -186,7 +186,11 @@ def remarks_of(
     for name, result in effective.items():
         label = "" if name == REAL else f"{NAMES[name]}: "
         # What storeys the share does not cover is advice, of the share that is advised.
-        once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
+        once = [
+            text
+            for text in result.remarks
+            if not text.startswith(("storey ", "the building with sliding goods collapses"))
+        ]
         once = [text for text in once if text not in doubts and not _of_friction(text)]
         everywhere = (" motions are few", RULE_UNKNOWN)
         found += [label + remark for remark in once if name == REAL or not any(part in remark for part in everywhere)]

@@ -43,6 +43,8 @@ from seismass.assessment.own_building import (
     DesignRule,
     OwnBuilding,
 )
+from seismass.assessment.project import PROJECT, project_of
+from seismass.assessment.sources import sources_of
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.input_kinds import BUILDING_FILE, refuse_other_kind
 from seismass.base.input_table import POSITIVE, SHARE, Need, Table, load_table
@@ -72,7 +74,8 @@ _KIND: Final = (*PRESENT, *FRICTION, "mu_k", *SUPPORT)
 _GOODS: Final = (*LIVE_LOAD, *_KIND)
 _DESIGN: Final = ("R", "design_fraction", "combination")
 KEYS: Final = {
-    "": ("name", "note", "units", "site", "code", "building", "walls", "base", "goods", "storeys"),
+    "": ("name", "note", "units", "project", "site", "code", "building", "walls", "base", "goods", "storeys"),
+    "project": PROJECT,
     "site": SITE,
     "code": ("id", "use", "fraction"),
     "building": (
@@ -162,8 +165,8 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         _known(storey, "storeys", units)
         for kind in storey.tables("goods"):
             _known(kind, "storeys.goods", units)
-    building, goods, site, code, walls, base = (
-        _table(top, key, units) for key in ("building", "goods", "site", "code", "walls", "base")
+    building, goods, site, code, walls, base, project = (
+        _table(top, key, units) for key in ("building", "goods", "site", "code", "walls", "base", "project")
     )
     _unique(building, goods, storeys)
     frame = np.array([_mass(storey, building) for storey in storeys])
@@ -247,6 +250,8 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         collapse_drift_ratio=collapse,
         scaling_period=_optional(building, "scaling_period_s"),
         path=path,
+        project=project_of(project),
+        sources=sources_of(top.values),
         walls=None if beside is None else beside.matrix,
         walls_stated="" if beside is None else beside.how,
         base=base_of(base),

@@ -12,6 +12,7 @@ from seismass.assessment.own_building import OwnBuilding
 from seismass.base.errors import SimulationError
 from seismass.base.values import FloatArray
 from seismass.effective_mass.models import base_of_model, frame_mass
+from seismass.media.roles import MODELS
 from seismass.model.motion import Motion
 from seismass.model.scene import Scene
 from seismass.runs.batch import solve_many
@@ -27,15 +28,7 @@ CODE: Final = "code"
 ATTACHED: Final = "attached"
 BARE: Final = "bare"
 _SLIPS: Final = ("peak_slip", "residual_slip", "slip_path")
-NAMES: Final = {
-    REAL: "goods slide",
-    REAL_LOW: "goods slide, low mu",
-    REAL_HIGH: "goods slide, high mu",
-    ADVISED: "advised",
-    CODE: "code",
-    ATTACHED: "all attached",
-    BARE: "none attached",
-}
+NAMES: Final = {name: MODELS[name].name for name in (*REALS, ADVISED, CODE, ATTACHED, BARE)}
 """What texts and figures call the models."""
 
 

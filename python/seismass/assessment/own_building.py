@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.assessment.floors import CountedFraction, FloorCode, FloorGoods, by_floor, counted_fractions
+from seismass.assessment.project import NO_PROJECT, Project
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content, short_repr
@@ -119,6 +120,10 @@ class OwnBuilding(Card):
         Period (s) for which motions are scaled; None: first period of the building with its goods attached.
     path : Path or None
         The file.
+    project : Project
+        What the head of the page says.
+    sources : tuple of (str, str)
+        Each quantity with the keys that state it; see `seismass.assessment.sources`.
     walls : ndarray, shape (storeys, storeys), or None
         Stiffness of elastic walls over the floors (N/m), beside the storeys; None without.
     walls_stated : str
@@ -158,6 +163,8 @@ class OwnBuilding(Card):
     collapse_drift_ratio: float | None
     scaling_period: float | None
     path: Path | None = None
+    project: Project = NO_PROJECT
+    sources: tuple[tuple[str, str], ...] = ()
     walls: FloatArray | None = None
     walls_stated: str = ""
     base: SlidingBase | None = None

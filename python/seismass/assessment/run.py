@@ -22,6 +22,8 @@ from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.period import period_sentences
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.shares import DESIGN_SHARES, SHARES, advised_share, design_share, fractions_by_friction
+from seismass.assessment.shown_motion import Shown, motion_of_runs
+from seismass.assessment.spectra import spectra_table
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
@@ -139,6 +141,7 @@ def assess(
     real = chosen.scene(spectrum)
     storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, slips), collapses_of(runs)
     governing = governing_table(chosen, storeys)
+    place = motion_of_runs(runs)
     about = {
         "name": suite.name if isinstance(suite, Suite) else "motions",
         "motions": names,
@@ -160,6 +163,8 @@ def assess(
         slips=slips,
         runs=runs,
         collapses=collapses,
+        spectra=spectra_table(scaled, spectrum, threads=threads),
+        example=Shown(real, scaled[place], place + 1, float(factors[place])),
         scaling=scaling,
         suite=about,
         advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL), runs),
