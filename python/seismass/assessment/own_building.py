@@ -121,6 +121,8 @@ class OwnBuilding:
         Stiffness of elastic walls over the floors (N/m), beside the storeys; None without.
     walls_stated : str
         How they are stated, in words.
+    other : OwnBuilding or None
+        The building in y, where there are two directions: with the same masses, goods and limits.
     """
 
     name: str
@@ -156,6 +158,7 @@ class OwnBuilding:
     path: Path | None = None
     walls: FloatArray | None = None
     walls_stated: str = ""
+    other: OwnBuilding | None = None
 
     __eq__ = same_content
     __hash__ = content_hash
@@ -358,5 +361,12 @@ class OwnBuilding:
             if self.heights is None or self.collapse_drift_ratio is None
             else (self.collapse_drift_ratio * self.heights)
         )
-        building = self.structure(target)
-        return Scene(building, blocks, racks=racks, collapse_drift=collapse, name=self.name, note=self.note)
+        return Scene(
+            self.structure(target),
+            blocks,
+            racks=racks,
+            other_direction=False if self.other is None else self.other.structure(target),
+            collapse_drift=collapse,
+            name=self.name,
+            note=self.note,
+        )

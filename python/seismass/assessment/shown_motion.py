@@ -59,7 +59,7 @@ def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | N
     factors = scale_asce7_10(suite, spectrum, period, between=False).factors
     scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
     scene = building.scene(spectrum)
-    peaks = solve([scene], named_motions(scaled, "animation"))
+    peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
     ordered = among[np.argsort(peaks.largest[0][among], kind="stable")]
     place = int(ordered[(len(ordered) - 1) // 2])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.command import Command
@@ -17,6 +18,7 @@ from seismass.commands.options import (
     numbers_option,
     read_code,
     read_motions,
+    read_pairs,
     read_site,
 )
 from seismass.commands.progress import progress
@@ -59,13 +61,17 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment import assess
     from seismass.assessment.building_file import read_building
     from seismass.assessment.opensees_models import write_models
+    from seismass.base.errors import InvalidOption
     from seismass.media.folder import check_out
 
     args.out = args.out or Path(args.file.stem)
     check_out(args.out, "assessment")
     building = read_building(args.file)
     code, target = read_code(args, "building"), read_site(args, "building")
-    suite = read_motions(args)
+    in_plane = building.other is not None
+    if in_plane and args.opensees is not None:
+        raise InvalidOption(f"--opensees of building must be left out in two directions; got {args.opensees}")
+    suite: Any = read_pairs(args) if in_plane else read_motions(args)
     with progress() as tell:
         result = assess(
             building,

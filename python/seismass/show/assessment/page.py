@@ -23,7 +23,7 @@ from seismass.show.assessment.tables import AssessmentTables, Fraction
 from seismass.show.study.page import bullets_html, long_html
 
 LIMITS: Final = (
-    "Shear buildings in one direction: no torsion, no flexible floors, no foundation.",
+    "Shear buildings, in each direction by themselves: no torsion, no flexible floors, no foundation.",
     "Rigid goods that slide by Coulomb friction; goods that rock, topple, strike or deform are not covered.",
     "Trilinear storeys without loss of strength but by P-Delta; Omega, r2 and r3 decide about large drifts.",
     "The interval of a fraction resamples these motions, and is 0.05 wider at each end for another suite.",
