@@ -12,7 +12,7 @@ import pytest
 import seismass as sm
 from seismass import explore
 from seismass.assessment.building_file import example_file
-from seismass.explore.address import LIMITS, MOST_STOREYS
+from seismass.media.live_address import LIMITS, MOST_STOREYS
 from seismass.show.assessment.live import OwnCase, own_case
 from seismass.show.assessment.tables import assessment_tables
 

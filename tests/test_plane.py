@@ -70,11 +70,13 @@ def test_what_belongs_to_two_directions_is_refused_in_one() -> None:
         sm.Scene(sm.Building([1.0], 100.0), other_direction=sm.Building([2.0], 100.0))
 
 
-def test_other_functions_refuse_two_directions_by_name() -> None:
-    with pytest.raises(sm.errors.InvalidScene, match="other_direction of scene"):
+def test_a_motion_that_does_not_suit_its_scene_is_refused() -> None:
+    with pytest.raises(sm.errors.InvalidMotion, match="motion 1 of batch must be a Pair"):
         sm.simulate_many([crate()], [constant(1.0)])
+    with pytest.raises(sm.errors.InvalidMotion, match="motion 2 of batch must be a Motion"):
+        sm.simulate_many([sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)])], [constant(1.0), (constant(1.0),) * 2])
     scene = sm.Scene(sm.Building.uniform(1, 0.5), sm.blocks_on_floors([0.5], mu=0.2), other_direction=True)
-    with pytest.raises(sm.errors.InvalidScene, match="other_direction of scene"):
+    with pytest.raises(sm.errors.InvalidMotion, match="motion 1 of effective mass must be a Pair"):
         sm.effective_mass(scene, [constant(1.0)])
     with pytest.raises(sm.errors.InvalidScene, match="left out where there are two directions"):
         sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)], base=sm.SlidingBase(mu=0.1, mass=1.0), other_direction=True)

@@ -152,6 +152,7 @@ def animate(
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "animation", "a Scene", brief(scene))
     chosen = as_motion(motion, "motion", "animation")
+    scene.on_ground("animation")
     scenes: list[tuple[str, float | None, Scene]] = [(_label(scene), None, scene)]
     if any(floor > 0 for floor in (*scene.block_floor, *(rack.floor for rack in scene.racks if rack.blocks))):
         if fraction is None:

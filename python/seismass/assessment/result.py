@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
-from seismass.assessment.answer import Answer, floor_masses
+from seismass.assessment.answer import ANALYSIS, Answer, analysis_table
 from seismass.assessment.checks import checks_table, input_document
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.shown_motion import Shown
@@ -120,6 +120,9 @@ class Assessment(Result):
     __eq__ = same_content
     __hash__ = content_hash
 
+    def __repr__(self) -> str:
+        return f"<Assessment of {self.building.name}: {self.answer.headline}>"
+
     @property
     def advised(self) -> float | None:
         """Share of the goods present to attach in analysis 1; None where there is no answer.
@@ -141,11 +144,11 @@ class Assessment(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Tables by name: storeys, governing, masses, slip, runs, slips, checks, spectra; curve, scaling if known."""
+        """Tables by name: storeys, governing, analysis, slip, runs, slips, checks, spectra; curve, scaling if known."""
         tables = {
             "storeys": self.storeys,
             "governing": self.governing,
-            "masses": floor_masses(self.answer, self.building),
+            ANALYSIS: analysis_table(self.answer, self.building),
             "slip": self.slip,
             "runs": self.runs,
             "slips": self.slips,
@@ -239,6 +242,10 @@ class Assessment(Result):
             "design": answer.design,
             "share_matters": answer.matters,
         }
+
+    @view
+    def _repr_html_(self) -> str:
+        raise NotImplementedError
 
     @view
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content
+from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.effective_mass.curve import check_fractions, interpolated, over_records, resampled
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
@@ -86,6 +86,7 @@ class LiveLoadUncertainty(Result):
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

@@ -157,13 +157,18 @@ def scene_bytes(scene: Scene) -> Iterator[bytes]:
     for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
         stops = block.stop_numbers or ()
         yield np.array([block.floor, mass, block.mu_s, block.mu_k, *chain(*block.wear), *stops], dtype="<f8").tobytes()
+    if scene.base is not None:
+        yield repr(scene.base).encode()
     for rack in scene.racks:
         yield repr(sorted(rack._arguments().items(), key=lambda item: item[0])).encode()
+    if scene.other_direction is not False:
+        yield b"in y"
+        yield from scene_bytes(scene._directions()[1])
 
 
 def motion_bytes(motions: NamedMotions) -> Iterator[bytes]:
     """Yield the samples and the time step of each motion."""
-    for motion in motions.motions:
+    for motion in motions.components:
         yield np.float64(motion.dt).tobytes()
         yield np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes()
         if motion.vertical is not None:

@@ -15,6 +15,7 @@ from seismass.base.input_kinds import SCENE_FILE, refuse_other_kind
 from seismass.base.input_table import FINITE, POSITIVE, Table, load_table
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
+from seismass.base.views import Card
 from seismass.model.building import Building, as_fraction_of_weight
 from seismass.model.damping import Rayleigh
 from seismass.model.motion import Motion, check_size
@@ -24,9 +25,9 @@ from seismass.model.spring_laws import is_per_storey
 from seismass.model.springs import SPRING_FIELDS
 from seismass.records import Record, builtin_record, read_record
 from seismass.records.builtin import builtin_names, data_directory
+from seismass.runs.plane_motion import motions_in_plane
 from seismass.runs.scene_goods import GOODS_KEYS, read_base, read_block, read_rack
 from seismass.runs.scene_walls import WALL_KEYS, check_walls, matrix_of_walls, with_walls
-from seismass.runs.simulate import motions_in_plane
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
@@ -71,7 +72,7 @@ KEYS: Final = {
 
 
 @dataclass(frozen=True)
-class SceneFile:
+class SceneFile(Card):
     """What a scene file holds.
 
     Attributes

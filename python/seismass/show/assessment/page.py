@@ -13,8 +13,8 @@ from seismass.assessment.models import ADVISED, BARE, NAMES, REAL, REAL_HIGH, RE
 from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.effective_mass.rules import BY_HAND
-from seismass.explore.address import PAGE as LIVE_PAGE
 from seismass.media.isolate import sentence_html
+from seismass.media.live_address import PAGE as LIVE_PAGE
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
 from seismass.media.page_lists import bullets_html, long_html
 from seismass.media.roles import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered
@@ -22,12 +22,12 @@ from seismass.media.svg import short_svg
 from seismass.media.text_table import number_text
 from seismass.show.animation.html import element_html
 from seismass.show.assessment.live import own_case
-from seismass.show.assessment.page_input import input_html, thousandth_text
+from seismass.show.assessment.page_input import input_html
 from seismass.show.assessment.sheet import NOT_COVERED, sheet_html, signed_percent
 from seismass.show.assessment.tables import AssessmentTables, Fraction
 
 LIMITS: Final = (
-    "Shear buildings in one direction.",
+    "Shear buildings, in each direction by themselves: no torsion, no flexible floors, no foundation.",
     NOT_COVERED,
     f"Trilinear storeys without loss of strength but by P-Delta; {OMEGA}, r2 and r3 decide about large drifts.",
     "The interval of a fraction resamples these motions, and is 0.05 wider at each end for another suite.",
@@ -81,7 +81,7 @@ def building_page(
         Section("Effective fraction", _fractions(result, pictures)),
         Section("Drifts", _drifts(result, pictures)),
         *([Section("Slip of the goods", _slip(result, pictures))] if result.slip.height else []),
-        Section("In an analysis", [listed(document["advice"]), *_masses(result)]),
+        Section("In an analysis", [listed(document["advice"]), *_analysis(result)]),
         Section("Checks", [_checks(result)]),
         Section("Motions", _motions(result, pictures)),
         Section("The building in motion", _in_motion(result)),
@@ -282,11 +282,11 @@ def _governing(result: AssessmentTables, scale: float, unit: str) -> Markup:
     )
 
 
-def _masses(result: AssessmentTables) -> list[Markup]:
+def _analysis(result: AssessmentTables) -> list[Markup]:
     """What to type into another program."""
     if result.answer is None:
         return []
-    table = result.masses
+    table = result.analysis
     if not any(table["name"]):
         table = table.drop("name")
     return [
@@ -295,16 +295,16 @@ def _masses(result: AssessmentTables) -> list[Markup]:
             "Mass of each floor in both analyses, for another program, and the multiplier of the design live load in "
             "its mass source.",
             headers={
-                "mass_1": "analysis 1: mass (t)",
-                "weight_1": "weight (kN)",
+                "mass_1_t": "analysis 1: mass (t)",
+                "weight_1_kn": "weight (kN)",
                 "multiplier_1": "multiplier of the live load",
-                "mass_2": "analysis 2: mass (t)",
-                "weight_2": "weight (kN)",
+                "mass_2_t": "analysis 2: mass (t)",
+                "weight_2_kn": "weight (kN)",
                 "multiplier_2": "multiplier",
             },
             formats={
-                **dict.fromkeys(("mass_1", "mass_2"), lambda value: f"{1e-3 * value:.1f}"),
-                **dict.fromkeys(("weight_1", "weight_2"), thousandth_text),
+                **dict.fromkeys(("mass_1_t", "mass_2_t"), ".1f"),
+                **dict.fromkeys(("weight_1_kn", "weight_2_kn"), ".0f"),
                 "multiplier_1": ".2f",
                 "multiplier_2": ".2f",
             },

@@ -23,7 +23,7 @@ from seismass.show.animation.html import element_content
 
 DOCUMENT: Final = "assessment.json"
 """File by which a folder is known as that of an assessment."""
-NEEDED: Final = ("storeys", "governing", "masses", "slip", "runs", "checks", "spectra")
+NEEDED: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra")
 ANIMATION: Final = "animation.json"
 """File of what the animation shows."""
 
@@ -58,7 +58,7 @@ class AssessmentTables:
     ----------
     document : dict
         What assessment.json holds.
-    storeys, governing, masses, slip, runs, checks, spectra : polars.DataFrame
+    storeys, governing, analysis, slip, runs, checks, spectra : polars.DataFrame
         Tables of the assessment.
     scaling : polars.DataFrame or None
         Factors of the motions.
@@ -71,7 +71,7 @@ class AssessmentTables:
     document: dict[str, Any]
     storeys: pl.DataFrame = field(repr=False)
     governing: pl.DataFrame = field(repr=False)
-    masses: pl.DataFrame = field(repr=False)
+    analysis: pl.DataFrame = field(repr=False)
     slip: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
     checks: pl.DataFrame = field(repr=False)
@@ -183,7 +183,7 @@ def _made(
         document=document,
         storeys=tables["storeys"],
         governing=tables["governing"],
-        masses=tables["masses"],
+        analysis=tables["analysis"],
         slip=tables["slip"],
         runs=tables["runs"],
         checks=tables["checks"],

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 FIGURES: Final = ("effective_fraction", "drift", "slip", "spectrum")
 """Names of all figures; those of an earlier assessment that are not written again are removed."""
-TABLES: Final = ("storeys", "governing", "masses", "slip", "runs", "checks", "spectra", "curve", "scaling")
+TABLES: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra", "curve", "scaling")
 """Names of all tables, likewise."""
 
 

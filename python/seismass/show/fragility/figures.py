@@ -76,7 +76,7 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
 
 
 def _highest_drawn(result: FragilityAnalysis, limit: LimitState) -> float | None:
-    """Intensity up to which curves are drawn: to where the last of them is nearly one, where that is known."""
+    """Intensity up to which curves are drawn: to where the last of them is nearly one, or all motions are beyond it."""
     own = result.curves.filter(pl.col("limit") == limit.name)
     if own.is_empty():
         return None
@@ -85,7 +85,10 @@ def _highest_drawn(result: FragilityAnalysis, limit: LimitState) -> float | None
         for _, rows in own.group_by("model", maintain_order=True)
     ]
     ends = [float(end) for end in known if isinstance(end, float)]
-    return 1.15 * max(ends) if ends else None
+    seen = [observed(result, limit, str(model))[0] for model in own["model"].unique(maintain_order=True)]
+    points = np.concatenate([at[np.isfinite(at)] for at in seen])
+    nearly = [1.15 * max(ends)] * bool(ends) + [1.25 * float(points.max(initial=0.0))] * bool(points.size)
+    return min(nearly) if nearly else None
 
 
 def _looks(result: FragilityAnalysis) -> dict[str, tuple[dict[str, Any], str]]:
