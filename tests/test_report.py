@@ -19,7 +19,7 @@ from seismass.assessment.building_file import example_file
 from seismass.cli import main
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.media.roles import LAMBDA, MU, lettered
-from seismass.show.study.answer import answer, compared_rules, percent
+from seismass.show.study.answer import answer, compared_rules, one_line, percent
 from seismass.show.study.slip import slip_demand
 from seismass.show.study.tables import StudyTables, read_study_tables, study_tables
 from seismass.show.study.words import assumptions
@@ -80,23 +80,24 @@ def test_page_has_every_part(folder: Path) -> None:
     titles = re.findall(r"<h[23][^>]*>([^<]*)</h[23]>", page)
     assert titles == [
         "Contents",
-        "Ground motions",
-        "Validation",
-        "Three storeys",
-        "Shaking table",
+        "Findings",
+        "Underestimation",
         "Drift demands",
         "R = 1",
         "R = 2",
         "R = 6",
-        "Underestimation",
         "Effective fraction",
         "Slip of the goods",
         "Example",
         "Claims of the paper",
+        "Ground motions",
         "Tables",
         "Drift of every storey",
         "Fractions of every building",
         "Slip of every building",
+        "Validation",
+        "Three storeys",
+        "Shaking table",
         "Assumptions",
         "Provenance",
     ]
@@ -118,7 +119,8 @@ def test_page_says_what_the_tables_say(folder: Path, result: StudyResult) -> Non
     )
     assert result.metadata["inputs_sha256"] in text
     for sentence in assumptions(result.metadata):
-        assert sentence in text
+        assert lettered(sentence) in text
+    assert one_line(result) in text
     for motion in result.metadata["suite"]["motions"]:
         assert f"{motion['factor']:.4f}" in text
 
