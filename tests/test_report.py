@@ -323,3 +323,27 @@ def test_page_of_a_building_without_heights_and_goods(tmp_path: Path) -> None:
     again = tmp_path / "again.html"
     assert main(["report", str(tmp_path), "--out", str(again)]) == 0
     assert again.read_text(encoding="utf-8") == page
+
+
+@pytest.mark.parametrize(
+    ("further", "words"),
+    [
+        ({"base": {"mu_s": 0.08, "mu_k": 0.06, "radius_m": 2.5}}, ["Sliding base", "it stands on a sliding base"]),
+        ({"other_direction": {"period_s": 0.7}}, ["Other direction, y", "it moves in two directions"]),
+    ],
+)
+def test_page_of_a_building_that_no_animation_shows(
+    tmp_path: Path, further: dict[str, object], words: list[str]
+) -> None:
+    given = {
+        "site": {"sds_g": 1.0, "sd1_g": 0.6},
+        "building": {"period_s": 0.4, "area_m2": 500.0, "dead_load_kpa": 5.0, "design": True, "R": 3.0},
+        "goods": {"live_load_kpa": 6.0, "mu": 0.2},
+        "storeys": [{}],
+        **further,
+    }
+    sm.assess(given, mu_factors=(1.0, 1.0), resamples=2).write(tmp_path)
+    text = analysis_text((tmp_path / "report.html").read_text(encoding="utf-8"))
+    for said in (*words, "The live page cannot show this building", "Spectra of the motions"):
+        assert said in text
+    assert not (tmp_path / "animation.json").exists()
