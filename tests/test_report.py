@@ -338,8 +338,8 @@ def test_page_of_a_building_that_no_animation_shows(
     given = {
         "site": {"sds_g": 1.0, "sd1_g": 0.6},
         "building": {"period_s": 0.4, "area_m2": 500.0, "dead_load_kpa": 5.0, "design": True, "R": 3.0},
-        "goods": {"live_load_kpa": 6.0, "mu": 0.2},
-        "storeys": [{}],
+        "goods": {"live_load_kpa": 6.0, "mu_s": 0.2, "mu_k": 0.15},
+        "storeys": [{}, {"live_load_kpa": 0.0}],
         **further,
     }
     few = list(sm.records.builtin_pairs())[:3] if "other_direction" in further else list(SUITE)[:3]
