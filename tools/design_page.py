@@ -145,6 +145,7 @@ def figure(names: dict[str, Any]) -> Figure:
         left.set_title("hardening storeys, no P-Delta")
         right.set_title("softening storeys with P-Delta")
         right.set_ylabel("")
+        right.get_legend().remove()  # it is that of the left panel
     return drawn
 
 

@@ -130,6 +130,8 @@ class OwnBuilding(Card):
         How they are stated, in words.
     base : SlidingBase or None
         What the building slides on; None on firm ground.
+    other : OwnBuilding or None
+        The building in y, where there are two directions: with the same masses, goods and limits.
     """
 
     name: str
@@ -168,6 +170,7 @@ class OwnBuilding(Card):
     walls: FloatArray | None = None
     walls_stated: str = ""
     base: SlidingBase | None = None
+    other: OwnBuilding | None = None
 
     __repr__ = short_repr
     __eq__ = same_content
@@ -371,7 +374,13 @@ class OwnBuilding(Card):
             if self.heights is None or self.collapse_drift_ratio is None
             else (self.collapse_drift_ratio * self.heights)
         )
-        building = self.structure(target)
         return Scene(
-            building, blocks, racks=racks, base=self.base, collapse_drift=collapse, name=self.name, note=self.note
+            self.structure(target),
+            blocks,
+            racks=racks,
+            base=self.base,
+            other_direction=False if self.other is None else self.other.structure(target),
+            collapse_drift=collapse,
+            name=self.name,
+            note=self.note,
         )

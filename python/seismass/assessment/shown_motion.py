@@ -82,7 +82,7 @@ def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | N
     factors = scale_asce7_10(suite, spectrum, period, between=False).factors
     scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
     scene = building.scene(spectrum)
-    peaks = solve([scene], named_motions(scaled, "animation"))
+    peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
     place = _median(peaks.largest[0], among)
     return Shown(scene, scaled[place], place + 1, float(factors[place]))

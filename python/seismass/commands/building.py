@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import print_answer, write_answer
 from seismass.commands.command import Command
@@ -18,6 +18,7 @@ from seismass.commands.options import (
     numbers_option,
     read_code,
     read_motions,
+    read_pairs,
     read_site,
 )
 from seismass.commands.progress import progress
@@ -63,13 +64,17 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment import assess
     from seismass.assessment.building_file import read_building
     from seismass.assessment.opensees_models import write_models
+    from seismass.base.errors import InvalidOption
     from seismass.media.folder import check_out
 
     args.out = args.out or Path(args.file.stem)
     check_out(args.out, "assessment")
     building = read_building(args.file)
     code, target = read_code(args, "building"), read_site(args, "building")
-    suite = read_motions(args)
+    in_plane = building.other is not None
+    if in_plane and args.opensees is not None:
+        raise InvalidOption(f"--opensees of building must be left out in two directions; got {args.opensees}")
+    suite: Any = read_pairs(args) if in_plane else read_motions(args)
     with progress() as tell:
         result = assess(
             building,
@@ -95,7 +100,7 @@ def _live_page(out: Path, result: Assessment) -> list[Path]:
     from seismass.base.errors import MissingPackage
     from seismass.base.files import written_whole
     from seismass.explore import explorer_html
-    from seismass.explore.address import PAGE
+    from seismass.media.live_address import PAGE
     from seismass.show.assessment.live import own_case
     from seismass.show.assessment.tables import assessment_tables
 

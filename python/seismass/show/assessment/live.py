@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.explore.address import MOST_STOREYS, LiveCase
+from seismass.media.live_address import MOST_STOREYS, LiveCase
 from seismass.show.assessment.tables import AssessmentTables
 
 ALIKE = 1e-6

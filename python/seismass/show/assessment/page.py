@@ -13,8 +13,8 @@ from seismass.assessment.models import ADVISED, BARE, NAMES, REAL, REAL_HIGH, RE
 from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.effective_mass.rules import BY_HAND
-from seismass.explore.address import PAGE as LIVE_PAGE
 from seismass.media.isolate import sentence_html
+from seismass.media.live_address import PAGE as LIVE_PAGE
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
 from seismass.media.page_lists import bullets_html, long_html
 from seismass.media.roles import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered
@@ -27,7 +27,7 @@ from seismass.show.assessment.sheet import NOT_COVERED, sheet_html, signed_perce
 from seismass.show.assessment.tables import AssessmentTables, Fraction
 
 LIMITS: Final = (
-    "Shear buildings in one direction.",
+    "Shear buildings, in each direction by themselves: no torsion, no flexible floors, no foundation.",
     NOT_COVERED,
     f"Trilinear storeys without loss of strength but by P-Delta; {OMEGA}, r2 and r3 decide about large drifts.",
     "The interval of a fraction resamples these motions, and is 0.05 wider at each end for another suite.",

@@ -11,12 +11,13 @@ from markupsafe import Markup
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.media.isolate import isolated, sentence_html
 from seismass.media.page import facts_html, table_html
-from seismass.media.page_lists import long_html
+from seismass.media.page_lists import long_html, whole_html
 from seismass.media.roles import MU, OMEGA
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.tables import AssessmentTables
 
-BY_DESIGN: Final = "by design, see strength"
+MOST_MOTIONS: Final = 12
+"""Motions that are named here."""
 
 
 def input_html(result: AssessmentTables) -> list[Markup]:
@@ -26,7 +27,6 @@ def input_html(result: AssessmentTables) -> list[Markup]:
 
 def _facts(result: AssessmentTables) -> dict[str, str]:
     given, code, document = result.document["input"], result.code, result.document
-    names = [document["suite"]["name"], *document["suite"]["motions"]]
     facts: dict[str, str] = {}
     if given["file"]:
         facts["File"] = isolated(given["file"])
@@ -65,9 +65,16 @@ def _facts(result: AssessmentTables) -> dict[str, str]:
         "Site spectrum": _with_source(
             "none" if document["target"] is None else document["target"]["label"], given, "site"
         ),
-        "Motions": sentence_html(", ".join([f"{names[0]}: {', '.join(names[1:])}"]), names),
+        "Motions": _motions(document["suite"]),
     }
     return facts
+
+
+def _motions(suite: dict[str, Any]) -> Markup:
+    names = suite["motions"]
+    if len(names) > MOST_MOTIONS:
+        return Markup("{}: {} motions, listed below with their factors").format(isolated(suite["name"]), len(names))
+    return Markup("{}: {}").format(isolated(suite["name"]), whole_html(map(isolated, names)))
 
 
 def _with_source(text: str, given: dict[str, Any], *names: str) -> Markup:

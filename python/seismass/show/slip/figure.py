@@ -27,11 +27,11 @@ _HEIGHT = 4.6
 def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
     """Return `SlipDemand.plot`."""
     named_figure(result, name)
-    panels = 3 if result.fragilities else 2
-    width = 4.2 * panels
+    rows = 2 if result.fragilities else 1
+    width = 8.4
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(width, _HEIGHT), layout="constrained")
-        axes = figure.subplots(1, panels, squeeze=False)[0]
+        figure = Figure(figsize=(width, _HEIGHT * (0.85 * rows + 0.15)), layout="constrained")
+        axes = figure.subplots(rows, 2, squeeze=False).ravel()
         _by_block(axes[0], result)
         _against_acceleration(axes[1], result)
         if result.fragilities:
@@ -62,7 +62,11 @@ def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
         ]
         if result.exceedance.height:
             handles.append(Line2D([], [], color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.2, label="clearance"))
-        figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
+        if result.fragilities:
+            axes[3].set_axis_off()
+            axes[3].legend(handles=handles, loc="center", frameon=False)
+        else:
+            figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
         figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * width)), fontsize=7.5)
     return figure
 
