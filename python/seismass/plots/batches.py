@@ -249,9 +249,12 @@ def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: A
     with mpl.rc_context(STYLE):
         place = single(ax, "scatter figure")
         axes = place.axes[0]
-        for group, (colour, marker) in zip(groups, _POINTS, strict=False):
+        for place_of, (group, (colour, marker)) in enumerate(zip(groups, _POINTS, strict=False)):
             here = points.filter(pl.col("by").eq_missing(group))
-            look: Any = {"color": colour, "linestyle": "", "marker": marker, "markersize": 4.0, "alpha": 0.75}
+            # Open, and smaller from one series to the next, so that points at one place are seen within one another.
+            size = 4.0 if len(groups) == 1 else 7.5 - 4.0 * place_of / (len(groups) - 1)
+            look: Any = {"color": colour, "linestyle": "", "marker": marker, "markersize": size}
+            look |= {"markerfacecolor": "none", "markeredgewidth": 0.9} if len(groups) > 1 else {"alpha": 0.75}
             name = (
                 "" if by is None else f"{plain(by)} = {plain(f'{group:g}' if isinstance(group, float) else str(group))}"
             )

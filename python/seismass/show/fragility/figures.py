@@ -21,6 +21,8 @@ from seismass.media.result import named_figure
 from seismass.media.style import GREY, INK, PAPER, SERIES, STYLE, VERMILION, plain
 
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
+_NEARLY: Final = 0.9
+"""Probability at which a curve has shown what it has to say."""
 _FRACTILE_LOOKS: Final[dict[str, Any]] = {"p16": (0, (1.2, 1.2)), "p50": "-", "p84": (0, (5, 2))}
 _FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
 
@@ -51,11 +53,12 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
                     _curve(axes, result, limit, model, look, marker)
             axes.set_title(plain(limit.text))
             axes.set_ylim(-0.02, 1.02)
-            axes.set_xlim(left=0.0)
+            axes.set_xlim(0.0, _reach(result, limit))
             axes.set_xlabel(_intensity_label(result))
             axes.set_ylabel("probability of exceedance")
             grid_lines(axes)
-        for axes in panels[count:]:
+        spare = panels[count:]
+        for axes in spare:
             axes.set_axis_off()
         handles: list[Any] = [
             Line2D([], [], **look, marker=marker, markersize=4.0, label=plain(model))
@@ -64,7 +67,10 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
         if any(len(fit.samples) for fit in result.fits.values()):
             share = f"{100.0 * result.metadata['confidence']:g} % interval"
             handles.append(Patch(facecolor=GREY, alpha=0.3, label=share))
-        figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
+        if len(spare):
+            spare[0].legend(handles=handles, loc="center", frameon=False, fontsize=10.0)
+        else:
+            figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
         figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
 
@@ -92,6 +98,17 @@ def _curve(
         markerfacecolor=PAPER,
         gid=f"points:{limit.name}:{model}",
     )
+
+
+def _reach(result: FragilityAnalysis, limit: LimitState) -> float | None:
+    """Intensity up to which a panel shows curves: where all of them have reached `_NEARLY`, or end before."""
+    of = result.curves.filter(limit=limit.name).drop_nulls("probability")
+    ends = [
+        own.filter(pl.col("probability") >= _NEARLY)["intensity"].min() or own["intensity"].max()
+        for (_,), own in of.group_by("model")
+    ]
+    found = [float(end) for end in ends if isinstance(end, float)]
+    return 1.05 * max(found) if found else None
 
 
 def observed(result: FragilityAnalysis, limit: LimitState, model: str) -> tuple[FloatArray, FloatArray]:

@@ -20,17 +20,18 @@ if TYPE_CHECKING:
     from seismass.slip.result import SlipDemand
 
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
-_HEIGHT = 4.6
+_WIDTH = 8.4
+_HEIGHT = 4.0
 
 
 def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
     """Return `SlipDemand.plot`."""
     named_figure(result, name)
     panels = 3 if result.fragilities else 2
-    width = 4.2 * panels
+    rows = 1 if panels == 2 else 2
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(width, _HEIGHT), layout="constrained")
-        axes = figure.subplots(1, panels, squeeze=False)[0]
+        figure = Figure(figsize=(_WIDTH, rows * _HEIGHT), layout="constrained")
+        axes = figure.subplots(rows, 2, squeeze=False).ravel()
         _by_block(axes[0], result)
         _against_acceleration(axes[1], result)
         if result.fragilities:
@@ -53,8 +54,12 @@ def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
         ]
         if result.exceedance.height:
             handles.append(Line2D([], [], color=VERMILION, linestyle=(0, (8, 2)), linewidth=1.2, label="clearance"))
-        figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
-        figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * width)), fontsize=7.5)
+        if panels == 3:
+            axes[3].set_axis_off()
+            axes[3].legend(handles=handles, loc="center", frameon=False)
+        else:
+            figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
+        figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * _WIDTH)), fontsize=7.5)
     return figure
 
 
