@@ -20,6 +20,7 @@ from seismass.commands.options import (
     read_site,
 )
 from seismass.commands.progress import progress
+from seismass.commands.terminal import show
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -54,7 +55,10 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Assess the building, write its files and print the page; return the exit code."""
     if args.example or args.codes or args.frictions or args.occupancies:
-        print(_listing(args), end="")
+        if args.example:
+            print(_listing(args), end="")
+        else:
+            show(_listing(args).removesuffix("\n"))
         return 0
     from seismass.assessment import assess
     from seismass.assessment.building_file import read_building
@@ -79,7 +83,7 @@ def run(args: argparse.Namespace) -> int:
         )
     if args.opensees is not None:
         write_models(args.opensees, result, suite)
-    give_answer(args, result, suite, answer="ANSWER")
+    give_answer(args, result, suite, answer=r"ANSWER| {10}[12]  ")
     return 0
 
 

@@ -210,7 +210,7 @@ def _intensity_label(result: FragilityAnalysis) -> str:
 
 def _caption(result: FragilityAnalysis) -> str:
     """One line on what the curves depend on."""
-    method = {"hunt_fill": "hunt and fill", "stripes": "stripes", "cloud": "cloud"}[result.method]
+    method = {"hunt_fill": "incremental dynamic analysis", "stripes": "stripes", "cloud": "cloud"}[result.method]
     share = result.metadata.get("code_share")
     rule = "" if share is None else f";  code: {100.0 * share:g} % of the goods attached"
     return f"{method}, {result.motions.height} motions, whose scatter alone is shown{rule}"

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 _WIDTH: Final = 120
 _METHODS: Final = {
-    "hunt_fill": "incremental dynamic analysis, hunt and fill",
+    "hunt_fill": "incremental dynamic analysis",
     "stripes": "stripes",
     "cloud": "cloud",
 }
@@ -90,5 +90,5 @@ def _exceedance(row: dict[str, Any], reference: str) -> str:
         ends = ends_text(row["difference_low"], row["difference_high"], "+.1f", scale=100.0, infinite="none")
         difference = f"; {points}{ends}"
     said = "unknown" if row["probability"] is None else f"{100.0 * row['probability']:.1f} %"
-    where = f"where {row['model']} says {said} (at {row['intensity']:.3g})"
-    return f"  {where}, {reference} has {percent('reference')}{difference}"
+    given = f"at {row['intensity']:.3g}: probability {said} by {row['model']}"
+    return f"  {given}, {percent('reference')} by {reference}{difference}"

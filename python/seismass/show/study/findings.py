@@ -54,8 +54,8 @@ def _scatter(row: dict[str, Any]) -> list[str]:
     """What the largest is made of, and how it scatters."""
     median, low, high = (row[f"{name}_underestimation_percent"] for name in ("median", "p16", "p84"))
     lines = [
-        f"    by mass, by sliding     {change_text(row['mass_percent'])} (attached over code), "
-        f"{change_text(row['sliding_percent'])} (real over attached)",
+        f"    its two parts           {change_text(row['mass_percent'])} by mass (attached over code), "
+        f"{change_text(row['sliding_percent'])} by sliding (real over attached)",
         f"    motion by motion        median {change_text(median)}, 16 to 84 %: {change_text(low)} to "
         f"{change_text(high)}",
     ]
