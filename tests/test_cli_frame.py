@@ -21,7 +21,6 @@ import seismass as sm
 from seismass import cli, commands
 from seismass.commands.command import Command
 from seismass.commands.exit_codes import BAD_INPUT, FAILED, INTERRUPTED
-from seismass.commands.help_text import EXAMPLE
 from seismass.commands.options import numbers_option
 from seismass.commands.parser import COMMANDS, joined_numbers, parse
 from seismass.commands.progress import progress, seconds_left

@@ -186,7 +186,11 @@ def remarks_of(
     for name, result in effective.items():
         label = "" if name == REAL else f"{NAMES[name]}: "
         # What storeys the share does not cover is advice, of the share that is advised.
-        once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
+        once = [
+            text
+            for text in result.remarks
+            if not text.startswith(("storey ", "the building with sliding goods collapses"))
+        ]
         once = [text for text in once if text not in doubts and not _of_friction(text)]
         everywhere = (" motions are few", RULE_UNKNOWN)
         found += [label + remark for remark in once if name == REAL or not any(part in remark for part in everywhere)]
@@ -226,18 +230,28 @@ def _about_motions(
     motions, synthetic = len(suite["motions"]), suite["synthetic"]
     kind = "all synthetic" if synthetic == motions else f"{synthetic} synthetic" if synthetic else "recorded"
     lines = [f"Motions: {suite['name']}, {motions}, {kind}; one direction, vertical where a motion has it."]
+    if suite["pairs"]:
+        lines = [
+            f"Motions: {suite['name']}, {motions} pairs, {kind}; two directions, vertical where a pair has it.",
+            "Two directions: friction of goods is of the circle, springs act in x and y by themselves. The drift of a "
+            "storey is the larger of its peaks in x and in y, of the building and of models; slip is the length of its "
+            "vector. Models have the same share attached in both directions.",
+        ]
     if target is not None:
         lines.append(f"Site spectrum: {target.label}.")
     if scaling is None:
         return [*lines, "Motions are taken as they are."]
     shortest, longest = scaling.periods[0], scaling.periods[-1]
-    period = shortest / 0.2
-    fits = abs(period / building.period(building.goods) - 1.0) < 1e-9
-    which = "first period with the goods present attached" if fits else "as asked for"
+    period = scaling.period
+    longest_period = max(each.period(building.goods) for each in (building, building.other) if each is not None)
+    fits = abs(period / longest_period - 1.0) < 1e-9
+    of = " of the more flexible direction" if building.other is not None else ""
+    which = f"first period{of} with the goods present attached" if fits else "as asked for"
+    both = "one factor for both components, geometric " if suite["pairs"] else ""
     return [
         *lines,
-        f"Scaling: ASCE/SEI 7-10, 16.1.3.1, mean not below the target from {shortest:.3g} to {longest:.3g} s, for "
-        f"T = {period:.3g} s ({which}).",
+        f"Scaling: ASCE/SEI 7-10, 16.1.3.1, {both}mean not below the target from {shortest:.3g} to {longest:.3g} s, "
+        f"for T = {period:.3g} s ({which}).",
     ]
 
 

@@ -217,12 +217,13 @@ def deciding(effective: dict[str, EffectiveMass]) -> str:
 def motions_sentence(suite: dict[str, Any], scaling: ScalingResult | None) -> str:
     """Return on how many motions of which kind an answer stands, and how they were scaled."""
     count, synthetic = len(suite["motions"]), suite["synthetic"]
+    of = "pairs of " * suite["pairs"]
     if synthetic == count:
-        kind = f"{count} synthetic motions, none recorded"
+        kind = f"{count} {of}synthetic motions, none recorded"
     elif synthetic:
-        kind = f"{count} motions, {synthetic} of them synthetic"
+        kind = f"{count} {of}motions, {synthetic} of them synthetic"
     else:
-        kind = f"{count} recorded motions"
+        kind = f"{count} {of}recorded motions"
     if scaling is None:
         how = "taken as they are"
     else:

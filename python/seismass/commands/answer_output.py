@@ -15,7 +15,7 @@ from seismass.commands.terminal import show
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from seismass.records import Suite
+    from seismass.records import Pairs, Suite
 
 
 class Answer(Protocol):
@@ -33,7 +33,7 @@ class Answer(Protocol):
 
 
 def give_answer(
-    args: argparse.Namespace, result: Answer, suite: Suite, *, head: str = "", indent: int = 0, answer: str = ""
+    args: argparse.Namespace, result: Answer, suite: Suite | Pairs, *, head: str = "", indent: int = 0, answer: str = ""
 ) -> None:
     """Write the files of an answer and print it.
 
@@ -74,7 +74,7 @@ def write_answer(args: argparse.Namespace, result: Answer) -> list[Path]:
 def print_answer(
     args: argparse.Namespace,
     result: Answer,
-    suite: Suite,
+    suite: Suite | Pairs,
     files: Sequence[Path],
     *,
     head: str = "",

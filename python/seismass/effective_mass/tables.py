@@ -89,10 +89,10 @@ def remarks_of(
     if kind == "multiple":
         remarks.append(f"{len(roots)} shares give the same drift ({', '.join(f'{root:.3f}' for root in roots)})")
     if kind == "one":
-        remarks.append(f"the real building drifts {100.0 * excess:.2g} % more than the model with all goods attached")
+        remarks.append(f"with sliding goods the building drifts {100.0 * excess:.2g} % more than with all attached")
     if kind == "beyond":
         remarks.append("the goods load the building more than all of them attached would: racks or stops pass on more")
-    for name, count in (("real building", collapses["real"]), ("model", collapses["model"])):
+    for name, count in (("building with sliding goods", collapses["real"]), ("model", collapses["model"])):
         if count:
             remarks.append(f"the {name} collapses under {count} of {motions} motions")
     if motions < 7:

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, counted, refusal
-from seismass.media.style import GREY, INK, PAPER
+from seismass.media.roles import GREY, INK, PAPER
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,11 @@ from typing import Final
 import numpy as np
 
 from seismass.base.values import FloatArray
+from seismass.media.roles import CODE, SLIDE
 
-COLOUR: Final = "#0072B2"
+COLOUR: Final = SLIDE.colour
 """The accent: legible on white and on dark grey."""
-SECOND: Final = "#D55E00"
+SECOND: Final = CODE.colour
 """The second accent, likewise."""
 
 _CELL: Final = "padding:0.1em 0.8em 0.1em 0;background:none;border:none;white-space:nowrap"

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from seismass.design import PushoverFit
 from seismass.media.axes import columns, grid_lines
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, INK, STYLE, VERMILION
+from seismass.media.roles import BLUE, INK, VERMILION
+from seismass.media.style import STYLE
 from seismass.media.text_table import text_table
 
 _ROW: Final = 4

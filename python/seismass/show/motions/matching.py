@@ -15,20 +15,21 @@ from matplotlib.patches import Patch
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.media.figure_file import CAPTION_CHARACTERS
-from seismass.media.style import BLUE, GREY, INK, PERIOD_TICKS, STYLE, VERMILION, plain
+from seismass.media.roles import BLUE, GREY, INK, ORANGE, VERMILION
+from seismass.media.style import PERIOD_TICKS, STYLE, plain
 
 if TYPE_CHECKING:
     from seismass.matching.result import MatchedRecord
 
 BAND: Final = 0.05
 """Half-width of the band about the target."""
-BEFORE: Final[dict[str, Any]] = {"color": GREY, "linewidth": 1.0}
-AFTER: Final[dict[str, Any]] = {"color": BLUE, "linewidth": 1.0, "linestyle": (0, (4, 1))}
+BEFORE: Final[dict[str, Any]] = {"color": ORANGE, "linewidth": 1.6}
+AFTER: Final[dict[str, Any]] = {"color": BLUE, "linewidth": 0.9}
 _WIDTH: Final = 9.6
 
 
 def matching_figure(matched: MatchedRecord) -> Figure:
-    """Return the figure of a matched record; the scaled record is grey and drawn through, the matched one blue."""
+    """Return the figure of a matched record; the scaled record is orange, the matched one blue and thinner."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(_WIDTH, 7.4), layout="constrained")
         grid = figure.add_gridspec(4, 2, width_ratios=(1.0, 1.15))
