@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
     show("\n".join(animation.shown.sentences))
-    print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
+    show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
     return 0
 
 
