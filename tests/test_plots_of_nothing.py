@@ -105,3 +105,14 @@ def test_the_figure_of_a_slip_demand_is_no_wider_than_a_page() -> None:
     assert [len(figure.axes) for figure in (two, three)] == [2, 4]
     assert three.axes[3].get_legend() is not None
     assert not three.legends
+
+
+def test_demands_and_fragilities_of_nothing() -> None:
+    suite = sm.builtin_suite("seven")[:2]
+    rough = sm.Scene(sm.Building.uniform(1, 0.4), sm.blocks_on_floors([0.5], mu=50.0))
+    assert said(sm.slip.slip_demand(rough, suite).plot()) == ["nothing slides in the building", "nothing slides"]
+    table = pl.DataFrame(
+        {"status": ["completed"] * 4, "motion": [1, 1, 2, 2], "scale": [1.0, 2.0] * 2, "peak_drift": [0.1, 0.2] * 2}
+    )
+    assert said(sm.plots.fragility(table, 0.5, "scale", "peak_drift")) == ["never exceeded"]
+    assert said(sm.plots.fragility(table, 0.05, "scale", "peak_drift")) == ["always exceeded"]

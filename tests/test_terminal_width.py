@@ -131,6 +131,13 @@ def test_sentences_are_filled_again_and_keep_what_follows_them() -> None:
     ]
 
 
+def test_wide_letters_take_two_columns() -> None:
+    assert fit_text("why  " + "\u5009\u5eab " * 12, 40).split("\n") == [
+        "why  " + " ".join(["\u5009\u5eab"] * 7),
+        "     " + " ".join(["\u5009\u5eab"] * 5),
+    ]
+
+
 def test_no_terminal_no_change(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -153,7 +153,8 @@ building --occupancies
     options=options,
     run=run,
     note="""
-docs/building_file.md explains every key of a building file.
+docs/building_file.md explains every key of a building file. analysis.csv, beside the page and the OpenSees models, has
+what is typed into another program: floor masses and weights of both analyses, and multipliers of the live load.
 """,
     codes={0: "done (a collapse is a result)", 1: "a run failed"},
 )

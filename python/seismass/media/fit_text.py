@@ -8,12 +8,15 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Final
 
+from seismass.media.text_table import shown_width
+
 FILLED: Final = 108
 """Width to which texts are filled where they are made: a line that has no room for the next word goes on in it."""
 MOST_FILLED: Final = 120
 """Width of the widest of them; a longer line was not filled, and goes on in no other."""
 NARROWEST: Final = 40
 """No text is fitted to less."""
+_FILLER: Final = "\0"
 _LABEL: Final = re.compile(r" *(?:- )?(?:\S+(?: \S+)* {2,})?")
 """Indentation of a line, with its dash or its label where it has one."""
 _GAP: Final = re.compile(r"\S( {2,})(?=\S)")
@@ -46,8 +49,16 @@ def fit_text(text: str, width: int) -> str:
 
 def fitted_blocks(text: str, width: int) -> Iterator[tuple[list[str], list[str]]]:
     """Give each table, each sentence and each other line of a text as it is, and in lines that fit; as `fit_text`."""
-    for block in _blocks(text.split("\n")):
-        yield block, list(_fitted(block, max(width, NARROWEST)))
+    for block in _blocks(_spread(text).split("\n")):
+        lines = _fitted(block, max(width, NARROWEST))
+        yield [line.replace(_FILLER, "") for line in block], [line.replace(_FILLER, "") for line in lines]
+
+
+def _spread(text: str) -> str:
+    """A text with so many letters in a line as it takes columns: fillers stand behind wide letters."""
+    if text.isascii():
+        return text
+    return "".join(letter + _FILLER * (shown_width(letter) - 1) for letter in text)
 
 
 def is_row(line: str) -> bool:
