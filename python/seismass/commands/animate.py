@@ -21,6 +21,7 @@ from seismass.commands.options import (
     refuse_given,
 )
 from seismass.commands.scene_or_building import add_site_options, is_building_file
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.model.scene import Scene
@@ -61,8 +62,8 @@ def run(args: argparse.Namespace) -> int:
     given = shown.options | {name: value for name, value in chosen.items() if value is not None}
     animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
-    print("\n".join(animation.shown.sentences))
-    print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
+    show("\n".join(animation.shown.sentences))
+    show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
     return 0
 
 
