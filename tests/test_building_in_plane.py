@@ -38,7 +38,8 @@ def test_what_is_given_replaces_what_stands_in_x() -> None:
     assert (other.design.R, other.damping) == (5.0, 0.03)
     scene = building.scene()
     assert isinstance(scene.other_direction, sm.Building)
-    # Sa = S_DS from 0.2 T_S to T_S = 0.6 s for both (0.42 and 0.52 s with the mass of the design), and equal shapes: the strengths are as 1/R.
+    # Sa = S_DS from 0.2 T_S to T_S = 0.6 s for both (0.42 and 0.52 s with the mass of the design), and equal shapes:
+    # the strengths are as 1/R.
     assert scene.building is not None
     np.testing.assert_allclose(scene.other_direction.yield_shear, scene.building.yield_shear * 3.0 / 5.0, rtol=1e-9)
     stated = with_other(yield_shear_over_weight=0.2, storeys=[{"stiffness_kn_per_m": 5e4}, {"stiffness_kn_per_m": 4e4}])
