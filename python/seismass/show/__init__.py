@@ -10,6 +10,7 @@ VIEWS: Final = {
     "Animation.fragment": "seismass.show.animation.html:fragment",
     "Animation.html": "seismass.show.animation.html:page",
     "Animation.write": "seismass.show.animation.write:write_animation",
+    "PlaneAnimation.write": "seismass.show.animation.write:write_plane_animation",
     "Assessment.plot": "seismass.show.assessment.figures:assessment_figure",
     "Assessment.text": "seismass.show.assessment.text:assessment_text",
     "Assessment.write": "seismass.show.assessment.write:write_assessment",
