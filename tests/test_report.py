@@ -18,6 +18,7 @@ import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.cli import main
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
+from seismass.media.roles import LAMBDA, MU, lettered
 from seismass.show.study.answer import answer, compared_rules, percent
 from seismass.show.study.slip import slip_demand
 from seismass.show.study.tables import StudyTables, read_study_tables, study_tables
@@ -257,11 +258,14 @@ def test_page_of_a_building_has_every_part_and_the_numbers_of_the_assessment(bui
     assert re.findall(r"<h2[^>]*>([^<]*)</h2>", page) == [
         "Contents",
         "Input as understood",
-        "Checks",
+        "Method",
         "Effective fraction",
         "Drifts",
         "Slip of the goods",
         "In an analysis",
+        "Checks",
+        "Motions",
+        "The building in motion",
         "Remarks",
         "Assumptions",
         "Limits of this page",
@@ -269,12 +273,13 @@ def test_page_of_a_building_has_every_part_and_the_numbers_of_the_assessment(bui
     ]
     text = analysis_text(page)
     document = json.loads((building / "assessment.json").read_text())
+    # Symbols are letters on the page.
     for part in (*document["advice"], *document["assumptions"], document["metadata"]["inputs_sha256"]):
-        assert part in text
+        assert lettered(part) in text
     # The answer that the README has for this building.
-    pair = "lambda = 0.80 of the goods present (0.64 of the design live load) as mass: dead + 0.64 live"
+    pair = f"{LAMBDA} = 0.80 of the goods present (0.64 of the design live load) as mass: dead + 0.64 live"
     assert f"Analysis 1: {pair}. Analysis 2: no goods: dead load alone." in text
-    assert "mu as stated gives 0.38 [0.26, 0.48]" in text
+    assert f"{MU} as stated gives 0.38 [0.26, 0.48]" in text
     assert '<div class="answer">' in page
 
 

@@ -810,18 +810,33 @@ class Rack:
 @final
 class RackColumns:
     """
-    Racks and stops of a batch. The list of run i is the next `levels[i]` values of a flat array over the levels of its
-    racks, one rack after the other, or as many as it has blocks; a run that failed has none.
+    Racks, stops and sliding bases of a batch. The list of run i is the next `levels[i]` values of a flat array over the
+    levels of its racks, one rack after the other, or as many as it has blocks; a run that failed has none.
     """
+    @property
+    def base_slip_path(self, /) -> NDArray[float64]:
+        """
+        Path slipped by the sliding base (m) of each run; NaN without one.
+        """
     @property
     def levels(self, /) -> NDArray[uint32]:
         """
         Number of rack levels of each run.
         """
     @property
+    def peak_base_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak absolute acceleration of the slab of the sliding base (m/s2) of each run; NaN without one.
+        """
+    @property
     def peak_base_shear(self, /) -> NDArray[float64]:
         """
         Peak base shear, the share of an elastic matrix included (N), of each run; NaN without a building.
+        """
+    @property
+    def peak_base_slip(self, /) -> NDArray[float64]:
+        """
+        Peak slip of the sliding base (m) of each run; NaN without one.
         """
     @property
     def peak_contact_force(self, /) -> NDArray[float64]:
@@ -847,6 +862,11 @@ class RackColumns:
     def peak_rack_shear(self, /) -> NDArray[float64]:
         """
         Peak spring force of rack levels (N), flat over runs and levels.
+        """
+    @property
+    def residual_base_slip(self, /) -> NDArray[float64]:
+        """
+        Slip of the sliding base at the end (m) of each run; NaN without one.
         """
     @property
     def residual_rack_drift(self, /) -> NDArray[float64]:

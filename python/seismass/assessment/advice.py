@@ -13,7 +13,7 @@ from seismass.assessment.checks import drift_source
 from seismass.assessment.governing import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REALS
 from seismass.assessment.own_building import DEFAULT_THETA_LIMIT, OwnBuilding
-from seismass.assessment.structure import about_support, rule_advice
+from seismass.assessment.structure import about_support, base_advice, rule_advice
 from seismass.design import THETA_THRESHOLD
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.structure_remarks import RULE_UNKNOWN
@@ -33,7 +33,8 @@ def advice_of(
     slip: pl.DataFrame,
     collapses: dict[str, int],
     motions: int,
-    effective: EffectiveMass | None = None,
+    effective: EffectiveMass | None,
+    runs: pl.DataFrame,
 ) -> tuple[str, ...]:
     """Return what to use in an analysis, and what the checks say, sentence by sentence."""
     reals = [name for name in REALS if name in collapses]
@@ -62,7 +63,7 @@ def advice_of(
     lines += _checks(building, storeys, reals)
     lines += _against_code(building, storeys, reals)
     lines += _slip_advice(slip)
-    return tuple(lines)
+    return (*lines, *base_advice(runs))
 
 
 def _mean(storeys: pl.DataFrame, model: str) -> list[float | None]:
@@ -185,7 +186,11 @@ def remarks_of(
     for name, result in effective.items():
         label = "" if name == REAL else f"{NAMES[name]}: "
         # What storeys the share does not cover is advice, of the share that is advised.
-        once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
+        once = [
+            text
+            for text in result.remarks
+            if not text.startswith(("storey ", "the building with sliding goods collapses"))
+        ]
         once = [text for text in once if text not in doubts and not _of_friction(text)]
         everywhere = (" motions are few", RULE_UNKNOWN)
         found += [label + remark for remark in once if name == REAL or not any(part in remark for part in everywhere)]

@@ -115,6 +115,7 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "overstrength": building.overstrength.tolist(),
         "second_slope": building.second_slope.tolist(),
         "third_slope": building.third_slope.tolist(),
+        "area": [None if np.isnan(area) else float(area) for area in building.area],
         "live_load": building.live_load.tolist(),
         "bolted": building.bolted.tolist(),
         "goods": building.goods.tolist(),
@@ -145,5 +146,10 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "drift_limit_rule": None if building.drift_limit_rule is None else asdict(building.drift_limit_rule),
         "theta_limit": building.theta_limit if building.heights is not None else None,
         "collapse_drift_ratio": building.collapse_drift_ratio,
+        "third_slope_is_zero": not building.third_slope.any(),
+        "walls": building.walls is not None,
+        "damping_from_storey": building.damping_from_storey,
+        "scaling_period": building.scaling_period,
+        "sources": dict(building.sources),
         "file": None if building.path is None else building.path.name,
     }

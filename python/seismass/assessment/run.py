@@ -22,6 +22,8 @@ from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.period import period_sentences
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.shares import DESIGN_SHARES, SHARES, advised_share, design_share, fractions_by_friction
+from seismass.assessment.shown_motion import Shown, motion_of_runs
+from seismass.assessment.spectra import spectra_table
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
@@ -139,12 +141,14 @@ def assess(
     scenes = compared_models(chosen, spectrum, advised)
     names = motion_names(suite)
     components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
+    horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
     runs, slips = solve_models(
         chosen, scenes, scaled, names, threads=threads, progress=stages.next(models * len(suite))
     )
     real = chosen.scene(spectrum)
     storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, slips), collapses_of(runs)
     governing = governing_table(chosen, storeys)
+    place = motion_of_runs(runs)
     about = {
         "name": suite.name if isinstance(suite, Suite | Pairs) else "motions",
         "motions": names,
@@ -167,9 +171,11 @@ def assess(
         slips=slips,
         runs=runs,
         collapses=collapses,
+        spectra=spectra_table(horizontal, spectrum, threads=threads),
+        example=Shown(real, scaled[place], place + 1, float(factors[place])),
         scaling=scaling,
         suite=about,
-        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL)),
+        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL), runs),
         remarks=remarks_of(chosen, doubts, scaling, effective, about),
         assumptions=assumptions_of(chosen, spectrum, scaling, about, period),
         metadata={
@@ -284,6 +290,8 @@ def _digest(
         blocks = [[block.floor, block.mu_s, block.mu_k] for block in scene.blocks]
         digest.update(np.array(blocks, dtype="<f8").tobytes())
         stops = [block.stop_numbers for block in scene.blocks]
+        if scene.base is not None:
+            digest.update(repr(scene.base).encode())
         if scene.racks or any(stops) or structure.stiffness_matrix is not None:
             matrix = structure.stiffness_matrix
             digest.update(b"" if matrix is None else np.ascontiguousarray(matrix, dtype="<f8").tobytes())

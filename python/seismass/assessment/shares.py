@@ -98,7 +98,7 @@ def design_share(
     scene = building.scene(target, mu_factor=factor)
     options = checked_options("mean", SAME_DAMPING, DESIGN_SHARES, 0.9, 1, 0, threads, progress)
     named = named_motions(motions, OWNER, scene)
-    solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift)
+    solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift, scene.base)
     fallen = solved.real.collapsed.sum(axis=1)
     if not few_collapses(int(fallen.max()), len(motions)):
         return DesignShare(None, _collapsing(fallen, len(motions)))

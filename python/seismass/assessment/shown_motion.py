@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+import polars as pl
+from numpy.typing import NDArray
 
 from seismass.assessment.own_building import OwnBuilding
+from seismass.base.values import FloatArray
 from seismass.effective_mass.runs import named_motions, solve
 from seismass.model.scene import Scene
 from seismass.records import Pairs, Suite
@@ -33,6 +36,26 @@ class Shown(NamedTuple):
     motion: Any
     number: int
     factor: float
+
+
+def motion_of_runs(runs: pl.DataFrame) -> int:
+    """Return the number (from 0) of that motion among the runs of an assessment, by the first model of their table.
+
+    Where no run stands it is that of all.
+    """
+    of = runs.filter(pl.col("model") == runs["model"][0])
+    by_motion = of.group_by("motion", maintain_order=True).agg(
+        pl.col("collapsed").any(), pl.col("peak_drift").max(), slides=(pl.col("peak_slip") > 0.0).any()
+    )
+    drift = np.where(by_motion["collapsed"].to_numpy(), np.inf, by_motion["peak_drift"].to_numpy())
+    slides = by_motion["slides"].fill_null(value=False).to_numpy() & np.isfinite(drift)
+    return _median(drift, np.flatnonzero(slides) if slides.any() else np.arange(len(drift)))
+
+
+def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
+    """Place of the median drift among some."""
+    ordered = among[np.argsort(drift[among], kind="stable")]
+    return int(ordered[(len(ordered) - 1) // 2])
 
 
 def shown_motion(building: OwnBuilding, suite: Suite | Pairs, target: TargetSpectrum | None = None) -> Shown:
@@ -62,6 +85,5 @@ def shown_motion(building: OwnBuilding, suite: Suite | Pairs, target: TargetSpec
     scene = building.scene(spectrum)
     peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
-    ordered = among[np.argsort(peaks.largest[0][among], kind="stable")]
-    place = int(ordered[(len(ordered) - 1) // 2])
+    place = _median(peaks.largest[0], among)
     return Shown(scene, scaled[place], place + 1, float(factors[place]))

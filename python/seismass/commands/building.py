@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from seismass.commands.answer_output import give_answer
+from seismass.commands.answer_output import print_answer, write_answer
 from seismass.commands.command import Command
 from seismass.commands.options import (
     add_answer_options,
@@ -22,6 +22,9 @@ from seismass.commands.options import (
     read_site,
 )
 from seismass.commands.progress import progress
+
+if TYPE_CHECKING:
+    from seismass.assessment import Assessment
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -85,8 +88,31 @@ def run(args: argparse.Namespace) -> int:
         )
     if args.opensees is not None:
         write_models(args.opensees, result, suite)
-    give_answer(args, result, suite, answer="ANSWER")
+    files = write_answer(args, result)
+    if files and not args.no_figures:
+        files += _live_page(args.out, result)
+    print_answer(args, result, suite, files, answer="ANSWER")
     return 0
+
+
+def _live_page(out: Path, result: Assessment) -> list[Path]:
+    """Write the live page, to which the page links, where it can show the building and the package has its kernel."""
+    from seismass.base.errors import MissingPackage
+    from seismass.base.files import written_whole
+    from seismass.explore import explorer_html
+    from seismass.media.live_address import PAGE
+    from seismass.show.assessment.live import own_case
+    from seismass.show.assessment.tables import assessment_tables
+
+    if own_case(assessment_tables(result)).case is None:
+        return []
+    try:
+        html = explorer_html()
+    except MissingPackage:
+        return []
+    with written_whole(out / PAGE) as temporary:
+        temporary.write_text(html, encoding="utf-8")
+    return [out / PAGE]
 
 
 def _listing(args: argparse.Namespace) -> str:

@@ -24,6 +24,7 @@ from seismass.model.building import Building
 from seismass.model.motion import MotionLike
 from seismass.model.rack import Rack
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
 from seismass.runs.batch import MotionsLike
 
 
@@ -46,7 +47,8 @@ def effective_mass(
     Parameters
     ----------
     scene : Scene
-        The building with its goods as blocks, on floors and on racks; walls and stops are as in the real building.
+        The building with its goods as blocks, on floors and on racks; walls, stops and a base are those of the real
+        building.
     motions : Motion, Record, Pair or iterable of them
         The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together. A scene in two
         directions takes pairs.
@@ -118,6 +120,7 @@ def effective_mass_of_design(
     motions: MotionLike | Iterable[MotionLike],
     *,
     racks: Iterable[Rack] = (),
+    base: SlidingBase | None = None,
     statistic: Statistic = "mean",
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
@@ -140,6 +143,8 @@ def effective_mass_of_design(
         The goods, the same for every design.
     racks : iterable of Rack
         Racks with goods, the same for every design; shares above 1 are not sought.
+    base : SlidingBase, optional
+        Base that slides under every design.
     motions, statistic, damping, fractions, confidence, resamples, seed, threads, progress
         As for `effective_mass`.
 
@@ -167,4 +172,4 @@ def effective_mass_of_design(
     """
     named = named_motions(motions, OWNER)
     options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
-    return solved_designs(design, blocks, named, options, racks).answer()
+    return solved_designs(design, blocks, named, options, racks, base=base).answer()

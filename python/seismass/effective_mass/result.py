@@ -33,12 +33,12 @@ the cases, widened by 0.05 in 96 %: docs/effective_mass.md. Suites of seven diff
 
 KIND_TEXTS: Final[dict[Kind, str]] = {
     "stuck": "no goods slide under any motion, so that all of them act as mass",
-    "root": "one share gives the drift of the real building",
-    "multiple": "several shares give the drift of the real building, the largest counts",
-    "zero": "no share drifts less than the real building, so that none needs to be attached",
-    "one": "even with all goods attached the model drifts less than the real building",
-    "beyond": "with all goods attached the model drifts less than the real building, a larger share gives its drift",
-    "collapsed": "the real building collapses under so many motions that its drift has no such statistic",
+    "root": "one share gives the drift with sliding goods",
+    "multiple": "several shares give the drift with sliding goods, the largest counts",
+    "zero": "no share drifts less than with sliding goods, so that none needs to be attached",
+    "one": "even with all goods attached the model drifts less than with sliding goods",
+    "beyond": "with all goods attached the model drifts less than with sliding goods, a larger share gives their drift",
+    "collapsed": "with sliding goods the building collapses under so many motions that its drift has no such statistic",
 }
 """What each kind means."""
 
@@ -147,7 +147,7 @@ class EffectiveMass(Result):
         scale, unit = (1e3, "mm") if self.unit == "m" else (1e2, "% of the height")
         drifts = f"real {scale * self.real:.4g}, model {scale * self.model:.4g} {unit}"
         if not math.isfinite(self.real):
-            drifts = f"none, since the real building collapses under {self.collapses['real']} of them"
+            drifts = f"none, since the building with sliding goods collapses under {self.collapses['real']} of them"
         lines = [
             f"effective fraction  {self.value_text} ({scatter})",
             f"                    {self.kind}: {KIND_TEXTS[self.kind]}",

@@ -18,6 +18,7 @@ from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.rack import Rack
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
 
 Designed: TypeAlias = Building | tuple[Building, Building]
 """What a design gives: a building, or the same one in x and in y."""
@@ -107,6 +108,7 @@ def solved_designs(
     options: Options,
     racks: Iterable[Rack] = (),
     collapse_drift: FloatArray | None = None,
+    base: SlidingBase | None = None,
 ) -> Solved:
     """Solve the building that is designed with each share, with sliding goods and with that share attached.
 
@@ -120,6 +122,8 @@ def solved_designs(
         How the fraction is sought.
     collapse_drift : ndarray, shape (storeys,), optional
         Drift at which a storey counts as collapsed (m), beside the limit that P-Delta sets.
+    base : SlidingBase, optional
+        Base that slides under the building.
 
     Raises
     ------
@@ -139,7 +143,7 @@ def solved_designs(
             building, other = building
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building, or two in x and y", brief(building))
-        scene = Scene(building, goods, racks=standing, other_direction=other, collapse_drift=collapse_drift)
+        scene = Scene(building, goods, racks=standing, base=base, other_direction=other, collapse_drift=collapse_drift)
         return check_any_load(scene)
 
     shares = [float(share) for share in options.fractions]

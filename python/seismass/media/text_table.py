@@ -70,6 +70,42 @@ def number_text(
     return f"{scale * value:{form}}"
 
 
+def column_texts(
+    values: Sequence[float | None], *, digits: int = 3, scale: float = 1.0, unit: str = "", missing: str = "-"
+) -> list[str]:
+    """Return numbers of a column as texts whose decimal points stand below one another.
+
+    Parameters
+    ----------
+    values : sequence of float or None
+        The numbers.
+    digits : int
+        Digits of the largest; the others have its decimals. A column whose largest number is below 1e-4 or above 1e9
+        has powers of ten.
+    scale : float
+        What they are multiplied by.
+    unit : str
+        What follows each number.
+    missing : str
+        What stands for None, and for what is not a number.
+
+    Examples
+    --------
+    >>> column_texts([0.06374, 0.00812, 3.296e-6], digits=4, scale=1e3, unit=" mm")
+    ['63.74 mm', '8.12 mm', '0.00 mm']
+    """
+    scaled = [None if value is None or math.isnan(value) else scale * value for value in values]
+    largest = max((abs(value) for value in scaled if value is not None and math.isfinite(value)), default=0.0)
+    if 0.0 < largest < 1e-4 or largest >= 1e9:
+        form = f".{digits - 1}e"
+    else:
+        before = math.floor(math.log10(largest)) + 1 if largest > 0.0 else 1
+        form = f".{min(max(digits - before, 0), 6)}f"
+        if largest > 0.0 and float(f"{largest:{form}}") >= 10.0**before:  # 9.996 is 10.00 in four digits
+            form = f".{min(max(digits - before - 1, 0), 6)}f"
+    return [missing if value is None else f"{value:{form}}{unit}" for value in scaled]
+
+
 def ends_text(
     low: float | None, high: float | None, form: str = ".2f", *, scale: float = 1.0, infinite: str | None = None
 ) -> str:

@@ -17,7 +17,8 @@ from seismass.base.quantiles import quantile
 from seismass.base.values import FloatArray, as_number, refusal
 from seismass.fragility.fits import fit_counts
 from seismass.media.axes import grid_lines, single
-from seismass.media.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, plain
+from seismass.media.roles import BLOCK_COLOURS, BLUE, GREY, INK, LIMIT, PAPER, SKY
+from seismass.media.style import STYLE, plain
 from seismass.plots.columns import checked_table, demand_of, in_unit, label_of, one_value
 
 FRACTILES: Final[tuple[tuple[float, str, dict[str, Any]], ...]] = (
@@ -27,19 +28,11 @@ FRACTILES: Final[tuple[tuple[float, str, dict[str, Any]], ...]] = (
 )
 """Shares of the motions, and how their curves are drawn."""
 
-_POINTS: Final = (
-    (BLUE, "o"),
-    (VERMILION, "s"),
-    (GREEN, "^"),
-    (INK, "D"),
-    (PURPLE, "v"),
-    (ORANGE, "P"),
-    (SKY, "X"),
-)
+_POINTS: Final = tuple(zip((*BLOCK_COLOURS, SKY), "os^DvPX", strict=True))
 """Colour and marker of points by a column."""
 
 _CROSS: Final[dict[str, Any]] = {"color": INK, "linestyle": "", "marker": "x"}
-_LIMIT: Final[dict[str, Any]] = {"color": VERMILION, "linestyle": (0, (8, 2)), "linewidth": 1.2}
+_LIMIT: Final[dict[str, Any]] = {**LIMIT.look, "linewidth": 1.2}
 
 
 def ida(

@@ -16,7 +16,8 @@ from matplotlib.patches import Rectangle
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_positive, brief, refusal
 from seismass.media.axes import grid_lines
-from seismass.media.style import BLUE, GREY, INK, ORANGE, STYLE, VERMILION
+from seismass.media.roles import BLUE, GREY, INK, ORANGE, VERMILION
+from seismass.media.style import STYLE
 from seismass.runs.plane_response import PlaneResponse
 
 OWNER: Final = "floor plan"

@@ -14,7 +14,8 @@ from matplotlib.patches import Patch
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_count
 from seismass.media.axes import grid_lines, single
-from seismass.media.style import BLUE, GREEN, GREY, INK, PURPLE, SERIES, STYLE, VERMILION
+from seismass.media.roles import BLUE, GREEN, GREY, INK, PURPLE, VERMILION
+from seismass.media.style import SERIES, STYLE
 from seismass.model.places import goods_names
 from seismass.plots.histories import numbers
 from seismass.runs.response import Response

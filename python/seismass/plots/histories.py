@@ -14,7 +14,8 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, brief, refusal
 from seismass.media.axes import RING, Panels, grid_lines, panels, ring, zero_line
-from seismass.media.style import BLUE, INK, PURPLE, SERIES, STYLE
+from seismass.media.roles import BLUE, INK, PURPLE
+from seismass.media.style import SERIES, STYLE
 from seismass.model.places import goods_names
 from seismass.plots.timeline import chosen_kinds, event_times, mark_events, mark_handles
 from seismass.runs.response import Response

@@ -14,7 +14,8 @@ from matplotlib.lines import Line2D
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, refusal
 from seismass.media.axes import columns, grid_lines
-from seismass.media.style import BLUE, GREY, STYLE, VERMILION
+from seismass.media.roles import BLUE, GREY, VERMILION
+from seismass.media.style import STYLE
 from seismass.model.building import Building
 from seismass.plots.histories import numbers
 from seismass.plots.timeline import chosen_kinds, event_times, mark_events, mark_handles

@@ -17,7 +17,8 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import as_number, brief, is_one_of, refusal
 from seismass.media.axes import columns, grid_lines, single
-from seismass.media.style import BLUE, GREY, INK, PERIOD_TICKS, SERIES, STYLE, VERMILION
+from seismass.media.roles import BLUE, GREY, INK, LIMIT
+from seismass.media.style import PERIOD_TICKS, SERIES, STYLE
 from seismass.model.motion import Motion
 from seismass.plots.histories import numbers
 from seismass.runs.response import Response
@@ -100,7 +101,7 @@ def profile(
     return place.figure
 
 
-_LIMIT: Final[dict[str, Any]] = {"color": VERMILION, "linestyle": (0, (5, 2)), "linewidth": 1.4}
+_LIMIT: Final[dict[str, Any]] = {**LIMIT.look, "linewidth": 1.4}
 
 
 def _quantities(response: Response) -> dict[str, _Quantity]:

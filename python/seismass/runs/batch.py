@@ -94,13 +94,15 @@ def simulate_many(
         failure, else null), `end_time` (s), `collapsed_storey` (from 1, or null); lists per storey `peak_drift`,
         `peak_drift_time`, `peak_drift_ratio` (null without heights), `residual_drift`, `peak_floor_acceleration`,
         `peak_storey_shear`; `peak_base_shear`; lists per block `peak_slip`, `peak_slip_time`, `residual_slip`,
-        `slip_path`; numbers of `events`, `yields`, `slips`. SI units. Where a scene has racks, stops or a stiffness
-        matrix, lists per level of all racks, one rack after the other, `peak_rack_drift`, `peak_rack_acceleration`,
-        `peak_rack_shear`, `residual_rack_drift`, and lists per block `peak_contact_force`, `peak_contact_velocity`;
-        blocks are the goods on floors, then those of racks that may slide; a level that collapses counts on from the
-        storeys; the base shear includes the matrix's share. Where a scene has two directions, these are lengths of
-        vectors in its rows, and the larger of both directions for contacts; lists and numbers in x and in y, with the
-        sign that residuals have, stand in columns such as `peak_drift_x`, which are null for scenes in one direction.
+        `slip_path`; numbers of `events`, `yields`, `slips`. SI units. Where a scene has racks, stops, a stiffness
+        matrix or a sliding base, lists per level of all racks, one rack after the other, `peak_rack_drift`,
+        `peak_rack_acceleration`, `peak_rack_shear`, `residual_rack_drift`, lists per block `peak_contact_force`,
+        `peak_contact_velocity`, and `peak_base_slip`, `peak_base_acceleration`, `residual_base_slip`, `base_slip_path`
+        (null without a base); blocks are the goods on floors, then those of racks that may slide; a level that
+        collapses counts on from the storeys; the base shear includes the matrix's share. Where a scene has two
+        directions, these are lengths of vectors in its rows, and the larger of both directions for contacts; lists and
+        numbers in x and in y, with the sign that residuals have, stand in columns such as `peak_drift_x`, which are
+        null for scenes in one direction.
 
     Raises
     ------

@@ -15,6 +15,7 @@ from seismass.base.input_kinds import SCENE_FILE, refuse_other_kind
 from seismass.base.input_table import FINITE, POSITIVE, Table, load_table
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
+from seismass.base.views import Card
 from seismass.model.building import Building, as_fraction_of_weight
 from seismass.model.damping import Rayleigh
 from seismass.model.motion import Motion, check_size
@@ -71,7 +72,7 @@ KEYS: Final = {
 
 
 @dataclass(frozen=True)
-class SceneFile:
+class SceneFile(Card):
     """What a scene file holds.
 
     Attributes

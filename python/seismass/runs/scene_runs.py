@@ -14,7 +14,7 @@ from seismass.base.errors import InvalidMotion
 from seismass.base.values import brief, refusal
 from seismass.model.motion import Motion
 from seismass.model.scene import Scene
-from seismass.runs.batch_tables import OF_RACKS, batch_table, heights_of, heights_of_runs, rack_columns
+from seismass.runs.batch_tables import OF_BASES, OF_RACKS, batch_table, heights_of, heights_of_runs, rack_columns
 from seismass.runs.grid.columns import IndexArray
 from seismass.runs.plane_motion import PlaneMotion
 from seismass.runs.plane_tables import with_directions, without_directions
@@ -36,7 +36,7 @@ class SceneRuns:
     names : tuple of str
         What the motions are called.
     racks, plane : bool
-        Whether tables have the columns of racks and stops, and those of directions: one scene has them.
+        Whether tables have the columns of racks, stops and bases, and those of directions: one scene has them.
     """
 
     scenes: tuple[Scene, ...]
@@ -140,7 +140,7 @@ class SceneRuns:
         """The table of the vectors, or of one direction; the base shear has the share of matrices."""
         batch, racks = solved
         table = rack_columns(self._named(batch, rows, chosen, scene), batch, racks)
-        return table if self.racks else table.drop(OF_RACKS)
+        return table if self.racks else table.drop(*OF_RACKS, *OF_BASES)
 
     def _named(self, batch: _kernel.Batch, rows: IndexArray, chosen: list[Scene], scene: IndexArray) -> pl.DataFrame:
         heights = heights_of_runs([heights_of(each) for each in chosen], scene, batch.storeys)

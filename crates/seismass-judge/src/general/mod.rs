@@ -18,3 +18,4 @@ pub use compare::{as_chain, compare_general, solution_of};
 pub use divide::divided;
 pub use record::GeneralSolution;
 pub use solve::solve_general;
+pub(crate) use solve::{Scale, solve_scaled};

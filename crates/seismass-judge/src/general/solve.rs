@@ -21,6 +21,32 @@ pub fn solve_general<R: Real>(
     motion: &Motion,
     every: usize,
 ) -> Result<GeneralSolution, JudgeError> {
+    solve_scaled(scene, motion, every, Scale { ground: R::of(1.0), contact: R::of(1.0) })
+}
+
+/// Factors of the motion. In double-double they may differ from 1 by less than a double can.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scale<R> {
+    /// Of the ground acceleration.
+    pub(crate) ground: R,
+    /// Of g + a_v, and so of all limits of friction.
+    pub(crate) contact: R,
+}
+
+impl<R: Real> Scale<R> {
+    fn drive(&self, motion: &Motion, sample: usize) -> Drive<R> {
+        let Drive { ground, contact } = drive(motion, sample);
+        Drive { ground: ground.map(|term: R| term * self.ground), contact: contact.map(|term: R| term * self.contact) }
+    }
+}
+
+/// As [`solve_general`], under the motion times factors.
+pub(crate) fn solve_scaled<R: Real>(
+    scene: &GeneralScene,
+    motion: &Motion,
+    every: usize,
+    scale: Scale<R>,
+) -> Result<GeneralSolution, JudgeError> {
     if every == 0 {
         return Err(JudgeError::NoDecimation);
     }
@@ -36,7 +62,7 @@ pub fn solve_general<R: Real>(
         state: State::new(scene, &model),
         at_stop: R::of(MAX_PHASE / model.frequency_bound(true).max(f64::MIN_POSITIVE)),
         model,
-        drive: drive(motion, 0),
+        drive: scale.drive(motion, 0),
         airborne: false,
         piece: dt / R::of(pieces as f64),
         start: R::zero(),
@@ -47,7 +73,7 @@ pub fn solve_general<R: Real>(
     let mut recorder = Recorder::new(&run.model, &run.state, &run.drive, every);
     let mut status = GeneralStatus::Completed;
     'run: for i in 0..samples - 1 {
-        run.drive = drive(motion, i);
+        run.drive = scale.drive(motion, i);
         run.start = R::of(i as f64) * dt;
         for piece in 0..pieces {
             let ends = [piece, piece + 1].map(|p| dt * R::of(p as f64) / R::of(pieces as f64));

@@ -8,7 +8,8 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from seismass.base.values import FloatArray
-from seismass.show.animation.canvas import FINER, INK, LINE, MODEL, PALE_REAL, PAPER, REAL, SLAB, SOFT, Canvas
+from seismass.media.roles import ATTACHED, CODE, SLIDE
+from seismass.show.animation.canvas import FINER, INK, LINE, PALE_SLIDE, PAPER, SLAB, SOFT, Canvas
 
 if TYPE_CHECKING:
     from seismass.animation.plane import PlaneAnimation
@@ -22,7 +23,8 @@ SIDE: Final = 6.0
 """Side (m) of the floor as drawn."""
 GOODS: Final = 0.9
 """Side (m) of goods as drawn, where they have room."""
-COLOURS: Final = (REAL, "#00765a", MODEL, INK)
+COLOURS: Final = (SLIDE.text, CODE.text, ATTACHED.text, INK)
+"""Colours of blocks and of storeys, in their order."""
 
 
 class PlanePicture(Canvas):
@@ -55,7 +57,7 @@ class PlanePicture(Canvas):
         """Return a frame in which every colour is to be seen."""
         frame = self.frame(0.5 * self.duration)
         draw = ImageDraw.Draw(frame)
-        for place, colour in enumerate((PAPER, INK, SOFT, LINE, SLAB, PALE_REAL, *COLOURS)):
+        for place, colour in enumerate((PAPER, INK, SOFT, LINE, SLAB, PALE_SLIDE, *COLOURS)):
             draw.rectangle((20 * place, 0, 20 * place + 19, 39), fill=colour)
         return frame
 
@@ -91,28 +93,28 @@ class PlanePicture(Canvas):
         total = float(heights.sum()) or 3.0
         scale = min((ground - 84.0) / total, 0.3 * WIDTH / SIDE)
         half = 0.5 * SIDE * min(scale, 0.3 * WIDTH / SIDE)
-        self._text(draw, (middle, 4), "From the side, x", REAL, 14, "ma")
+        self._text(draw, (middle, 4), "From the side, x", SLIDE.text, 14, "ma")
         self._line(draw, [(0.03 * WIDTH, ground + 1), (0.47 * WIDTH, ground + 1)], SOFT, 2)
         xs = [middle, *(middle + animation.factor * scale * sway[:, 0]).tolist()]
         ys = [ground, *(ground - scale * np.cumsum(heights)).tolist()]
         for number in range(len(heights)):
             for side in (-0.88 * half, 0.88 * half):
                 foot, head = (xs[number] + side, ys[number]), (xs[number + 1] + side, ys[number + 1])
-                self._line(draw, [foot, head], REAL, 2.0)
+                self._line(draw, [foot, head], SLIDE.text, 2.0)
             self._box(draw, (xs[number + 1] - half, ys[number + 1], xs[number + 1] + half, ys[number + 1] + 5.0), SLAB)
         size = scale * GOODS
         for floor in range(len(xs)):
             for index, along, _ in self._goods(floor):
                 x = xs[floor] + scale * along * half / (0.5 * SIDE * scale) + animation.factor * scale * slip[index, 0]
                 box = (x - 0.5 * size, ys[floor] - size, x + 0.5 * size, ys[floor])
-                self._box(draw, box, PALE_REAL, COLOURS[index % len(COLOURS)])
+                self._box(draw, box, PALE_SLIDE, COLOURS[index % len(COLOURS)])
 
     def _from_above(self, draw: ImageDraw.ImageDraw, sway: FloatArray, slip: FloatArray, row: int) -> None:
         """The floor over the ground, with its goods and their paths so far."""
         animation, floor = self._animation, self._animation.floor
         scale, x0, y0 = 228.0 / (1.35 * SIDE), 0.75 * WIDTH, 0.5 * SCENES + 22.0
         name = "The ground from above" if floor == 0 else f"Floor {floor} from above"
-        self._text(draw, (x0, 4), name, REAL, 14, "ma")
+        self._text(draw, (x0, 4), name, SLIDE.text, 14, "ma")
         words = f"displacements {animation.factor:g} times, paths of goods on their floor"
         self._text(draw, (0.5 * WIDTH, 23), words, SOFT, 12, "ma")
         half = 0.5 * SIDE * scale
@@ -127,7 +129,7 @@ class PlanePicture(Canvas):
             path = animation.factor * scale * self._slip[: row + 1, index] * [1.0, -1.0]
             home = np.array([x + scale * along, y - scale * across])
             at = home + animation.factor * scale * slip[index] * [1.0, -1.0]
-            self._box(draw, (*(at - 0.5 * size), *(at + 0.5 * size)), PALE_REAL, colour)
+            self._box(draw, (*(at - 0.5 * size), *(at + 0.5 * size)), PALE_SLIDE, colour)
             points = [(float(one), float(other)) for one, other in [*(home + path), at]]
             self._line(draw, points, colour, 1.5)
         self._text(draw, (x0 + half + 14.0, y0 + half + 6.0), "x", SOFT, 12, "mm")

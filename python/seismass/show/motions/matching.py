@@ -15,7 +15,8 @@ from matplotlib.patches import Patch
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.media.figure_file import CAPTION_CHARACTERS
-from seismass.media.style import BLUE, GREY, INK, PERIOD_TICKS, STYLE, VERMILION, plain
+from seismass.media.roles import BLUE, GREY, INK, VERMILION
+from seismass.media.style import PERIOD_TICKS, STYLE, plain
 
 if TYPE_CHECKING:
     from seismass.matching.result import MatchedRecord

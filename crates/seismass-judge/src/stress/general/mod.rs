@@ -1,6 +1,7 @@
 //! Random scenes of the general engine: every run checked by itself, some of them against its judge, and random shear
 //! buildings solved by both engines.
 
+mod backward_error;
 mod chains;
 mod examine;
 mod invariants;

@@ -94,7 +94,12 @@ pub fn page(tally: &GeneralTally) -> String {
          specification alone (`crates/seismass-judge/src/general`): a tenth of it in double-double, the others in double \
          precision and in double-double where that parts. The modal damping of racks is its own; that of the building is the \
          kernel's, and a test compares it. Where the two part, the judge is asked again with its input changed in the last \
-         digits, as on the page of the chain engine. Random shear buildings are solved by both engines.\n\n{}",
+         digits, as on the page of the chain engine. Some scenes are chaotic: blocks that are thrown to and fro between stops \
+         let differences grow until two runs have other events, be they of two implementations or of one with its intervals \
+         divided. For these the change of the ground acceleration, or of g + a_v, is sought with which the judge in \
+         double-double has the engine's events, times and numbers from the first sample to the last within the same limits; \
+         the scene is explained if it is one of last digits, and counts as sensitive (`stress/general/backward_error.rs`). \
+         Random shear buildings are solved by both engines.\n\n{}",
         distribution(tally),
     )
 }

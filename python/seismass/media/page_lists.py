@@ -1,0 +1,19 @@
+"""Lists and long texts of a page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from markupsafe import Markup
+
+from seismass.media.isolate import isolated
+
+
+def bullets_html(lines: Iterable[str]) -> Markup:
+    """Return sentences as a list; Markup is taken as it is."""
+    return Markup("<ul>{}</ul>").format(Markup("").join(Markup("<li>{}</li>").format(line) for line in lines))
+
+
+def long_html(text: str) -> Markup:
+    """Return a text that keeps some width in a table, on a narrow screen too."""
+    return Markup('<span class="long">{}</span>').format(isolated(text))
