@@ -27,7 +27,7 @@ TEXT: Final = ROOT / "tools" / "pages" / "two_directions.md"
 TITLES: Final = {
     "far_field": "18 recorded pairs, FEMA P-695 far field (the factor was chosen on these)",
     "other": "7 recorded pairs of other stations",
-    "forty": "the built-in forty, synthetic pairs",
+    "forty": "16 of the built-in synthetic pairs",
 }
 CODES: Final = {
     "none, 0": 0.0,
@@ -195,7 +195,10 @@ def failed_text(cases: Sequence[Case]) -> str:
     failed, runs = (sum(case[name] for case in cases) for name in ("failed", "pairs"))
     if not failed:
         return f"All {runs} runs in two directions reach their end."
-    return f"{failed} of {failed + runs} runs in two directions do not reach their end; their pairs are left out, in one direction too."
+    return (
+        f"{failed} of {failed + runs} runs in two directions do not reach their end; their pairs are left out, in one "
+        "direction too."
+    )
 
 
 def time_text(stored: dict[str, Any]) -> str:
