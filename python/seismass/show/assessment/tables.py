@@ -122,8 +122,12 @@ class AssessmentTables:
 
 
 def assessment_tables(result: Assessment, *, animated: bool = False) -> AssessmentTables:
-    """Return what a folder of the assessment holds; the animation, which is solved for, only where it is asked for."""
-    return _made(json.loads(result.to_json()), result.tables, _animation(result) if animated else None)
+    """Return what a folder of the assessment holds; the animation, which is solved for, only where it is asked for.
+
+    In two directions there is none in a page.
+    """
+    shown = _animation(result) if animated and result.example.scene.other_direction is False else None
+    return _made(json.loads(result.to_json()), result.tables, shown)
 
 
 def _is_animated(scene: Scene) -> bool:

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.media.axes import grid_lines
+from seismass.media.axes import grid_lines, say
 from seismass.media.figure_file import CAPTION_CHARACTERS
 from seismass.media.result import named_figure
 from seismass.media.roles import GREY, INK, LIMIT, MU, SLIDE
@@ -106,7 +106,10 @@ def _by_block(axes: Axes, result: SlipDemand) -> None:
         labels.append(f"block {row['block']}, {name}\n{MU} = {row['mu_s']:g}{collapses}")
     axes.set_yticks(range(len(labels)), labels)
     axes.set_ylim(-0.6, len(labels) - 0.4)
-    axes.set_xlim(0.0, None)
+    slides = bool((result.runs["peak_slip"] > 0.0).any())
+    axes.set_xlim(0.0, None if slides or axes.dataLim.x1 > 0.0 else 1.0)
+    if not slides:
+        say(axes, "nothing slides in the building")
     axes.set_xlabel("peak slip (mm)")
     grid_lines(axes)
 
@@ -121,7 +124,10 @@ def _against_acceleration(axes: Axes, result: SlipDemand) -> None:
         handles.append(Line2D([], [], **look, markersize=5.0, label=f"block {row['block']}"))
     axes.axvline(1.0, color=INK, linewidth=0.8)
     axes.set_xlim(0.0, max(1.1, axes.get_xlim()[1]))
-    axes.set_ylim(0.0, None)
+    slides = bool((result.runs["peak_slip"] > 0.0).any())
+    axes.set_ylim(0.0, None if slides else 1.0)
+    if not slides:
+        say(axes, "nothing slides")
     axes.set_xlabel(f"{MU} g / peak floor acceleration, all goods attached")
     axes.set_ylabel("peak slip (mm)")
     axes.legend(handles=handles, fontsize=8.0, frameon=False)
