@@ -22,6 +22,7 @@ from seismass.commands.options import (
     refuse_given,
 )
 from seismass.commands.scene_or_building import add_site_options, is_building_file
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.model.scene import Scene
@@ -68,8 +69,8 @@ def run(args: argparse.Namespace) -> int:
     else:
         animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
-    print("\n".join(animation.sentences))
-    print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
+    show("\n".join(animation.sentences))
+    show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
     return 0
 
 

@@ -151,7 +151,7 @@ class EffectiveMass(Result):
             drifts = f"none, since the building with sliding goods collapses under {self.collapses['real']} of them"
         lines = [
             f"effective fraction  {self.value_text} ({scatter})",
-            f"                    {self.kind}: {KIND_TEXTS[self.kind]}",
+            f"                    {KIND_TEXTS[self.kind]}",
             f"largest drift       {self.statistic} of {self.records.height} motions: {drifts}",
             *self.rule_lines,
         ]

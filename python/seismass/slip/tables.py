@@ -329,7 +329,7 @@ def demand_remarks(
             "uplift, and goods do not fall"
         )
     if not (runs.peak > 0.0).any() and not runs.collapsed.any():
-        remarks.append("stuck: no block slides under any motion")
+        remarks.append("no block slides under any motion")
     for row in squat.filter(pl.col("rocks_first")).iter_rows(named=True):
         remarks.append(
             f"block {row['block']} rocks before it slides (mu_s = {row['mu_s']:g} above b/(2 h_c) = "

@@ -22,6 +22,8 @@ from seismass.media.roles import GREY, INK, LIMIT, MODELS, PAPER, SLIDE, model_n
 from seismass.media.style import SERIES, STYLE, plain
 
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
+NEARLY_ONE: Final = 0.97
+"""Probability behind which a curve has nothing more to show."""
 _FRACTILE_LOOKS: Final[dict[str, Any]] = {"p16": (0, (1.2, 1.2)), "p50": "-", "p84": (0, (5, 2))}
 _FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
 
@@ -52,7 +54,7 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
                     _curve(axes, result, limit, model, look, marker)
             axes.set_title(plain(limit.text))
             axes.set_ylim(-0.02, 1.02)
-            axes.set_xlim(left=0.0)
+            axes.set_xlim(0.0, _highest_drawn(result, limit))
             axes.set_xlabel(_intensity_label(result))
             axes.set_ylabel("probability of exceedance")
             grid_lines(axes)
@@ -65,9 +67,28 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
         if any(len(fit.samples) for fit in result.fits.values()):
             share = f"{100.0 * result.metadata['confidence']:g} % interval"
             handles.append(Patch(facecolor=GREY, alpha=0.3, label=share))
-        figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
+        if count < len(panels):
+            panels[count].legend(handles=handles, loc="center", frameon=False)
+        else:
+            figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
         figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
+
+
+def _highest_drawn(result: FragilityAnalysis, limit: LimitState) -> float | None:
+    """Intensity up to which curves are drawn: to where the last of them is nearly one, or all motions are beyond it."""
+    own = result.curves.filter(pl.col("limit") == limit.name)
+    if own.is_empty():
+        return None
+    known = [
+        rows.filter(pl.col("probability") >= NEARLY_ONE)["intensity"].min()
+        for _, rows in own.group_by("model", maintain_order=True)
+    ]
+    ends = [float(end) for end in known if isinstance(end, float)]
+    seen = [observed(result, limit, str(model))[0] for model in own["model"].unique(maintain_order=True)]
+    points = np.concatenate([at[np.isfinite(at)] for at in seen])
+    nearly = [1.15 * max(ends)] * bool(ends) + [1.25 * float(points.max(initial=0.0))] * bool(points.size)
+    return min(nearly) if nearly else None
 
 
 def _looks(result: FragilityAnalysis) -> dict[str, tuple[dict[str, Any], str]]:
@@ -204,7 +225,7 @@ def _intensity_label(result: FragilityAnalysis) -> str:
 
 def _caption(result: FragilityAnalysis) -> str:
     """One line on what the curves depend on."""
-    method = {"hunt_fill": "hunt and fill", "stripes": "stripes", "cloud": "cloud"}[result.method]
+    method = {"hunt_fill": "incremental dynamic analysis", "stripes": "stripes", "cloud": "cloud"}[result.method]
     share = result.metadata.get("code_share")
     rule = "" if share is None else f";  code: {100.0 * share:g} % of the goods attached"
     return f"{method}, {result.motions.height} motions, whose scatter alone is shown{rule}"
