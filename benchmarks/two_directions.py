@@ -228,7 +228,7 @@ def main() -> None:
     page = tool["page"](kept)
     print(page)
     if options.write:
-        (ROOT / "docs" / "two_directions.md").write_text(page, encoding="utf-8")
+        runpy.run_path(str(ROOT / "tools" / "two_directions_page.py"), run_name="__main__")
 
 
 if __name__ == "__main__":

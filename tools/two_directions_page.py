@@ -14,11 +14,15 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from matplotlib.figure import Figure
 
+import seismass as sm
 from seismass.base.values import FloatArray
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate
 from seismass.effective_mass.rules import by_period
 from seismass.effective_mass.two_directions import REDUCED_FRICTION
+from seismass.media.figure_file import save_figure
+from seismass.plots import FloorPlan, Footprint, floor_paths
 
 ROOT: Final = Path(__file__).parents[1]
 RESULTS: Final = ROOT / "benchmarks" / "results" / "two_directions.json"
@@ -242,6 +246,22 @@ def page(stored: dict[str, Any] | None = None) -> str:
     return text
 
 
+def paths() -> Figure:
+    """Return the figure of goods on a floor: pallets and a machine beside an aisle, under a built-in pair."""
+    building = sm.Building.uniform(3, 0.47, mass=1e5, heights=3.5, yield_shear_over_weight=[0.34, 0.27, 0.13])
+    goods = [sm.Block(1, mass_ratio=share, mu=mu) for share, mu in ((0.2, 0.12), (0.2, 0.2), (0.2, 0.3), (0.1, 0.15))]
+    scene = sm.Scene(building, goods, other_direction=True)
+    response = sm.simulate(scene, sm.records.builtin_pairs()[8].scaled(1.5), histories=True)
+    standing = {
+        1: Footprint(0.9, 2.6),
+        2: Footprint(2.7, 2.6),
+        3: Footprint(4.5, 2.6),
+        4: Footprint(1.2, 0.55, 1.6, 0.8),
+    }
+    plan = FloorPlan((0.0, 0.0, 5.6, 3.4), standing, ((0.0, 1.05, 5.6, 2.1),))
+    return floor_paths(response, floor=1, plan=plan)
+
+
 def _of_suites(cases: Sequence[Case], of: Callable[[Sequence[Case]], str]) -> list[str]:
     return [f"{title}:\n\n{of(own)}" for suite, title in TITLES.items() if (own := sliding(cases, suite))]
 
@@ -251,3 +271,4 @@ if __name__ == "__main__":
     if "--check" in sys.argv[1:]:
         sys.exit(int(PAGE.read_text(encoding="utf-8") != fresh))
     PAGE.write_text(fresh, encoding="utf-8")
+    save_figure(paths(), "png", ROOT / "docs" / "figures" / "two_directions_paths.png")

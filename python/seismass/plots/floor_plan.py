@@ -16,7 +16,7 @@ from matplotlib.patches import Rectangle
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_positive, brief, refusal
 from seismass.media.axes import grid_lines
-from seismass.media.roles import BLUE, GREY, INK, ORANGE, VERMILION
+from seismass.media.roles import BLUE, GREY, INK, ORANGE, PAPER, VERMILION
 from seismass.media.style import STYLE
 from seismass.runs.plane_response import PlaneResponse
 
@@ -172,6 +172,7 @@ def _floor(axes: Axes, response: PlaneResponse, plan: FloorPlan) -> bool:
             textcoords="offset points",
             ha="center",
             fontsize=7.5,
+            bbox={"facecolor": PAPER, "alpha": 0.75, "linewidth": 0.0, "pad": 1.0},
         )
     axes.set_aspect("equal")
     margin = 0.25
@@ -222,5 +223,5 @@ def _handles(beyond: bool) -> list[Any]:
         Rectangle((0, 0), 1, 1, fill=False, edgecolor=BLUE, linestyle=":", label="room they take"),
     ]
     if beyond:
-        handles[-1].set_label("room they take (red: beyond an edge or in an aisle)")
+        handles[-1].set(edgecolor=VERMILION, label="room they take (red: beyond an edge or in an aisle)")
     return handles

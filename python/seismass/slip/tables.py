@@ -13,6 +13,7 @@ from seismass.base.quantiles import QUANTILES, interval_of, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.runs import NamedMotions
+from seismass.effective_mass.two_directions import one_direction_of_slip
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.slip.clearance import Clearance
@@ -320,6 +321,8 @@ def demand_remarks(
             "slips, accelerations and velocities are lengths of vectors, + and - of clearances are sides of x; "
             "published estimates, which are of one direction, are left out"
         )
+    elif (runs.peak > 0.0).any():
+        remarks.append(one_direction_of_slip())
     if scene.racks:
         remarks.append(
             "goods on racks slide on their level, whose acceleration is set beside their friction; racks do not "
