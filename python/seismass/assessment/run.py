@@ -141,6 +141,7 @@ def assess(
     scenes = compared_models(chosen, spectrum, advised)
     names = motion_names(suite)
     components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
+    horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
     runs, slips = solve_models(
         chosen, scenes, scaled, names, threads=threads, progress=stages.next(models * len(suite))
     )
@@ -170,7 +171,7 @@ def assess(
         slips=slips,
         runs=runs,
         collapses=collapses,
-        spectra=spectra_table(scaled, spectrum, threads=threads),
+        spectra=spectra_table(horizontal, spectrum, threads=threads),
         example=Shown(real, scaled[place], place + 1, float(factors[place])),
         scaling=scaling,
         suite=about,

@@ -60,8 +60,14 @@ def _drawing_caption(result: AssessmentTables) -> str:
     racks = any(kind["rack"] is not None for kind in result.document["input"]["goods"])
     return (
         "The building with its goods: what is present of the design live load, and friction, static/kinetic"
-        f"{'; grey: bolted' * bolted}{'; on racks' * racks}."
+        f"{'; grey: bolted' * bolted}{'; on racks' * racks}{_support(result)}."
     )
+
+
+def _support(result: AssessmentTables) -> str:
+    given = result.document["input"]
+    base = "; it stands on a sliding base" if given["base"] is not None else ""
+    return base + ("; it moves in two directions" if given["other_direction"] is not None else "")
 
 
 def _verdicts(result: AssessmentTables) -> Markup:
