@@ -41,6 +41,7 @@ WITHOUT_MODELS = {
     "plots/pushover.py": "a curve, and what happens on it",
     "plots/timeline.py": "kinds of events",
     "show/animation/canvas.py": "paper, slabs, pale flashes",
+    "show/design/pushover_fit.py": "a measured curve and its fit",
     "show/effective_mass/map.py": "classes of the exponent of the rule",
     "show/motions/matching.py": "records and their target",
     "show/motions/pulse.py": "pulses of a record",
